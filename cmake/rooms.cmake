@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+add_library(thalweg_options INTERFACE)
+# No contraction, no fast-math, no -march: the same recipe gives the same bytes on every machine.
+target_compile_options(thalweg_options INTERFACE
+  -Wall -Wextra -Wshadow -Wconversion -Werror -ffp-contract=off)
+if(CMAKE_BUILD_TYPE STREQUAL "Debug")
+  target_compile_definitions(thalweg_options INTERFACE _GLIBCXX_ASSERTIONS)
+endif()
+if(THALWEG_SANITIZE)
+  target_compile_options(thalweg_options INTERFACE -fsanitize=${THALWEG_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(thalweg_options INTERFACE -fsanitize=${THALWEG_SANITIZE})
+endif()
+if(THALWEG_COVERAGE)
+  target_compile_options(thalweg_options INTERFACE --coverage)
+  target_link_options(thalweg_options INTERFACE --coverage)
+endif()
+
+# thalweg_room(NAME [foreign libraries its .cpp files may use]): one folder of lib/thalweg, compiled apart.
+function(thalweg_room NAME)
+  file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/thalweg/${NAME}/*.cpp)
+  if(NOT SOURCES)
+    return()
+  endif()
+  add_library(thalweg_${NAME} OBJECT ${SOURCES})
+  set_target_properties(thalweg_${NAME} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(thalweg_${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/lib ${PROJECT_BINARY_DIR}/generated)
+  target_link_libraries(thalweg_${NAME} PRIVATE thalweg_options Boost::headers fmt::fmt ${ARGN})
+  target_sources(thalweg PRIVATE $<TARGET_OBJECTS:thalweg_${NAME}>)
+  target_link_libraries(thalweg PRIVATE ${ARGN})
+endfunction()
+
+# thalweg_tests(ROOM [libraries]): one executable test_ROOM of tests/ROOM/*.cpp, ctest label ROOM.
+function(thalweg_tests NAME)
+  file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp)
+  if(NOT SOURCES)
+    return()
+  endif()
+  add_executable(test_${NAME} ${SOURCES})
+  target_include_directories(test_${NAME} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_compile_definitions(test_${NAME} PRIVATE
+    THALWEG_SOURCE_DIR="${PROJECT_SOURCE_DIR}" THALWEG_EXE="$<TARGET_FILE:thalweg_cli>")
+  target_link_libraries(test_${NAME} PRIVATE thalweg thalweg_options GTest::gtest GTest::gtest_main rapidcheck ${ARGN})
+  gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. PROPERTIES LABELS ${NAME} TIMEOUT 600 DISCOVERY_TIMEOUT 60)
+endfunction()

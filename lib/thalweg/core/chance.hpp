@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace thalweg {
+
+/// Chance as a hash of seed and place: Philox4x64-10 (Salmon et al. 2011), the same words on every machine.
+/// Takes: the seed and up to four numbers that name the place (stage, row, column, ...).
+/// Gives: four independent uniform 64-bit words.
+std::array<std::uint64_t, 4> chance_block(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0,
+                                          std::uint64_t d = 0);
+
+/// First word of chance_block.
+inline std::uint64_t chance(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0,
+                            std::uint64_t d = 0) {
+    return chance_block(seed, a, b, c, d)[0];
+}
+
+/// A word as a real number in [0,1), a multiple of 2^-53.
+inline double unit(std::uint64_t word) { return static_cast<double>(word >> 11) * 0x1p-53; }
+
+/// An endless row of words that belongs to one place: the words of (seed, stage, item), block by block.
+class ChanceStream {
+public:
+    ChanceStream(std::uint64_t seed, std::uint64_t stage, std::uint64_t item)
+        : seed_(seed), stage_(stage), item_(item) {}
+
+    std::uint64_t word() {
+        if (next_ == words_.size()) {
+            refill();
+        }
+        return words_[next_++];
+    }
+    double real() { return unit(word()); }
+
+private:
+    void refill();
+
+    std::uint64_t seed_;
+    std::uint64_t stage_;
+    std::uint64_t item_;
+    std::uint64_t block_ = 0;
+    std::array<std::uint64_t, 16> words_{};
+    std::size_t next_ = 16;
+};
+
+} // namespace thalweg

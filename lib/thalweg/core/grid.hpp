@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include <thalweg/core/vec.hpp>
+
+namespace thalweg {
+
+/// A cell by its column (to the east) and row (to the south), both from 0.
+struct Cell {
+    std::int64_t col = 0;
+    std::int64_t row = 0;
+    friend bool operator==(Cell const&, Cell const&) = default;
+};
+
+/// Frame of a raster: square cells, row 0 in the north, cell (0,0) in the north-west.
+struct Grid {
+    std::int64_t width = 0;  ///< [cells]
+    std::int64_t height = 0; ///< [cells]
+    double cell_m = 1.0;     ///< [m] side of a cell
+    double west = 0.0;       ///< [m] outer edge of column 0
+    double north = 0.0;      ///< [m] outer edge of row 0
+    std::string crs;         ///< "EPSG:32631" or WKT, projected, metres; "" for none
+
+    friend bool operator==(Grid const&, Grid const&) = default;
+
+    std::int64_t cells() const { return width * height; }
+    bool contains(Cell c) const { return c.col >= 0 && c.row >= 0 && c.col < width && c.row < height; }
+    std::int64_t index(Cell c) const { return c.row * width + c.col; }
+    Cell at(std::int64_t index) const { return {index % width, index / width}; }
+    bool on_border(Cell c) const {
+        return c.col == 0 || c.row == 0 || c.col == width - 1 || c.row == height - 1;
+    }
+
+    Vec2 centre(Cell c) const {
+        return {west + (static_cast<double>(c.col) + 0.5) * cell_m, north - (static_cast<double>(c.row) + 0.5) * cell_m};
+    }
+    /// The cell that holds a position; it may lie outside the grid.
+    Cell cell_of(Vec2 p) const {
+        return {static_cast<std::int64_t>(std::floor((p.x - west) / cell_m)),
+                static_cast<std::int64_t>(std::floor((north - p.y) / cell_m))};
+    }
+    double east() const { return west + static_cast<double>(width) * cell_m; }
+    double south() const { return north - static_cast<double>(height) * cell_m; }
+};
+
+} // namespace thalweg

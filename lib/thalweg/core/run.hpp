@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string_view>
+
+namespace thalweg {
+
+/// How a stage runs, never what it makes: no field changes a result.
+struct Run {
+    /// GDAL's signature: share done [0,1], what is being done, progress_arg. Called from one thread at a time;
+    /// returning 0 stops the work like the stop token.
+    using Progress = int (*)(double, char const*, void*);
+
+    int threads = 0; ///< [1, ...] workers; 0 takes every core
+    Progress progress = nullptr;
+    void* progress_arg = nullptr;
+    std::function<void(std::string_view)> log; ///< one finished line, without its newline
+    std::stop_token stop;
+
+    /// Reports progress. Throws Cancelled when the work shall stop.
+    void at(double share, char const* what) const;
+    /// Throws Cancelled when the work shall stop.
+    void check() const;
+    void say(std::string_view line) const {
+        if (log) {
+            log(line);
+        }
+    }
+};
+
+} // namespace thalweg

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/draw/picture.hpp>
+
+namespace thalweg::draw {
+
+struct MapParams {
+    std::string title;
+    int width_px = 1400;            ///< [200, 8000] of the whole sheet
+    double contour_interval_m = 0.0; ///< for the legend; 0 when there are no contours
+    Format format = Format::png;
+};
+
+/// What a map shows. hillshade has the DEM's grid, 0 = no data.
+struct MapSheet {
+    Raster<float> const& dem;
+    Raster<std::uint8_t> const& hillshade;
+    RaisedNetwork const* network = nullptr;
+    NetworkOrders const* orders = nullptr;
+    std::vector<std::pair<double, std::vector<Vec2>>> contours; ///< height [m] and line
+};
+
+/// A map: hillshade under a hypsometric tint, contours, rivers whose width and colour follow Strahler order, scale bar,
+/// legend, title, frame with coordinates.
+Picture map(MapSheet const& sheet, MapParams const& params = {});
+
+} // namespace thalweg::draw

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <thalweg/core/run.hpp>
+#include <thalweg/core/vec.hpp>
+
+namespace thalweg::geometry {
+
+/// A point where two polylines meet, or where one touches itself.
+struct Crossing {
+    std::size_t line = 0;    ///< index of the polyline
+    std::size_t segment = 0; ///< index of its segment: between vertices segment and segment + 1
+    double along = 0.0;      ///< [0,1] place on the segment
+    Vec2 at;                 ///< [m] the exact intersection, rounded once; the vertex itself where it is one
+};
+
+/// Every point where polylines meet: proper crossings, touching ends and vertices, ends of overlaps.
+/// Takes: polylines. Gives: for each such point one entry for each polyline and segment it lies on, sorted by line,
+/// segment and place; neighbouring segments of one line meeting at their common vertex do not count.
+/// Throws: Cancelled. Source: CGAL, exact predicates and constructions.
+std::vector<Crossing> crossings(std::vector<std::vector<Vec2>> const& lines, Run const& run = {});
+
+} // namespace thalweg::geometry

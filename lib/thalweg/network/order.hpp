@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <thalweg/core/stream_network.hpp>
+
+namespace thalweg::network {
+
+/// Strahler, Shreve, Hack and topological orders, basins and distances to the outlet.
+/// Takes: a network whose components are trees. Gives: the orders by arc number and node.
+/// Throws: BadInput when a node has two arcs leaving it or a cycle is found.
+/// Source: Strahler 1957; Shreve 1966; Hack 1957 (main stem = longest flow path; ties: lower arc number).
+NetworkOrders order(StreamNetwork const& network);
+
+} // namespace thalweg::network

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/core/valley.hpp>
+
+namespace thalweg::network {
+
+struct Rasterised {
+    Valley valley;
+    std::int64_t lowered_cells = 0; ///< cells shared by several reaches that were lowered to keep each path falling
+    double max_lowered_m = 0.0;
+};
+
+/// Draws the arcs into cells (Bresenham between vertices, height linear along the arc); where several cover a cell the
+/// lowest counts.
+/// Takes: a network inside the grid. Gives: heights that never rise along any arc's cells downstream.
+/// Throws: BadInput, naming the arc, when a vertex lies outside the grid.
+/// Source: paper 000, section 3.3; specification 0.3.
+Rasterised rasterise(RaisedNetwork const& network, Grid const& grid);
+
+/// The cells of one polyline in order, each once in a row (Bresenham between vertices).
+std::vector<Cell> cells_of(std::vector<Vec2> const& line, Grid const& grid);
+
+} // namespace thalweg::network

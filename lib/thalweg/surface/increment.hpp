@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace thalweg::surface {
+
+struct IncrementParams {
+    std::string increment = "rise_fall"; ///< uniform | decreasing | rise_fall | an expression in x such as 3-0.01*x
+    bool allow_negative = false;         ///< without it increments below 0 count as 0
+};
+
+/// The increment dh(x) of the x-th dilation, x = 1 .. levels, as values[x - 1], in the papers' units.
+/// Gives: Table 1 of paper 000 for the three names; an expression rounded to 2^-32, the same on every machine.
+/// Throws: BadParameter: not a name (did you mean ...) and not an expression; a value that is not finite.
+/// Source: paper 000, Table 1.
+std::vector<double> increments(std::int64_t levels, IncrementParams const& params = {});
+
+/// Sums H(d) = dh(1) + ... + dh(d), d = 0 .. levels.
+std::vector<double> heights_above_valley(std::vector<double> const& increments);
+
+} // namespace thalweg::surface
