@@ -16,7 +16,6 @@
 #include <vector>
 
 using thalweg::parallel_ranges;
-using thalweg::Run;
 
 TEST(ParallelRanges, nothing_to_do_calls_nothing) {
     for (std::int64_t const count : {0, -1}) {
@@ -29,7 +28,7 @@ TEST(ParallelRanges, ranges_tile_the_whole) {
     ASSERT_TRUE(rc::check([] {
         auto const count = *rc::gen::inRange<std::int64_t>(0, 5000);
         auto const grain = *rc::gen::inRange<std::int64_t>(0, 700);
-        Run run;
+        thalweg::Run run;
         run.threads = *rc::gen::inRange(0, 4);
         std::vector<std::atomic<int>> seen(static_cast<std::size_t>(count));
         parallel_ranges(run, count, grain, [&](std::int64_t begin, std::int64_t end) {
@@ -43,7 +42,7 @@ TEST(ParallelRanges, ranges_tile_the_whole) {
 
 TEST(ParallelRanges, hands_on_what_the_body_throws) {
     for (int const threads : {1, 2}) {
-        Run run;
+        thalweg::Run run;
         run.threads = threads;
         EXPECT_THROW(parallel_ranges(run, 1000, 10,
                                      [](std::int64_t begin, std::int64_t end) {
@@ -58,7 +57,7 @@ TEST(ParallelRanges, hands_on_what_the_body_throws) {
 TEST(ParallelRanges, stops_when_asked) {
     std::stop_source source;
     source.request_stop();
-    Run run;
+    thalweg::Run run;
     run.stop = source.get_token();
     EXPECT_THROW(parallel_ranges(run, 10, 1, [](std::int64_t, std::int64_t) { FAIL(); }), thalweg::Cancelled);
 }
