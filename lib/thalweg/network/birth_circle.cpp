@@ -36,8 +36,7 @@ Site rounded(double x, double y) {
 BirthCircle birth_circle(double cluster_radius) {
     BirthCircle circle;
     circle.birth = cluster_radius + 4.0;
-    circle.far = std::max(1.1 * circle.birth, circle.birth + 24.0);
-    circle.far2 = static_cast<std::int64_t>(circle.far * circle.far);
+    circle.far = static_cast<std::int32_t>(std::max(1.1 * circle.birth, circle.birth + 24.0));
     return circle;
 }
 

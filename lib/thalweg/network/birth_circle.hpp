@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 
 #include <thalweg/core/chance.hpp>
 
@@ -20,14 +22,21 @@ inline std::int64_t squared(Site s) {
     return std::int64_t{s.x} * s.x + std::int64_t{s.y} * s.y;
 }
 
-/// The circles around a cluster: walkers start on the first and are taken back to it from outside the second.
+/// Distance to the seed in the greater of the two directions.
+inline std::int32_t chebyshev(Site s) {
+    return std::max(std::abs(s.x), std::abs(s.y));
+}
+
+/// Where walkers start around a cluster, and from where they are taken back. The line of no return is a square, so that
+/// the squares a walker leaves can share a side with it.
 struct BirthCircle {
-    double birth = 0.0;    ///< [cells] radius of the cluster + 4
-    double far = 0.0;      ///< [cells] the larger of 1.1 birth and birth + 24
-    std::int64_t far2 = 0; ///< far squared, rounded down: a site is outside if squared(site) > far2
+    double birth = 0.0;   ///< [cells] radius of the cluster + 4
+    std::int32_t far = 0; ///< [cells] the larger of 1.1 birth and birth + 24: where max(|x|,|y|) is far, a walk ends
+
+    bool lost(Site s) const { return chebyshev(s) >= far; }
 };
 
-/// The circles around a cluster of this radius [cells].
+/// The circle around a cluster of this radius [cells].
 BirthCircle birth_circle(double cluster_radius);
 
 /// A uniform site of the birth circle, rounded to the lattice.

@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::uint64_t growth_stage = 1;
 
-/// Half side of a square around a site that lies within the far circle; 0 next to the circle.
-std::int32_t within(BirthCircle const& circle, Site site) {
-    constexpr double inverse_sqrt2 = 0x1.6a09e667f3bccp-1;
-    return static_cast<std::int32_t>((circle.far - std::sqrt(static_cast<double>(squared(site)))) * inverse_sqrt2);
-}
-
 } // namespace
 
 Walker walker(std::uint64_t seed, std::int64_t number) {
@@ -27,11 +21,10 @@ Walker walker(std::uint64_t seed, std::int64_t number) {
 
 void Walk::occupy(Site site) {
     double const distance = std::sqrt(static_cast<double>(squared(site)));
-    if (distance > radius_ || circle_.far2 == 0) {
+    if (distance > radius_ || circle_.far == 0) {
         radius_ = distance;
         circle_ = birth_circle(distance);
-        // A unit step may end one cell outside the far circle.
-        squares_.reach(static_cast<std::int32_t>(circle_.far) + 2);
+        squares_.reach(circle_.far + 1);
         law_.prepare(squares_.half());
     }
     squares_.occupy(site);
@@ -47,24 +40,20 @@ unsigned Walk::occupied_neighbours(Site site) const {
 
 unsigned Walk::approach(Walker& walker) const {
     for (;;) {
-        std::int64_t const distance2 = squared(walker.at);
-        if (distance2 > circle_.far2) {
+        std::int32_t const room = circle_.far - chebyshev(walker.at);
+        if (room <= 0) {
             walker.at = back_from_afar(circle_, walker.at, walker.chance);
             continue;
         }
-        std::int32_t free = squares_.free_half(walker.at);
+        std::int32_t const free = squares_.free_half(walker.at);
         if (free == 0) {
             unsigned const mask = occupied_neighbours(walker.at);
             if (mask != 0) {
                 return mask;
             }
         }
-        // A square that crosses the far circle would skip the walker's first site outside.
-        Site const corner = {std::abs(walker.at.x) + free, std::abs(walker.at.y) + free};
-        if (squared(corner) > circle_.far2) {
-            free = within(circle_, walker.at);
-        }
-        ExitLaw::Offset const jump = law_.leave(std::max(free, 1), walker.chance);
+        // A wider square would jump over the walker's first site that is far.
+        ExitLaw::Offset const jump = law_.leave(std::max(std::min(free, room), 1), walker.chance);
         walker.at = {walker.at.x + jump.x, walker.at.y + jump.y};
     }
 }
