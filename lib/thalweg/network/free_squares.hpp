@@ -31,15 +31,16 @@ public:
     /// Largest known L with every site of the square max(|dx|,|dy|) <= L free; 0 beside and diagonally beside the
     /// cluster. At the boundary of the square the cluster may be next door; inside it never is.
     std::int32_t free_half(Site site) const {
-        std::uint8_t const closeness = near_[site];
-        if (closeness > 0) {
-            return at_hand - 1 - closeness;
-        }
+        // The coarse levels fit the cache, so they are asked first.
         auto const x = static_cast<std::size_t>(site.x + half());
         auto const y = static_cast<std::size_t>(site.y + half());
         std::int32_t const blocks = at_hand - blocks_.at(x / 16, y / 16);
+        if (blocks <= 1) {
+            std::uint8_t const closeness = near_[site];
+            return closeness > 0 ? at_hand - 1 - closeness : 15;
+        }
         if (blocks < 16) {
-            return blocks <= 1 ? 15 : 16 * (blocks - 1);
+            return 16 * (blocks - 1);
         }
         std::int32_t const great_blocks = at_hand - great_blocks_.at(x / 256, y / 256);
         return great_blocks <= 1 ? 16 * 15 : 256 * (great_blocks - 1);
