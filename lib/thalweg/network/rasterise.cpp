@@ -111,8 +111,8 @@ void lower_downstream(std::vector<Step> steps, Rasterised& out) {
 
 } // namespace
 
-std::vector<Cell> cells_of(std::vector<Vec2> const& line, Grid const& grid) {
-    std::vector<Cell> const at = vertex_cells(line, grid, "a line");
+std::vector<Cell> cells_of(std::vector<Vec2> const& line, Grid const& grid, std::string const& what) {
+    std::vector<Cell> const at = vertex_cells(line, grid, what);
     std::vector<Cell> cells;
     for (std::size_t i = 0; i < at.size(); ++i) {
         bresenham(at[i == 0 ? 0 : i - 1], at[i], [&](Cell c, std::int64_t, std::int64_t) {
