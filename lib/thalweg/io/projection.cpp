@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/projection.hpp>
+
+#include <cmath>
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <ogr_spatialref.h>
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/io/driver.hpp>
+#include <thalweg/io/spatial_reference.hpp>
+
+namespace thalweg::io {
+namespace {
+
+// A CRS in a message: WKT would fill the screen.
+std::string shortened(std::string const& text) {
+    constexpr std::size_t most = 60;
+    return text.size() <= most ? text : text.substr(0, most) + "...";
+}
+
+} // namespace
+
+OGRSpatialReference read_reference(std::string const& text) {
+    Driver const driver;
+    CPLStringList options;
+    options.SetNameValue("ALLOW_NETWORK_ACCESS", "NO");
+    options.SetNameValue("ALLOW_FILE_ACCESS", "NO");
+    OGRSpatialReference reference;
+    if (text.empty() || reference.SetFromUserInput(text.c_str(), options.List()) != OGRERR_NONE) {
+        auto const words = driver.take();
+        throw BadInput(fmt::format("io.projected_crs: '{}' is no coordinate system{}; give a code such as EPSG:32633, "
+                                   "or WKT",
+                                   shortened(text), words.empty() ? "" : " (" + words + ")"));
+    }
+    reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return reference;
+}
+
+std::string name_of(OGRSpatialReference const& reference) {
+    auto const code_of = [](OGRSpatialReference const& r) -> std::string {
+        char const* const authority = r.GetAuthorityName(nullptr);
+        char const* const code = r.GetAuthorityCode(nullptr);
+        return authority != nullptr && code != nullptr && std::string(authority) == "EPSG" ? std::string("EPSG:") + code
+                                                                                           : std::string();
+    };
+    if (auto code = code_of(reference); !code.empty()) {
+        return code;
+    }
+    Driver const driver; // that it is not identified is no error
+    OGRSpatialReference identified(reference);
+    if (identified.AutoIdentifyEPSG() == OGRERR_NONE) {
+        if (auto code = code_of(identified); !code.empty()) {
+            return code;
+        }
+    }
+    CPLStringList options;
+    options.SetNameValue("FORMAT", "WKT2_2019");
+    char* text = nullptr;
+    reference.exportToWkt(&text, options.List());
+    std::string wkt = text == nullptr ? "" : text;
+    CPLFree(text);
+    return wkt;
+}
+
+bool is_projected_in_metres(OGRSpatialReference const& reference) {
+    return reference.IsProjected() != 0 && std::fabs(reference.GetLinearUnits() - 1.0) < 1e-12;
+}
+
+std::string projected_crs(std::string const& text) {
+    OGRSpatialReference reference = read_reference(text);
+    reference.StripVertical();
+    if (!is_projected_in_metres(reference)) {
+        char const* unit = nullptr;
+        reference.GetLinearUnits(&unit);
+        throw BadInput(fmt::format("io.projected_crs: {} is {}; give a projected one in metres, such as a UTM zone "
+                                   "(EPSG:32633)",
+                                   shortened(text),
+                                   reference.IsGeographic() != 0  ? "geographic: its cells would not be square"
+                                   : reference.IsProjected() != 0 ? fmt::format("in '{}'", unit)
+                                                                  : "not projected"));
+    }
+    return name_of(reference);
+}
+
+std::string utm_zone(double longitude_deg, double latitude_deg) {
+    // Written so that NaN is refused.
+    if (!(std::fabs(longitude_deg) <= 360.0 && latitude_deg >= -80.0 && latitude_deg <= 84.0)) {
+        throw BadInput(
+            fmt::format("io.utm_zone: no UTM zone covers longitude {}, latitude {}; give the CRS of the grid",
+                        longitude_deg, latitude_deg));
+    }
+    auto const zone = static_cast<int>(std::floor((longitude_deg + 180.0) / 6.0));
+    return fmt::format("EPSG:{}", (latitude_deg < 0.0 ? 32701 : 32601) + ((zone % 60) + 60) % 60);
+}
+
+} // namespace thalweg::io
