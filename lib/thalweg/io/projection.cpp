@@ -22,6 +22,11 @@ std::string shortened(std::string const& text) {
     return text.size() <= most ? text : text.substr(0, most) + "...";
 }
 
+// GDAL reads the digits of a code and passes over what follows them.
+bool is_mistyped_code(std::string const& text) {
+    return EQUALN(text.c_str(), "EPSG:", 5) && text.find_first_not_of("0123456789+", 5) != std::string::npos;
+}
+
 } // namespace
 
 OGRSpatialReference read_reference(std::string const& text) {
@@ -30,7 +35,8 @@ OGRSpatialReference read_reference(std::string const& text) {
     options.SetNameValue("ALLOW_NETWORK_ACCESS", "NO");
     options.SetNameValue("ALLOW_FILE_ACCESS", "NO");
     OGRSpatialReference reference;
-    if (text.empty() || reference.SetFromUserInput(text.c_str(), options.List()) != OGRERR_NONE) {
+    if (text.empty() || is_mistyped_code(text) ||
+        reference.SetFromUserInput(text.c_str(), options.List()) != OGRERR_NONE) {
         auto const words = driver.take();
         throw BadInput(fmt::format("io.projected_crs: '{}' is no coordinate system{}; give a code such as EPSG:32633, "
                                    "or WKT",
