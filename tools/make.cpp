@@ -47,7 +47,7 @@ pipeline::Recipe recipe_of(Options const& options) {
 }
 
 int make(Options const& options, Session const& session) {
-    auto const existing = options.overwrite ? pipeline::Existing::replace : pipeline::Existing::refuse;
+    auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
     pipeline::Recipe const recipe = recipe_of(options);
     pipeline::check_folder(options.folder, existing);
     pipeline::Terrain const terrain = pipeline::make_terrain(recipe, session.run);

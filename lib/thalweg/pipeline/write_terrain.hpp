@@ -2,24 +2,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <thalweg/core/run.hpp>
+#include <thalweg/io/files.hpp>
 #include <thalweg/pipeline/terrain.hpp>
 
 namespace thalweg::pipeline {
 
-enum class Existing : std::uint8_t { refuse, replace };
-
 /// Throws BadInput when the folder is taken and may not be replaced: asked before the work, not after.
-void check_folder(std::string const& folder, Existing existing);
+void check_folder(std::string const& folder, io::Existing existing);
 
 /// Writes everything `make` leaves behind into a folder, whole or not at all.
 /// Gives: the names of the files, report.json last. Under replace it removes what the old report.json lists, nothing else.
 /// Throws: BadInput (the folder is taken), IoError, Cancelled: then nothing has changed.
 std::vector<std::string> write_terrain(Terrain const& terrain, std::string const& folder,
-                                       Existing existing = Existing::refuse, Run const& run = {});
+                                       io::Existing existing = io::Existing::refuse, Run const& run = {});
 
 } // namespace thalweg::pipeline
