@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/network/birth_circle.hpp>
+#include <thalweg/network/tiled_bytes.hpp>
+
+namespace thalweg::network {
+
+/// How large a square around a site is free of the cluster: the Chebyshev distance to the nearest occupied site, capped
+/// at 16, and the same on blocks of 16 x 16 sites and on blocks of 256 x 256.
+class FreeSquares {
+public:
+    FreeSquares();
+
+    /// Makes room for sites as far from the seed as this [cells], and 16 cells more.
+    void reach(std::int32_t radius);
+
+    /// Half the width of the square of sites that reach() has made room for.
+    std::int32_t half() const { return near_.half(); }
+
+    /// Occupies a site within reach.
+    void occupy(Site site);
+
+    bool occupied(Site site) const { return near_[site] == at_hand; }
+
+    /// Largest known L with every site of the square max(|dx|,|dy|) <= L free; 0 beside and diagonally beside the
+    /// cluster. At the boundary of the square the cluster may be next door; inside it never is.
+    std::int32_t free_half(Site site) const {
+        // The coarse levels fit the cache, so they are asked first.
+        auto const x = static_cast<std::size_t>(site.x + half());
+        auto const y = static_cast<std::size_t>(site.y + half());
+        std::int32_t const blocks = at_hand - blocks_.at(x / 16, y / 16);
+        if (blocks <= 1) {
+            std::uint8_t const closeness = near_[site];
+            return closeness > 0 ? at_hand - 1 - closeness : 15;
+        }
+        if (blocks < 16) {
+            return 16 * (blocks - 1);
+        }
+        std::int32_t const great_blocks = at_hand - great_blocks_.at(x / 256, y / 256);
+        return great_blocks <= 1 ? 16 * 15 : 256 * (great_blocks - 1);
+    }
+
+private:
+    static constexpr std::int32_t at_hand = 16; ///< closeness of an occupied site: 16 - distance, 0 from 16 on
+
+    /// Closeness on a square of blocks, row by row.
+    struct Blocks {
+        std::size_t across = 0;
+        std::vector<std::uint8_t> closeness;
+
+        explicit Blocks(std::size_t blocks_across)
+            : across(blocks_across), closeness(blocks_across * blocks_across, 0) {}
+        std::uint8_t at(std::size_t col, std::size_t row) const { return closeness[row * across + col]; }
+        void occupy(std::size_t col, std::size_t row);
+    };
+
+    void occupy_block(std::size_t col, std::size_t row);
+
+    TiledBytes near_;
+    Blocks blocks_;
+    Blocks great_blocks_;
+};
+
+} // namespace thalweg::network
