@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/rasterise.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/error.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+/// The grid's outer edges belong to its outermost cells.
+Cell cell_in(Grid const& grid, Vec2 p) {
+    Cell c = grid.cell_of(p);
+    if (c.col == grid.width && p.x <= grid.east()) {
+        --c.col;
+    }
+    if (c.row == grid.height && p.y >= grid.south()) {
+        --c.row;
+    }
+    return c;
+}
+
+/// Calls visit(cell, k, n) for the cells k = 0 ... n from a to b (Bresenham 1965).
+template <class Visit> void bresenham(Cell a, Cell b, Visit visit) {
+    std::int64_t const dx = std::abs(b.col - a.col);
+    std::int64_t const dy = std::abs(b.row - a.row);
+    std::int64_t const step_x = a.col < b.col ? 1 : -1;
+    std::int64_t const step_y = a.row < b.row ? 1 : -1;
+    std::int64_t const n = std::max(dx, dy);
+    std::int64_t error = dx - dy;
+    for (std::int64_t k = 0;; ++k) {
+        visit(a, k, n);
+        if (k == n) {
+            return;
+        }
+        std::int64_t const twice = 2 * error;
+        if (twice > -dy) {
+            error -= dy;
+            a.col += step_x;
+        }
+        if (twice < dx) {
+            error += dx;
+            a.row += step_y;
+        }
+    }
+}
+
+/// The cells of a line's vertices. Throws BadInput, naming `what` and the vertex, outside the grid.
+std::vector<Cell> vertex_cells(std::vector<Vec2> const& line, Grid const& grid, std::string const& what) {
+    std::vector<Cell> cells;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        bool const within =
+            line[i].x >= grid.west && line[i].x <= grid.east() && line[i].y <= grid.north && line[i].y >= grid.south();
+        if (!within || !grid.contains(cell_in(grid, line[i]))) {
+            throw BadInput(fmt::format("network.rasterise: vertex {} of {} at ({:.3f}, {:.3f}) lies outside the grid "
+                                       "(x {:.3f} to {:.3f}, y {:.3f} to {:.3f}); enlarge the grid or clip the rivers",
+                                       i, what, line[i].x, line[i].y, grid.west, grid.east(), grid.south(),
+                                       grid.north));
+        }
+        cells.push_back(cell_in(grid, line[i]));
+    }
+    return cells;
+}
+
+/// A cell of a reach and the one after it, both by index.
+using Step = std::pair<std::int64_t, std::int64_t>;
+
+/// Lowers every cell to the lowest of the cells upstream of it: taken in ascending order of height,
+/// no cell is lowered twice.
+void lower_downstream(std::vector<Step> steps, Rasterised& out) {
+    std::sort(steps.begin(), steps.end());
+    steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+    Raster<float>& z = out.valley.z;
+
+    // Only where some step rises is there anything to do.
+    std::vector<std::int64_t> begin;
+    for (Step const& s : steps) {
+        if (z[s.second] > z[s.first]) {
+            begin.push_back(s.first);
+        }
+    }
+    std::sort(begin.begin(), begin.end(),
+              [&z](std::int64_t a, std::int64_t b) { return z[a] != z[b] ? z[a] < z[b] : a < b; });
+    std::vector<std::int64_t> open;
+    for (std::int64_t const cell : begin) {
+        open.push_back(cell);
+        while (!open.empty()) {
+            std::int64_t const u = open.back();
+            open.pop_back();
+            auto s = std::lower_bound(steps.begin(), steps.end(), Step{u, std::numeric_limits<std::int64_t>::min()});
+            for (; s != steps.end() && s->first == u; ++s) {
+                if (z[s->second] > z[u]) {
+                    ++out.lowered_cells;
+                    out.max_lowered_m =
+                        std::max(out.max_lowered_m, static_cast<double>(z[s->second]) - static_cast<double>(z[u]));
+                    z[s->second] = z[u];
+                    open.push_back(s->second);
+                }
+            }
+        }
+    }
+}
+
+} // namespace
+
+std::vector<Cell> cells_of(std::vector<Vec2> const& line, Grid const& grid, std::string const& what) {
+    std::vector<Cell> const at = vertex_cells(line, grid, what);
+    std::vector<Cell> cells;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        bresenham(at[i == 0 ? 0 : i - 1], at[i], [&](Cell c, std::int64_t, std::int64_t) {
+            if (cells.empty() || !(cells.back() == c)) {
+                cells.push_back(c);
+            }
+        });
+    }
+    return cells;
+}
+
+Rasterised rasterise(RaisedNetwork const& network, Grid const& grid) {
+    NetworkIndex const index(network.plan);
+    if (network.arc_z.size() != index.arcs.size()) {
+        throw BadInput(fmt::format("network.rasterise: {} arcs with heights for {}; set the heights anew",
+                                   index.arcs.size(), network.arc_z.size()));
+    }
+    Rasterised out;
+    out.valley.z = Raster<float>(grid, std::numeric_limits<float>::quiet_NaN());
+    Raster<float>& z = out.valley.z;
+    std::vector<Step> steps;
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        std::vector<Cell> const at = vertex_cells(network.plan[index.arcs[a]].line, grid, fmt::format("arc {}", a + 1));
+        std::vector<double> const& height = network.arc_z[a];
+        if (height.size() != at.size()) {
+            throw BadInput(fmt::format("network.rasterise: arc {} has {} vertices and {} heights; set the heights anew",
+                                       a + 1, at.size(), height.size()));
+        }
+        std::int64_t before = grid.index(at.front());
+        for (std::size_t i = 1; i < at.size(); ++i) {
+            double const from = height[i - 1];
+            double const rise = height[i] - from;
+            bresenham(at[i - 1], at[i], [&](Cell c, std::int64_t k, std::int64_t n) {
+                double const here =
+                    k == n ? height[i] : from + rise * (static_cast<double>(k) / static_cast<double>(n));
+                if (!std::isfinite(here)) {
+                    Vec2 const p = grid.centre(c);
+                    throw BadInput(fmt::format("network.rasterise: the height of arc {} at ({:.3f}, {:.3f}) is not a "
+                                               "number; set it in the file or let it be computed",
+                                               a + 1, p.x, p.y));
+                }
+                std::int64_t const cell = grid.index(c);
+                auto const rounded = static_cast<float>(here);
+                if (std::isnan(z[cell]) || rounded < z[cell]) {
+                    z[cell] = rounded;
+                }
+                if (cell != before) {
+                    steps.emplace_back(before, cell);
+                    before = cell;
+                }
+            });
+        }
+    }
+    lower_downstream(std::move(steps), out);
+    return out;
+}
+
+} // namespace thalweg::network
