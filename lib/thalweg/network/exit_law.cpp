@@ -71,7 +71,7 @@ ExitLaw::Table ExitLaw::make_table(int half) {
 
 void ExitLaw::prepare(int longest) {
     for (int half = longest_ + 1; half <= std::min(longest, 15 * 256); ++half) {
-        if (half < 16 || (half < 256 && half % 16 == 0) || half % 256 == 0) {
+        if (tables_[slot(half)].half == 0) {
             tables_[slot(half)] = make_table(half);
         }
     }

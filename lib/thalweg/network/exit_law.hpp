@@ -19,7 +19,8 @@ namespace thalweg::network {
 /// half: [1, ...] L. Source: McCrea and Whipple 1940, Proc. R. Soc. Edinburgh 60.
 std::vector<double> exit_probabilities(int half);
 
-/// The law above as alias tables (Walker 1977), for the half sides 1 ... 15, 16k and 256k with k = 1 ... 15.
+/// The law above as alias tables (Walker 1977), for the half sides 1 ... 31, 32 ... 248 in steps of
+/// 8, 256 ... 960 in steps of 64 and 1024 ... 3840 in steps of 256.
 class ExitLaw {
 public:
     struct Offset {
@@ -56,11 +57,11 @@ private:
 
     static std::size_t slot(int free) {
         auto const f = static_cast<std::size_t>(free);
-        return f < 16 ? f : f < 256 ? 15 + f / 16 : 30 + (f < 4096 ? f / 256 : 15);
+        return f < 32 ? f : f < 256 ? 28 + f / 8 : f < 1024 ? 56 + f / 64 : 68 + (f < 4096 ? f / 256 : 15);
     }
     static Table make_table(int half);
 
-    std::array<Table, 46> tables_; ///< by slot; slot 0 stays empty
+    std::array<Table, 84> tables_; ///< by slot; slot 0 stays empty
     int longest_ = 0;              ///< tables stand for every half side up to it
 };
 

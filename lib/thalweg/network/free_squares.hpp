@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -40,13 +41,16 @@ public:
             return closeness > 0 ? at_hand - 1 - closeness : 15;
         }
         if (blocks < 16) {
-            return 16 * (blocks - 1);
+            return 16 * (blocks - 1) + margin(x % 16, y % 16, 15);
         }
         std::int32_t const great_blocks = at_hand - great_blocks_.at(x / 256, y / 256);
-        return great_blocks <= 1 ? 16 * 15 : 256 * (great_blocks - 1);
+        return great_blocks <= 1 ? 16 * 15 : 256 * (great_blocks - 1) + margin(x % 256, y % 256, 255);
     }
 
 private:
+    static std::int32_t margin(std::size_t x, std::size_t y, std::size_t last) {
+        return static_cast<std::int32_t>(std::min(std::min(x, last - x), std::min(y, last - y)));
+    }
     static constexpr std::int32_t at_hand = 16; ///< closeness of an occupied site: 16 - distance, 0 from 16 on
 
     /// Closeness on a square of blocks, row by row.
