@@ -220,10 +220,11 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
     Pruned pruned;
     pruned.arcs_before = static_cast<std::int64_t>(index.arcs.size());
     StreamNetwork with_thresholds = network;
+    NetworkIndex const copy(with_thresholds); // an ArcId points into its own network
     std::vector<std::uint8_t> kept;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (std::size_t a = 0; a < copy.arcs.size(); ++a) {
         double const cells = static_cast<double>(survives[a]) / units_per_cell;
-        with_thresholds[index.arcs[a]].survives = cells;
+        with_thresholds[copy.arcs[a]].survives = cells;
         kept.push_back(cells >= params.length_cells ? 1 : 0);
     }
     if (std::find(kept.begin(), kept.end(), 1) == kept.end()) {
@@ -235,7 +236,7 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
     }
     // L = 0 leaves a network as it is drawn, with the nodes between its features.
     pruned.network =
-        params.length_cells > 0.0 ? kept_network(with_thresholds, index, units, kept) : std::move(with_thresholds);
+        params.length_cells > 0.0 ? kept_network(with_thresholds, copy, units, kept) : std::move(with_thresholds);
     return pruned;
 }
 

@@ -85,9 +85,15 @@ struct Steps {
     }
 };
 
-/// The cell of number `start`'s component nearest to the mouth; marks the component as seen.
-std::int64_t outlet_of(std::int64_t start, SkeletonGraph const& graph, Grid const& grid, Vec2 mouth,
-                       std::vector<std::uint8_t>& seen) {
+/// A position in cells from the north-west, to 2^-16 of a cell: cells that are equally far stay so however the
+/// coordinates in metres are rounded.
+Vec2 in_cells(Grid const& grid, Vec2 p) {
+    auto const rounded = [](double cells) { return std::floor(cells * 65536.0 + 0.5) / 65536.0; };
+    return {rounded((p.x - grid.west) / grid.cell_m), rounded((grid.north - p.y) / grid.cell_m)};
+}
+
+/// The cell of number `start`'s component nearest to the mouth [cells]; marks the component as seen.
+std::int64_t outlet_of(std::int64_t start, SkeletonGraph const& graph, Vec2 mouth, std::vector<std::uint8_t>& seen) {
     std::int64_t best = start;
     double best_distance = std::numeric_limits<double>::infinity();
     std::vector<std::int64_t> open{start};
@@ -95,7 +101,8 @@ std::int64_t outlet_of(std::int64_t start, SkeletonGraph const& graph, Grid cons
     while (!open.empty()) {
         std::int64_t const u = open.back();
         open.pop_back();
-        double const d = distance(grid.centre(graph.cell(u)), mouth);
+        Cell const c = graph.cell(u);
+        double const d = distance({static_cast<double>(c.col) + 0.5, static_cast<double>(c.row) + 0.5}, mouth);
         if (d < best_distance || (d == best_distance && u < best)) {
             best = u;
             best_distance = d;
@@ -158,6 +165,7 @@ StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& 
         throw BadInput("network.trace: the skeleton is empty; grow a larger cluster or choose another branch");
     }
 
+    Vec2 const mouth = in_cells(grid, params.mouth);
     auto const cells = static_cast<std::size_t>(count);
     std::vector<std::uint8_t> seen(cells, 0);
     std::vector<std::int64_t> downstream(cells, -1);
@@ -165,7 +173,7 @@ StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& 
     for (std::int64_t i = 0; i < count; ++i) {
         if (seen[static_cast<std::size_t>(i)] == 0) {
             run.check();
-            drain_to(outlet_of(i, graph, grid, params.mouth, seen), graph, downstream, steps, run);
+            drain_to(outlet_of(i, graph, mouth, seen), graph, downstream, steps, run);
         }
     }
 
