@@ -44,11 +44,15 @@ void set_frame(GDALDataset& dataset, Grid const& grid) {
     }
 }
 
-Dataset in_memory(Raster<float> const& dem, std::string const& what) {
+void require_size(Grid const& grid, std::string const& what) {
     constexpr std::int64_t most = std::numeric_limits<int>::max();
-    if (dem.cells() == 0 || dem.width() > most || dem.height() > most) {
-        throw BadInput(fmt::format("{}: a raster of {} x {} cells", what, dem.width(), dem.height()));
+    if (grid.width < 1 || grid.height < 1 || grid.width > most || grid.height > most) {
+        throw BadInput(fmt::format("{}: a raster of {} x {} cells", what, grid.width, grid.height));
     }
+}
+
+Dataset in_memory(Raster<float> const& dem, std::string const& what) {
+    require_size(dem.grid(), what);
     Dataset dataset(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
         "", static_cast<int>(dem.width()), static_cast<int>(dem.height()), 1, GDT_Float32, nullptr));
     if (dataset == nullptr) {

@@ -27,8 +27,11 @@ Dataset open_file(std::string const& path, unsigned kinds, char const* const* dr
 /// Sets position and CRS of a data set. Throws: BadInput when the CRS is none.
 void set_frame(GDALDataset& dataset, Grid const& grid);
 
+/// Throws: BadInput when a raster is empty or GDAL cannot count its cells.
+void require_size(Grid const& grid, std::string const& what);
+
 /// A copy of heights for GDAL to work on, nodata_height for NaN.
-/// Throws: BadInput at an infinite height or one that equals nodata_height, or when GDAL cannot count the cells.
+/// Throws: BadInput at an infinite height or one that equals nodata_height, or like require_size.
 Dataset in_memory(Raster<float> const& dem, std::string const& what);
 
 } // namespace thalweg::io

@@ -78,6 +78,7 @@ Raster<float> read_dem(std::string const& path, Run const& run) {
     }
     double const scale = band.GetScale();
     double const offset = band.GetOffset();
+    bool const scaled = scale != 1.0 || offset != 0.0;
     int const width = dataset->GetRasterXSize();
 
     Raster<float> dem(grid);
@@ -95,7 +96,7 @@ Raster<float> read_dem(std::string const& path, Run const& run) {
         read(band, heights.data(), GDT_Float64);
         read(*band.GetMaskBand(), valid.data(), GDT_Byte);
         for (std::size_t col = 0; float& z : dem.row(row)) {
-            double const height = heights[col] * scale + offset;
+            double const height = scaled ? heights[col] * scale + offset : heights[col]; // -0 stays -0
             bool const known = valid[col] != 0 && !std::isnan(height);
             if (known && !(std::fabs(height) <= implausible_height)) {
                 throw BadInput(fmt::format("{}: the height at column {}, row {} is {}: is the file damaged?", what, col,

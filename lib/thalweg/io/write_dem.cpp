@@ -55,6 +55,7 @@ void write_dem(Raster<float> const& dem, std::string const& path, Run const& run
 void write_mask(Mask const& mask, std::string const& path, Run const& run) {
     std::string const what = "io.write_mask: " + path;
     require_new(path, what);
+    require_size(mask.grid(), what);
     Driver const driver;
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
