@@ -134,14 +134,13 @@ TEST(AreasNearest, RefusesWhatIsNoTreeOrOutside) {
 }
 
 TEST(AreasNearest, SmallRivers) {
-    // Rows 0..4 from the north; the tributary runs along row 2. A cell as near to two river cells goes to the northern.
+    // By column and row from the north-west: arc 1 owns (2,0), (2,1), arc 2 (0,2), (1,2), arc 3 the rest of column 2.
+    // Of the cells that are as near to two, (0,0) goes to (2,0), (1,1) to (2,1), (1,3) to (1,2) and (0,4) to (0,2).
     Grid grid = frame(5, 5);
     ContributingAreas const areas = areas_nearest(small_rivers(), grid);
-    // Arc 1 owns (2,0), (2,1): rows 0 and 1 but for columns 0 and 1 of row 1, where (0,1) is nearer to (0,2) and (1,1)
-    // as near to (2,1), the lower index. Arc 2 owns (0,2), (1,2) with what lies north and south of them.
-    EXPECT_EQ(areas.us_area_m2, (Numbers{4, 3, 13}));
-    EXPECT_EQ(areas.ds_area_m2, (Numbers{8, 5, 25}));
-    EXPECT_EQ(areas.node_m2, (Numbers{4, 3, 13, 25}));
+    EXPECT_EQ(areas.us_area_m2, (Numbers{5, 4, 18}));
+    EXPECT_EQ(areas.ds_area_m2, (Numbers{9, 6, 25}));
+    EXPECT_EQ(areas.node_m2, (Numbers{5, 4, 18, 25}));
     EXPECT_STREQ(areas.source, "nearest");
     grid.cell_m = 10.0;
     grid.north = 50.0;
@@ -152,7 +151,7 @@ TEST(AreasNearest, SmallRivers) {
     for (ArcId const a : NetworkIndex(wide).arcs) {
         wide[a].line = {wide[boost::source(a, wide)].at, wide[boost::target(a, wide)].at};
     }
-    EXPECT_EQ(areas_nearest(wide, grid).ds_area_m2, (Numbers{800, 500, 2500}));
+    EXPECT_EQ(areas_nearest(wide, grid).ds_area_m2, (Numbers{900, 600, 2500}));
 }
 
 TEST(AreasNearest, FollowTheDefinitionAndItsLaws) {

@@ -159,11 +159,11 @@ TEST(Statistics, FollowTheDefinition) {
 
 TEST(Statistics, SameBitsForAnyNumberOfThreads) {
     Raster<float> const dem = rough_dem(frame(301, 257), 5);
-    Run one;
+    thalweg::Run one;
     one.threads = 1;
     Statistics const a = statistics(dem, one);
     for (int const threads : {2, 5}) {
-        Run many;
+        thalweg::Run many;
         many.threads = threads;
         Statistics const b = statistics(dem, many);
         EXPECT_EQ(a.mean, b.mean);
@@ -177,7 +177,7 @@ TEST(Statistics, SameBitsForAnyNumberOfThreads) {
 TEST(Statistics, StopsWhenAsked) {
     std::stop_source source;
     source.request_stop();
-    Run run;
+    thalweg::Run run;
     run.stop = source.get_token();
     EXPECT_THROW(statistics(rough_dem(frame(8, 8), 1), run), Cancelled);
 }
