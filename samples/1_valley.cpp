@@ -25,8 +25,9 @@ int main() {
     // One arm of the cluster becomes a basin: its mouth is the seed of the cluster.
     network::Branch const branch = network::pick_branch(cluster, {network::BranchChoice::largest});
 
-    // Up to here there were cells of a lattice; a grid gives them a place on the ground, 30 m a cell.
-    pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {.cell_m = 30.0});
+    // Up to here there were cells of a lattice; a grid gives them a place on the ground, 30 m a cell unless told
+    // otherwise.
+    pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});
 
     // The skeleton is one cell wide; traced, it is a Boost graph of arcs that run downstream.
     Mask const skeleton = network::thin(framed.mask);

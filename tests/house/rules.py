@@ -55,7 +55,8 @@ FETCHED = re.compile(r"FetchContent|ExternalProject|CPMAddPackage|\b(?:pip3?|con
                      r"(?:ghcr|docker|quay)\.io", re.IGNORECASE)
 LOCK_HOST = re.compile(r'https?://(?!registry\.npmjs\.org/)[^"\s]+')
 
-COMMENTED = {".cpp", ".hpp", ".cmake", ".py", ".sh", ".js", ".ts"}  # suffixes that take the SPDX lines
+CPP = (".cpp", ".hpp", ".inc")
+COMMENTED = {*CPP, ".cmake", ".py", ".sh", ".js", ".ts"}  # suffixes that take the SPDX lines
 PICTURES = {".png", ".jpg", ".tif", ".gpkg", ".shp", ".dbf"}
 RULES_THEMSELVES = {"tests/house/rules.py", "tests/house/rules_test.py"}
 
@@ -164,7 +165,7 @@ def violations(root):
             continue
         lines = data.decode("utf-8", "replace").splitlines()
         faults = list(check_text(name, lines))
-        if name.endswith((".cpp", ".hpp")):
+        if name.endswith(CPP):
             faults += check_source(name, lines)
         found += [f"{name}:{number}: {text}" for number, text in sorted(faults)]
     return found
