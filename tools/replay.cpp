@@ -33,9 +33,10 @@ int replay(std::string const& folder, Session const& session) {
 
 Command add_replay(CLI::App& app, Session& session) {
     auto const folder = std::make_shared<std::string>();
+    auto const verify = std::make_shared<bool>(true);
     app.add_option("DIR", *folder, "what an earlier make left")->required();
-    app.add_flag("--verify", std::string("compare the bytes (it always does)"));
-    return [folder, &session] { return replay(*folder, session); };
+    app.add_flag("--verify", *verify, "compare the bytes, as it always does");
+    return [folder, verify, &session] { return replay(*folder, session); };
 }
 
 } // namespace thalweg::tools

@@ -65,7 +65,7 @@ inline StreamNetwork random_forest(std::uint64_t seed, std::size_t nodes, std::s
                 r.between.push_back(place());
             }
             r.feature = static_cast<std::int64_t>(n);
-            r.type = n % 2 == 0 ? "A" : "C";
+            r.type = std::string(1, n % 2 == 0 ? 'A' : 'C');
             reaches.push_back(r);
         }
     }

@@ -38,8 +38,7 @@ void set_frame(GDALDataset& dataset, Grid const& grid) {
     std::array<double, 6> frame{grid.west, grid.cell_m, 0.0, grid.north, 0.0, -grid.cell_m};
     dataset.SetGeoTransform(frame.data());
     if (!grid.crs.empty()) {
-        OGRSpatialReference reference;
-        set_reference(reference, grid.crs);
+        OGRSpatialReference const reference = read_reference(grid.crs);
         dataset.SetSpatialRef(&reference);
     }
 }

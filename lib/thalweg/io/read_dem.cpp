@@ -31,7 +31,9 @@ Grid frame_of(GDALDataset& dataset, std::string const& what) {
     Grid grid;
     grid.width = dataset.GetRasterXSize();
     grid.height = dataset.GetRasterYSize();
-    grid.crs = text_of(dataset.GetSpatialRef());
+    if (auto const* const reference = dataset.GetSpatialRef(); reference != nullptr && reference->IsEmpty() == 0) {
+        grid.crs = name_of(*reference);
+    }
     std::array<double, 6> place{};
     if (dataset.GetGeoTransform(place.data()) != CE_None) {
         grid.north = static_cast<double>(grid.height);

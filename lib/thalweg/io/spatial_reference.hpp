@@ -6,13 +6,17 @@
 
 class OGRSpatialReference;
 
+/// CRS as GDAL holds them. Private to this room.
 namespace thalweg::io {
 
-/// Sets GDAL's form of a CRS given as "EPSG:n" or WKT, x before y; "" clears it. Never opens a URL or file.
-/// Throws: BadInput when it is none.
-void set_reference(OGRSpatialReference& reference, std::string const& crs);
+/// Reads "EPSG:n" or WKT (never a URL or file) in traditional axis order: x or longitude first.
+/// Throws BadInput when it is none.
+OGRSpatialReference read_reference(std::string const& text);
 
-/// "EPSG:n" (AUTHORITY:code) where the reference has a code, else WKT; "" for none.
-std::string text_of(OGRSpatialReference const* reference);
+/// "EPSG:n" where it has a code, else WKT.
+std::string name_of(OGRSpatialReference const& reference);
+
+/// Whether it is projected with both axes in metres.
+bool is_projected_in_metres(OGRSpatialReference const& reference);
 
 } // namespace thalweg::io

@@ -202,7 +202,9 @@ void write_file(std::vector<Table const*> const& tables, std::string const& crs,
     Driver const driver;
     FixedDate const fixed_date;
     OGRSpatialReference reference;
-    set_reference(reference, crs);
+    if (!crs.empty()) {
+        reference = read_reference(crs);
+    }
     GDALDriver* const writer = GetGDALDriverManager()->GetDriverByName(shapefile ? "ESRI Shapefile" : "GPKG");
     std::unique_ptr<GDALDataset, Close> dataset(
         writer == nullptr ? nullptr : writer->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));

@@ -14,12 +14,12 @@ namespace thalweg::network {
 
 /// What says which way the rivers of a component run: which of its ends is the outlet.
 enum class Orientation : std::uint8_t {
-    automatic, ///< by height where every line has Z, else by rank where the file gives one, else as_drawn if that is a
-               ///< tree, else topology; each where it tells the ends of the component apart
+    automatic, ///< by height where every line has Z, else by rank where the file gives one, else the end of the
+               ///< component that turns the least length of the drawn direction round (ties: as topology)
     height,    ///< downstream is down
     rank,      ///< downstream is where the rank falls
     as_drawn,  ///< the file's direction
-    topology   ///< away from the sources towards each component's outlet (its end nearest the border of the box)
+    topology   ///< towards the end of the component nearest the border of the box
 };
 
 struct AdoptParams {

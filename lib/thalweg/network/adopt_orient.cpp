@@ -26,14 +26,12 @@ Votes by_height(Pieces const& p, std::vector<RiverLine> const& lines) {
     return votes;
 }
 
-// A node is left by the piece of least rank that touches it; the others run into it.
-Votes by_rank(Pieces const& p, std::vector<RiverLine> const& lines, std::string const& name) {
+// A node is left by the piece of least rank that touches it; the others run into it. (One that is above its neighbours
+// at both ends votes for one of them: the other neighbour contradicts it.)
+Votes by_rank(Pieces const& p, std::vector<RiverLine> const& lines) {
     auto const rank = [&](std::size_t k) { return lines[p.pieces[k].line].rank; };
-    Votes votes(p.pieces.size(), 0);
+    Votes votes;
     for (std::size_t k = 0; k < p.pieces.size(); ++k) {
-        if (rank(k) == 0) {
-            continue;
-        }
         auto const some = [&](std::size_t node, auto const& test) {
             return std::ranges::any_of(p.at_node[node],
                                        [&](std::size_t other) { return rank(other) != 0 && test(rank(other)); });
@@ -41,23 +39,47 @@ Votes by_rank(Pieces const& p, std::vector<RiverLine> const& lines, std::string 
         auto const lower = [&](std::int64_t r) { return r < rank(k); };
         auto const higher = [&](std::int64_t r) { return r > rank(k); };
         auto const& piece = p.pieces[k];
-        bool const at_from = some(piece.from, lower);
-        bool const at_to = some(piece.to, lower);
-        if (at_from && at_to) {
-            Vec2 const a = p.nodes[piece.from];
-            Vec2 const b = p.nodes[piece.to];
-            throw BadInput(fmt::format("network.adopt: river {} in {} has a greater rank ({}) than the rivers at both "
-                                       "its ends, ({:.6f}, {:.6f}) and ({:.6f}, {:.6f}): it would run both ways; "
-                                       "correct the ranks or orient by something else",
-                                       lines[piece.line].feature, name, rank(k), a.x, a.y, b.x, b.y));
+        int vote = 0;
+        if (rank(k) != 0) {
+            if (some(piece.to, lower)) {
+                vote = 1;
+            } else if (some(piece.from, lower)) {
+                vote = -1;
+            } else { // the last reach runs away from what runs into it
+                vote = int{some(piece.from, higher)} - int{some(piece.to, higher)};
+            }
         }
-        if (at_from || at_to) {
-            votes[k] = at_to ? 1 : -1;
-        } else if (some(piece.from, higher) != some(piece.to, higher)) {
-            votes[k] = some(piece.from, higher) ? 1 : -1; // the last reach, away from what runs into it
-        }
+        votes.push_back(vote);
     }
     return votes;
+}
+
+struct Evidence {
+    Votes votes;
+    char const* name;
+};
+
+// What the file says for certain, the most trusted first.
+std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
+                                  Orientation asked) {
+    bool const any_rank = std::ranges::any_of(lines, [](RiverLine const& l) { return l.rank != 0; });
+    if (asked == Orientation::height && !file.has_z) {
+        throw BadInput("network.adopt: the rivers of " + file.name + " carry no heights to orient them by");
+    }
+    if (asked == Orientation::rank && !any_rank) {
+        throw BadInput("network.adopt: the rivers of " + file.name + " carry no rank to orient them by");
+    }
+    std::vector<Evidence> evidence;
+    if (file.has_z && (asked == Orientation::height || asked == Orientation::automatic)) {
+        evidence.push_back({by_height(p, lines), "height"});
+    }
+    if (any_rank && (asked == Orientation::rank || asked == Orientation::automatic)) {
+        evidence.push_back({by_rank(p, lines), "rank"});
+    }
+    if (asked == Orientation::as_drawn) {
+        evidence.push_back({Votes(p.pieces.size(), 1), "the drawn direction"});
+    }
+    return evidence;
 }
 
 struct Tree {
@@ -134,24 +156,8 @@ std::vector<std::int64_t> against(Pieces const& p, Tree const& tree, Votes const
     throw BadInput("network.adopt: the rivers of " + name + " cannot be oriented by " + evidence);
 }
 
-} // namespace
-
-std::vector<std::int64_t> orient(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
-                                 Orientation orientation, std::vector<Finding>& repairs) {
-    auto const asked = [&](Orientation o) { return orientation == o || orientation == Orientation::automatic; };
-    bool const any_rank = std::ranges::any_of(lines, [](RiverLine const& l) { return l.rank != 0; });
-    if (orientation == Orientation::height && !file.has_z) {
-        throw BadInput("network.adopt: the rivers of " + file.name + " carry no heights to orient them by");
-    }
-    if (orientation == Orientation::rank && !any_rank) {
-        throw BadInput("network.adopt: the rivers of " + file.name + " carry no rank to orient them by");
-    }
-    Votes const silent(p.pieces.size(), 0);
-    Votes const heights = file.has_z && asked(Orientation::height) ? by_height(p, lines) : silent;
-    Votes const drawn = orientation == Orientation::topology ? silent : Votes(p.pieces.size(), 1);
-    Votes ranks = silent;
-    bool ranks_read = false;
-
+// [m] By node: distance to the border of the lines' box.
+std::vector<double> border_distances(Pieces const& p, std::vector<RiverLine> const& lines) {
     Vec2 low = p.nodes.front();
     Vec2 high = low;
     for (auto const& line : lines) {
@@ -160,93 +166,84 @@ std::vector<std::int64_t> orient(Pieces const& p, std::vector<RiverLine> const& 
             high = {std::max(high.x, v.x), std::max(high.y, v.y)};
         }
     }
-    auto const to_border = [&](std::size_t n) {
-        Vec2 const at = p.nodes[n];
-        return std::min({at.x - low.x, high.x - at.x, at.y - low.y, high.y - at.y});
-    };
+    std::vector<double> result;
+    for (Vec2 const at : p.nodes) {
+        result.push_back(std::min({at.x - low.x, high.x - at.x, at.y - low.y, high.y - at.y}));
+    }
+    return result;
+}
 
-    std::vector<std::int64_t> towards(p.nodes.size(), -1);
-    std::vector<char> done(p.nodes.size(), 0);
+void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::vector<std::int64_t> const& leaves,
+                   std::vector<Finding>& repairs) {
+    std::vector<double> length_m(lines.size(), 0.0);
+    std::vector<Vec2> towards(lines.size());
+    for (std::size_t n = 0; n < p.nodes.size(); ++n) {
+        if (leaves[n] < 0) {
+            continue;
+        }
+        auto const& piece = p.pieces[static_cast<std::size_t>(leaves[n])];
+        if (piece.to == n) {
+            towards[piece.line] = p.nodes[piece.from];
+            length_m[piece.line] += piece.length_m;
+        }
+    }
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        if (length_m[l] > 0.0) {
+            repairs.push_back({"reversed", lines[l].feature, towards[l], length_m[l],
+                               fmt::format("river {} is turned round for {:.6g} m, to run towards ({:.6f}, {:.6f})",
+                                           lines[l].feature, length_m[l], towards[l].x, towards[l].y)});
+        }
+    }
+}
+
+} // namespace
+
+std::vector<std::int64_t> orient(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
+                                 Orientation orientation, std::vector<Finding>& repairs) {
+    auto const evidence = evidence_of(p, lines, file, orientation);
+    Evidence const silence{Votes(p.pieces.size(), 0), "nothing"};
+    Votes const drawn(p.pieces.size(), orientation == Orientation::topology ? 0 : 1);
+    auto const border_m = border_distances(p, lines);
+    std::vector<std::int64_t> leaves(p.nodes.size(), -1);
     std::vector<std::int64_t> cost(p.nodes.size(), 0);
+    std::vector<char> done(p.nodes.size(), 0);
     for (std::size_t start = 0; start < p.nodes.size(); ++start) {
         if (done[start] != 0) {
             continue;
         }
-        Tree tree{{}, towards};
+        Tree tree{{}, leaves};
         root_at(p, start, tree);
-        auto const speaks = [&](Votes const& votes) {
+        auto const speaks = [&](Evidence const& e) {
             return std::ranges::any_of(tree.nodes, [&](std::size_t n) {
-                return towards[n] >= 0 && votes[static_cast<std::size_t>(towards[n])] != 0;
+                return leaves[n] >= 0 && e.votes[static_cast<std::size_t>(leaves[n])] != 0;
             });
         };
-        Votes const* votes = &silent;
-        char const* evidence = "topology";
-        if (speaks(heights)) {
-            votes = &heights;
-            evidence = "height";
-        } else if (any_rank && asked(Orientation::rank)) {
-            if (!ranks_read) {
-                ranks = by_rank(p, lines, file.name);
-                ranks_read = true;
-            }
-            if (speaks(ranks)) {
-                votes = &ranks;
-                evidence = "rank";
-            }
-        }
-        auto main = against(p, tree, *votes, cost);
-        auto second = against(p, tree, drawn, cost);
-        if (votes == &silent && orientation != Orientation::topology) {
-            bool const is_tree = *std::ranges::min_element(second) == 0;
-            if (is_tree || orientation == Orientation::as_drawn) {
-                votes = &drawn;
-                evidence = "the drawn direction";
-                main = second;
-            } else {
-                std::ranges::fill(second, 0);
-            }
-        }
-        std::size_t best = 0;
+        auto const first = std::ranges::find_if(evidence, speaks);
+        Evidence const& chosen = first == evidence.end() ? silence : *first;
+        auto const against_it = against(p, tree, chosen.votes, cost);
+        auto const against_drawn = against(p, tree, drawn, cost);
         auto const key = [&](std::size_t i) {
             std::size_t const n = tree.nodes[i];
-            bool const inner = votes == &silent && p.at_node[n].size() > 1;
-            return std::tuple(main[i], second[i], inner, to_border(n), n);
+            bool const inner = p.at_node[n].size() > 1;
+            return std::tuple(against_it[i], against_drawn[i], inner, border_m[n], n);
         };
+        std::size_t best = 0;
         for (std::size_t i = 1; i < tree.nodes.size(); ++i) {
             if (key(i) < key(best)) {
                 best = i;
             }
         }
-        bool const contradicted = main[best] > 0;
+        bool const contradicted = against_it[best] > 0;
         root_at(p, tree.nodes[best], tree);
         if (contradicted) {
-            refuse_bifurcation(p, lines, tree, *votes, file.name, evidence);
+            refuse_bifurcation(p, lines, tree, chosen.votes, file.name, chosen.name);
         }
         for (std::size_t const n : tree.nodes) {
             done[n] = 1;
         }
     }
-
-    std::vector<double> turned_m(lines.size(), 0.0);
-    std::vector<Vec2> turned_at(lines.size());
-    for (std::size_t n = 0; n < p.nodes.size(); ++n) {
-        if (towards[n] < 0) {
-            continue;
-        }
-        auto const& piece = p.pieces[static_cast<std::size_t>(towards[n])];
-        if (piece.to == n) {
-            turned_at[piece.line] = p.nodes[piece.from];
-            turned_m[piece.line] += piece.length_m;
-        }
-    }
-    for (std::size_t l = 0; l < lines.size(); ++l) {
-        if (turned_m[l] > 0.0) {
-            repairs.push_back({"reversed", lines[l].feature, turned_at[l], turned_m[l],
-                               fmt::format("river {} is turned round for {:.6g} m, to run towards ({:.6f}, {:.6f})",
-                                           lines[l].feature, turned_m[l], turned_at[l].x, turned_at[l].y)});
-        }
-    }
-    return towards;
+    report_turned(p, lines, leaves, repairs);
+    return leaves;
 }
 
 } // namespace thalweg::network::adopt_steps

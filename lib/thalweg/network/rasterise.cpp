@@ -146,8 +146,8 @@ Rasterised rasterise(RaisedNetwork const& network, Grid const& grid) {
             double const from = height[i - 1];
             double const rise = height[i] - from;
             bresenham(at[i - 1], at[i], [&](Cell c, std::int64_t k, std::int64_t n) {
-                double const here =
-                    k == n ? height[i] : from + rise * (static_cast<double>(k) / static_cast<double>(n));
+                double const t = n == 0 ? 0.0 : static_cast<double>(k) / static_cast<double>(n);
+                double const here = n == 0 ? std::min(from, height[i]) : k == n ? height[i] : from + rise * t;
                 if (!std::isfinite(here)) {
                     Vec2 const p = grid.centre(c);
                     throw BadInput(fmt::format("network.rasterise: the height of arc {} at ({:.3f}, {:.3f}) is not a "

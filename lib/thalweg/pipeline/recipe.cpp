@@ -38,18 +38,19 @@ struct Key {
 };
 
 std::string toml_text(Value const& value) {
-    return std::visit(
-        [](auto const& v) -> std::string {
-            using T = std::decay_t<decltype(v)>;
-            std::ostringstream out;
-            if constexpr (std::is_same_v<T, Pair>) {
-                out << toml::array{v[0], v[1]};
+    toml::table one;
+    std::visit(
+        [&](auto const& v) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(v)>, Pair>) {
+                one.insert("v", toml::array{v[0], v[1]});
             } else {
-                out << toml::value<T>{v};
+                one.insert("v", v);
             }
-            return out.str();
         },
         value);
+    std::ostringstream out;
+    out << one;
+    return out.str().substr(std::string_view("v = ").size());
 }
 
 struct Range {
