@@ -36,7 +36,7 @@ Site rounded(double x, double y) {
 BirthCircle birth_circle(double cluster_radius) {
     BirthCircle circle;
     circle.birth = cluster_radius + 4.0;
-    circle.far = static_cast<std::int32_t>(std::max(1.1 * circle.birth, circle.birth + 24.0));
+    circle.far = static_cast<std::int32_t>(std::max(1.5 * circle.birth, circle.birth + 24.0));
     return circle;
 }
 

@@ -31,7 +31,7 @@ inline std::int32_t chebyshev(Site s) {
 /// the squares a walker leaves can share a side with it.
 struct BirthCircle {
     double birth = 0.0;   ///< [cells] radius of the cluster + 4
-    std::int32_t far = 0; ///< [cells] the larger of 1.1 birth and birth + 24: where max(|x|,|y|) is far, a walk ends
+    std::int32_t far = 0; ///< [cells] the larger of 1.5 birth and birth + 24: walkers with max(|x|,|y|) = far are lost
 
     bool lost(Site s) const { return chebyshev(s) >= far; }
 };

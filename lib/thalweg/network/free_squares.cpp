@@ -41,8 +41,9 @@ void raise(std::uint8_t* row, std::uint8_t const* to) {
     std::memcpy(row, a.data(), 16);
 }
 
-std::size_t great_blocks(std::int32_t half) {
-    return (2 * static_cast<std::size_t>(half) + 255) / 256;
+/// Blocks of this side across the square that reaches twice `half` from the seed.
+std::size_t blocks_across(std::int32_t half, std::size_t side) {
+    return (4 * static_cast<std::size_t>(half) + side - 1) / side;
 }
 
 } // namespace
@@ -62,7 +63,7 @@ void FreeSquares::Blocks::occupy(std::size_t col, std::size_t row) {
 }
 
 FreeSquares::FreeSquares()
-    : near_(first_half), blocks_(near_.tiles_across()), great_blocks_(great_blocks(first_half)) {}
+    : near_(first_half), blocks_(blocks_across(first_half, 16)), great_blocks_(blocks_across(first_half, 256)) {}
 
 void FreeSquares::occupy_block(std::size_t col, std::size_t row) {
     if (blocks_.at(col, row) == at_hand) {
@@ -88,22 +89,24 @@ void FreeSquares::occupy(Site site) {
             }
         }
     }
-    occupy_block(x / 16, y / 16);
+    auto const beside = static_cast<std::size_t>(half() / 16);
+    occupy_block(x / 16 + beside, y / 16 + beside);
 }
 
 void FreeSquares::reach(std::int32_t radius) {
     std::int32_t wanted = half();
-    while (wanted < radius + 16) {
+    // The finest level is asked up to two blocks from an occupied one.
+    while (wanted < radius + 48) {
         wanted *= 2;
     }
     if (wanted == half()) {
         return;
     }
-    auto const shift = static_cast<std::size_t>((wanted - half()) / 16);
+    auto const shift = static_cast<std::size_t>(2 * (wanted - half()) / 16);
     Blocks const before = std::move(blocks_);
     near_.widen(wanted);
-    blocks_ = Blocks(near_.tiles_across());
-    great_blocks_ = Blocks(great_blocks(wanted));
+    blocks_ = Blocks(blocks_across(wanted, 16));
+    great_blocks_ = Blocks(blocks_across(wanted, 256));
     for (std::size_t row = 0; row < before.across; ++row) {
         for (std::size_t col = 0; col < before.across; ++col) {
             if (before.at(col, row) == at_hand) {

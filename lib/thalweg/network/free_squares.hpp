@@ -18,10 +18,11 @@ class FreeSquares {
 public:
     FreeSquares();
 
-    /// Makes room for sites as far from the seed as this [cells], and 16 cells more.
+    /// Makes room for a cluster of this radius [cells] around the seed.
     void reach(std::int32_t radius);
 
-    /// Half the width of the square of sites that reach() has made room for.
+    /// The cluster and its neighbours lie in the square -half <= x, y < half; free_half takes sites of a square twice
+    /// as wide.
     std::int32_t half() const { return near_.half(); }
 
     /// Occupies a site within reach.
@@ -32,9 +33,9 @@ public:
     /// Largest known L with every site of the square max(|dx|,|dy|) <= L free; 0 beside and diagonally beside the
     /// cluster. At the boundary of the square the cluster may be next door; inside it never is.
     std::int32_t free_half(Site site) const {
-        // The coarse levels fit the cache, so they are asked first.
-        auto const x = static_cast<std::size_t>(site.x + half());
-        auto const y = static_cast<std::size_t>(site.y + half());
+        // The coarse levels fit the cache, so they are asked first; and far from the cluster they are all there is.
+        auto const x = static_cast<std::size_t>(site.x + 2 * half());
+        auto const y = static_cast<std::size_t>(site.y + 2 * half());
         std::int32_t const blocks = at_hand - blocks_.at(x / 16, y / 16);
         if (blocks <= 1) {
             std::uint8_t const closeness = near_[site];
@@ -51,6 +52,7 @@ private:
     static std::int32_t margin(std::size_t x, std::size_t y, std::size_t last) {
         return static_cast<std::int32_t>(std::min(std::min(x, last - x), std::min(y, last - y)));
     }
+
     static constexpr std::int32_t at_hand = 16; ///< closeness of an occupied site: 16 - distance, 0 from 16 on
 
     /// Closeness on a square of blocks, row by row.

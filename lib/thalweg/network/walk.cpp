@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include <thalweg/core/error.hpp>
 
 namespace thalweg::network {
@@ -24,8 +26,8 @@ void Walk::occupy(Site site) {
     if (distance > radius_ || circle_.far == 0) {
         radius_ = distance;
         circle_ = birth_circle(distance);
-        squares_.reach(circle_.far + 1);
-        law_.prepare(squares_.half());
+        squares_.reach(static_cast<std::int32_t>(distance) + 1);
+        law_.prepare(circle_.far);
     }
     squares_.occupy(site);
 }
@@ -72,6 +74,13 @@ std::vector<Cell> first_arrivals(std::span<Cell const> cluster, std::int64_t wal
                                  Run const& run) {
     if (cluster.empty()) {
         throw BadInput("network.first_arrivals: the cluster has no cell, give at least one");
+    }
+    constexpr std::int64_t widest = 1 << 20;
+    for (Cell const c : cluster) {
+        if (std::abs(c.col) > widest || std::abs(c.row) > widest) {
+            throw BadInput(fmt::format("network.first_arrivals: cell ({}, {}) lies more than {} cells from the centre",
+                                       c.col, c.row, widest));
+        }
     }
     Walk walk;
     for (Cell const c : cluster) {

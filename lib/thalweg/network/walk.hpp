@@ -41,7 +41,9 @@ public:
 
     double radius() const { return radius_; } ///< [cells] of the cluster
     bool occupied(Site site) const { return squares_.occupied(site); }
-    std::int32_t half() const { return squares_.half(); } ///< no walker leaves the square -half <= x, y < half
+    std::int32_t half() const {
+        return squares_.half();
+    } ///< the cluster and its neighbours lie in -half <= x, y < half
 
     /// Puts a walker on the birth circle.
     void release(Walker& walker) const { walker.at = born(circle_, walker.chance); }
@@ -65,7 +67,7 @@ private:
 /// Where walkers first arrive on a cluster that does not grow: the hit distribution, to be held against unit steps.
 /// Takes: the occupied cells, (0,0) the centre of the birth circle.
 /// Gives: one free cell with an occupied 4-neighbour for each of the walkers 0, 1, ... of this seed.
-/// Throws: BadInput when no cell is occupied; Cancelled.
+/// Throws: BadInput when no cell is occupied or one lies more than 2^20 cells from the centre; Cancelled.
 std::vector<Cell> first_arrivals(std::span<Cell const> cluster, std::int64_t walkers, std::uint64_t seed,
                                  Run const& run = {});
 
