@@ -144,16 +144,19 @@ Rasterised rasterise(RaisedNetwork const& network, Grid const& grid) {
         std::int64_t before = grid.index(at.front());
         for (std::size_t i = 1; i < at.size(); ++i) {
             double const from = height[i - 1];
-            double const rise = height[i] - from;
+            double const to = height[i];
+            if (!std::isfinite(from) || !std::isfinite(to)) {
+                Vec2 const p = network.plan[index.arcs[a]].line[std::isfinite(from) ? i : i - 1];
+                throw BadInput(fmt::format("network.rasterise: the height of arc {} at ({:.3f}, {:.3f}) is not a "
+                                           "number; set it in the file or let it be computed",
+                                           a + 1, p.x, p.y));
+            }
+            double const lowest = std::min(from, to);
             bresenham(at[i - 1], at[i], [&](Cell c, std::int64_t k, std::int64_t n) {
                 double const t = n == 0 ? 0.0 : static_cast<double>(k) / static_cast<double>(n);
-                double const here = n == 0 ? std::min(from, height[i]) : k == n ? height[i] : from + rise * t;
-                if (!std::isfinite(here)) {
-                    Vec2 const p = grid.centre(c);
-                    throw BadInput(fmt::format("network.rasterise: the height of arc {} at ({:.3f}, {:.3f}) is not a "
-                                               "number; set it in the file or let it be computed",
-                                               a + 1, p.x, p.y));
-                }
+                double const here = n == 0   ? lowest
+                                    : k == n ? to
+                                             : std::clamp(from + (to - from) * t, lowest, std::max(from, to));
                 std::int64_t const cell = grid.index(c);
                 auto const rounded = static_cast<float>(here);
                 if (std::isnan(z[cell]) || rounded < z[cell]) {
