@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run.hpp>
+#include <thalweg/core/valley.hpp>
+
+namespace thalweg::surface {
+
+/// Index of the valley cell nearest to each cell, by exact Euclidean distance in cells.
+/// Takes: a valley with at least one cell.
+/// Gives: squared distances are compared as integers; of equally near cells the one with the lowest index.
+/// Source: Meijster, Roerdink & Hesselink 2000, with the tie made part of the order.
+Raster<std::int64_t> nearest_valley_cells(Valley const& valley, Run const& run);
+
+} // namespace thalweg::surface

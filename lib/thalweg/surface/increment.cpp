@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/increment.hpp>
+
+#include <thalweg/core/error.hpp>
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+namespace thalweg::surface {
+namespace {
+
+struct Named {
+    std::string_view name;
+    double (*at)(double x);
+};
+
+// Hundredths are divided once, so that each value is the double nearest to the paper's.
+constexpr std::array<Named, 3> table_1{{
+    {"uniform", [](double) { return 0.1; }},
+    {"decreasing", [](double x) { return x < 300.0 ? (300.0 - x) / 100.0 : 0.0; }},
+    {"rise_fall", [](double x) { return x <= 150.0 ? 3.0 * x / 100.0 : (600.0 - x) / 100.0; }},
+}};
+
+constexpr std::size_t longest_expression = 1000;
+constexpr std::string_view choices = "(uniform, decreasing, rise_fall, or an expression in x such as 3-0.01*x)";
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            std::size_t const substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({substituted, diagonal + 1, row[j] + 1});
+        }
+    }
+    return row.back();
+}
+
+[[noreturn]] void refuse(std::string const& text, std::string_view why) {
+    std::string hint;
+    for (Named const& named : table_1) {
+        if (edit_distance(text, named.name) <= 2) {
+            hint = fmt::format(" Did you mean '{}'?", named.name);
+        }
+    }
+    if (hint.empty() && !why.empty()) {
+        hint = fmt::format(" As an expression: {}.", why);
+    }
+    throw BadParameter(fmt::format("surface.increments: '{}' is not an increment.{} {}", text, hint, choices));
+}
+
+bool assigns(std::string_view text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '=') {
+            continue;
+        }
+        if (i + 1 < text.size() && text[i + 1] == '=') {
+            ++i;
+        } else if (i == 0 || std::string_view("<>!").find(text[i - 1]) == std::string_view::npos) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// libm inside muParser differs between machines in the last bits: 2^-32, but never more than 36 significant bits, hides
+// them.
+double tamed(double value) {
+    double scale = 0x1p32;
+    while (std::fabs(value) * scale >= 0x1p36) {
+        scale *= 0.5;
+    }
+    return std::floor(value * scale + 0.5) / scale;
+}
+
+std::vector<double> tabulate(std::string const& text, std::int64_t levels) {
+    if (text.size() > longest_expression) {
+        throw BadParameter(fmt::format("surface.increments: the expression has {} characters; write it in at most {}",
+                                       text.size(), longest_expression));
+    }
+    if (assigns(text)) {
+        refuse(text, "it assigns; compare with ==");
+    }
+    std::vector<double> values(static_cast<std::size_t>(levels));
+    try {
+        double x = 1.0;
+        mu::Parser parser;
+        parser.DefineVar("x", &x);
+        parser.SetExpr(text);
+        int results = 0;
+        parser.Eval(results);
+        if (results != 1) {
+            refuse(text, "it has more than one value");
+        }
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            x = static_cast<double>(i + 1);
+            double const value = parser.Eval();
+            if (!std::isfinite(value)) {
+                throw BadParameter(fmt::format(
+                    "surface.increments: '{}' is not finite at x = {}; choose an expression that is, for x = 1 to {}",
+                    text, i + 1, levels));
+            }
+            values[i] = tamed(value);
+        }
+    } catch (mu::Parser::exception_type const& e) {
+        refuse(text, e.GetMsg());
+    }
+    return values;
+}
+
+} // namespace
+
+std::vector<double> increments(std::int64_t levels, IncrementParams const& params) {
+    if (levels < 0) {
+        throw BadParameter(fmt::format("surface.increments: {} levels; ask for none or more", levels));
+    }
+    std::vector<double> values;
+    auto const named = std::find_if(table_1.begin(), table_1.end(),
+                                    [&](Named const& candidate) { return candidate.name == params.increment; });
+    if (named == table_1.end()) {
+        values = tabulate(params.increment, levels);
+    } else {
+        values.reserve(static_cast<std::size_t>(levels));
+        for (std::int64_t x = 1; x <= levels; ++x) {
+            values.push_back(named->at(static_cast<double>(x)));
+        }
+    }
+    if (!params.allow_negative) {
+        for (double& value : values) {
+            value = std::max(value, 0.0);
+        }
+    }
+    return values;
+}
+
+std::vector<double> heights_above_valley(std::vector<double> const& increments) {
+    std::vector<double> sums(increments.size() + 1, 0.0);
+    std::partial_sum(increments.begin(), increments.end(), sums.begin() + 1);
+    return sums;
+}
+
+} // namespace thalweg::surface
