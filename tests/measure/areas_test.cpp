@@ -91,12 +91,12 @@ ContributingAreas nearest_slowly(StreamNetwork const& network, Grid const& grid)
 rc::Gen<std::pair<StreamNetwork, Grid>> gen_rivers() {
     return rc::gen::exec([] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
-        auto const cols = *rc::gen::inRange<std::int64_t>(1, 9);
-        auto const rows = *rc::gen::inRange<std::int64_t>(2, 9);
+        auto const cols = *evenly<std::int64_t>(1, 9);
+        auto const rows = *evenly<std::int64_t>(2, 9);
         double const spacing = *rc::gen::element(0.3, 0.5, 1.0, 1.7, 3.0);
         auto const cells = [&](std::int64_t points) {
             return static_cast<std::int64_t>(std::ceil(static_cast<double>(points) * spacing)) +
-                   *rc::gen::inRange<std::int64_t>(0, 4);
+                   *evenly<std::int64_t>(0, 4);
         };
         Grid const grid = frame(cells(cols), cells(rows));
         return std::pair{random_rivers(seed, cols, rows, spacing).plan, grid};

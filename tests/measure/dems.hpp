@@ -34,17 +34,22 @@ inline thalweg::Raster<float> rough_dem(thalweg::Grid const& grid, std::uint64_t
     return dem;
 }
 
+/// Every number of [least, beyond) as likely: rapidcheck's own range keeps to small ones.
+template <class T> rc::Gen<T> evenly(T least, T beyond) {
+    return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(least, beyond));
+}
+
 /// Any DEM up to side x side: few whole heights, so that ties, flats and depressions abound; up to holes_percent holes.
 inline rc::Gen<thalweg::Raster<float>> gen_dem(std::int64_t side, int holes_percent) {
     return rc::gen::exec([=] {
-        auto const width = *rc::gen::inRange<std::int64_t>(1, side + 1);
-        auto const height = *rc::gen::inRange<std::int64_t>(1, side + 1);
+        auto const width = *evenly<std::int64_t>(1, side + 1);
+        auto const height = *evenly<std::int64_t>(1, side + 1);
         auto const levels = *rc::gen::element(1, 2, 4, 1000);
-        auto const holes = *rc::gen::inRange(0, holes_percent + 1);
+        auto const holes = *evenly(0, holes_percent + 1);
         thalweg::Raster<float> dem(frame(width, height));
         for (float& z : dem.values()) {
-            bool const none = *rc::gen::resize(100, rc::gen::inRange(0, 100)) < holes;
-            z = none ? hole : static_cast<float>(*rc::gen::resize(100, rc::gen::inRange(-levels, levels)));
+            bool const none = *evenly(0, 100) < holes;
+            z = none ? hole : static_cast<float>(*evenly(-levels, levels));
         }
         return dem;
     });

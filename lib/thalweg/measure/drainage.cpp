@@ -3,9 +3,12 @@
 #include <thalweg/measure/drainage.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <deque>
+#include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -61,78 +64,93 @@ private:
         if (bucket == above_.end()) {
             return false;
         }
-        std::vector<Entry> entries;
-        entries.swap(*bucket);
+        moving_.swap(*bucket);
         last_ =
-            std::min_element(entries.begin(), entries.end(), [](Entry a, Entry b) { return a.rank < b.rank; })->rank;
-        std::for_each(entries.begin(), entries.end(), [this](Entry e) { put(e); });
+            std::min_element(moving_.begin(), moving_.end(), [](Entry a, Entry b) { return a.rank < b.rank; })->rank;
+        std::for_each(moving_.begin(), moving_.end(), [this](Entry e) { put(e); });
+        moving_.clear();
         return true;
     }
 
     std::uint32_t last_ = 0;
     std::deque<std::int64_t> lowest_;
+    std::vector<Entry> moving_;                ///< kept for its memory
     std::array<std::vector<Entry>, 32> above_; ///< by the highest bit in which a rank differs from last_
 };
 
-/// Calls visit(direction, neighbour index) for the neighbours of a cell that lie on the grid.
-template <class Visit> void for_neighbours(Grid const& grid, std::int64_t cell, Visit const& visit) {
-    Cell const at = grid.at(cell);
-    bool const inside = !grid.on_border(at);
-    for (std::size_t k = 0; k < d8_steps.size(); ++k) {
-        Cell const step = d8_steps[k];
-        if (inside || grid.contains({at.col + step.col, at.row + step.row})) {
-            visit(static_cast<std::int8_t>(k), cell + step.row * grid.width + step.col);
-        }
+/// Distance in a raster's values from a cell to its neighbour in each direction.
+std::array<std::int64_t, 8> offsets_in(Grid const& grid) {
+    std::array<std::int64_t, 8> offsets{};
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+        offsets[k] = d8_steps[k].row * grid.width + d8_steps[k].col;
     }
+    return offsets;
 }
 
-/// Raises depressions to the level at which they spill; direction becomes the way back to where the flood came from.
-void flood(Raster<float>& filled, Raster<std::int8_t>& direction, Run const& run) {
-    Grid const& grid = filled.grid();
+/// The DEM in a frame of no data, one cell wide: then leaving the grid is entering no data, and every cell that has
+/// data has eight neighbours.
+Raster<float> framed(Raster<float> const& dem) {
+    Grid grid = dem.grid();
+    grid.width += 2;
+    grid.height += 2;
+    Raster<float> framed(grid, std::numeric_limits<float>::quiet_NaN());
+    for (std::int64_t r = 0; r < dem.height(); ++r) {
+        auto const row = dem.row(r);
+        std::copy(row.begin(), row.end(), framed.row(r + 1).begin() + 1);
+    }
+    return framed;
+}
+
+/// Raises depressions to the level at which they spill. Gives: the way back to where the flood came from.
+Raster<std::int8_t> flood(Raster<float>& level, Run const& run) {
+    Raster<std::int8_t> direction(level.grid(), unreached);
+    auto const offsets = offsets_in(level.grid());
     FloodQueue queue;
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        if (std::isnan(filled[i])) {
+    for (std::int64_t i = 0; i < level.cells(); ++i) {
+        if (std::isnan(level[i])) {
             direction[i] = d8_no_data;
-            continue;
-        }
-        bool seed = grid.on_border(grid.at(i));
-        for_neighbours(grid, i, [&](std::int8_t, std::int64_t n) { seed = seed || std::isnan(filled[n]); });
-        if (seed) {
+        } else if (std::any_of(offsets.begin(), offsets.end(),
+                               [&](std::int64_t step) { return std::isnan(level[i + step]); })) {
             direction[i] = d8_leaves;
-            queue.push(filled[i], i);
+            queue.push(level[i], i);
         }
     }
     std::int64_t popped = 0;
     for (std::int64_t i = queue.pop(); i >= 0; i = queue.pop()) {
         if (++popped % cells_between_checks == 0) {
-            run.at(static_cast<double>(popped) / static_cast<double>(grid.cells()), "drain");
+            run.at(static_cast<double>(popped) / static_cast<double>(level.cells()), "drain");
         }
-        for_neighbours(grid, i, [&](std::int8_t k, std::int64_t n) {
+        for (std::size_t k = 0; k < offsets.size(); ++k) {
+            std::int64_t const n = i + offsets[k];
             if (direction[n] == unreached) {
                 direction[n] = static_cast<std::int8_t>((k + 4) % 8);
-                filled[n] = std::max(filled[n], filled[i]);
-                queue.push(filled[n], n);
+                level[n] = std::max(level[n], level[i]);
+                queue.push(level[n], n);
             }
-        });
+        }
     }
+    return direction;
 }
 
 /// Turns cells that have a lower neighbour towards the one down the steepest slope. With the flood's way for the others
 /// there is no cycle: each step leads lower, or level to a cell that the flood reached earlier.
-void descend(Raster<float> const& filled, Raster<std::int8_t>& direction, Run const& run) {
+void descend(Raster<float> const& level, Raster<std::int8_t>& direction, Run const& run) {
     constexpr double diagonal = 0.70710678118654752440;
-    Grid const& grid = filled.grid();
-    parallel_ranges(run, grid.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
+    auto const offsets = offsets_in(level.grid());
+    parallel_ranges(run, level.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
+            if (std::isnan(level[i])) {
+                continue;
+            }
             double steepest = 0.0;
-            for_neighbours(grid, i, [&](std::int8_t k, std::int64_t n) {
-                double const drop = static_cast<double>(filled[i]) - filled[n];
+            for (std::size_t k = 0; k < offsets.size(); ++k) {
+                double const drop = static_cast<double>(level[i]) - level[i + offsets[k]];
                 double const slope = k % 2 == 0 ? drop : drop * diagonal;
-                if (slope > steepest) { // never beside NaN
+                if (slope > steepest) { // never towards NaN
                     steepest = slope;
-                    direction[i] = k;
+                    direction[i] = static_cast<std::int8_t>(k);
                 }
-            });
+            }
         }
     });
 }
@@ -140,20 +158,17 @@ void descend(Raster<float> const& filled, Raster<std::int8_t>& direction, Run co
 void accumulate(Drainage& drainage, Run const& run) {
     Raster<std::int8_t> const& direction = drainage.direction;
     Raster<std::int64_t>& area = drainage.area_cells;
-    Grid const& grid = direction.grid();
-    auto const below = [&](std::int64_t i) {
-        Cell const step = d8_steps[static_cast<std::size_t>(direction[i])];
-        return i + step.row * grid.width + step.col;
-    };
+    auto const offsets = offsets_in(direction.grid());
+    auto const below = [&](std::int64_t i) { return i + offsets[static_cast<std::size_t>(direction[i])]; };
     constexpr std::int8_t done = -1;
-    Raster<std::int8_t> awaited(grid); // neighbours whose water has not arrived yet
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+    Raster<std::int8_t> awaited(direction.grid()); // neighbours whose water has not arrived yet
+    for (std::int64_t i = 0; i < direction.cells(); ++i) {
         area[i] = direction[i] == d8_no_data ? 0 : 1;
         if (direction[i] >= 0) {
             ++awaited[below(i)];
         }
     }
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+    for (std::int64_t i = 0; i < direction.cells(); ++i) {
         if (i % cells_between_checks == 0) {
             run.check();
         }
@@ -186,19 +201,25 @@ Drainage drain(Raster<float> const& dem, Run const& run) {
             fmt::format("measure.drain: the height at column {}, row {} is infinite; mark cells without data as NaN",
                         cell.col, cell.row));
     }
-    Drainage result{Raster<std::int8_t>(grid, unreached), Raster<std::int64_t>(grid), 0, 0.0};
+    Drainage result{Raster<std::int8_t>(grid), Raster<std::int64_t>(grid), 0, 0.0};
     {
-        Raster<float> filled = dem;
-        flood(filled, result.direction, run);
+        Raster<float> level = framed(dem);
+        Raster<std::int8_t> direction = flood(level, run);
+        descend(level, direction, run);
         CompensatedSum raised_m;
-        for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            if (filled[i] > dem[i]) {
-                ++result.pits;
-                raised_m.add(static_cast<double>(filled[i]) - dem[i]);
+        for (std::int64_t r = 0; r < grid.height; ++r) {
+            auto const before = dem.row(r);
+            auto const after = level.row(r + 1).subspan(1, before.size());
+            for (std::size_t c = 0; c < before.size(); ++c) {
+                if (after[c] > before[c]) {
+                    ++result.pits;
+                    raised_m.add(static_cast<double>(after[c]) - before[c]);
+                }
             }
+            auto const ways = direction.row(r + 1).subspan(1, before.size());
+            std::copy(ways.begin(), ways.end(), result.direction.row(r).begin());
         }
         result.pit_volume_m3 = raised_m.value() * grid.cell_m * grid.cell_m;
-        descend(filled, result.direction, run);
     }
     accumulate(result, run);
     return result;
