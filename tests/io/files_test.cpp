@@ -172,7 +172,7 @@ TEST(OutputFolder, NamesOutsideTheFolderAreRefused) {
     }
     io::OutputFolder const out(scratch / "new");
     EXPECT_THROW(out.path("../x"), BadParameter);
-    EXPECT_THROW(out.path("/tmp/x"), BadParameter);
+    EXPECT_THROW(out.path("/x"), BadParameter);
     EXPECT_THROW(out.path(""), BadParameter);
     EXPECT_EQ(bytes_of(scratch / "elsewhere/precious"), "old");
 }
