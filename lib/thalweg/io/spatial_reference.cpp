@@ -29,7 +29,8 @@ OGRSpatialReference read_reference(std::string const& text) {
     options.SetNameValue("ALLOW_NETWORK_ACCESS", "NO");
     options.SetNameValue("ALLOW_FILE_ACCESS", "NO");
     OGRSpatialReference reference;
-    if (text.empty() || is_mistyped_code(text) || reference.SetFromUserInput(text.c_str(), options.List()) != OGRERR_NONE) {
+    if (text.empty() || is_mistyped_code(text) ||
+        reference.SetFromUserInput(text.c_str(), options.List()) != OGRERR_NONE) {
         auto const words = driver.take();
         throw BadInput(fmt::format("io.read_reference: '{}' is no coordinate system{}; give a code such as EPSG:32633, "
                                    "or WKT",
