@@ -30,7 +30,7 @@ Cluster cross() {
 
 Cluster grown(std::uint64_t seed) {
     DlaParams params;
-    params.particles = 400;
+    params.particles = 200;
     params.visits = 1;
     params.seed = seed;
     return grow_dla(params);
