@@ -14,7 +14,8 @@ enum class BranchChoice : std::uint8_t { largest, north, east, south, west, all 
 
 struct BranchParams {
     BranchChoice choice = BranchChoice::largest; ///< which arm of the cluster; all keeps the seed too
-    std::int64_t max_width = 0;  ///< [cells] the branch is cut at the first particle that makes its box wider; 0 = no limit
+    std::int64_t max_width =
+        0; ///< [cells] the branch is cut at the first particle that makes its box wider; 0 = no limit
     std::int64_t max_height = 0; ///< [cells] likewise
 };
 
