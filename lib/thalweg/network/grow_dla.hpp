@@ -12,7 +12,7 @@ namespace thalweg::network {
 
 enum class VisitRule : std::uint8_t {
     count_first,     ///< every arrival counts; below M the walker is removed, then the stick test
-    stick_then_count ///< only passed stick tests count; occupied at the M-th
+    stick_then_count ///< only passed stick tests count: below M the walker is removed, at the M-th it holds
 };
 
 struct DlaParams {
