@@ -120,7 +120,8 @@ TEST(WriteDem, MissingFolderAndFullDiskAreIoErrors) {
     Raster<float> const dem = raster(700, 600, [](Cell c) { return std::sqrt(static_cast<double>(c.col * c.row)); });
     Mask mask(dem.grid());
     for (std::int64_t i = 0; i < mask.cells(); ++i) {
-        mask[i] = static_cast<std::uint8_t>(((i + 77) * (i + 77) * 2654435761) >> 21 & 1);
+        auto const k = static_cast<std::uint64_t>(i + 77);
+        mask[i] = static_cast<std::uint8_t>((k * k * 2654435761U) >> 21U & 1U); // nothing to compress
     }
     EXPECT_THROW(io::write_dem(dem, folder / "none/dem.tif"), IoError);
     EXPECT_THROW(io::write_mask(mask, folder / "none/mask.tif"), IoError);
