@@ -26,7 +26,7 @@ using network::cells_of;
 struct Point {
     std::int64_t x = 0;
     std::int64_t y = 0;
-    friend auto operator<=>(Point const&, Point const&) = default;
+    friend bool operator==(Point const&, Point const&) = default;
 };
 
 struct Piece {

@@ -78,8 +78,9 @@ inline Mask table_thin(Mask const& mask) {
                     if (p[x] == 0) {
                         continue;
                     }
-                    unsigned const code = p[x - w] | p[x - w + 1] << 1U | p[x + 1] << 2U | p[x + w + 1] << 3U |
-                                          p[x + w] << 4U | p[x + w - 1] << 5U | p[x - 1] << 6U | p[x - w - 1] << 7U;
+                    auto const bit = [&](std::int64_t at, unsigned k) { return static_cast<unsigned>(p[at]) << k; };
+                    unsigned const code = bit(x - w, 0) | bit(x - w + 1, 1) | bit(x + 1, 2) | bit(x + w + 1, 3) |
+                                          bit(x + w, 4) | bit(x + w - 1, 5) | bit(x - 1, 6) | bit(x - w - 1, 7);
                     if ((table[code] & subiteration) != 0) {
                         now[static_cast<std::size_t>(row * w + x)] = 0;
                         changed = true;
