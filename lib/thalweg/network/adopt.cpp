@@ -175,7 +175,8 @@ void add_arcs(Adopted& adopted, Flow const& flow, std::vector<double> const& nod
     std::vector<NodeId> ids(flow.leaves.size(), none);
     auto const node = [&](std::size_t n) {
         if (ids[n] == none) {
-            ids[n] = boost::add_vertex(Node{flow.pieces.nodes[n]}, adopted.network);
+            ids[n] = boost::add_vertex(adopted.network);
+            adopted.network[ids[n]].at = flow.pieces.nodes[n];
         }
         return ids[n];
     };
