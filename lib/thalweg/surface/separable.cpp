@@ -35,6 +35,12 @@ struct Carry {
     std::int32_t* key = nullptr;
 };
 
+#ifdef __clang__
+#define THALWEG_UNROLL _Pragma("unroll")
+#else
+#define THALWEG_UNROLL _Pragma("GCC unroll 8")
+#endif
+
 namespace plain {
 #define THALWEG_TARGET
 #define THALWEG_LANES 4
@@ -54,9 +60,9 @@ namespace avx2 {
 #else
 namespace avx2 = plain;
 #endif
+#undef THALWEG_UNROLL
 
 constexpr std::int64_t rows_between_checks = 512;
-constexpr std::int64_t strip_cols = 512;
 
 /// Large pages where the system has them: first touch of 4 KiB pages costs more than the sweeps.
 template <class T> std::unique_ptr<T[], Free> fresh(std::int64_t count) {
@@ -78,14 +84,19 @@ template <class T> void raise_to(std::atomic<T>& most, T value) {
     }
 }
 
-/// Rows of a band: one band a worker and some more, since rows carry downwards within a band only.
+std::int64_t workers(Run const& run) {
+    return run.threads > 0 ? run.threads : std::max<std::int64_t>(1, std::thread::hardware_concurrency());
+}
+
+/// Rows of a band: some more bands than workers, but one for one, since rows carry downwards within a band only.
 std::int64_t band_rows(std::int64_t height, Run const& run) {
-    if (run.threads == 1) {
-        return height;
-    }
-    std::int64_t const workers =
-        run.threads > 0 ? run.threads : std::max<std::int64_t>(1, std::thread::hardware_concurrency());
-    return std::max<std::int64_t>(8, (height + 2 * workers - 1) / (2 * workers));
+    std::int64_t const bands = run.threads == 1 ? 1 : 2 * workers(run);
+    return std::max<std::int64_t>(8, (height + bands - 1) / bands);
+}
+
+/// Columns of a strip: as wide as the workers allow, for memory likes long rows.
+std::int64_t strip_cols(std::int64_t width, Run const& run) {
+    return std::max<std::int64_t>(64, (width + workers(run) - 1) / workers(run));
 }
 
 template <class Level>
@@ -112,7 +123,7 @@ std::int64_t join_bands(Field<Level> const& field, std::int64_t rows, Lanes lane
     auto* const mend = lanes == Lanes::avx2 ? &avx2::mend_row<Level> : &plain::mend_row<Level>;
     auto* const measure = lanes == Lanes::avx2 ? &avx2::greatest_level<Level> : &plain::greatest_level<Level>;
     std::atomic<std::int64_t> levels = 0;
-    parallel_ranges(run, field.width, strip_cols, [&](std::int64_t first, std::int64_t last) {
+    parallel_ranges(run, field.width, strip_cols(field.width, run), [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t seam = rows; seam < field.height; seam += rows) {
             run.check();
             std::int64_t const bottom = std::min(field.height, seam + rows);
@@ -126,7 +137,7 @@ std::int64_t join_bands(Field<Level> const& field, std::int64_t rows, Lanes lane
 
 /// Calls rows_up(begin, end, first column, carry) from the bottom upwards, on strips of columns.
 template <class Level, class RowsUp> void strips_up(Field<Level> const& field, Run const& run, RowsUp const& rows_up) {
-    parallel_ranges(run, field.width, strip_cols, [&](std::int64_t first, std::int64_t last) {
+    parallel_ranges(run, field.width, strip_cols(field.width, run), [&](std::int64_t first, std::int64_t last) {
         std::vector<std::int32_t> level(static_cast<std::size_t>(last - first), no_level<Level>);
         std::vector<std::int32_t> key(level.size());
         Carry const carry{last - first, level.data(), key.data()};
