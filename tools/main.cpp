@@ -24,7 +24,9 @@ namespace {
 using namespace thalweg;
 using namespace thalweg::tools;
 
-void complain(std::string const& text) { fmt::print(stderr, "{} {}\n", alarmed("error:"), text); }
+void complain(std::string const& text) {
+    fmt::print(stderr, "{} {}\n", alarmed("error:"), text);
+}
 
 /// What CLI11 leaves out: which command or option was meant.
 std::string suggestion(CLI::App const& app, int argc, char const* const* argv) {

@@ -14,7 +14,9 @@ namespace thalweg::tools {
 
 namespace {
 
-bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+bool stderr_is_terminal() {
+    return isatty(STDERR_FILENO) == 1;
+}
 
 bool colour_wanted() {
     char const* const no = std::getenv("NO_COLOR");
@@ -26,7 +28,9 @@ bool colour_wanted() {
 Terminal::Terminal(Manner manner)
     : talks_(manner == Manner::talk), bar_wanted_(talks_ && stderr_is_terminal()), colour_(colour_wanted()) {}
 
-Terminal::~Terminal() { wipe(); }
+Terminal::~Terminal() {
+    wipe();
+}
 
 void Terminal::wipe() {
     if (bar_shown_) {

@@ -28,7 +28,7 @@ TEST(CellsAlong, NothingAndOneVertex) {
 TEST(CellsAlong, RefusesWhatLiesOutside) {
     double const nan = std::numeric_limits<double>::quiet_NaN();
     for (Vec2 const p :
-         {Vec2{499.0, 215.0}, Vec2{700.0, 215.0}, Vec2{505.0, 100.0}, Vec2{1e300, 215.0}, Vec2{nan, 215.0}}) {
+         {Vec2{499.0, 215.0}, Vec2{700.001, 215.0}, Vec2{505.0, 99.999}, Vec2{1e300, 215.0}, Vec2{nan, 215.0}}) {
         try {
             cells_along({{505.0, 215.0}, p}, grid);
             FAIL() << p.x << " passed";
@@ -36,6 +36,10 @@ TEST(CellsAlong, RefusesWhatLiesOutside) {
             EXPECT_NE(std::string(e.what()).find("vertex 1"), std::string::npos) << e.what();
         }
     }
+}
+
+TEST(CellsAlong, OuterEdgesBelongToTheOutermostCells) {
+    EXPECT_EQ(cells_along({{700.0, 100.0}}, grid), (std::vector<Cell>{{19, 11}}));
 }
 
 TEST(CellsAlong, KnightsMove) {

@@ -124,7 +124,7 @@ TEST(WriteDem, MissingFolderAndFullDiskAreIoErrors) {
     }
     EXPECT_THROW(io::write_dem(dem, folder / "none/dem.tif"), IoError);
     EXPECT_THROW(io::write_mask(mask, folder / "none/mask.tif"), IoError);
-    for (rlim_t const bytes : {100, 5000, 40000}) {
+    for (rlim_t const bytes : {100U, 5000U, 40000U}) {
         FullDisk const full(bytes);
         EXPECT_THROW(io::write_dem(dem, folder / ("dem" + std::to_string(bytes))), IoError) << bytes;
         EXPECT_THROW(io::write_mask(mask, folder / ("mask" + std::to_string(bytes))), IoError) << bytes;

@@ -182,7 +182,7 @@ TEST(WriteNetwork, FullDiskIsAnIoError) {
         below = above;
     }
     sample.settle();
-    for (rlim_t const bytes : {100, 5000, 50000}) {
+    for (rlim_t const bytes : {100U, 5000U, 50000U}) {
         FullDisk const full(bytes);
         EXPECT_THROW(io::write_geopackage(sample.tables(), folder / ("net" + std::to_string(bytes))), IoError) << bytes;
         EXPECT_THROW(io::write_shapefiles(sample.tables(), folder / ("net" + std::to_string(bytes))), IoError) << bytes;

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <thalweg/core/cells_along.hpp>
+#include <thalweg/core/chance.hpp>
 #include <thalweg/core/error.hpp>
 
 #include "dems.hpp"
@@ -206,9 +208,67 @@ TEST(AreasD8, ArcInsideOneCellAndNodesOffTheGrid) {
     add_arc(net, 0, 1, {});
     add_arc(net, 1, 2, {});
     auto const drainage = measure::drain(dem_of(2, {1, 2}));
-    EXPECT_EQ(areas_d8(net, drainage).us_area_m2, (Numbers{2, 2}));
-    EXPECT_EQ(areas_d8(net, drainage).ds_area_m2, (Numbers{2, 2}));
+    EXPECT_EQ(areas_d8(net, drainage).us_area_m2, (Numbers{0, 2}));
+    EXPECT_EQ(areas_d8(net, drainage).ds_area_m2, (Numbers{0, 2}));
     boost::add_vertex(Node{{0.5, 7.0}}, net);
     add_arc(net, 3, 0, {});
     EXPECT_THROW(areas_d8(net, drainage), BadInput);
+}
+
+TEST(AreasD8, WaterOfARiverStaysInItWhereTheDemLeavesIt) {
+    // Beside the river's second cell stands a lower bank, and beyond it the edge: D8 leaves the river there.
+    Raster<float> const dem = dem_of(5, {30, 29, 20, 29, 30, //
+                                         30, 29, 18, 5,  4,  //
+                                         30, 29, 16, 29, 30, //
+                                         30, 29, 14, 29, 30, //
+                                         30, 29, 12, 29, 30});
+    StreamNetwork net;
+    boost::add_vertex(Node{{2.5, 4.5}}, net);
+    boost::add_vertex(Node{{2.5, 0.5}}, net);
+    add_arc(net, 0, 1, {});
+    auto const drainage = measure::drain(dem);
+    ContributingAreas const areas = areas_d8(net, drainage);
+    EXPECT_LT(drainage.area_cells[Cell{2, 4}], 15) << "the upper river is lost to the accumulation of the DEM";
+    EXPECT_GE(areas.ds_area_m2[0], 15.0);
+}
+
+TEST(AreasD8, FollowTheDefinitionAndItsLaws) {
+    ASSERT_TRUE(rc::check("every cell counts where its water first meets a river, and stays in it", [] {
+        auto const [net, grid] = *gen_rivers();
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        Raster<float> dem(grid);
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            dem[i] = static_cast<float>(chance(seed, static_cast<std::uint64_t>(i)) % 9);
+        }
+        auto const drainage = measure::drain(dem);
+        ContributingAreas const areas = areas_d8(net, drainage);
+
+        std::set<std::int64_t> river;
+        NetworkIndex const index(net);
+        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+            for (Cell const c : cells_along(net[index.arcs[a]].line, grid)) {
+                river.insert(grid.index(c));
+            }
+            RC_ASSERT(areas.us_area_m2[a] <= areas.ds_area_m2[a]);
+            double arriving = 0.0;
+            for (std::int64_t const up : index.in[index.from[a]]) {
+                arriving += areas.ds_area_m2[static_cast<std::size_t>(up)];
+            }
+            RC_ASSERT(arriving <= areas.us_area_m2[a]);
+        }
+        std::int64_t reaching = 0;
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            std::int64_t at = i;
+            while (river.count(at) == 0 && drainage.direction[at] >= 0) {
+                Cell const step = measure::d8_steps[static_cast<std::size_t>(drainage.direction[at])];
+                at = grid.index({grid.at(at).col + step.col, grid.at(at).row + step.row});
+            }
+            reaching += river.count(at) != 0 ? 1 : 0;
+        }
+        double outlets = 0.0;
+        for (NodeId const n : index.outlets) {
+            outlets += areas.node_m2[n];
+        }
+        RC_ASSERT(outlets == static_cast<double>(reaching) * grid.cell_m * grid.cell_m);
+    }));
 }

@@ -575,7 +575,7 @@ TEST(AdoptLaws, TheTreeIsFound) {
     ASSERT_TRUE(ok);
 }
 
-// Law: the file's own direction does as well, when one line in it is turned round.
+// Law: without heights or rank the file's own direction tells the same.
 TEST(AdoptLaws, AsDrawn) {
     bool const ok = rc::check([] {
         auto const tree = random_tree(*rc::gen::inRange(2, 60));

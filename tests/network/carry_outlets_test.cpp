@@ -12,6 +12,7 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
+#include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/network/rasterise.hpp>
 
@@ -107,7 +108,7 @@ struct PlainGround {
     std::vector<Piece> pieces;
 
     void add(std::vector<Vec2> const& line) {
-        std::vector<Cell> const cells = cells_of(line, grid);
+        std::vector<Cell> const cells = cells_along(line, grid);
         for (std::size_t i = 0; i < cells.size(); ++i) {
             river.insert(grid.index(cells[i]));
             if (i > 0 && cells[i].col != cells[i - 1].col && cells[i].row != cells[i - 1].row) {
@@ -142,7 +143,7 @@ struct PlainGround {
     }
     /// Cost of the cheapest way to the border by relaxing every step until nothing improves; infinite for none.
     double cheapest(Vec2 outlet) const {
-        Cell const start = cells_of({outlet}, grid)[0];
+        Cell const start = cells_along({outlet}, grid)[0];
         std::vector<double> cost_to(static_cast<std::size_t>(grid.cells()), std::numeric_limits<double>::infinity());
         std::vector<double> enter;
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
@@ -178,7 +179,7 @@ struct PlainGround {
     }
     double cost_of(std::vector<Vec2> const& way) const {
         double sum = 0.0;
-        std::vector<Cell> const cells = cells_of(way, grid);
+        std::vector<Cell> const cells = cells_along(way, grid);
         for (std::size_t i = 1; i < cells.size(); ++i) {
             bool const oblique = cells[i].col != cells[i - 1].col && cells[i].row != cells[i - 1].row;
             sum += cost(cells[i]) * (oblique ? std::sqrt(2.0) : 1.0);
@@ -296,7 +297,7 @@ TEST(CarryOutlets, TheCheapestWay) {
         Vec2 const outlet = net[index.outlets[0]].at;
         auto const carried = carry_outlets(net, ground.grid);
         auto const ways = ways_of(net, carried);
-        if (ground.grid.on_border(cells_of({outlet}, ground.grid)[0])) {
+        if (ground.grid.on_border(cells_along({outlet}, ground.grid)[0])) {
             RC_ASSERT(carried.notes.empty());
             return;
         }
@@ -326,11 +327,11 @@ TEST(CarryOutlets, AddsNoCrossing) {
         auto const ways = ways_of(net, carried);
         std::size_t inside = 0;
         for (NodeId const outlet : index.outlets) {
-            inside += ground.grid.on_border(cells_of({net[outlet].at}, ground.grid)[0]) ? 0 : 1;
+            inside += ground.grid.on_border(cells_along({net[outlet].at}, ground.grid)[0]) ? 0 : 1;
         }
         RC_ASSERT(carried.notes.size() == inside);
         for (auto const& way : ways) {
-            std::vector<Cell> const cells = cells_of(way, ground.grid);
+            std::vector<Cell> const cells = cells_along(way, ground.grid);
             RC_ASSERT(ground.grid.on_border(cells.back()));
             auto const own = pieces_of(way);
             for (std::size_t i = 0; i < own.size(); ++i) {

@@ -26,7 +26,8 @@ TEST(ClipLines, NothingInside) {
     EXPECT_TRUE(network::clip_lines({}, ten).lines.empty());
     EXPECT_TRUE(network::clip_lines(one({{-5, 5, 1}, {-1, 5, 0}}), ten).lines.empty());
     EXPECT_TRUE(network::clip_lines(one({{-5, 0, 1}, {0, -5, 0}}), ten).lines.empty());
-    EXPECT_TRUE(network::clip_lines(one({{0, 5, 1}, {-3, 5, 0}}), ten).lines.empty()) << "touches the edge in one point";
+    EXPECT_TRUE(network::clip_lines(one({{0, 5, 1}, {-3, 5, 0}}), ten).lines.empty())
+        << "touches the edge in one point";
 }
 
 TEST(ClipLines, AllInsideIsKeptBitForBit) {

@@ -24,9 +24,13 @@ StreamNetwork fork() {
 
 } // namespace
 
-TEST(KeepHeights, EmptyNetwork) { EXPECT_TRUE(network::keep_heights({}, {}, 0.1).arc_z.empty()); }
+TEST(KeepHeights, EmptyNetwork) {
+    EXPECT_TRUE(network::keep_heights({}, {}, 0.1).arc_z.empty());
+}
 
-TEST(KeepHeights, NoHeightsAtAll) { EXPECT_THROW(network::keep_heights(fork(), {}, 0.1), BadInput); }
+TEST(KeepHeights, NoHeightsAtAll) {
+    EXPECT_THROW(network::keep_heights(fork(), {}, 0.1), BadInput);
+}
 
 TEST(KeepHeights, SameNetworkKeepsItsHeights) {
     RaisedNetwork const known{fork(), {9, 8, 5, 1}, {{9, 7, 5}, {8, 5}, {5, 1}}};

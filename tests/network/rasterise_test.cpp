@@ -11,6 +11,7 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
+#include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/network/set_heights.hpp>
 
@@ -42,7 +43,7 @@ std::map<std::int64_t, float> plain_valley(RaisedNetwork const& net, Grid const&
         std::vector<Vec2> const& line = net.plan[index.arcs[a]].line;
         std::vector<std::int64_t> path;
         for (std::size_t i = 1; i < line.size(); ++i) {
-            std::vector<Cell> const cells = cells_of({line[i - 1], line[i]}, grid);
+            std::vector<Cell> const cells = cells_along({line[i - 1], line[i]}, grid);
             for (std::size_t k = 0; k < cells.size(); ++k) {
                 double const t =
                     cells.size() == 1 ? 1.0 : static_cast<double>(k) / static_cast<double>(cells.size() - 1);
@@ -107,12 +108,12 @@ TEST(Rasterise, HeightsThatDoNotFit) {
 
 TEST(Rasterise, TheOuterEdgesBelongToTheOutermostCells) {
     Grid const grid = test::grid_of(4, 3);
-    EXPECT_EQ(cells_of({{4.0, 0.0}}, grid), (std::vector<Cell>{{3, 2}}));
-    EXPECT_EQ(cells_of({{0.0, 3.0}}, grid), (std::vector<Cell>{{0, 0}}));
-    EXPECT_THROW(cells_of({{4.0000001, 1.0}}, grid), BadInput);
-    EXPECT_THROW(cells_of({{-1e-9, 1.0}}, grid), BadInput);
-    EXPECT_THROW(cells_of({{1.0, 3.0000001}}, grid), BadInput);
-    EXPECT_THROW(cells_of({{1.0, -1e-9}}, grid), BadInput);
+    EXPECT_EQ(cells_along({{4.0, 0.0}}, grid), (std::vector<Cell>{{3, 2}}));
+    EXPECT_EQ(cells_along({{0.0, 3.0}}, grid), (std::vector<Cell>{{0, 0}}));
+    EXPECT_THROW(cells_along({{4.0000001, 1.0}}, grid), BadInput);
+    EXPECT_THROW(cells_along({{-1e-9, 1.0}}, grid), BadInput);
+    EXPECT_THROW(cells_along({{1.0, 3.0000001}}, grid), BadInput);
+    EXPECT_THROW(cells_along({{1.0, -1e-9}}, grid), BadInput);
 }
 
 TEST(Rasterise, LinearBetweenVerticesAndLowestWhereShared) {
@@ -134,9 +135,9 @@ TEST(Rasterise, CellsOfALine) {
         };
         Vec2 const a = place();
         Vec2 const b = place();
-        std::vector<Cell> const cells = cells_of({a, b}, grid);
-        Cell const from = cells_of({a}, grid)[0];
-        Cell const to = cells_of({b}, grid)[0];
+        std::vector<Cell> const cells = cells_along({a, b}, grid);
+        Cell const from = cells_along({a}, grid)[0];
+        Cell const to = cells_along({b}, grid)[0];
         auto const dx = static_cast<double>(to.col - from.col);
         auto const dy = static_cast<double>(to.row - from.row);
         double const n = std::max(std::fabs(dx), std::fabs(dy));

@@ -23,7 +23,9 @@ std::string fault_of(std::string const& toml) {
     return "";
 }
 
-bool has(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
+bool has(std::string const& text, std::string const& part) {
+    return text.find(part) != std::string::npos;
+}
 
 std::string sample(std::string const& name) {
     std::ifstream in(std::string(THALWEG_SOURCE_DIR) + "/samples/" + name);
@@ -56,8 +58,7 @@ TEST(Recipe, WrittenRecipeReadsBack) {
 }
 
 TEST(Recipe, DefaultIsTheSample) {
-    EXPECT_EQ(write_recipe(read_recipe(sample("dla.toml"), "dla.toml")),
-              write_recipe([] {
+    EXPECT_EQ(write_recipe(read_recipe(sample("dla.toml"), "dla.toml")), write_recipe([] {
                   Recipe r = default_recipe();
                   r.network->prune_cells = 20.0;
                   return r;
@@ -65,7 +66,8 @@ TEST(Recipe, DefaultIsTheSample) {
 }
 
 TEST(Recipe, UnknownKeysAreNamedWithTheNearestOne) {
-    EXPECT_TRUE(has(fault_of("[network]\nprun = 3\n"), "line 2: network.prun is not a key. Did you mean 'network.prune'?"));
+    EXPECT_TRUE(
+        has(fault_of("[network]\nprun = 3\n"), "line 2: network.prun is not a key. Did you mean 'network.prune'?"));
     EXPECT_TRUE(has(fault_of("[netwrk]\nprune = 3\n"), "netwrk"));
     EXPECT_TRUE(has(fault_of("particles = 3\n"), "Did you mean 'network.dla.particles'?"));
     EXPECT_TRUE(has(fault_of("[network]\nsource = \"dlaa\"\n"), "Did you mean 'dla'?"));
@@ -81,15 +83,35 @@ TEST(Recipe, AllFaultsAtOnce) {
 }
 
 TEST(Recipe, RangesAreKept) {
-    for (char const* bad :
-         {"[grid]\nwidth = 0\nheight = 4\n", "[grid]\nwidth = -5\n", "[grid]\ncell = -1\n", "[grid]\ncell = nan\n",
-          "[grid]\ncell = inf\n", "[network.dla]\nsticking = 0.0\n", "[network.dla]\nsticking = 1.0000001\n",
-          "[network.dla]\nsticking = nan\n", "[network.dla]\nparticles = 0\n", "[network.dla]\nparticles = 1.5\n",
-          "[network.dla]\nvisits = 1000\n", "[network]\nslope = 0\n", "[network]\nprune = -1\n", "seed = -1\n",
-          "[surface]\nrelief = -1\n", "[grid]\norigin = [1]\n", "[grid]\norigin = [1, nan]\n", "[grid]\nclip = 1\n",
-          "[surface]\nincrement = \"x=5\"\n", "[surface]\nincrement = \"3-\"\n", "[grid]\nwidth = 10\n[network]\n",
-          "[network]\nsource = \"lines\"\n", "[network]\nheights = \"file\"\n", "network = 5\n", "[[network]]\n",
-          "[network]\n[network]\n", "a = [[[[1]]]]\n", "= 3\n", "[network\n"}) {
+    for (char const* bad : {"[grid]\nwidth = 0\nheight = 4\n",
+                            "[grid]\nwidth = -5\n",
+                            "[grid]\ncell = -1\n",
+                            "[grid]\ncell = nan\n",
+                            "[grid]\ncell = inf\n",
+                            "[network.dla]\nsticking = 0.0\n",
+                            "[network.dla]\nsticking = 1.0000001\n",
+                            "[network.dla]\nsticking = nan\n",
+                            "[network.dla]\nparticles = 0\n",
+                            "[network.dla]\nparticles = 1.5\n",
+                            "[network.dla]\nvisits = 1000\n",
+                            "[network]\nslope = 0\n",
+                            "[network]\nprune = -1\n",
+                            "seed = -1\n",
+                            "[surface]\nrelief = -1\n",
+                            "[grid]\norigin = [1]\n",
+                            "[grid]\norigin = [1, nan]\n",
+                            "[grid]\nclip = 1\n",
+                            "[surface]\nincrement = \"x=5\"\n",
+                            "[surface]\nincrement = \"3-\"\n",
+                            "[grid]\nwidth = 10\n[network]\n",
+                            "[network]\nsource = \"lines\"\n",
+                            "[network]\nheights = \"file\"\n",
+                            "network = 5\n",
+                            "[[network]]\n",
+                            "[network]\n[network]\n",
+                            "a = [[[[1]]]]\n",
+                            "= 3\n",
+                            "[network\n"}) {
         EXPECT_NE(fault_of(bad), "") << bad;
     }
 }

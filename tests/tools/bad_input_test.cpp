@@ -112,8 +112,8 @@ TEST(BadInput, LineFiles) {
     with(geojson(river(3, "[500000,5000000,9],[500050,5000000,12.1],[500100,5000000,12.9],[500200,5000000,1]")),
          "orientation = \"as_drawn\"\n");
     refused(place, "make r.toml -o out", "runs uphill");
-    with(geojson(river(1, "[500000,5000000],[500100,5000000]") + "," + river(2, "[500100,5000000],[500100,5000100]") + "," +
-                 river(3, "[500100,5000100],[500000,5000000]")));
+    with(geojson(river(1, "[500000,5000000],[500100,5000000]") + "," + river(2, "[500100,5000000],[500100,5000100]") +
+                 "," + river(3, "[500100,5000100],[500000,5000000]")));
     refused(place, "make r.toml -o out", "cycle");
     with(geojson(river(1, "[500000,5000000],[500300,5000000]")));
     refused(place, "make r.toml -o out --set grid.width=10 --set grid.height=10", "outside the grid");

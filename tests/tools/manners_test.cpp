@@ -85,9 +85,10 @@ TEST(Manners, OverwriteReplacesOnlyItsOwn) {
 
 TEST(Manners, StraightHeightsThatRiseFailTheCheckAndLeaveTheFiles) {
     Workplace const place;
-    Outcome const o = thalweg_run("make --set grid.width=256 --set grid.height=256 --set network.dla.particles=6000 --set "
-                                  "network.prune=3 --set network.heights=straight -o out",
-                                  place.path());
+    Outcome const o =
+        thalweg_run("make --set grid.width=256 --set grid.height=256 --set network.dla.particles=6000 --set "
+                    "network.prune=3 --set network.heights=straight -o out",
+                    place.path());
     EXPECT_EQ(o.code, 3) << o.err;
     EXPECT_TRUE(fs::exists(place / "out/dem.tif"));
     EXPECT_NE(o.err.find("uphill_arcs"), std::string::npos) << o.err;
@@ -97,9 +98,10 @@ TEST(Manners, StraightHeightsThatRiseFailTheCheckAndLeaveTheFiles) {
 TEST(Manners, InterruptLeavesNothing) {
     Workplace const place;
     Workplace const aside;
-    aside.write("run.sh", "cd '" + place.path().string() + "'\n'" THALWEG_EXE
-                          "' make --set grid.width=4000 --set grid.height=4000 --set network.dla.particles=5000000 "
-                          "-o out >/dev/null 2>&1 &\nsleep 1\nkill -INT $!\nwait $!\n");
+    aside.write("run.sh", "cd '" + place.path().string() +
+                              "'\n'" THALWEG_EXE
+                              "' make --set grid.width=4000 --set grid.height=4000 --set network.dla.particles=5000000 "
+                              "-o out >/dev/null 2>&1 &\nsleep 1\nkill -INT $!\nwait $!\n");
     int const status = std::system(("bash " + (aside / "run.sh").string()).c_str());
     EXPECT_EQ(WEXITSTATUS(status), 130);
     EXPECT_EQ(entries(place.path()), 0U);

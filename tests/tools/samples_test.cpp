@@ -32,8 +32,10 @@ GDALDatasetUniquePtr open(fs::path const& path, unsigned kind) {
 std::map<GIntBig, FileArc> read_arcs(OGRLayer* layer) {
     std::map<GIntBig, FileArc> arcs;
     for (auto const& feature : layer) {
-        FileArc arc{feature->GetFieldAsInteger64("from_node"), feature->GetFieldAsInteger64("to_node"),
-                    feature->GetFieldAsInteger64("ds_arc"), {}};
+        FileArc arc{feature->GetFieldAsInteger64("from_node"),
+                    feature->GetFieldAsInteger64("to_node"),
+                    feature->GetFieldAsInteger64("ds_arc"),
+                    {}};
         for (auto const& point : *feature->GetGeometryRef()->toLineString()) {
             arc.z.push_back(point.getZ());
         }
@@ -104,7 +106,8 @@ void hold_to_contract(fs::path const& folder) {
     ASSERT_NE(dem->GetSpatialRef(), nullptr);
     EXPECT_TRUE(dem->GetSpatialRef()->IsSame(layer->GetSpatialRef()));
 
-    for (char const* name : {"map.png", "profile.svg", "curve.svg", "contours.gpkg", "recipe.toml", "network_nodes.shp"}) {
+    for (char const* name :
+         {"map.png", "profile.svg", "curve.svg", "contours.gpkg", "recipe.toml", "network_nodes.shp"}) {
         EXPECT_TRUE(fs::exists(folder / name)) << name;
     }
 }
@@ -135,9 +138,13 @@ void sample(std::string const& name) {
 
 } // namespace
 
-TEST(Samples, Dla) { sample("dla"); }
+TEST(Samples, Dla) {
+    sample("dla");
+}
 
-TEST(Samples, Lines) { sample("lines"); }
+TEST(Samples, Lines) {
+    sample("lines");
+}
 
 TEST(Samples, NoArgumentsMakeTheSampleValley) {
     Workplace const place;
@@ -150,12 +157,12 @@ TEST(Samples, EveryIncrementAndMetric) {
     Workplace const place;
     for (char const* increment : {"uniform", "decreasing", "rise_fall", "'3-0.01*x'"}) {
         for (char const* metric : {"cityblock", "euclid"}) {
-            Outcome const o = thalweg_run(std::string("make --set grid.width=120 --set grid.height=90 "
-                                                      "--set network.dla.particles=2000 --set surface.relief=0 "
-                                                      "--set surface.metric=") +
-                                              metric + " --set surface.increment=" + increment +
-                                              " --overwrite -o out -q",
-                                          place.path());
+            Outcome const o =
+                thalweg_run(std::string("make --set grid.width=120 --set grid.height=90 "
+                                        "--set network.dla.particles=2000 --set surface.relief=0 "
+                                        "--set surface.metric=") +
+                                metric + " --set surface.increment=" + increment + " --overwrite -o out -q",
+                            place.path());
             EXPECT_EQ(o.code, 0) << o.err;
             hold_to_contract(place / "out");
         }
@@ -167,8 +174,8 @@ TEST(Samples, EveryBranchAndHeight) {
     for (char const* branch : {"largest", "north", "east", "south", "west", "all"}) {
         for (char const* heights : {"straight_repaired", "along_stream"}) {
             Outcome const o = thalweg_run(std::string("make --set network.dla.particles=3000 --set network.prune=8 ") +
-                                              "--set network.dla.branch=" + branch + " --set network.heights=" + heights +
-                                              " --overwrite -o out -q",
+                                              "--set network.dla.branch=" + branch +
+                                              " --set network.heights=" + heights + " --overwrite -o out -q",
                                           place.path());
             EXPECT_EQ(o.code, 0) << branch << o.err;
             hold_to_contract(place / "out");

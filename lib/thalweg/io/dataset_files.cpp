@@ -14,7 +14,8 @@ namespace thalweg::io {
 
 std::vector<std::string> dataset_files(std::string const& path) {
     Driver const driver;
-    GDALDatasetUniquePtr const source(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY));
+    GDALDatasetUniquePtr const source(
+        GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY));
     if (!source) {
         throw BadInput("io.dataset_files: " + path + " is no vector or raster source");
     }

@@ -14,13 +14,23 @@
 
 namespace thalweg::io {
 
+namespace {
+
+// GDAL reads the digits of a code and passes over what follows them.
+bool is_mistyped_code(std::string const& text) {
+    return EQUALN(text.c_str(), "EPSG:", 5) && text.find_first_not_of("0123456789+", 5) != std::string::npos;
+}
+
+} // namespace
+
 OGRSpatialReference read_reference(std::string const& text) {
     Driver const driver;
     CPLStringList options;
     options.SetNameValue("ALLOW_NETWORK_ACCESS", "NO");
     options.SetNameValue("ALLOW_FILE_ACCESS", "NO");
     OGRSpatialReference reference;
-    if (text.empty() || reference.SetFromUserInput(text.c_str(), options.List()) != OGRERR_NONE) {
+    if (text.empty() || is_mistyped_code(text) ||
+        reference.SetFromUserInput(text.c_str(), options.List()) != OGRERR_NONE) {
         auto const words = driver.take();
         throw BadInput(fmt::format("io.read_reference: '{}' is no coordinate system{}; give a code such as EPSG:32633, "
                                    "or WKT",

@@ -3,6 +3,7 @@
 #include <thalweg/measure/drainage.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -21,24 +22,12 @@ struct Covered {
     std::size_t arc = 0;
 };
 
-std::vector<Cell> cells_of_arc(StreamNetwork const& network, ArcId arc, std::size_t number, Grid const& grid) {
-    if (network[arc].line.empty()) {
-        throw BadInput(fmt::format("measure.areas: arc {} has no vertices", number + 1));
-    }
-    try {
-        return cells_along(network[arc].line, grid);
-    } catch (BadInput const& e) {
-        throw BadInput(fmt::format("measure.areas: arc {}: {}", number + 1, e.what()));
-    }
-}
-
 /// By arc: 1 for those that end in an outlet, growing upstream.
 std::vector<std::int64_t> arcs_to_outlet(StreamNetwork const& network, NetworkIndex const& index) {
     for (NodeId n = 0; n < boost::num_vertices(network); ++n) {
         if (boost::out_degree(n, network) > 1) {
-            throw BadInput(
-                fmt::format("measure.areas_nearest: {} arcs leave node {} at ({}, {}); a river must not part",
-                            boost::out_degree(n, network), n + 1, network[n].at.x, network[n].at.y));
+            throw BadInput(fmt::format("measure.areas: {} arcs leave node {} at ({}, {}); a river must not part",
+                                       boost::out_degree(n, network), n + 1, network[n].at.x, network[n].at.y));
         }
     }
     std::vector<std::int64_t> depth(index.arcs.size(), 0);
@@ -52,10 +41,9 @@ std::vector<std::int64_t> arcs_to_outlet(StreamNetwork const& network, NetworkIn
     if (lost != depth.end()) {
         auto const a = static_cast<std::size_t>(lost - depth.begin());
         Vec2 const at = network[index.from[a]].at;
-        throw BadInput(
-            fmt::format("measure.areas_nearest: arc {} from ({}, {}) leads to no outlet: its rivers run in a "
-                        "circle",
-                        a + 1, at.x, at.y));
+        throw BadInput(fmt::format("measure.areas: arc {} from ({}, {}) leads to no outlet: its rivers run in a "
+                                   "circle",
+                                   a + 1, at.x, at.y));
     }
     return depth;
 }
@@ -67,7 +55,7 @@ std::vector<Covered> owned_cells(StreamNetwork const& network, NetworkIndex cons
     std::vector<Covered> cells;
     for (std::size_t a = 0; a < index.arcs.size(); ++a) {
         run.check();
-        for (Cell const c : cells_of_arc(network, index.arcs[a], a, grid)) {
+        for (Cell const c : cells_along(network[index.arcs[a]].line, grid, fmt::format("arc {}", a + 1))) {
             cells.push_back({grid.index(c), depth[a], a});
         }
     }
@@ -124,30 +112,60 @@ std::vector<std::int64_t> count_nearest(std::vector<Covered> const& cells, Grid 
     return count;
 }
 
-ContributingAreas no_areas(StreamNetwork const& network, char const* source) {
-    std::vector<double> const arcs(boost::num_edges(network), 0.0);
-    return {arcs, arcs, std::vector<double>(boost::num_vertices(network), 0.0), source};
+/// By place in cells: how many cells of the grid reach it by D8 before any other river cell.
+std::vector<std::int64_t> count_draining(std::vector<Covered> const& cells, Drainage const& drainage, Run const& run) {
+    constexpr std::int32_t unknown = -1;
+    constexpr std::int32_t nowhere = -2;
+    Grid const& grid = drainage.direction.grid();
+    if (cells.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+        throw BadInput("measure.areas_d8: more than 2^31 river cells");
+    }
+    Raster<std::int32_t> to(grid, unknown); // the place each cell's water comes to
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        to[cells[i].cell] = static_cast<std::int32_t>(i);
+    }
+    std::vector<std::int64_t> count(cells.size(), 0);
+    std::vector<std::int64_t> way;
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (i % (1 << 20) == 0) {
+            run.check();
+        }
+        way.clear();
+        std::int64_t at = i;
+        while (to[at] == unknown) {
+            way.push_back(at);
+            std::int8_t const direction = drainage.direction[at];
+            if (direction < 0) {
+                to[at] = nowhere;
+                break;
+            }
+            Cell const step = d8_steps[static_cast<std::size_t>(direction)];
+            at += step.row * grid.width + step.col;
+        }
+        std::int32_t const end = to[at];
+        for (std::int64_t const cell : way) {
+            to[cell] = end;
+        }
+        if (end >= 0) {
+            ++count[static_cast<std::size_t>(end)];
+        }
+    }
+    return count;
 }
 
-} // namespace
-
-ContributingAreas areas_nearest(StreamNetwork const& network, Grid const& grid, Run const& run) {
-    ContributingAreas areas = no_areas(network, "nearest");
-    NetworkIndex const index(network);
-    auto const cells = owned_cells(network, index, grid, run);
-    if (cells.empty()) {
-        return areas;
-    }
-    auto const count = count_nearest(cells, grid, run);
-
+/// Adds up along the rivers what each of their cells gathers.
+ContributingAreas accumulate(StreamNetwork const& network, NetworkIndex const& index, std::vector<Covered> const& cells,
+                             std::vector<std::int64_t> const& count, Grid const& grid, char const* source) {
+    std::vector<double> const arcs(index.arcs.size(), 0.0);
+    ContributingAreas areas{arcs, arcs, std::vector<double>(index.out.size(), 0.0), source};
     std::vector<std::int64_t> at_start(index.arcs.size(), 0); // the share of the arc's first cell
     std::vector<std::int64_t> beyond(index.arcs.size(), 0);   // that of its other cells
     for (std::size_t i = 0; i < cells.size(); ++i) {
         std::size_t const a = cells[i].arc;
-        bool const first = cells[i].cell == grid.index(grid.cell_of(network[index.from[a]].at));
-        (first ? at_start : beyond)[a] += count[i];
+        Cell const start = cells_of_vertices({network[index.from[a]].at}, grid).front();
+        (cells[i].cell == grid.index(start) ? at_start : beyond)[a] += count[i];
     }
-    std::vector<std::int64_t> through(boost::num_vertices(network), 0); // by node, in cells
+    std::vector<std::int64_t> through(index.out.size(), 0); // by node, in cells
     double const cell_m2 = grid.cell_m * grid.cell_m;
     for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) {
         if (index.out[*n] >= 0) {
@@ -163,24 +181,20 @@ ContributingAreas areas_nearest(StreamNetwork const& network, Grid const& grid, 
     return areas;
 }
 
-ContributingAreas areas_d8(StreamNetwork const& network, Drainage const& drainage) {
-    ContributingAreas areas = no_areas(network, "d8");
-    Grid const& grid = drainage.area_cells.grid();
-    auto const area_m2 = [&](Cell c) {
-        return static_cast<double>(drainage.area_cells[c]) * (grid.cell_m * grid.cell_m);
-    };
+} // namespace
+
+ContributingAreas areas_nearest(StreamNetwork const& network, Grid const& grid, Run const& run) {
     NetworkIndex const index(network);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        auto const cells = cells_of_arc(network, index.arcs[a], a, grid);
-        Cell const end = cells.back();
-        auto const before = std::find_if(cells.rbegin(), cells.rend(), [end](Cell c) { return !(c == end); });
-        bool const at_outlet = index.out[index.to[a]] < 0;
-        areas.us_area_m2[a] = area_m2(cells.front());
-        areas.ds_area_m2[a] = area_m2(at_outlet || before == cells.rend() ? end : *before);
-        areas.node_m2[index.from[a]] = area_m2(cells.front());
-        areas.node_m2[index.to[a]] = area_m2(end);
-    }
-    return areas;
+    auto const cells = owned_cells(network, index, grid, run);
+    auto const count = cells.empty() ? std::vector<std::int64_t>{} : count_nearest(cells, grid, run);
+    return accumulate(network, index, cells, count, grid, "nearest");
+}
+
+ContributingAreas areas_d8(StreamNetwork const& network, Drainage const& drainage, Run const& run) {
+    Grid const& grid = drainage.direction.grid();
+    NetworkIndex const index(network);
+    auto const cells = owned_cells(network, index, grid, run);
+    return accumulate(network, index, cells, count_draining(cells, drainage, run), grid, "d8");
 }
 
 } // namespace thalweg::measure

@@ -52,10 +52,10 @@ struct ContributingAreas {
 /// Takes: a network of trees inside the grid. Throws: BadInput, naming arc or node, otherwise; Cancelled.
 ContributingAreas areas_nearest(StreamNetwork const& network, Grid const& grid, Run const& run = {});
 
-/// With a DEM: its D8 accumulation at the arcs' end cells. us_area: at the cell of the upstream node; ds_area: at the
-/// arc's last cell before that of its downstream node, or at the outlet's cell itself; nodes: at their cells. It
-/// follows the DEM: where D8 leaves the river, areas need not grow downstream. Takes: a network inside the grid of the
-/// drainage. Throws: BadInput, naming the arc, otherwise.
-ContributingAreas areas_d8(StreamNetwork const& network, Drainage const& drainage);
+/// With a DEM: a cell belongs to the first river cell its water meets by D8, and the water of a river stays in the
+/// river. So areas never fall downstream, also where the steepest descent of the DEM would leave the river; cells whose
+/// water leaves the grid before it meets a river belong to none. Owners of shared cells, areas at both ends and at
+/// nodes, and what is thrown: as areas_nearest.
+ContributingAreas areas_d8(StreamNetwork const& network, Drainage const& drainage, Run const& run = {});
 
 } // namespace thalweg::measure

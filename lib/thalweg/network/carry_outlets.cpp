@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/network/rasterise.hpp>
 #include <thalweg/network/require_trees.hpp>
 
 namespace thalweg::network {
@@ -63,7 +63,7 @@ public:
     bool has_river(Cell c) const { return distance_[c] == 0; }
 
     void add(std::vector<Vec2> const& line, std::string const& what) {
-        std::vector<Cell> const cells = cells_of(line, grid_, what);
+        std::vector<Cell> const cells = cells_along(line, grid_, what);
         std::vector<Cell> changed;
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (distance_[cells[i]] != 0) {
@@ -246,7 +246,7 @@ Carried carry_outlets(StreamNetwork const& network, Grid const& grid) {
     // The nearest to the border go first: their short ways leave the others the most room.
     std::vector<std::pair<std::int64_t, NodeId>> inside;
     for (NodeId const outlet : index.outlets) {
-        Cell const cell = cells_of({network[outlet].at}, grid).front();
+        Cell const cell = cells_along({network[outlet].at}, grid).front();
         if (!grid.on_border(cell)) {
             inside.emplace_back(to_border(grid, cell), outlet);
         }
@@ -263,7 +263,7 @@ Carried carry_outlets(StreamNetwork const& network, Grid const& grid) {
         Finding note;
         note.feature = feature != 0 ? feature : static_cast<std::int64_t>(last) + 1;
         note.where = at;
-        std::vector<Cell> const way = way_out(at, cells_of({at}, grid).front(), ground);
+        std::vector<Cell> const way = way_out(at, cells_along({at}, grid).front(), ground);
         if (way.empty()) {
             note.kind = "closed_basin";
             note.text = fmt::format("the outlet at ({:.3f}, {:.3f}) stays inside the grid: every way to its border "

@@ -25,10 +25,8 @@ std::optional<std::pair<double, double>> inside(Vec3 a, Vec3 b, Box const& box) 
     double last = 1.0;
     double const dx = b.x - a.x;
     double const dy = b.y - a.y;
-    std::array<std::pair<double, double>, 4> const sides = {{{-dx, a.x - box.west},
-                                                             {dx, box.east - a.x},
-                                                             {-dy, a.y - box.south},
-                                                             {dy, box.north - a.y}}};
+    std::array<std::pair<double, double>, 4> const sides = {
+        {{-dx, a.x - box.west}, {dx, box.east - a.x}, {-dy, a.y - box.south}, {dy, box.north - a.y}}};
     for (auto const& [towards, room] : sides) {
         if (towards == 0.0) {
             if (room < 0.0) {

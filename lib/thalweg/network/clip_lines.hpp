@@ -8,8 +8,8 @@
 namespace thalweg::network {
 
 /// Cuts lines at the edge of a grid.
-/// Gives: the parts inside, in their order; a line that leaves and returns becomes several with the same feature. Vertices
-/// inside are kept bit for bit; those on the edge lie on it exactly, with Z interpolated.
+/// Gives: the parts inside, in their order; a line that leaves and returns becomes several with the same feature.
+/// Vertices inside are kept bit for bit; those on the edge lie on it exactly, with Z interpolated.
 RiverLines clip_lines(RiverLines const& lines, Grid const& grid);
 
 } // namespace thalweg::network

@@ -3,9 +3,8 @@
 #include <thalweg/network/pick_branch.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <optional>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -15,9 +14,8 @@ namespace thalweg::network {
 
 namespace {
 
-/// Neighbours of the seed in the order of BranchChoice: north, east, south, west.
-constexpr std::array<Cell, 4> roots = {{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
-constexpr std::array<char const*, 4> root_names = {"north", "east", "south", "west"};
+/// The share of an arm that has to lie in its direction's quadrant.
+constexpr std::int64_t of_four = 3;
 
 void check(Cluster const& cluster, BranchParams const& params) {
     if (params.max_width < 0 || params.max_height < 0) {
@@ -37,17 +35,6 @@ void check(Cluster const& cluster, BranchParams const& params) {
     }
 }
 
-/// The particle on a neighbour of the seed.
-std::optional<std::size_t> find_root(Cluster const& cluster, std::size_t direction) {
-    Cell const seed = cluster.cells.front();
-    Cell const wanted = {seed.col + roots[direction].col, seed.row + roots[direction].row};
-    auto const found = std::ranges::find(cluster.cells, wanted);
-    if (found == cluster.cells.end()) {
-        return std::nullopt;
-    }
-    return static_cast<std::size_t>(found - cluster.cells.begin());
-}
-
 /// By particle: whether it descends from the root, which does itself.
 std::vector<std::uint8_t> descendants(Cluster const& cluster, std::size_t root) {
     std::vector<std::uint8_t> descends(cluster.cells.size(), 0);
@@ -58,29 +45,53 @@ std::vector<std::uint8_t> descendants(Cluster const& cluster, std::size_t root) 
     return descends;
 }
 
+/// Whether a cell lies in the quadrant around a direction, seen from the seed.
+bool lies(Cell c, BranchChoice direction) {
+    switch (direction) {
+    case BranchChoice::north: return -c.row > 0 && std::abs(c.col) <= -c.row;
+    case BranchChoice::east: return c.col > 0 && std::abs(c.row) <= c.col;
+    case BranchChoice::south: return c.row > 0 && std::abs(c.col) <= c.row;
+    case BranchChoice::west: return -c.col > 0 && std::abs(c.row) <= -c.col;
+    case BranchChoice::largest:
+    case BranchChoice::all: break;
+    }
+    return true;
+}
+
+/// The particle whose descendants are the arm; 0 where there is none.
+std::size_t root_of(Cluster const& cluster, BranchChoice choice) {
+    std::size_t const count = cluster.cells.size();
+    std::vector<std::int64_t> size(count, 1);
+    std::vector<std::int64_t> inside(count, 0);
+    Cell const seed = cluster.cells.front();
+    for (std::size_t p = count - 1; p > 0; --p) { // children arrive after their parents
+        Cell const c{cluster.cells[p].col - seed.col, cluster.cells[p].row - seed.row};
+        inside[p] += lies(c, choice) ? 1 : 0;
+        auto const up = static_cast<std::size_t>(cluster.parent[p]);
+        size[up] += size[p];
+        inside[up] += inside[p];
+    }
+    std::size_t best = 0;
+    std::int64_t most = 0;
+    for (std::size_t p = 1; p < count; ++p) {
+        bool const is_arm =
+            choice == BranchChoice::largest ? cluster.parent[p] == 0 : 4 * inside[p] >= of_four * size[p];
+        if (is_arm && inside[p] > most) {
+            most = inside[p];
+            best = p;
+        }
+    }
+    return best;
+}
+
 std::vector<std::uint8_t> choose(Cluster const& cluster, BranchChoice choice) {
-    std::vector<std::uint8_t> chosen;
-    std::ptrdiff_t most = 0;
-    for (std::size_t d = 0; d < roots.size(); ++d) {
-        auto const direction = static_cast<BranchChoice>(static_cast<std::size_t>(BranchChoice::north) + d);
-        auto const root = find_root(cluster, d);
-        if ((choice != BranchChoice::largest && choice != direction) || !root) {
-            continue;
-        }
-        auto arm = descendants(cluster, *root);
-        std::ptrdiff_t const size = std::ranges::count(arm, std::uint8_t{1});
-        if (size > most) {
-            most = size;
-            chosen = std::move(arm);
-        }
+    std::size_t const root = root_of(cluster, choice);
+    if (root == 0) {
+        throw BadInput(fmt::format("network.pick_branch: the cluster of {} particles has no arm there, choose another "
+                                   "or grow more particles",
+                                   cluster.cells.size()));
     }
-    if (most == 0) {
-        auto const d = static_cast<std::size_t>(choice) - static_cast<std::size_t>(BranchChoice::north);
-        throw BadInput(fmt::format("network.pick_branch: the cluster of {} particles has no arm {}, choose another or "
-                                   "grow more particles",
-                                   cluster.cells.size(), choice == BranchChoice::largest ? "at all" : root_names[d]));
-    }
-    return chosen;
+    return descendants(cluster, root);
 }
 
 } // namespace

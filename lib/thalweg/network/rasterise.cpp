@@ -10,65 +10,12 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/error.hpp>
 
 namespace thalweg::network {
 
 namespace {
-
-/// The grid's outer edges belong to its outermost cells.
-Cell cell_in(Grid const& grid, Vec2 p) {
-    Cell c = grid.cell_of(p);
-    if (c.col == grid.width && p.x <= grid.east()) {
-        --c.col;
-    }
-    if (c.row == grid.height && p.y >= grid.south()) {
-        --c.row;
-    }
-    return c;
-}
-
-/// Calls visit(cell, k, n) for the cells k = 0 ... n from a to b (Bresenham 1965).
-template <class Visit> void bresenham(Cell a, Cell b, Visit visit) {
-    std::int64_t const dx = std::abs(b.col - a.col);
-    std::int64_t const dy = std::abs(b.row - a.row);
-    std::int64_t const step_x = a.col < b.col ? 1 : -1;
-    std::int64_t const step_y = a.row < b.row ? 1 : -1;
-    std::int64_t const n = std::max(dx, dy);
-    std::int64_t error = dx - dy;
-    for (std::int64_t k = 0;; ++k) {
-        visit(a, k, n);
-        if (k == n) {
-            return;
-        }
-        std::int64_t const twice = 2 * error;
-        if (twice > -dy) {
-            error -= dy;
-            a.col += step_x;
-        }
-        if (twice < dx) {
-            error += dx;
-            a.row += step_y;
-        }
-    }
-}
-
-/// The cells of a line's vertices. Throws BadInput, naming `what` and the vertex, outside the grid.
-std::vector<Cell> vertex_cells(std::vector<Vec2> const& line, Grid const& grid, std::string const& what) {
-    std::vector<Cell> cells;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        bool const within =
-            line[i].x >= grid.west && line[i].x <= grid.east() && line[i].y <= grid.north && line[i].y >= grid.south();
-        if (!within || !grid.contains(cell_in(grid, line[i]))) {
-            throw BadInput(fmt::format("network.rasterise: vertex {} of {} at ({:.3f}, {:.3f}) lies outside the grid "
-                                       "(x {:.3f} to {:.3f}, y {:.3f} to {:.3f}); enlarge the grid or clip the rivers",
-                                       i, what, line[i].x, line[i].y, grid.west, grid.east(), grid.south(),
-                                       grid.north));
-        }
-        cells.push_back(cell_in(grid, line[i]));
-    }
-    return cells;
-}
 
 /// A cell of a reach and the one after it, both by index.
 using Step = std::pair<std::int64_t, std::int64_t>;
@@ -111,19 +58,6 @@ void lower_downstream(std::vector<Step> steps, Rasterised& out) {
 
 } // namespace
 
-std::vector<Cell> cells_of(std::vector<Vec2> const& line, Grid const& grid, std::string const& what) {
-    std::vector<Cell> const at = vertex_cells(line, grid, what);
-    std::vector<Cell> cells;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        bresenham(at[i == 0 ? 0 : i - 1], at[i], [&](Cell c, std::int64_t, std::int64_t) {
-            if (cells.empty() || !(cells.back() == c)) {
-                cells.push_back(c);
-            }
-        });
-    }
-    return cells;
-}
-
 Rasterised rasterise(RaisedNetwork const& network, Grid const& grid) {
     NetworkIndex const index(network.plan);
     if (network.arc_z.size() != index.arcs.size()) {
@@ -135,7 +69,8 @@ Rasterised rasterise(RaisedNetwork const& network, Grid const& grid) {
     Raster<float>& z = out.valley.z;
     std::vector<Step> steps;
     for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        std::vector<Cell> const at = vertex_cells(network.plan[index.arcs[a]].line, grid, fmt::format("arc {}", a + 1));
+        std::vector<Cell> const at =
+            cells_of_vertices(network.plan[index.arcs[a]].line, grid, fmt::format("arc {}", a + 1));
         std::vector<double> const& height = network.arc_z[a];
         if (height.size() != at.size()) {
             throw BadInput(fmt::format("network.rasterise: arc {} has {} vertices and {} heights; set the heights anew",
@@ -152,7 +87,7 @@ Rasterised rasterise(RaisedNetwork const& network, Grid const& grid) {
                                            a + 1, p.x, p.y));
             }
             double const lowest = std::min(from, to);
-            bresenham(at[i - 1], at[i], [&](Cell c, std::int64_t k, std::int64_t n) {
+            walk_cells(at[i - 1], at[i], [&](Cell c, std::int64_t k, std::int64_t n) {
                 double const t = n == 0 ? 0.0 : static_cast<double>(k) / static_cast<double>(n);
                 double const here = n == 0   ? lowest
                                     : k == n ? to

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/valley.hpp>
@@ -24,9 +22,5 @@ struct Rasterised {
 /// Throws: BadInput, naming the arc and the place, when a vertex lies outside the grid or a height is not a number.
 /// Source: paper 000, section 3.3; specification 0.3.
 Rasterised rasterise(RaisedNetwork const& network, Grid const& grid);
-
-/// The cells of one polyline in order, each once in a row (Bresenham between vertices). The grid's outer edges belong
-/// to its outermost cells. Throws: BadInput, naming `what` and the vertex, outside the grid.
-std::vector<Cell> cells_of(std::vector<Vec2> const& line, Grid const& grid, std::string const& what = "a line");
 
 } // namespace thalweg::network

@@ -52,13 +52,16 @@ void check_memory(std::int64_t width, std::int64_t height) {
     std::int64_t const needed = bytes_needed(width * height); // sides are at most 1e6 each
     std::int64_t const free = free_memory_bytes();
     if (needed > free) {
-        throw BadInput(fmt::format("grid: {}x{} cells need {:.1f} GB; {:.1f} GB are free. Make grid.width and grid.height "
-                                   "smaller or grid.cell larger.",
-                                   width, height, static_cast<double>(needed) / 1e9, static_cast<double>(free) / 1e9));
+        throw BadInput(
+            fmt::format("grid: {}x{} cells need {:.1f} GB; {:.1f} GB are free. Make grid.width and grid.height "
+                        "smaller or grid.cell larger.",
+                        width, height, static_cast<double>(needed) / 1e9, static_cast<double>(free) / 1e9));
     }
 }
 
-std::int64_t room_for_network(std::int64_t side_cells) { return std::max<std::int64_t>(1, side_cells * 10 / 11); }
+std::int64_t room_for_network(std::int64_t side_cells) {
+    return std::max<std::int64_t>(1, side_cells * 10 / 11);
+}
 
 FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wanted) {
     Cell low = branch.cells.front();
@@ -119,8 +122,9 @@ Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted) {
                                        grid.west, grid.north, lines.name, box.west, box.north));
         }
         if (width > 1e6 || height > 1e6) {
-            throw BadInput(fmt::format("grid: the rivers of {} span {:.0f} x {:.0f} cells of {} m: give a larger grid.cell",
-                                       lines.name, width, height, cell));
+            throw BadInput(
+                fmt::format("grid: the rivers of {} span {:.0f} x {:.0f} cells of {} m: give a larger grid.cell",
+                            lines.name, width, height, cell));
         }
         grid.width = static_cast<std::int64_t>(width);
         grid.height = static_cast<std::int64_t>(height);
@@ -130,11 +134,11 @@ Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted) {
         for (RiverLine const& line : lines.lines) {
             for (Vec3 const& p : line.vertices) {
                 if (!(p.x >= grid.west && p.x < grid.east() && p.y > grid.south() && p.y <= grid.north)) {
-                    throw BadInput(fmt::format("grid: river {} in {} runs outside the grid at ({:.1f}, {:.1f}): the grid "
-                                               "spans {:.1f} to {:.1f} east and {:.1f} to {:.1f} north. Enlarge it, leave "
-                                               "width and height out, or set grid.clip = true.",
-                                               line.feature, lines.name, p.x, p.y, grid.west, grid.east(), grid.south(),
-                                               grid.north));
+                    throw BadInput(fmt::format(
+                        "grid: river {} in {} runs outside the grid at ({:.1f}, {:.1f}): the grid "
+                        "spans {:.1f} to {:.1f} east and {:.1f} to {:.1f} north. Enlarge it, leave "
+                        "width and height out, or set grid.clip = true.",
+                        line.feature, lines.name, p.x, p.y, grid.west, grid.east(), grid.south(), grid.north));
                 }
             }
         }

@@ -26,7 +26,8 @@ namespace {
 using Pair = std::array<double, 2>;
 using Value = std::variant<bool, std::int64_t, double, std::string, Pair>;
 
-/// A key, bound to its field. put throws BadParameter with the reason alone; take gives nothing where the value is unset.
+/// A key, bound to its field. put throws BadParameter with the reason alone; take gives nothing where the value is
+/// unset.
 struct Key {
     KeyHelp help;
     std::function<void(Recipe&, Value const&)> put;
@@ -103,30 +104,29 @@ template <class T, class F> Field<T> in_recipe(F f) {
             [f](Recipe const& r) -> T const* { return &f(const_cast<Recipe&>(r)); }};
 }
 template <class T, class F> Field<T> in_network(F f) {
-    return {[f](Recipe& r) -> T& {
-                if (!r.network) {
-                    r.network.emplace();
-                }
-                return f(*r.network);
-            },
-            [f](Recipe const& r) -> T const* {
-                return r.network ? &f(const_cast<NetworkRecipe&>(*r.network)) : nullptr;
-            }};
+    return {
+        [f](Recipe& r) -> T& {
+            if (!r.network) {
+                r.network.emplace();
+            }
+            return f(*r.network);
+        },
+        [f](Recipe const& r) -> T const* { return r.network ? &f(const_cast<NetworkRecipe&>(*r.network)) : nullptr; }};
 }
 template <class T, class F> Field<T> in_surface(F f) {
-    return {[f](Recipe& r) -> T& {
-                if (!r.surface) {
-                    r.surface.emplace();
-                }
-                return f(*r.surface);
-            },
-            [f](Recipe const& r) -> T const* {
-                return r.surface ? &f(const_cast<SurfaceRecipe&>(*r.surface)) : nullptr;
-            }};
+    return {
+        [f](Recipe& r) -> T& {
+            if (!r.surface) {
+                r.surface.emplace();
+            }
+            return f(*r.surface);
+        },
+        [f](Recipe const& r) -> T const* { return r.surface ? &f(const_cast<SurfaceRecipe&>(*r.surface)) : nullptr; }};
 }
 
 template <class T>
-std::function<std::optional<Value>(Recipe const&)> taker(Field<T> field, std::function<std::optional<Value>(T const&)> as) {
+std::function<std::optional<Value>(Recipe const&)> taker(Field<T> field,
+                                                         std::function<std::optional<Value>(T const&)> as) {
     return [field, as](Recipe const& r) -> std::optional<Value> {
         T const* const at = field.find(r);
         return at == nullptr ? std::nullopt : as(*at);
@@ -229,7 +229,9 @@ template <class Enum> Key choice(char const* path, Choices<Enum> choices, char c
     return key;
 }
 
-template <class T> T& itself(T& t) { return t; }
+template <class T> T& itself(T& t) {
+    return t;
+}
 
 std::vector<Key> make_keys() {
     using network::BranchChoice;
@@ -252,7 +254,8 @@ std::vector<Key> make_keys() {
                         in_recipe<std::string>([](Recipe& r) -> std::string& { return r.grid.crs; })));
     {
         Key key;
-        key.help = {"grid.origin", "two numbers", "[west, north]", "m", "", "outer corner of the grid in the north-west"};
+        key.help = {
+            "grid.origin", "two numbers", "[west, north]", "m", "", "outer corner of the grid in the north-west"};
         key.put = [](Recipe& r, Value const& v) {
             auto const* p = std::get_if<Pair>(&v);
             if (p == nullptr || !std::isfinite((*p)[0]) || !std::isfinite((*p)[1]) || std::fabs((*p)[0]) > 1e9 ||
@@ -304,21 +307,21 @@ std::vector<Key> make_keys() {
                           in_network<double>([](NetworkRecipe& n) -> double& { return n.dla.sticking; })));
     keys.push_back(integer<int>("network.dla.visits", "", {1, 255}, "M: arrivals a site needs before it may hold",
                                 in_network<int>([](NetworkRecipe& n) -> int& { return n.dla.visits; })));
-    keys.push_back(choice<VisitRule>(
-        "network.dla.rule",
-        {{"count_first", VisitRule::count_first}, {"stick_then_count", VisitRule::stick_then_count}},
-        "whether an arrival counts before or after its stick test",
-        in_network<VisitRule>([](NetworkRecipe& n) -> VisitRule& { return n.dla.rule; })));
-    keys.push_back(choice<BranchChoice>("network.dla.branch",
-                                        {{"largest", BranchChoice::largest},
-                                         {"north", BranchChoice::north},
-                                         {"east", BranchChoice::east},
-                                         {"south", BranchChoice::south},
-                                         {"west", BranchChoice::west},
-                                         {"all", BranchChoice::all}},
-                                        "which arm of the cluster becomes the valley",
-                                        in_network<BranchChoice>(
-                                            [](NetworkRecipe& n) -> BranchChoice& { return n.branch; })));
+    keys.push_back(
+        choice<VisitRule>("network.dla.rule",
+                          {{"count_first", VisitRule::count_first}, {"stick_then_count", VisitRule::stick_then_count}},
+                          "whether an arrival counts before or after its stick test",
+                          in_network<VisitRule>([](NetworkRecipe& n) -> VisitRule& { return n.dla.rule; })));
+    keys.push_back(
+        choice<BranchChoice>("network.dla.branch",
+                             {{"largest", BranchChoice::largest},
+                              {"north", BranchChoice::north},
+                              {"east", BranchChoice::east},
+                              {"south", BranchChoice::south},
+                              {"west", BranchChoice::west},
+                              {"all", BranchChoice::all}},
+                             "which arm of the cluster becomes the valley",
+                             in_network<BranchChoice>([](NetworkRecipe& n) -> BranchChoice& { return n.branch; })));
 
     keys.push_back(text("network.lines.path", "file name", "any OGR source of lines",
                         in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.lines.path; })));
@@ -331,25 +334,25 @@ std::vector<Key> make_keys() {
                         in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.lines.rank_field; })));
     keys.push_back(number("network.lines.snap", "m", {0, 1e6}, "ends closer than this are joined; 0: 1e-6 of the box",
                           in_network<double>([](NetworkRecipe& n) -> double& { return n.lines.snap_m; })));
-    keys.push_back(choice<Orientation>("network.lines.orientation",
-                                       {{"auto", Orientation::automatic},
-                                        {"height", Orientation::height},
-                                        {"rank", Orientation::rank},
-                                        {"as_drawn", Orientation::as_drawn},
-                                        {"topology", Orientation::topology}},
-                                       "what tells which way a line runs",
-                                       in_network<Orientation>([](NetworkRecipe& n) -> Orientation& {
-                                           return n.lines.orientation;
-                                       })));
+    keys.push_back(choice<Orientation>(
+        "network.lines.orientation",
+        {{"auto", Orientation::automatic},
+         {"height", Orientation::height},
+         {"rank", Orientation::rank},
+         {"as_drawn", Orientation::as_drawn},
+         {"topology", Orientation::topology}},
+        "what tells which way a line runs",
+        in_network<Orientation>([](NetworkRecipe& n) -> Orientation& { return n.lines.orientation; })));
 
     keys.push_back(choice<Method>("surface.method", {{"dilate", Method::dilate}}, "how the land is drawn",
                                   in_surface<Method>([](SurfaceRecipe& s) -> Method& { return s.method; })));
-    keys.push_back(choice<Base>("surface.base", {{"paper", Base::paper}}, "height a slope rises from: that of its valley cell",
+    keys.push_back(choice<Base>("surface.base", {{"paper", Base::paper}},
+                                "height a slope rises from: that of its valley cell",
                                 in_surface<Base>([](SurfaceRecipe& s) -> Base& { return s.base; })));
     {
-        Key key = text("surface.increment", "uniform | decreasing | rise_fall | an expression in x", "dh of the x-th dilation",
-                       in_surface<std::string>(
-                           [](SurfaceRecipe& s) -> std::string& { return s.dilate.increment.increment; }));
+        Key key = text(
+            "surface.increment", "uniform | decreasing | rise_fall | an expression in x", "dh of the x-th dilation",
+            in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.dilate.increment.increment; }));
         auto const put = key.put;
         key.put = [put](Recipe& r, Value const& v) {
             surface::increments(1, {as_text(v)}); // says what is wrong with it
@@ -361,12 +364,13 @@ std::vector<Key> make_keys() {
         "surface.metric", {{"cityblock", surface::Metric::cityblock}, {"euclid", surface::Metric::euclid}},
         "distance to the valley: the paper's 4 neighbours, or straight",
         in_surface<surface::Metric>([](SurfaceRecipe& s) -> surface::Metric& { return s.dilate.metric; })));
-    keys.push_back(number("surface.relief", "m", {0, 1e5},
-                          "scales the increments so that their greatest sum is this; 0: the paper's units times the cell",
-                          in_surface<double>([](SurfaceRecipe& s) -> double& { return s.dilate.relief_m; })));
-    keys.push_back(yes_no("surface.allow_negative", "let increments below zero stand",
-                          in_surface<bool>(
-                              [](SurfaceRecipe& s) -> bool& { return s.dilate.increment.allow_negative; })));
+    keys.push_back(
+        number("surface.relief", "m", {0, 1e5},
+               "scales the increments so that their greatest sum is this; 0: the paper's units times the cell",
+               in_surface<double>([](SurfaceRecipe& s) -> double& { return s.dilate.relief_m; })));
+    keys.push_back(
+        yes_no("surface.allow_negative", "let increments below zero stand",
+               in_surface<bool>([](SurfaceRecipe& s) -> bool& { return s.dilate.increment.allow_negative; })));
     keys.push_back(text("surface.mask", "file name", "raster on the grid: cells with 0 or no data are left out",
                         in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.mask; })));
 
@@ -527,7 +531,8 @@ Recipe read_recipe(std::string const& toml, std::string const& name) {
     constexpr std::size_t most_bytes = 1 << 20;
     constexpr std::size_t longest_line = 8192;
     if (toml.size() > most_bytes) {
-        throw BadParameter(fmt::format("{}: a recipe has at most {} bytes, this has {}", name, most_bytes, toml.size()));
+        throw BadParameter(
+            fmt::format("{}: a recipe has at most {} bytes, this has {}", name, most_bytes, toml.size()));
     }
     for (std::size_t begin = 0, line = 1; begin < toml.size(); ++line) {
         std::size_t const end = std::min(toml.find('\n', begin), toml.size());
@@ -600,8 +605,8 @@ std::string write_recipe(Recipe const& recipe) {
             section = key.section();
             out += fmt::format("{}[{}]\n", out.empty() ? "" : "\n", section);
         }
-        out += fmt::format("{} = {}\n", key.help.path.substr(section.empty() ? 0 : section.size() + 1),
-                           toml_text(*value));
+        out +=
+            fmt::format("{} = {}\n", key.help.path.substr(section.empty() ? 0 : section.size() + 1), toml_text(*value));
     }
     return out;
 }

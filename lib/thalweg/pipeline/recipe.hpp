@@ -23,7 +23,7 @@ struct GridRecipe {
     double cell_m = 30.0;    ///< [m] > 0
     std::string crs;         ///< projected, metres; "": the line file's own or its UTM zone, else EPSG:32631
     std::optional<std::array<double, 2>> origin; ///< [m] west and north edge
-    bool clip = false;       ///< cut rivers at the grid's edge instead of refusing them
+    bool clip = false;                           ///< cut rivers at the grid's edge instead of refusing them
 };
 
 enum class Source : std::uint8_t { dla, lines };
@@ -78,10 +78,10 @@ Recipe default_recipe();
 
 /// What a key of a recipe file means.
 struct KeyHelp {
-    std::string path;    ///< section.key
-    std::string type;    ///< integer | number | text | yes/no | two numbers
-    std::string range;   ///< in words or the choices
-    std::string unit;    ///< "" for none
+    std::string path;     ///< section.key
+    std::string type;     ///< integer | number | text | yes/no | two numbers
+    std::string range;    ///< in words or the choices
+    std::string unit;     ///< "" for none
     std::string standard; ///< default as TOML, or in words
     std::string meaning;
 };

@@ -17,8 +17,8 @@ struct Replayed {
     bool verified() const { return differ.empty() && missing.empty(); }
 };
 
-/// Makes FOLDER/recipe.toml again beside it and compares the bytes of every file but report.*; the folder is not touched.
-/// Throws: BadInput when there is no recipe; what make_terrain throws.
+/// Makes FOLDER/recipe.toml again beside it and compares the bytes of every file but report.*; the folder is not
+/// touched. Throws: BadInput when there is no recipe; what make_terrain throws.
 Replayed replay(std::string const& folder, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -22,8 +22,9 @@ ordered_json extreme(measure::Extreme const& e) {
 }
 
 ordered_json dem(measure::Statistics const& s) {
-    return {{"cells", s.cells},        {"nodata", s.nodata},     {"mean", s.mean},
-            {"std", s.std},            {"min", extreme(s.min)},  {"max", extreme(s.max)},
+    return {{"cells", s.cells},         {"nodata", s.nodata},
+            {"mean", s.mean},           {"std", s.std},
+            {"min", extreme(s.min)},    {"max", extreme(s.max)},
             {"slope_rad", s.slope_rad}, {"slope_true_deg", s.slope_true_deg}};
 }
 
@@ -81,7 +82,9 @@ ordered_json network_object(Terrain const& t) {
             {"pruned", t.story.arcs_traced - arcs},
             {"particles", t.story.particles},
             {"walkers", t.story.walkers},
-            {"stopped_at", t.story.particles == 0 ? "" : t.story.cut ? "margin" : "particles"},
+            {"stopped_at", t.story.particles == 0 ? ""
+                           : t.story.cut          ? "margin"
+                                                  : "particles"},
             {"uphill_before_repair",
              {{"arcs", h.uphill_arcs}, {"length_m", h.uphill_length_m}, {"max_rise_m", h.max_rise_m}}},
             {"lifted", {{"count", h.lifted}, {"max_m", h.max_lift_m}, {"rms_m", h.rms_lift_m}}},
@@ -91,7 +94,9 @@ ordered_json network_object(Terrain const& t) {
 
 } // namespace
 
-std::string version() { return THALWEG_VERSION; }
+std::string version() {
+    return THALWEG_VERSION;
+}
 
 std::string write_report(Terrain const& t, std::vector<std::string> const& files) {
     ordered_json timings = ordered_json::object();
@@ -131,7 +136,9 @@ std::vector<std::string> files_of_report(std::string const& json) {
     return files;
 }
 
-std::string statistics_json(measure::Statistics const& statistics) { return dem(statistics).dump() + "\n"; }
+std::string statistics_json(measure::Statistics const& statistics) {
+    return dem(statistics).dump() + "\n";
+}
 
 std::string checks_json(std::vector<Check> const& checks, std::vector<Finding> const& findings) {
     bool const ok = std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });

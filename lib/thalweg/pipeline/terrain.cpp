@@ -72,7 +72,8 @@ Planned grow(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     }
     wanted.dla.seed = recipe.seed;
     network::Cluster const cluster = diary.stage("grow", [&] { return network::grow_dla(wanted.dla, run); });
-    diary.say(fmt::format("{} particles  seed {}  radius {:.0f} cells", cluster.cells.size(), recipe.seed, cluster.radius));
+    diary.say(
+        fmt::format("{} particles  seed {}  radius {:.0f} cells", cluster.cells.size(), recipe.seed, cluster.radius));
     terrain.story.particles = static_cast<std::int64_t>(cluster.cells.size());
     terrain.story.walkers = cluster.walkers;
 
@@ -93,7 +94,8 @@ Planned adopt(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     LinesRecipe const& wanted = recipe.network->lines;
     std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
     RiverLines lines = diary.stage("read", [&] {
-        return io::read_rivers({file_in(recipe, wanted.path), wanted.layer, wanted.type_field, wanted.rank_field, crs}, run);
+        return io::read_rivers({file_in(recipe, wanted.path), wanted.layer, wanted.type_field, wanted.rank_field, crs},
+                               run);
     });
     recipe.grid.crs = lines.crs;
     diary.say(fmt::format("{} lines from {}", lines.lines.size(), lines.name));
@@ -104,8 +106,9 @@ Planned adopt(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
             throw BadInput(fmt::format("grid: no river of {} runs inside the grid", lines.name));
         }
     }
-    network::Adopted adopted =
-        diary.stage("adopt", [&] { return network::adopt(lines, {wanted.snap_m, wanted.orientation}, run); });
+    network::Adopted adopted = diary.stage("adopt", [&] {
+        return network::adopt(lines, {wanted.snap_m, wanted.orientation}, run);
+    });
     diary.say(fmt::format("{} arcs, {} repairs", boost::num_edges(adopted.network), adopted.repairs.size()));
     terrain.story.repairs = adopted.repairs;
 
@@ -140,16 +143,16 @@ Mask read_inside(Recipe const& recipe, Valley const& valley) {
     Raster<float> const given = io::read_dem(file_in(recipe, recipe.surface->mask));
     Grid const& grid = valley.z.grid();
     if (given.width() != grid.width || given.height() != grid.height) {
-        throw BadInput(fmt::format("surface.mask: {} has {}x{} cells, the grid {}x{}", recipe.surface->mask, given.width(),
-                                   given.height(), grid.width, grid.height));
+        throw BadInput(fmt::format("surface.mask: {} has {}x{} cells, the grid {}x{}", recipe.surface->mask,
+                                   given.width(), given.height(), grid.width, grid.height));
     }
     Mask inside(grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         inside[i] = !std::isnan(given[i]) && given[i] != 0.0F;
         if (inside[i] == 0 && !std::isnan(valley.z[i])) {
             Cell const c = grid.at(i);
-            throw BadInput(fmt::format("surface.mask: {} leaves out cell ({}, {}), where a river runs", recipe.surface->mask,
-                                       c.col, c.row));
+            throw BadInput(fmt::format("surface.mask: {} leaves out cell ({}, {}), where a river runs",
+                                       recipe.surface->mask, c.col, c.row));
         }
     }
     return inside;
@@ -206,8 +209,9 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
         rivers.prune_cells = rivers.source == Source::dla ? 20.0 : 0.0;
     }
 
-    network::Pruned pruned =
-        diary.stage("prune", [&] { return network::prune(planned.plan, {*rivers.prune_cells, grid.cell_m}, run); });
+    network::Pruned pruned = diary.stage("prune", [&] {
+        return network::prune(planned.plan, {*rivers.prune_cells, grid.cell_m}, run);
+    });
     terrain.story.arcs_traced = pruned.arcs_before;
     diary.say(fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, boost::num_edges(pruned.network),
                           pruned.arcs_before));
@@ -237,15 +241,14 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
         measure::Drainage const drainage = diary.stage("drain", [&] { return measure::drain(dem, run); });
         terrain.pits = drainage.pits;
         terrain.pit_volume_m3 = drainage.pit_volume_m3;
-        terrain.areas = measure::areas_d8(terrain.network.plan, drainage);
+        terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
         terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
     } else {
         terrain.areas = measure::areas_nearest(terrain.network.plan, grid, run);
     }
 
-    measure::TopologyReport topology = diary.stage("check", [&] {
-        return measure::check_topology(measure::as_file(terrain.network, terrain.orders), run);
-    });
+    measure::TopologyReport topology = diary.stage(
+        "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), run); });
     terrain.checks.insert(terrain.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
     terrain.checks.insert(terrain.checks.end(), topology.checks.begin(), topology.checks.end());
     terrain.findings = std::move(topology.findings);

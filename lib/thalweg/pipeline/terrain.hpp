@@ -22,11 +22,11 @@ namespace thalweg::pipeline {
 
 /// What the network went through, for the report.
 struct NetworkStory {
-    std::int64_t particles = 0;    ///< of the cluster (dla)
-    std::int64_t walkers = 0;      ///< released for it
-    bool cut = false;              ///< the branch reached the grid's margin before the last particle
-    std::int64_t arcs_traced = 0;  ///< before pruning
-    network::HeightReport heights; ///< under modes that set heights
+    std::int64_t particles = 0;     ///< of the cluster (dla)
+    std::int64_t walkers = 0;       ///< released for it
+    bool cut = false;               ///< the branch reached the grid's margin before the last particle
+    std::int64_t arcs_traced = 0;   ///< before pruning
+    network::HeightReport heights;  ///< under modes that set heights
     std::int64_t lowered_cells = 0; ///< shared valley cells lowered to keep every path falling
     double max_lowered_m = 0.0;
     std::vector<Finding> repairs; ///< of adopted lines, and outlets carried to the border
@@ -46,9 +46,9 @@ struct Terrain {
     double pit_volume_m3 = 0.0;
     NetworkStory story;
     std::vector<Check> checks;
-    std::vector<Finding> findings;                          ///< of the checks
-    std::vector<std::pair<std::string, double>> timings_s;  ///< by stage, in order
-    bool passed() const;                                    ///< every check is ok
+    std::vector<Finding> findings;                         ///< of the checks
+    std::vector<std::pair<std::string, double>> timings_s; ///< by stage, in order
+    bool passed() const;                                   ///< every check is ok
 };
 
 /// Called with intermediates: "valley", "surface".

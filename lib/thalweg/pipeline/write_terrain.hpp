@@ -15,8 +15,8 @@ namespace thalweg::pipeline {
 void check_folder(std::string const& folder, io::Existing existing);
 
 /// Writes everything `make` leaves behind into a folder, whole or not at all.
-/// Gives: the names of the files, report.json last. Under replace it removes what the old report.json lists, nothing else.
-/// Throws: BadInput (the folder is taken), IoError, Cancelled: then nothing has changed.
+/// Gives: the names of the files, report.json last. Under replace it removes what the old report.json lists, nothing
+/// else. Throws: BadInput (the folder is taken), IoError, Cancelled: then nothing has changed.
 std::vector<std::string> write_terrain(Terrain const& terrain, std::string const& folder,
                                        io::Existing existing = io::Existing::refuse, Run const& run = {});
 

@@ -88,6 +88,12 @@ std::vector<double> tabulate(std::string const& text, std::int64_t levels) {
         throw BadParameter(fmt::format("surface.increments: the expression has {} characters; write it in at most {}",
                                        text.size(), longest_expression));
     }
+    auto const odd = std::find_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; });
+    if (odd != text.end()) {
+        throw BadParameter(
+            fmt::format("surface.increments: character {} of the expression is not printable ASCII; use {}",
+                        odd - text.begin() + 1, choices));
+    }
     if (assigns(text)) {
         refuse(text, "it assigns; compare with ==");
     }
