@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -172,12 +171,13 @@ void add_arcs(Adopted& adopted, Flow const& flow, std::vector<double> const& nod
         std::ranges::sort(by_piece, {}, [&](std::size_t n) { return flow.leaves[n]; });
         return by_piece;
     }();
-    std::vector<std::optional<NodeId>> ids(flow.leaves.size());
+    NodeId const none = StreamNetwork::null_vertex();
+    std::vector<NodeId> ids(flow.leaves.size(), none);
     auto const node = [&](std::size_t n) {
-        if (!ids[n]) {
+        if (ids[n] == none) {
             ids[n] = boost::add_vertex(Node{flow.pieces.nodes[n]}, adopted.network);
         }
-        return *ids[n];
+        return ids[n];
     };
     for (std::size_t const head : heads) {
         Arc arc;
