@@ -16,6 +16,7 @@
 #include <thalweg/network/trace.hpp>
 #include <thalweg/pipeline/frame.hpp>
 #include <thalweg/surface/dilate.hpp>
+#include <thalweg/surface/separable.hpp>
 
 #include <cstdio>
 #include <cstdlib>
@@ -100,6 +101,22 @@ template <class T> Fnv hash_of(Raster<T> const& raster) {
     return fnv;
 }
 
+Fnv hash_of(surface::Expansion const& expansion) {
+    Fnv fnv;
+    fnv.add_all(expansion.level.values());
+    fnv.add_all(expansion.base.values());
+    return fnv;
+}
+
+/// The expansion without the vector instructions of this processor, which the C library's masks do not hide.
+surface::Expansion expand_plain(Valley const& valley, Run const& run) {
+    using namespace surface::separable;
+    surface::Expansion expansion{Raster<std::int32_t>(valley.z.grid()), Raster<float>(valley.z.grid())};
+    auto const swept = sweep_down<std::uint16_t>(valley, expansion.base, Lanes::plain, run);
+    sweep_up(swept, expansion.base, expansion.level, Lanes::plain, run);
+    return expansion;
+}
+
 } // namespace
 
 int main(int count, char** words) {
@@ -127,6 +144,9 @@ int main(int count, char** words) {
     print("set_heights", hash_of(raised.network));
     Valley const valley = network::rasterise(raised.network, skeleton.grid()).valley;
     print("rasterise", hash_of(valley.z));
+    print("expand", hash_of(surface::expand(valley, run)));
+    print("expand, plain", hash_of(expand_plain(valley, run)));
+    print("expand_frontier", hash_of(surface::expand_frontier(valley, Mask(skeleton.grid(), 1), run)));
     for (char const* increment : {"uniform", "decreasing", "rise_fall", "2+sin(x/7)*exp(-x/50)+x^0.3"}) {
         for (auto const metric : {surface::Metric::cityblock, surface::Metric::euclid}) {
             surface::DilateParams const params{{increment}, metric, 500.0};
