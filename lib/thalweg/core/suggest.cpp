@@ -10,6 +10,10 @@ namespace thalweg {
 
 namespace {
 
+char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -17,7 +21,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         std::size_t diagonal = row[0];
         row[0] = i;
         for (std::size_t k = 1; k <= b.size(); ++k) {
-            std::size_t const replaced = diagonal + (a[i - 1] == b[k - 1] ? 0 : 1);
+            std::size_t const replaced = diagonal + (lower(a[i - 1]) == lower(b[k - 1]) ? 0 : 1);
             diagonal = row[k];
             row[k] = std::min({row[k] + 1, row[k - 1] + 1, replaced});
         }

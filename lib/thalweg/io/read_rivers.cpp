@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/suggest.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/spatial_reference.hpp>
@@ -41,30 +41,12 @@ std::string lower(std::string text) {
     return text;
 }
 
-// Letters to change, add or drop to come from one word to the other.
-std::size_t edits(std::string const& a, std::string const& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            std::size_t const changed = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
-
 // " Did you mean 'x'? (x, y, z)"
 std::string suggestion(std::string const& wanted, std::vector<std::string> const& names) {
     if (names.empty()) {
         return "";
     }
-    auto const distance = [&](std::string const& name) { return edits(lower(wanted), lower(name)); };
-    auto const best = std::ranges::min_element(names, {}, distance);
-    bool const close = distance(*best) <= std::max(std::size_t{2}, wanted.size() / 3);
-    return (close ? " Did you mean '" + *best + "'?" : std::string()) + " (" + listed(names) + ")";
+    return did_you_mean(wanted, names) + " (" + listed(names) + ")";
 }
 
 bool may_hold_lines(OGRwkbGeometryType type) {
