@@ -18,7 +18,6 @@
 namespace {
 
 using namespace thalweg;
-using network::cells_of;
 using network::rasterise;
 
 RaisedNetwork raised(StreamNetwork const& net, std::vector<std::vector<double>> arc_z) {
