@@ -1,2 +1,17 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
+# What `cmake --install` leaves: bin/thalweg, the library, its headers, and what find_package(thalweg) needs.
+include(CMakePackageConfigHelpers)
+set(PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/thalweg)
+
+install(TARGETS thalweg EXPORT thalwegTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS thalweg_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY lib/thalweg DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+install(EXPORT thalwegTargets NAMESPACE thalweg:: DESTINATION ${PACKAGE_DIR})
+
+configure_package_config_file(cmake/thalwegConfig.cmake.in ${PROJECT_BINARY_DIR}/thalwegConfig.cmake
+  INSTALL_DESTINATION ${PACKAGE_DIR})
+# Before 1.0 a minor version may change an interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/thalwegConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/thalwegConfig.cmake ${PROJECT_BINARY_DIR}/thalwegConfigVersion.cmake
+  cmake/dependencies.cmake DESTINATION ${PACKAGE_DIR})

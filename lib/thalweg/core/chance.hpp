@@ -20,7 +20,9 @@ inline std::uint64_t chance(std::uint64_t seed, std::uint64_t a, std::uint64_t b
 }
 
 /// A word as a real number in [0,1), a multiple of 2^-53.
-inline double unit(std::uint64_t word) { return static_cast<double>(word >> 11) * 0x1p-53; }
+inline double unit(std::uint64_t word) {
+    return static_cast<double>(word >> 11) * 0x1p-53;
+}
 
 /// An endless row of words that belongs to one place: the words of (seed, stage, item), block by block.
 class ChanceStream {

@@ -8,11 +8,11 @@ namespace thalweg::exact {
 
 inline constexpr double pi = 3.14159265358979323846;
 
-double exp(double x);           ///< x in [-700, 700]; beyond, 0 or infinity
-double log(double x);           ///< x > 0
-double pow(double x, double y); ///< x > 0
-double sin(double x);           ///< |x| <= 1e5 [rad]
-double cos(double x);           ///< |x| <= 1e5 [rad]
-double atan2(double y, double x);
+double exp(double x);             ///< infinity above 709.78, 0 below -745.13
+double log(double x);             ///< x > 0; -infinity at 0, NaN below
+double pow(double x, double y);   ///< x >= 0; NaN below
+double sin(double x);             ///< |x| <= 1e5 [rad]; NaN beyond
+double cos(double x);             ///< |x| <= 1e5 [rad]; NaN beyond
+double atan2(double y, double x); ///< [rad] in [-pi, pi]
 
 } // namespace thalweg::exact

@@ -32,12 +32,11 @@ struct Grid {
     bool contains(Cell c) const { return c.col >= 0 && c.row >= 0 && c.col < width && c.row < height; }
     std::int64_t index(Cell c) const { return c.row * width + c.col; }
     Cell at(std::int64_t index) const { return {index % width, index / width}; }
-    bool on_border(Cell c) const {
-        return c.col == 0 || c.row == 0 || c.col == width - 1 || c.row == height - 1;
-    }
+    bool on_border(Cell c) const { return c.col == 0 || c.row == 0 || c.col == width - 1 || c.row == height - 1; }
 
     Vec2 centre(Cell c) const {
-        return {west + (static_cast<double>(c.col) + 0.5) * cell_m, north - (static_cast<double>(c.row) + 0.5) * cell_m};
+        return {west + (static_cast<double>(c.col) + 0.5) * cell_m,
+                north - (static_cast<double>(c.row) + 0.5) * cell_m};
     }
     /// The cell that holds a position; it may lie outside the grid.
     Cell cell_of(Vec2 p) const {

@@ -7,6 +7,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace thalweg {
 
@@ -23,7 +24,8 @@ void parallel_ranges(Run const& run, std::int64_t count, std::int64_t grain,
     namespace tbb = oneapi::tbb;
     tbb::task_arena arena(run.threads > 0 ? run.threads : tbb::task_arena::automatic);
     arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, std::max<std::int64_t>(grain, 1)),
+        auto const least = static_cast<std::size_t>(std::max<std::int64_t>(grain, 1));
+        tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, least),
                           [&](tbb::blocked_range<std::int64_t> const& r) { body(r.begin(), r.end()); });
     });
     run.check();

@@ -20,8 +20,8 @@ struct RiverLine {
 
 struct RiverLines {
     std::vector<RiverLine> lines;
-    std::string crs;  ///< of the coordinates
-    std::string name; ///< file (and layer), for messages
+    std::string crs;    ///< of the coordinates
+    std::string name;   ///< file (and layer), for messages
     bool has_z = false; ///< every vertex has a height
 };
 

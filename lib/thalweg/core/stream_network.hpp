@@ -22,8 +22,8 @@ struct Node {
 struct Arc {
     std::vector<Vec2> line; ///< [m] first and last vertex equal the positions of source(e) and target(e) bit for bit
     double survives = std::numeric_limits<double>::infinity(); ///< [cells] largest L at which pruning keeps it
-    std::int64_t feature = 0;                                   ///< id of the line it came from in the file; 0 for none
-    std::string type;                                           ///< river type given by the file (Rosgen), or ""
+    std::int64_t feature = 0;                                  ///< id of the line it came from in the file; 0 for none
+    std::string type;                                          ///< river type given by the file (Rosgen), or ""
 };
 
 /// A river network in plan: a Boost graph of arcs directed downstream. Without heights.
@@ -41,15 +41,15 @@ ArcId add_arc(StreamNetwork& net, NodeId from, NodeId to, Arc arc);
 struct NetworkIndex {
     explicit NetworkIndex(StreamNetwork const& net);
 
-    std::vector<ArcId> arcs;                        ///< the arcs by number
-    std::vector<NodeId> from;                       ///< by arc number
-    std::vector<NodeId> to;                         ///< by arc number
-    std::vector<std::int64_t> out;                  ///< by node: number of the arc that leaves it, -1 for none
-    std::vector<std::vector<std::int64_t>> in;      ///< by node: numbers of the arcs that end in it, ascending
-    std::vector<NodeId> upstream_order;             ///< every node after the node downstream of it
-    std::vector<NodeId> outlets;                    ///< nodes with arcs in and none out, ascending
-    std::vector<std::int64_t> basin;                ///< by node: 1, 2, ... as in outlets; 0 where no outlet is reached
-    std::vector<double> length_m;                   ///< by arc number: length of its line
+    std::vector<ArcId> arcs;                   ///< the arcs by number
+    std::vector<NodeId> from;                  ///< by arc number
+    std::vector<NodeId> to;                    ///< by arc number
+    std::vector<std::int64_t> out;             ///< by node: number of the arc that leaves it, -1 for none
+    std::vector<std::vector<std::int64_t>> in; ///< by node: numbers of the arcs that end in it, ascending
+    std::vector<NodeId> upstream_order;        ///< every node after the node downstream of it
+    std::vector<NodeId> outlets;               ///< nodes with arcs in and none out, ascending
+    std::vector<std::int64_t> basin;           ///< by node: 1, 2, ... as in outlets; 0 where no outlet is reached
+    std::vector<double> length_m;              ///< by arc number: length of its line
 };
 
 enum class NodeKind : std::uint8_t { source, confluence, outlet, pseudo };

@@ -12,11 +12,13 @@ namespace thalweg::draw {
 struct CurveParams {
     std::string increment; ///< its name or expression, for the title
     int width_px = 1000;   ///< [200, 8000]
-    int height_px = 560;
+    int height_px = 560;   ///< [200, 8000]
     Format format = Format::svg;
 };
 
-/// The increment dh(x) and its sum H(d), as in Table 1 of paper 000. increments: [m] x = 1 ..
+/// The increment dh(x) and its sum H(d), as in Table 1 of paper 000, in two diagrams.
+/// Takes: increments [m] of x = 1, 2, ...; none give empty axes that say so.
+/// Throws: BadParameter; BadInput when an increment is not finite.
 Picture curve(std::vector<double> const& increments, CurveParams const& params = {});
 
 } // namespace thalweg::draw

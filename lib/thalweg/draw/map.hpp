@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,9 +14,9 @@
 namespace thalweg::draw {
 
 struct MapParams {
-    std::string title;
-    int width_px = 1400;            ///< [200, 8000] of the whole sheet
-    double contour_interval_m = 0.0; ///< for the legend; 0 when there are no contours
+    std::string title;               ///< UTF-8; "" for none
+    int width_px = 1400;             ///< [200, 8000] of the whole sheet; its height follows
+    double contour_interval_m = 0.0; ///< for the legend, every fifth is drawn heavier; 0 when there are no contours
     Format format = Format::png;
 };
 
@@ -24,12 +25,15 @@ struct MapSheet {
     Raster<float> const& dem;
     Raster<std::uint8_t> const& hillshade;
     RaisedNetwork const* network = nullptr;
-    NetworkOrders const* orders = nullptr;
+    NetworkOrders const* orders = nullptr;                      ///< of the network; needed where there is one
     std::vector<std::pair<double, std::vector<Vec2>>> contours; ///< height [m] and line
 };
 
 /// A map: hillshade under a hypsometric tint, contours, rivers whose width and colour follow Strahler order, scale bar,
 /// legend, title, frame with coordinates.
+/// Takes: a DEM of one cell or more; cells without a height are light grey, cells without a shade lie level.
+/// Throws: BadParameter; BadInput when hillshade or orders are of another grid or network, or a line has a coordinate
+/// that is not finite.
 Picture map(MapSheet const& sheet, MapParams const& params = {});
 
 } // namespace thalweg::draw

@@ -9,11 +9,13 @@ namespace thalweg::draw {
 
 struct ProfileParams {
     int width_px = 1000; ///< [200, 8000]
-    int height_px = 560;
+    int height_px = 560; ///< [200, 8000]
     Format format = Format::svg;
 };
 
-/// Long profiles: height against distance from the outlet of every stream, the main stem (Hack 1) emphasised.
+/// Long profiles: height against distance from the outlet along the water of every arc, main stems (Hack 1) emphasised.
+/// Takes: a network and its orders; arcs that reach no outlet are left out. Without any, empty axes that say so.
+/// Throws: BadParameter; BadInput when orders or heights are not those of the network, or a number is not finite.
 Picture profile(RaisedNetwork const& network, NetworkOrders const& orders, ProfileParams const& params = {});
 
 } // namespace thalweg::draw

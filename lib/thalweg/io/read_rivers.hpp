@@ -10,16 +10,19 @@
 namespace thalweg::io {
 
 struct ReadRiversParams {
-    std::string path;
-    std::string layer;          ///< "" takes the only line layer
-    std::string type_field = "rosgen"; ///< river type, optional in the file
-    std::string rank_field;     ///< integer that falls downstream (NHDPlus: hydroseq); "" takes hydroseq where there is one
-    std::string crs;            ///< of the result; "" takes the file's own when projected in metres, else its UTM zone
+    std::string path = {};             ///< anything OGR opens: GeoPackage, Shapefile, GeoJSON, FlatGeobuf, ...
+    std::string layer = {};            ///< "" takes the only line layer
+    std::string type_field = "rosgen"; ///< river type; optional in the file when it has this default name
+    std::string rank_field = {};       ///< number that falls downstream; "" takes hydroseq (NHDPlus) where there is one
+    std::string crs = {}; ///< of the result; "" takes the file's own when projected in metres, else its UTM zone
 };
 
-/// Reads the lines of any OGR source, multi-part lines part by part, reprojected and rounded to 1e-6 m.
-/// Throws: BadInput naming file, layer and feature: missing file or layer, no line layer, no features, no CRS,
-/// NaN coordinates, a line of fewer than two vertices; IoError.
+/// Reads the lines of any OGR source, multi-part lines part by part, curves as OGR linearises them, reprojected and
+/// rounded to 1e-6 m. Heights are kept (in metres), measures ignored. Field names are found in any case of letters.
+/// has_z: every vertex has a height, and not all are the same (files that fill Z with 0 have none).
+/// Throws: BadInput naming file, layer and feature: missing file, layer or named field, no or several line layers, no
+/// features, something that is no line, no CRS, coordinates that are not finite or cannot be reprojected, a line of
+/// fewer than two vertices; IoError when the file cannot be read to its end; Cancelled.
 RiverLines read_rivers(ReadRiversParams const& params, Run const& run = {});
 
 } // namespace thalweg::io

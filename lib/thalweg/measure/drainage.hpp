@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,17 +12,27 @@
 
 namespace thalweg::measure {
 
+/// Steps of the D8 directions 0..7, clockwise from the east: E, SE, S, SW, W, NW, N, NE (rows count to the south).
+inline constexpr std::array<Cell, 8> d8_steps = {
+    {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+inline constexpr std::int8_t d8_leaves = -1;  ///< water leaves the grid, or enters no data, from this cell
+inline constexpr std::int8_t d8_no_data = -2; ///< the cell has no height
+
 /// Where the water of each cell goes (D8).
 struct Drainage {
-    Raster<std::int8_t> direction;   ///< 0..7 clockwise from the east (E, SE, S, SW, W, NW, N, NE); -1 leaves the grid; -2 no data
-    Raster<std::int64_t> area_cells; ///< cells that drain through a cell, itself included
+    Raster<std::int8_t> direction;   ///< 0..7 as d8_steps, d8_leaves or d8_no_data
+    Raster<std::int64_t> area_cells; ///< cells that drain through a cell, itself included; 0 without data
     std::int64_t pits = 0;           ///< cells in depressions (below the level at which they spill)
-    double pit_volume_m3 = 0.0;
+    double pit_volume_m3 = 0.0;      ///< of the water that would fill them
 };
 
 /// D8 directions and contributing areas of any DEM: steepest descent, through depressions and flats by priority-flood.
-/// Gives: every cell with data drains off the grid (or into no-data); no cycle. Source: O'Callaghan and Mark 1984;
-/// Barnes, Lehman and Mulla 2014.
+/// Gives: every cell with data drains, in at most as many steps as there are cells, off the grid or into no data. A
+/// cell with a lower neighbour on the filled DEM goes to the one down the steepest slope (ties: lowest direction), any
+/// other towards the cell from which the flood reached it; water leaves from cells at the border or beside no data that
+/// have no lower neighbour. Filling is only a means: heights stay as they are. Throws: BadInput when the DEM has no
+/// cells or an infinite height; Cancelled. Source: O'Callaghan and Mark 1984; Barnes, Lehman and Mulla 2014; queue:
+/// radix heap of Ahuja, Mehlhorn, Orlin and Tarjan 1990.
 Drainage drain(Raster<float> const& dem, Run const& run = {});
 
 /// Contributing areas [m2] of a network's arcs and nodes.
@@ -33,9 +44,18 @@ struct ContributingAreas {
 };
 
 /// Without a DEM: each cell belongs to the network cell nearest by city-block distance (ties: lower index).
+/// A network cell (cells_along) covered by several arcs belongs to the one with the fewest arcs to the outlet (ties:
+/// lower number): the cell of a confluence to the arc that leaves it, the cell of an outlet to an arc that enters it.
+/// Gives: us_area = what its node's arriving arcs bring, and the node's cell; ds_area = us_area and every further cell
+/// of the arc; a node's area = us_area of the arc that leaves it, or the sum of what arrives at an outlet. So areas
+/// never fall downstream, and the outlets' areas add up to the grid. A source whose cell belongs to another arc has 0.
+/// Takes: a network of trees inside the grid. Throws: BadInput, naming arc or node, otherwise; Cancelled.
 ContributingAreas areas_nearest(StreamNetwork const& network, Grid const& grid, Run const& run = {});
 
-/// With a DEM: its D8 accumulation at the arcs' end cells.
-ContributingAreas areas_d8(StreamNetwork const& network, Drainage const& drainage);
+/// With a DEM: a cell belongs to the first river cell its water meets by D8, and the water of a river stays in the
+/// river. So areas never fall downstream, also where the steepest descent of the DEM would leave the river; cells whose
+/// water leaves the grid before it meets a river belong to none. Owners of shared cells, areas at both ends and at
+/// nodes, and what is thrown: as areas_nearest.
+ContributingAreas areas_d8(StreamNetwork const& network, Drainage const& drainage, Run const& run = {});
 
 } // namespace thalweg::measure

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
@@ -11,33 +12,42 @@
 
 namespace thalweg::network {
 
+/// What says which way the rivers of a component run: which of its ends is the outlet.
 enum class Orientation : std::uint8_t {
-    automatic, ///< by height where every line has Z, else by rank where the file gives one, else as_drawn if that is a tree, else topology
+    automatic, ///< by height where every line has Z, else by rank where the file gives one, else the end of the
+               ///< component that turns the least length of the drawn direction round (ties: as topology)
     height,    ///< downstream is down
     rank,      ///< downstream is where the rank falls
     as_drawn,  ///< the file's direction
-    topology   ///< away from the sources towards each component's outlet (its end nearest the border of the box)
+    topology   ///< towards the end of the component nearest the border of the box
 };
 
 struct AdoptParams {
-    double snap_m = 0.0; ///< [m] ends closer than this are joined; 0 takes 1e-6 of the box's diagonal
+    double snap_m = 0.0; ///< [m] >= 0, ends closer than this are joined; 0 takes 1e-6 of the box's diagonal
     Orientation orientation = Orientation::automatic;
 };
 
 struct Adopted {
     StreamNetwork network;
-    std::vector<std::vector<double>> arc_z; ///< [m] the file's heights by arc number and vertex; empty without Z
-    std::vector<Finding> repairs;           ///< snapped, split, duplicate, reversed, removed
+    std::vector<std::vector<double>> arc_z; ///< [m] the file's heights by arc number and vertex; empty without Z.
+                                            ///< Arcs that meet agree: the lowest of their heights, but not below the
+                                            ///< next vertex downstream
+    std::vector<Finding> repairs; ///< snapped [m moved], duplicate [m], removed [vertices], split [rivers that meet],
+                                  ///< reversed [m], joined [m], height [m between rivers that meet]
 };
 
-/// Makes a network of lines somebody drew: snaps ends, splits at crossings (exact), drops duplicates, orients downstream.
-/// Gives: trees; every vertex of every kept line stays, in its order and within 1e-6 m (snapped ends within snap_m,
-/// each reported); only crossings are added.
-/// Throws: BadInput naming the feature and its place: NaN, a line of no length, a cycle of rivers, a bifurcation.
+/// Makes a network of lines somebody drew: snaps ends, splits at crossings (exact), drops duplicates, orients
+/// downstream. An end within snap_m of another line is joined to its nearest vertex there, else to the nearest place of
+/// its segment. Lines that meet end to end become one arc, of the feature of its longest piece, unless their types
+/// differ. Gives: trees; every vertex of every kept line stays, in its order and within 1e-6 m (snapped ends within
+/// snap_m, each reported); only crossings are added. Throws: BadInput naming the feature and its place: NaN, a line of
+/// no length, a cycle of rivers, a bifurcation (under automatic by height or rank only); BadInput when there is no line
+/// or what orientation asks for is not in the file; BadParameter; Cancelled.
 Adopted adopt(RiverLines const& lines, AdoptParams const& params = {}, Run const& run = {});
 
 /// The heights the file gave, as those of the network.
-/// Throws: BadInput when a river runs uphill: "river 3 in F runs uphill between vertex 4 (12.1 m) and 5 (12.9 m)".
+/// Throws: BadInput when there are none, or a river runs uphill: "river 3 in F runs uphill between vertex 4 (12.1 m)
+/// and 5 (12.9 m)"; vertices are counted from 1.
 RaisedNetwork take_file_heights(Adopted const& adopted, RiverLines const& lines);
 
 } // namespace thalweg::network

@@ -12,14 +12,14 @@ namespace thalweg::network {
 
 enum class VisitRule : std::uint8_t {
     count_first,     ///< every arrival counts; below M the walker is removed, then the stick test
-    stick_then_count ///< only passed stick tests count; occupied at the M-th
+    stick_then_count ///< only passed stick tests count: below M the walker is removed, at the M-th it holds
 };
 
 struct DlaParams {
-    std::int64_t particles = 26000; ///< [1, ...] size of the cluster, its seed included
-    double sticking = 0.85;         ///< (0, 1] S: a site with n occupied 4-neighbours holds with S^(3-n)
-    int visits = 3;                 ///< [1, 255] M: arrivals a site needs before it may hold
-    std::int64_t max_radius = 0;    ///< [cells] stop when the cluster reaches it; 0 for no limit
+    std::int64_t particles = 26000;          ///< [1, ...] size of the cluster, its seed included
+    double sticking = 0.85;                  ///< (0, 1] S: a site with n occupied 4-neighbours holds with S^(3-n)
+    int visits = 3;                          ///< [1, 255] M: arrivals a site needs before it may hold
+    std::int64_t max_radius = 0;             ///< [cells] stop when the cluster reaches it; 0 for no limit
     VisitRule rule = VisitRule::count_first; ///< order of count and stick test
     std::uint64_t seed = 7;
 };
@@ -28,10 +28,11 @@ enum class GrowthStop : std::uint8_t { particles, radius };
 
 /// A cluster on the lattice; cell (0,0) is its seed, columns grow to the east, rows to the south.
 struct Cluster {
-    std::vector<Cell> cells;          ///< in order of arrival, the seed first
-    std::vector<std::int64_t> parent; ///< by particle: the occupied 4-neighbour it hangs on (uniform choice); -1 for the seed
-    std::int64_t walkers = 0;         ///< released
-    double radius = 0.0;              ///< [cells] largest distance to the seed
+    std::vector<Cell> cells; ///< in order of arrival, the seed first
+    std::vector<std::int64_t>
+        parent;               ///< by particle: the occupied 4-neighbour it hangs on (uniform choice); -1 for the seed
+    std::int64_t walkers = 0; ///< released
+    double radius = 0.0;      ///< [cells] largest distance to the seed
     GrowthStop stop = GrowthStop::particles;
 };
 

@@ -7,8 +7,9 @@
 namespace thalweg::network {
 
 /// Strahler, Shreve, Hack and topological orders, basins and distances to the outlet.
-/// Takes: a network whose components are trees. Gives: the orders by arc number and node.
-/// Throws: BadInput when a node has two arcs leaving it or a cycle is found.
+/// Takes: a network whose components are trees. Gives: the orders by arc number and node; 0 for a node without arcs.
+/// Where several arcs end in an outlet, the one on the longest path is the main stem.
+/// Throws: BadInput, naming the place, when a node has two arcs leaving it or a cycle is found.
 /// Source: Strahler 1957; Shreve 1966; Hack 1957 (main stem = longest flow path; ties: lower arc number).
 NetworkOrders order(StreamNetwork const& network);
 

@@ -16,13 +16,11 @@ struct Rasterised {
 };
 
 /// Draws the arcs into cells (Bresenham between vertices, height linear along the arc); where several cover a cell the
-/// lowest counts.
-/// Takes: a network inside the grid. Gives: heights that never rise along any arc's cells downstream.
-/// Throws: BadInput, naming the arc, when a vertex lies outside the grid.
+/// lowest counts, and what lies downstream of it is lowered to it.
+/// Takes: a network inside the grid; the grid's outer edges belong to its outermost cells.
+/// Gives: heights that never rise along any arc's cells downstream, compared as the floats they are.
+/// Throws: BadInput, naming the arc and the place, when a vertex lies outside the grid or a height is not a number.
 /// Source: paper 000, section 3.3; specification 0.3.
 Rasterised rasterise(RaisedNetwork const& network, Grid const& grid);
-
-/// The cells of one polyline in order, each once in a row (Bresenham between vertices).
-std::vector<Cell> cells_of(std::vector<Vec2> const& line, Grid const& grid);
 
 } // namespace thalweg::network

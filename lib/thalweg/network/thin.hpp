@@ -8,10 +8,11 @@
 namespace thalweg::network {
 
 /// Thins a mask to its skeleton.
-/// Takes: 1 inside, 0 outside; what lies beyond the grid counts as outside.
-/// Gives: an 8-connected subset one cell wide with as many components as the mask; thinning it again changes nothing.
+/// Takes: 0 outside, anything else inside; what lies beyond the grid counts as outside.
+/// Gives: a subset one cell wide with as many components (8 neighbours) and holes (4 neighbours) as the mask, without
+/// L-shaped corners; thinning it again changes nothing. Four branches may still meet in a block of 2 x 2 cells.
 /// Throws: Cancelled.
-/// Source: Guo and Hall 1989, 64 cells a word.
+/// Source: Guo and Hall 1989, algorithm A1, 64 cells a word.
 Mask thin(Mask const& mask, Run const& run = {});
 
 } // namespace thalweg::network

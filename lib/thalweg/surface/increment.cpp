@@ -3,6 +3,7 @@
 #include <thalweg/surface/increment.hpp>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/suggest.hpp>
 
 #include <fmt/format.h>
 #include <muParser.h>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <string_view>
 
 namespace thalweg::surface {
@@ -31,28 +31,12 @@ constexpr std::array<Named, 3> table_1{{
 constexpr std::size_t longest_expression = 1000;
 constexpr std::string_view choices = "(uniform, decreasing, rise_fall, or an expression in x such as 3-0.01*x)";
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            std::size_t const substituted = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({substituted, diagonal + 1, row[j] + 1});
-        }
-    }
-    return row.back();
-}
-
 [[noreturn]] void refuse(std::string const& text, std::string_view why) {
-    std::string hint;
+    std::vector<std::string> names;
     for (Named const& named : table_1) {
-        if (edit_distance(text, named.name) <= 2) {
-            hint = fmt::format(" Did you mean '{}'?", named.name);
-        }
+        names.emplace_back(named.name);
     }
+    std::string hint = did_you_mean(text, names);
     if (hint.empty() && !why.empty()) {
         hint = fmt::format(" As an expression: {}.", why);
     }

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <cstdint>
+
+#include <benchmark/benchmark.h>
+
+#include <thalweg/core/chance.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/measure/drainage.hpp>
+#include <thalweg/measure/statistics.hpp>
+
+namespace {
+
+using namespace thalweg;
+
+/// Relief of waves that halve in length and height: valleys of every size, and a rough ground that makes depressions.
+Raster<float> relief(std::int64_t side) {
+    Raster<float> dem(Grid{side, side, 10.0, 0.0, 10.0 * static_cast<double>(side), ""});
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        Cell const c = dem.grid().at(i);
+        double z = 0.0;
+        std::uint64_t octave = 0;
+        for (std::int64_t wave = side / 2; wave > 0; wave /= 2, ++octave) {
+            // Value noise: bilinear between the chances of lattice points.
+            auto const corner = [&](std::int64_t col, std::int64_t row) {
+                return unit(chance(1, octave, static_cast<std::uint64_t>(col), static_cast<std::uint64_t>(row)));
+            };
+            std::int64_t const col = c.col / wave;
+            std::int64_t const row = c.row / wave;
+            double const u = static_cast<double>(c.col % wave) / static_cast<double>(wave);
+            double const v = static_cast<double>(c.row % wave) / static_cast<double>(wave);
+            z += static_cast<double>(wave) * ((corner(col, row) * (1 - u) + corner(col + 1, row) * u) * (1 - v) +
+                                              (corner(col, row + 1) * (1 - u) + corner(col + 1, row + 1) * u) * v);
+        }
+        dem[i] = static_cast<float>(z);
+    }
+    return dem;
+}
+
+void set_cells(benchmark::State& state) {
+    state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0));
+}
+
+void bench_drain_relief(benchmark::State& state) {
+    Raster<float> const dem = relief(state.range(0));
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(measure::drain(dem));
+    }
+    set_cells(state);
+}
+BENCHMARK(bench_drain_relief)->Name("drain/relief")->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+
+void bench_drain_noise(benchmark::State& state) {
+    Raster<float> dem(Grid{state.range(0), state.range(0), 1.0, 0.0, 0.0, ""});
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        dem[i] = static_cast<float>(unit(chance(1, static_cast<std::uint64_t>(i))));
+    }
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(measure::drain(dem));
+    }
+    set_cells(state);
+}
+BENCHMARK(bench_drain_noise)->Name("drain/noise")->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+
+void bench_statistics(benchmark::State& state) {
+    Raster<float> const dem = relief(state.range(0));
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(measure::statistics(dem));
+    }
+    set_cells(state);
+}
+BENCHMARK(bench_statistics)->Name("statistics")->Arg(4096)->Unit(benchmark::kMillisecond);
+
+/// A hundred parallel rivers from north to south.
+void bench_areas_nearest(benchmark::State& state) {
+    Grid const grid{state.range(0), state.range(0), 1.0, 0.0, static_cast<double>(state.range(0)), ""};
+    StreamNetwork rivers;
+    for (std::int64_t k = 0; k < 100; ++k) {
+        std::int64_t const col = k * grid.width / 100;
+        auto const north = boost::add_vertex(Node{grid.centre({col, 0})}, rivers);
+        auto const south = boost::add_vertex(Node{grid.centre({col, grid.height - 1})}, rivers);
+        add_arc(rivers, north, south, {});
+    }
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(measure::areas_nearest(rivers, grid));
+    }
+    set_cells(state);
+}
+BENCHMARK(bench_areas_nearest)->Name("areas_nearest")->Arg(4096)->Unit(benchmark::kMillisecond);
+
+} // namespace

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <benchmark/benchmark.h>
+
+#include <thalweg/network/grow_dla.hpp>
+
+#include <network/unit_step_dla.hpp>
+
+#include <cstdint>
+
+// An item is a particle; memory and tables made by the growth count. Arguments: particles, 100 S, M. The yardstick has
+// the same birth circle, return from afar and occupancy test; only its steps are unit steps.
+
+namespace {
+
+thalweg::network::DlaParams params_of(benchmark::State const& state) {
+    thalweg::network::DlaParams params;
+    params.particles = state.range(0);
+    params.sticking = static_cast<double>(state.range(1)) / 100.0;
+    params.visits = static_cast<int>(state.range(2));
+    return params;
+}
+
+template <class Grow> void measure(benchmark::State& state, Grow grow) {
+    auto const params = params_of(state);
+    for ([[maybe_unused]] auto _ : state) {
+        auto const cluster = grow(params);
+        benchmark::DoNotOptimize(cluster.cells.data());
+    }
+    state.SetItemsProcessed(state.iterations() * params.particles);
+}
+
+void unit_step_dla(benchmark::State& state) {
+    measure(state, unit_step::grow);
+}
+
+void grow_dla(benchmark::State& state) {
+    measure(state, [](thalweg::network::DlaParams const& params) { return thalweg::network::grow_dla(params); });
+}
+
+} // namespace
+
+BENCHMARK(unit_step_dla)->Args({10000, 100, 1})->Args({10000, 85, 3})->Unit(benchmark::kMillisecond);
+BENCHMARK(grow_dla)
+    ->Args({10000, 100, 1})
+    ->Args({10000, 85, 3})
+    ->Args({100000, 100, 1})
+    ->Args({100000, 85, 3})
+    ->Args({1000000, 100, 1})
+    ->Unit(benchmark::kMillisecond);

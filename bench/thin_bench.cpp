@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <benchmark/benchmark.h>
+
+#include "../tests/network/masks.hpp"
+#include "../tests/network/plain_thinning.hpp"
+#include <thalweg/network/order.hpp>
+#include <thalweg/network/prune.hpp>
+#include <thalweg/network/rasterise.hpp>
+#include <thalweg/network/set_heights.hpp>
+#include <thalweg/network/thin.hpp>
+#include <thalweg/network/trace.hpp>
+
+// Thinning beside its yardsticks, items = cells of the grid; allocation counts. Then what follows it.
+namespace {
+
+using namespace thalweg;
+
+/// Branches seven cells thick that cover a tenth of the grid.
+Mask branches(std::int64_t side) {
+    return test::random_blob(7, side, side, static_cast<int>(side / 8), 7);
+}
+
+template <class Thin> void thin_with(benchmark::State& state, Thin thin) {
+    Mask const mask = branches(state.range(0));
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(thin(mask));
+    }
+    state.SetItemsProcessed(state.iterations() * mask.cells());
+}
+
+void BM_thin_plain(benchmark::State& state) {
+    thin_with(state, test::plain_thin);
+}
+void BM_thin_table(benchmark::State& state) {
+    thin_with(state, test::table_thin);
+}
+void BM_thin(benchmark::State& state) {
+    thin_with(state, [](Mask const& mask) { return network::thin(mask); });
+}
+BENCHMARK(BM_thin_plain)->Arg(1024)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_thin_table)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_thin)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+
+/// Ragged enough for tens of thousands of arcs.
+Mask skeleton_of_burrs(std::int64_t side) {
+    return network::thin(test::random_blob(7, side, side, static_cast<int>(side * 2), 1));
+}
+
+void BM_trace(benchmark::State& state) {
+    Mask const skeleton = skeleton_of_burrs(state.range(0));
+    std::size_t arcs = 0;
+    for (auto _ : state) {
+        arcs = boost::num_edges(network::trace(skeleton));
+    }
+    std::int64_t cells = 0;
+    for (auto const v : skeleton.values()) {
+        cells += v;
+    }
+    state.SetItemsProcessed(state.iterations() * cells);
+    state.counters["skeleton_cells"] = static_cast<double>(cells);
+    state.counters["arcs"] = static_cast<double>(arcs);
+}
+BENCHMARK(BM_trace)->Arg(512)->Arg(1024)->Unit(benchmark::kMillisecond);
+
+template <class Stage> void after_tracing(benchmark::State& state, Stage stage) {
+    StreamNetwork const network = network::trace(skeleton_of_burrs(state.range(0)));
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(stage(network));
+    }
+    state.counters["arcs"] = static_cast<double>(boost::num_edges(network));
+}
+
+void BM_prune(benchmark::State& state) {
+    after_tracing(state, [](StreamNetwork const& network) { return network::prune(network); });
+}
+void BM_order(benchmark::State& state) {
+    after_tracing(state, network::order);
+}
+void BM_set_heights(benchmark::State& state) {
+    after_tracing(state, [](StreamNetwork const& network) { return network::set_heights(network); });
+}
+void BM_rasterise(benchmark::State& state) {
+    Grid const grid = test::grid_of(state.range(0), state.range(0));
+    auto const raised = network::set_heights(network::trace(skeleton_of_burrs(state.range(0)))).network;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(network::rasterise(raised, grid));
+    }
+}
+BENCHMARK(BM_prune)->Arg(1024)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_order)->Arg(1024)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_set_heights)->Arg(1024)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_rasterise)->Arg(1024)->Unit(benchmark::kMillisecond);
+
+} // namespace

@@ -1,0 +1,356 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/draw/canvas.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <unordered_map>
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <cairo.h>
+#include <fmt/format.h>
+
+#include <thalweg/core/error.hpp>
+
+namespace thalweg::draw {
+namespace {
+
+struct EndSurface {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+};
+struct EndCairo {
+    void operator()(cairo_t* sheet) const { cairo_destroy(sheet); }
+};
+struct EndFontOptions {
+    void operator()(cairo_font_options_t* options) const { cairo_font_options_destroy(options); }
+};
+
+cairo_status_t append(void* bytes, unsigned char const* data, unsigned int length) {
+    try {
+        static_cast<std::string*>(bytes)->append(reinterpret_cast<char const*>(data), length);
+    } catch (std::exception const&) { // must not cross C frames
+        return CAIRO_STATUS_NO_MEMORY;
+    }
+    return CAIRO_STATUS_SUCCESS;
+}
+
+void demand(cairo_status_t status) {
+    if (status != CAIRO_STATUS_SUCCESS) {
+        throw IoError(fmt::format("draw.paint: Cairo says '{}'; choose a smaller picture or free memory",
+                                  cairo_status_to_string(status)));
+    }
+}
+
+/// Cairo numbers surfaces and images by a counter of the process: they are renumbered by their place in the text.
+std::string renumber_ids(std::string const& svg) {
+    std::string out;
+    out.reserve(svg.size());
+    std::unordered_map<std::string, std::size_t> numbers;
+    for (std::size_t i = 0; i < svg.size();) {
+        std::string_view const rest = std::string_view(svg).substr(i);
+        std::string_view stem;
+        for (std::string_view const mark : {"\"surface", "#surface", "\"image", "#image", "\"mask", "#mask"}) {
+            if (rest.starts_with(mark)) {
+                stem = mark;
+            }
+        }
+        std::size_t end = stem.size();
+        while (end < rest.size() && std::isdigit(static_cast<unsigned char>(rest[end])) != 0) {
+            ++end;
+        }
+        if (stem.empty() || end == stem.size()) {
+            out += svg[i++];
+            continue;
+        }
+        auto const known = numbers.try_emplace(std::string(rest.substr(1, end - 1)), numbers.size() + 1).first;
+        out += fmt::format("{}{}", stem, known->second);
+        i += end;
+    }
+    return out;
+}
+
+/// Code points of a text; what is not UTF-8 becomes U+FFFD.
+std::vector<char32_t> code_points(std::string_view text) {
+    std::vector<char32_t> out;
+    for (std::size_t i = 0; i < text.size();) {
+        auto const byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+        unsigned const lead = byte(i);
+        std::size_t const length = lead < 0x80   ? 1
+                                   : lead < 0xC2 ? 0
+                                   : lead < 0xE0 ? 2
+                                   : lead < 0xF0 ? 3
+                                   : lead < 0xF5 ? 4
+                                                 : 0;
+        bool whole = length > 0 && i + length <= text.size();
+        char32_t point = length <= 1 ? lead : lead & (0x7FU >> length);
+        for (std::size_t k = 1; whole && k < length; ++k) {
+            whole = (byte(i + k) & 0xC0U) == 0x80U;
+            point = (point << 6U) | (byte(i + k) & 0x3FU);
+        }
+        bool const overlong = (length == 3 && point < 0x800) || (length == 4 && point < 0x10000);
+        if (!whole || overlong || point > 0x10FFFF || (point >= 0xD800 && point < 0xE000)) {
+            out.push_back(0xFFFD);
+            ++i;
+            continue;
+        }
+        bool const control = point < 0x20 || (point >= 0x7F && point < 0xA0) || point == 0xFFFE || point == 0xFFFF;
+        out.push_back(control ? U' ' : point);
+        i += length;
+    }
+    return out;
+}
+
+std::string utf8(char32_t point) {
+    auto const tail = [&](unsigned shift) { return static_cast<char>(0x80U | ((point >> shift) & 0x3FU)); };
+    if (point < 0x80) {
+        return {static_cast<char>(point)};
+    }
+    if (point < 0x800) {
+        return {static_cast<char>(0xC0U | (point >> 6U)), tail(0)};
+    }
+    if (point < 0x10000) {
+        return {static_cast<char>(0xE0U | (point >> 12U)), tail(6), tail(0)};
+    }
+    return {static_cast<char>(0xF0U | (point >> 18U)), tail(12), tail(6), tail(0)};
+}
+
+/// Cairo's plain text takes one font for all and draws boxes for what it lacks: the fonts are asked here, in order.
+constexpr std::array<char const*, 2> families = {"DejaVu Sans", "Noto Sans CJK SC"};
+
+void select_family(cairo_t* sheet, std::size_t family, TextStyle const& style) {
+    cairo_select_font_face(sheet, families[family], CAIRO_FONT_SLANT_NORMAL,
+                           style.weight == Weight::bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(sheet, style.size);
+}
+
+bool has_glyph(cairo_t* sheet, std::string const& letter) {
+    cairo_glyph_t* glyphs = nullptr;
+    int count = 0;
+    cairo_status_t const status =
+        cairo_scaled_font_text_to_glyphs(cairo_get_scaled_font(sheet), 0.0, 0.0, letter.data(),
+                                         static_cast<int>(letter.size()), &glyphs, &count, nullptr, nullptr, nullptr);
+    bool const found = status == CAIRO_STATUS_SUCCESS && count > 0 && glyphs[0].index != 0;
+    cairo_glyph_free(glyphs);
+    return found;
+}
+
+/// A stretch of text that one font can draw.
+struct Stretch {
+    std::size_t family = 0;
+    std::string text;
+};
+
+std::vector<Stretch> split_by_font(cairo_t* sheet, std::string_view text, TextStyle const& style) {
+    std::vector<Stretch> out;
+    for (char32_t const point : code_points(text)) {
+        std::string const letter = utf8(point);
+        std::size_t family = 0;
+        for (std::size_t k = 0; point >= 0x80 && k < families.size(); ++k) {
+            select_family(sheet, k, style);
+            if (has_glyph(sheet, letter)) {
+                family = k;
+                break;
+            }
+        }
+        if (out.empty() || out.back().family != family) {
+            out.push_back({family, {}});
+        }
+        out.back().text += letter;
+    }
+    return out;
+}
+
+double advance(cairo_t* sheet, Stretch const& stretch, TextStyle const& style) {
+    select_family(sheet, stretch.family, style);
+    cairo_text_extents_t extents;
+    cairo_text_extents(sheet, stretch.text.c_str(), &extents);
+    return extents.x_advance;
+}
+
+double advance(cairo_t* sheet, std::vector<Stretch> const& stretches, TextStyle const& style) {
+    double sum = 0.0;
+    for (Stretch const& stretch : stretches) {
+        sum += advance(sheet, stretch, style);
+    }
+    return sum;
+}
+
+Vec2 near_sheet(Vec2 p) {
+    return {std::clamp(p.x, -1e6, 1e6), std::clamp(p.y, -1e6, 1e6)};
+}
+
+Vec2 towards(Vec2 from, Vec2 to, double by) {
+    double const length = distance(from, to);
+    double const share = length > 0.0 ? std::min(0.5, by / length) : 0.0;
+    return {from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share};
+}
+
+} // namespace
+
+Picture paint(double width, double height, Format format, std::function<void(Cairo*)> const& fill) {
+    Picture picture{{}, format};
+    std::unique_ptr<cairo_surface_t, EndSurface> surface;
+    switch (format) {
+    case Format::png:
+        surface.reset(
+            cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width), static_cast<int>(height)));
+        break;
+    case Format::svg:
+        surface.reset(cairo_svg_surface_create_for_stream(append, &picture.bytes, width, height));
+        cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
+        break;
+    case Format::pdf:
+        surface.reset(cairo_pdf_surface_create_for_stream(append, &picture.bytes, width, height));
+        cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
+        break;
+    }
+    demand(cairo_surface_status(surface.get()));
+    std::unique_ptr<cairo_t, EndCairo> const sheet(cairo_create(surface.get()));
+    // No hinting: letters must be the same at every size and on every screen.
+    std::unique_ptr<cairo_font_options_t, EndFontOptions> const fonts(cairo_font_options_create());
+    cairo_font_options_set_hint_style(fonts.get(), CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(fonts.get(), CAIRO_HINT_METRICS_OFF);
+    cairo_font_options_set_antialias(fonts.get(), CAIRO_ANTIALIAS_GRAY);
+    cairo_set_font_options(sheet.get(), fonts.get());
+    cairo_set_line_join(sheet.get(), CAIRO_LINE_JOIN_ROUND);
+    fill_box(sheet.get(), {0.0, 0.0, width, height}, paper);
+    fill(sheet.get());
+    demand(cairo_status(sheet.get()));
+    if (format == Format::png) {
+        demand(cairo_surface_write_to_png_stream(surface.get(), append, &picture.bytes));
+    }
+    cairo_surface_finish(surface.get());
+    demand(cairo_surface_status(surface.get()));
+    if (format == Format::svg) {
+        picture.bytes = renumber_ids(picture.bytes);
+    }
+    return picture;
+}
+
+void demand_pixels(std::string_view what, int pixels, int low, int high) {
+    if (pixels < low || pixels > high) {
+        throw BadParameter(fmt::format("{} is {}, must lie in [{}, {}] pixels", what, pixels, low, high));
+    }
+}
+
+void set_colour(Cairo* sheet, Colour colour) {
+    cairo_set_source_rgba(sheet, colour.red, colour.green, colour.blue, colour.alpha);
+}
+
+void fill_box(Cairo* sheet, Box box, Colour colour) {
+    set_colour(sheet, colour);
+    cairo_rectangle(sheet, box.x, box.y, box.width, box.height);
+    cairo_fill(sheet);
+}
+
+void frame_box(Cairo* sheet, Box box, double line_width, Colour colour) {
+    set_colour(sheet, colour);
+    cairo_set_line_width(sheet, line_width);
+    cairo_rectangle(sheet, box.x, box.y, box.width, box.height);
+    cairo_stroke(sheet);
+}
+
+void draw_line(Cairo* sheet, Vec2 from, Vec2 to, double line_width, Colour colour) {
+    set_colour(sheet, colour);
+    cairo_set_line_width(sheet, line_width);
+    cairo_move_to(sheet, from.x, from.y);
+    cairo_line_to(sheet, to.x, to.y);
+    cairo_stroke(sheet);
+}
+
+void trace_line(Cairo* sheet, std::vector<Vec2> const& line, double corner_px) {
+    std::vector<Vec2> kept;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        Vec2 const p = near_sheet(line[i]);
+        if (i + 1 == line.size() && kept.size() > 1 && distance(kept.back(), p) < 0.25) {
+            kept.back() = p; // the end itself is always kept
+        } else if (kept.empty() || i + 1 == line.size() || distance(kept.back(), p) >= 0.25) {
+            kept.push_back(p);
+        }
+    }
+    if (kept.empty()) {
+        return;
+    }
+    cairo_move_to(sheet, kept.front().x, kept.front().y);
+    for (std::size_t i = 1; i + 1 < kept.size(); ++i) {
+        if (corner_px <= 0.0) {
+            cairo_line_to(sheet, kept[i].x, kept[i].y);
+            continue;
+        }
+        Vec2 const in = towards(kept[i], kept[i - 1], corner_px);
+        Vec2 const out = towards(kept[i], kept[i + 1], corner_px);
+        auto const control = [&](Vec2 end) { // a quadratic curve with its control point in the vertex
+            return Vec2{end.x + (kept[i].x - end.x) * 2.0 / 3.0, end.y + (kept[i].y - end.y) * 2.0 / 3.0};
+        };
+        cairo_line_to(sheet, in.x, in.y);
+        cairo_curve_to(sheet, control(in).x, control(in).y, control(out).x, control(out).y, out.x, out.y);
+    }
+    cairo_line_to(sheet, kept.back().x, kept.back().y);
+}
+
+double text_width(Cairo* sheet, std::string_view text, TextStyle const& style) {
+    return advance(sheet, split_by_font(sheet, text, style), style);
+}
+
+void draw_text(Cairo* sheet, Vec2 at, std::string_view text, TextStyle const& style, Anchor anchor, Vec2 along) {
+    std::vector<Stretch> const stretches = split_by_font(sheet, text, style);
+    double const share = anchor == Anchor::start ? 0.0 : anchor == Anchor::middle ? 0.5 : 1.0;
+    cairo_save(sheet);
+    double const length = distance({0.0, 0.0}, along);
+    cairo_matrix_t turn;
+    cairo_matrix_init(&turn, along.x / length, along.y / length, -along.y / length, along.x / length, at.x, at.y);
+    cairo_transform(sheet, &turn);
+    double const start = -share * advance(sheet, stretches, style);
+    if (style.halo_px > 0.0) {
+        double x = start;
+        for (Stretch const& stretch : stretches) {
+            select_family(sheet, stretch.family, style);
+            cairo_move_to(sheet, x, 0.0);
+            cairo_text_path(sheet, stretch.text.c_str());
+            x += advance(sheet, stretch, style);
+        }
+        set_colour(sheet, {1.0, 1.0, 1.0, 0.75});
+        cairo_set_line_width(sheet, 2.0 * style.halo_px);
+        cairo_stroke(sheet);
+    }
+    set_colour(sheet, style.colour);
+    double x = start;
+    for (Stretch const& stretch : stretches) {
+        select_family(sheet, stretch.family, style);
+        cairo_move_to(sheet, x, 0.0);
+        cairo_show_text(sheet, stretch.text.c_str());
+        x += advance(sheet, stretch, style);
+    }
+    cairo_new_path(sheet);
+    cairo_restore(sheet);
+}
+
+void draw_text_within(Cairo* sheet, Vec2 at, std::string_view text, TextStyle style, double room, Anchor anchor) {
+    double const width = text_width(sheet, text, style);
+    if (width <= room) {
+        draw_text(sheet, at, text, style, anchor);
+        return;
+    }
+    style.size *= std::max(0.6, 0.999 * room / width);
+    if (text_width(sheet, text, style) <= room) {
+        draw_text(sheet, at, text, style, anchor);
+        return;
+    }
+    double used = text_width(sheet, "…", style);
+    std::string cut;
+    for (char32_t const point : code_points(text)) {
+        std::string const letter = utf8(point);
+        used += text_width(sheet, letter, style);
+        if (used > room) {
+            break;
+        }
+        cut += letter;
+    }
+    draw_text(sheet, at, cut + "…", style, anchor);
+}
+
+} // namespace thalweg::draw

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/draw/legend.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <cairo.h>
+#include <fmt/format.h>
+
+#include <thalweg/draw/axes.hpp>
+#include <thalweg/draw/map_lines.hpp>
+#include <thalweg/draw/relief.hpp>
+
+namespace thalweg::draw {
+namespace {
+
+constexpr double row_height = 92.0; ///< [units]
+constexpr double gap = 36.0;
+
+/// One part of the legend: its width [units] and what it draws from its upper left corner.
+struct Block {
+    double width = 0.0;
+    std::function<void(Cairo*, Vec2)> draw;
+};
+
+struct Styles {
+    explicit Styles(double unit)
+        : heading{14.0 * unit, ink, Weight::bold}, text{13.0 * unit, ink}, small{12.0 * unit, faint_ink} {}
+    TextStyle heading;
+    TextStyle text;
+    TextStyle small;
+};
+
+Block north_arrow(double unit) {
+    return {24.0, [unit](Cairo* sheet, Vec2 at) {
+                double const x = at.x + 12.0 * unit;
+                for (double const side : {-1.0, 1.0}) {
+                    cairo_move_to(sheet, x, at.y + 18.0 * unit);
+                    cairo_line_to(sheet, x + side * 8.0 * unit, at.y + 54.0 * unit);
+                    cairo_line_to(sheet, x, at.y + 46.0 * unit);
+                    cairo_close_path(sheet);
+                    set_colour(sheet, side < 0.0 ? ink : paper);
+                    cairo_fill_preserve(sheet);
+                    set_colour(sheet, ink);
+                    cairo_set_line_width(sheet, 0.9 * unit);
+                    cairo_stroke(sheet);
+                }
+                draw_text(sheet, {x, at.y + 13.0 * unit}, "N", Styles(unit).heading, Anchor::middle);
+            }};
+}
+
+/// A bar of four round parts.
+Block scale_bar(LegendFacts const& facts, double unit) {
+    double const longest = std::clamp(0.3 * facts.ground_px, 60.0 * unit, 220.0 * unit);
+    double const part_m = round_down(longest / (4.0 * facts.px_per_m));
+    double const part_px = part_m * facts.px_per_m;
+    bool const in_km = 4.0 * part_m >= 1000.0;
+    double const shown = in_km ? part_m / 1000.0 : part_m;
+    double const text_room = 300.0;
+    return {text_room, [=](Cairo* sheet, Vec2 at) {
+                Styles const style(unit);
+                double const top = at.y + 22.0 * unit;
+                double const left = at.x + 6.0 * unit;
+                for (int k = 0; k < 4; ++k) {
+                    Box const part{left + k * part_px, top, part_px, 7.0 * unit};
+                    fill_box(sheet, part, k % 2 == 0 ? ink : paper);
+                    frame_box(sheet, part, 0.9 * unit, ink);
+                }
+                int const decimals = decimals_of(shown);
+                for (int const k : {0, 2, 4}) {
+                    draw_text(sheet, {left + k * part_px, at.y + 15.0 * unit}, number(k * shown, decimals), style.small,
+                              Anchor::middle);
+                }
+                double const beside = left + 4.0 * part_px +
+                                      0.6 * text_width(sheet, number(4 * shown, decimals), style.small) + 4.0 * unit;
+                draw_text(sheet, {beside, at.y + 15.0 * unit}, in_km ? "km" : "m", style.small);
+                double y = at.y + 48.0 * unit;
+                for (std::string const& line : facts.frame_text) {
+                    draw_text_within(sheet, {at.x, y}, line, style.small, text_room * unit);
+                    y += 17.0 * unit;
+                }
+            }};
+}
+
+Block height_ramp(LegendFacts const& facts, double unit) {
+    double const width = 270.0;
+    return {width, [=](Cairo* sheet, Vec2 at) {
+                Styles const style(unit);
+                draw_text(sheet, {at.x, at.y + 13.0 * unit}, "Height [m]", style.heading);
+                Box const ramp{at.x, at.y + 22.0 * unit, width * unit, 16.0 * unit};
+                double const span = facts.high_m - facts.low_m;
+                if (!(span > 0.0)) { // one height, or none: a swatch
+                    Box const swatch{ramp.x, ramp.y, 34.0 * unit, ramp.height};
+                    fill_box(sheet, swatch, span == 0.0 ? tint(0.4) : no_data);
+                    frame_box(sheet, swatch, 0.8 * unit, ink);
+                    draw_text(sheet, {swatch.right() + 8.0 * unit, ramp.bottom() - 3.0 * unit},
+                              span == 0.0 ? number(facts.low_m, facts.low_m == std::floor(facts.low_m) ? 0 : 2)
+                                          : "no heights",
+                              style.text);
+                    return;
+                }
+                cairo_pattern_t* const colours = cairo_pattern_create_linear(ramp.x, 0.0, ramp.right(), 0.0);
+                for (int k = 0; k <= 32; ++k) {
+                    Colour const colour = tint(k / 32.0);
+                    cairo_pattern_add_color_stop_rgb(colours, k / 32.0, colour.red, colour.green, colour.blue);
+                }
+                cairo_set_source(sheet, colours);
+                cairo_pattern_destroy(colours); // the sheet holds it now
+                cairo_rectangle(sheet, ramp.x, ramp.y, ramp.width, ramp.height);
+                cairo_fill(sheet);
+                frame_box(sheet, ramp, 0.8 * unit, ink);
+                Ticks const ticks = ticks_between(facts.low_m, facts.high_m, 4);
+                for (double const z : ticks.values) {
+                    double const x = ramp.x + (z - facts.low_m) / span * ramp.width;
+                    draw_line(sheet, {x, ramp.y}, {x, ramp.bottom() + 4.0 * unit}, 0.8 * unit, ink);
+                    draw_text(sheet, {x, ramp.bottom() + 17.0 * unit}, number(z, ticks.decimals), style.small,
+                              Anchor::middle);
+                }
+                int const decimals = decimals_of(ticks.step / 10.0);
+                draw_text(sheet, {ramp.right(), at.y + 13.0 * unit},
+                          number(facts.low_m, decimals) + " – " + number(facts.high_m, decimals), style.small,
+                          Anchor::end);
+            }};
+}
+
+Block river_samples(LegendFacts const& facts, double unit) {
+    double const step = std::min(44.0, 330.0 / facts.highest_order);
+    return {std::max(130.0, step * facts.highest_order), [=, highest = facts.highest_order](Cairo* sheet, Vec2 at) {
+                Styles const style(unit);
+                draw_text(sheet, {at.x, at.y + 13.0 * unit}, "Strahler order", style.heading);
+                for (int order = 1; order <= highest; ++order) {
+                    LineStyle const river = river_style(order, highest, unit);
+                    double const x = at.x + (order - 1) * step * unit;
+                    double const run = 0.75 * step * unit;
+                    double const y = at.y + 31.0 * unit;
+                    cairo_set_line_cap(sheet, CAIRO_LINE_CAP_ROUND);
+                    cairo_move_to(sheet, x + 2.0 * unit, y + 5.0 * unit);
+                    cairo_curve_to(sheet, x + 0.35 * run, y - 13.0 * unit, x + 0.65 * run, y + 13.0 * unit, x + run,
+                                   y - 5.0 * unit);
+                    set_colour(sheet, river.colour);
+                    cairo_set_line_width(sheet, river.width_px);
+                    cairo_stroke(sheet);
+                    cairo_set_line_cap(sheet, CAIRO_LINE_CAP_BUTT);
+                    draw_text(sheet, {x + 0.5 * run, at.y + 55.0 * unit}, fmt::format("{}", order), style.small,
+                              Anchor::middle);
+                }
+            }};
+}
+
+Block contour_samples(LegendFacts const& facts, double unit) {
+    return {190.0, [=, interval = facts.contour_interval_m](Cairo* sheet, Vec2 at) {
+                Styles const style(unit);
+                draw_text(sheet, {at.x, at.y + 13.0 * unit}, "Contours", style.heading);
+                double y = at.y + 32.0 * unit;
+                for (ContourKind const kind : {ContourKind::ordinary, ContourKind::index}) {
+                    LineStyle const line = contour_style(kind, unit);
+                    draw_line(sheet, {at.x, y}, {at.x + 34.0 * unit, y}, line.width_px, line.colour);
+                    double const apart = kind == ContourKind::index ? index_every * interval : interval;
+                    draw_text(sheet, {at.x + 44.0 * unit, y + 4.5 * unit}, fmt::format("every {:.6g} m", apart),
+                              style.small);
+                    y += 22.0 * unit;
+                }
+            }};
+}
+
+Block no_data_sample(double unit) {
+    return {100.0, [unit](Cairo* sheet, Vec2 at) {
+                Box const swatch{at.x, at.y + 22.0 * unit, 28.0 * unit, 16.0 * unit};
+                fill_box(sheet, swatch, no_data);
+                frame_box(sheet, swatch, 0.8 * unit, faint_ink);
+                draw_text(sheet, {swatch.right() + 8.0 * unit, swatch.bottom() - 3.5 * unit}, "no data",
+                          Styles(unit).small);
+            }};
+}
+
+/// The blocks by rows.
+std::vector<std::vector<Block>> rows_of(LegendFacts const& facts, double width, double unit) {
+    std::vector<Block> blocks{north_arrow(unit), scale_bar(facts, unit), height_ramp(facts, unit)};
+    if (facts.highest_order > 0) {
+        blocks.push_back(river_samples(facts, unit));
+    }
+    if (facts.contour_interval_m > 0.0) {
+        blocks.push_back(contour_samples(facts, unit));
+    }
+    if (facts.holes && facts.low_m <= facts.high_m) {
+        blocks.push_back(no_data_sample(unit));
+    }
+    std::vector<std::vector<Block>> rows(1);
+    double used = 0.0;
+    for (Block& block : blocks) {
+        if (!rows.back().empty() && used + gap + block.width > width / unit) {
+            rows.emplace_back();
+        }
+        used = rows.back().empty() ? block.width : used + gap + block.width;
+        rows.back().push_back(std::move(block));
+    }
+    return rows;
+}
+
+} // namespace
+
+double legend_height(LegendFacts const& facts, double width, double unit) {
+    return static_cast<double>(rows_of(facts, width, unit).size()) * row_height * unit;
+}
+
+void draw_legend(Cairo* sheet, LegendFacts const& facts, Vec2 corner, double width, double unit) {
+    double y = corner.y;
+    for (std::vector<Block> const& row : rows_of(facts, width, unit)) {
+        double x = corner.x;
+        for (Block const& block : row) {
+            block.draw(sheet, {x, y});
+            x += (block.width + gap) * unit;
+        }
+        y += row_height * unit;
+    }
+}
+
+} // namespace thalweg::draw

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <thalweg/core/run.hpp>
+#include <thalweg/core/vec.hpp>
+
+namespace thalweg::geometry {
+
+/// A segment of a polyline close to a point.
+struct NearSegment {
+    std::size_t line = 0;    ///< index of the polyline
+    std::size_t segment = 0; ///< between vertices segment and segment + 1
+
+    friend bool operator==(NearSegment const&, NearSegment const&) = default;
+};
+
+/// The point of the segment ab nearest to p, and its place [0,1] on it.
+struct Foot {
+    double along = 0.0;
+    Vec2 at;
+};
+Foot foot_on(Vec2 a, Vec2 b, Vec2 p);
+
+/// For every point the segments within a distance of it.
+/// Takes: points, polylines and a distance [m] >= 0. Gives: by point, sorted by line and segment.
+/// Throws: Cancelled. Source: CGAL, streamed segment trees.
+std::vector<std::vector<NearSegment>> segments_near(std::vector<Vec2> const& points,
+                                                    std::vector<std::vector<Vec2>> const& lines, double distance_m,
+                                                    Run const& run = {});
+
+} // namespace thalweg::geometry

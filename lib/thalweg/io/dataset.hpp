@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <thalweg/core/raster.hpp>
+
+class GDALDataset;
+
+namespace thalweg::io {
+
+struct CloseDataset {
+    void operator()(GDALDataset* dataset) const;
+};
+/// A GDAL data set that closes with its scope; needs a Driver that outlives it.
+using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
+
+/// What stands for a cell without height in files.
+inline constexpr float nodata_height = -9999.0F;
+
+/// Opens an existing file, one of the given kinds (GDAL_OF_RASTER, ...), read-only, by the given drivers
+/// (null-terminated, nullptr for any). Throws: BadInput when there is none or no driver reads it.
+Dataset open_file(std::string const& path, unsigned kinds, char const* const* drivers, std::string const& what);
+
+/// Sets position and CRS of a data set. Throws: BadInput when the CRS is none.
+void set_frame(GDALDataset& dataset, Grid const& grid);
+
+/// Throws: BadInput when a raster is empty or GDAL cannot count its cells.
+void require_size(Grid const& grid, std::string const& what);
+
+/// A copy of heights for GDAL to work on, nodata_height for NaN.
+/// Throws: BadInput at an infinite height or one that equals nodata_height, or like require_size.
+Dataset in_memory(Raster<float> const& dem, std::string const& what);
+
+} // namespace thalweg::io

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace thalweg::io {
+
+/// Every file a vector or raster source consists of, as GDAL knows them (.shp with its .dbf, .prj, ...), sorted.
+/// Throws: BadInput when it is none.
+std::vector<std::string> dataset_files(std::string const& path);
+
+} // namespace thalweg::io

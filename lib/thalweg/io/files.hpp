@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace thalweg::io {
+
+/// What to do where an output folder holds something.
+enum class Existing { refuse, replace };
+
+/// An output folder that appears whole or not at all: files are written into staging() and moved by commit(); without
+/// it nothing is left. Only files that thalweg wrote before are ever replaced or removed. Takes: folder, which need not
+/// exist; old_files: every file an earlier run left in it, report.json included, by its name relative to it
+/// ("inputs/rivers.gpkg"); an empty list when it holds no report. Throws: BadParameter when folder is ""; BadInput when
+/// it is no folder, holds something and existing is refuse, holds something and old_files is empty, or when an old name
+/// is absolute, climbs out with "..", is no plain file, or passes through a link; IoError with the path and the
+/// system's reason.
+class OutputFolder {
+public:
+    explicit OutputFolder(std::string const& folder, Existing existing = Existing::refuse,
+                          std::vector<std::string> old_files = {});
+    /// Removes what was not committed.
+    ~OutputFolder();
+    OutputFolder(OutputFolder const&) = delete;
+    OutputFolder& operator=(OutputFolder const&) = delete;
+
+    /// Where to write: beside a new folder (FOLDER.thalweg-tmp-PID), or in an existing one (.thalweg-tmp-PID).
+    std::string const& staging() const { return staging_; }
+    /// The path of a file to be written, "dem.tif" or "inputs/rivers.gpkg"; makes the folders it is in.
+    std::string path(std::string const& name) const;
+
+    /// Every file written so far, relative names, sorted.
+    std::vector<std::string> files() const;
+
+    /// Puts the files in place, the old ones removed. When it fails everything is as it was before.
+    /// Throws: BadInput when a file would replace one that is not among old_files; IoError.
+    void commit();
+
+private:
+    std::string folder_;
+    std::string staging_;
+    std::vector<std::string> old_files_;
+    std::vector<std::string> made_; // folders above folder_ that were missing, outermost first
+    bool existed_ = false;
+    bool committed_ = false;
+};
+
+/// The bytes of a file. Throws: BadInput when there is none, it is a folder or larger than max_bytes; IoError.
+std::string read_text(std::string const& path, std::int64_t max_bytes);
+
+/// Writes a new file. Throws: IoError with the path and the system's reason, also when the file exists.
+void write_text(std::string const& path, std::string const& text);
+
+/// Copies a file's bytes into a new file. Throws: BadInput when there is no such file; IoError like write_text.
+void copy_file(std::string const& from, std::string const& to);
+
+} // namespace thalweg::io

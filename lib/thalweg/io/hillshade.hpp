@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include <thalweg/core/raster.hpp>
+
+namespace thalweg::io {
+
+enum class Light { north_west, multidirectional };
+
+/// GDAL's hillshade, 1..255; 0 where there is no data. z_factor: [> 0] exaggeration.
+/// Throws: BadParameter; BadInput: an empty raster, an infinite height.
+Raster<std::uint8_t> hillshade(Raster<float> const& dem, double z_factor = 1.0, Light light = Light::north_west);
+
+} // namespace thalweg::io

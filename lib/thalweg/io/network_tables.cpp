@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/network_tables.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace thalweg::io {
+
+namespace {
+
+using Kind = Column::Kind;
+
+// Decimals in a shapefile: more than a double at 1e6 m carries, few enough for 1e13 m or 1e16 m2.
+constexpr int length_decimals = 9;
+constexpr int area_decimals = 6;
+constexpr int slope_decimals = 15;
+
+template <class Get> Column integer(char const* name, Get get) {
+    return {name, Kind::integer, 0, [get](std::int64_t row) { return static_cast<std::int64_t>(get(row)); }};
+}
+
+template <class Get> Column real(char const* name, int decimals, Get get) {
+    return {name, Kind::real, decimals, [get](std::int64_t row) { return static_cast<double>(get(row)); }};
+}
+
+template <class Get> Column text(char const* name, Get get) {
+    return {name, Kind::text, 0, [get](std::int64_t row) { return std::string(get(row)); }};
+}
+
+std::size_t at(std::int64_t row) {
+    return static_cast<std::size_t>(row);
+}
+
+double length_3d(std::vector<Vec2> const& line, std::vector<double> const& z) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        double const plan = distance(line[i - 1], line[i]);
+        double const rise = z[i] - z[i - 1];
+        sum += std::sqrt(plan * plan + rise * rise);
+    }
+    return sum;
+}
+
+} // namespace
+
+Table arcs_table(NetworkTables const& tables, NetworkIndex const& index) {
+    StreamNetwork const& plan = tables.network.plan;
+    auto const& arc_z = tables.network.arc_z;
+    NetworkOrders const& orders = tables.orders;
+    auto const arc = [&](std::int64_t row) -> Arc const& { return plan[index.arcs[at(row)]]; };
+    auto const up = [&](std::int64_t row) { return index.from[at(row)]; };
+    auto const down = [&](std::int64_t row) { return index.to[at(row)]; };
+
+    Table table{"arcs", Table::Shape::line, static_cast<std::int64_t>(index.arcs.size()), {}, {}};
+    table.shape_at = [arc, &arc_z](std::int64_t row) {
+        std::vector<Vec3> line;
+        for (std::size_t i = 0; Vec2 const p : arc(row).line) {
+            line.push_back({p.x, p.y, arc_z[at(row)][i++]});
+        }
+        return line;
+    };
+    table.columns = {
+        integer("arc_id", [](auto row) { return row + 1; }),
+        integer("from_node", [up](auto row) { return up(row) + 1; }),
+        integer("to_node", [down](auto row) { return down(row) + 1; }),
+        integer("ds_arc", [down, &index](auto row) { return index.out[down(row)] + 1; }),
+        integer("n_up", [up, &index](auto row) { return index.in[up(row)].size(); }),
+        integer("basin_id", [&orders](auto row) { return orders.arc_basin[at(row)]; }),
+        integer("topo_ord", [&orders](auto row) { return orders.topological[at(row)]; }),
+        integer("strahler", [&orders](auto row) { return orders.strahler[at(row)]; }),
+        integer("shreve", [&orders](auto row) { return orders.shreve[at(row)]; }),
+        integer("hack", [&orders](auto row) { return orders.hack[at(row)]; }),
+        real("length", length_decimals, [&index](auto row) { return index.length_m[at(row)]; }),
+        real("length_3d", length_decimals,
+             [arc, &arc_z](auto row) { return length_3d(arc(row).line, arc_z[at(row)]); }),
+        real("straight", length_decimals,
+             [arc](auto row) { return distance(arc(row).line.front(), arc(row).line.back()); }),
+        real("z_up", length_decimals, [&arc_z](auto row) { return arc_z[at(row)].front(); }),
+        real("z_down", length_decimals, [&arc_z](auto row) { return arc_z[at(row)].back(); }),
+        real("dist_out", length_decimals, [down, &orders](auto row) { return orders.node_dist_out_m[down(row)]; }),
+        real("slope", slope_decimals,
+             [&arc_z, &index](auto row) {
+                 return (arc_z[at(row)].front() - arc_z[at(row)].back()) / index.length_m[at(row)];
+             }),
+        real("us_area", area_decimals, [&area = tables.us_area_m2](auto row) { return area[at(row)]; }),
+        real("ds_area", area_decimals, [&area = tables.ds_area_m2](auto row) { return area[at(row)]; }),
+        real("survives", length_decimals,
+             [arc](auto row) { return std::isinf(arc(row).survives) ? -1.0 : arc(row).survives; }),
+        {"feature", Kind::wide_integer, 0, [arc](std::int64_t row) { return arc(row).feature; }},
+        // A shapefile reads an empty text back as NULL.
+        text("type", [arc](auto row) { return arc(row).type.empty() ? "none" : arc(row).type; }),
+    };
+    return table;
+}
+
+Table nodes_table(NetworkTables const& tables, NetworkIndex const& index) {
+    auto const& plan = tables.network.plan;
+    auto const& node_z = tables.network.node_z;
+    NetworkOrders const& orders = tables.orders;
+
+    Table table{"nodes", Table::Shape::point, static_cast<std::int64_t>(boost::num_vertices(plan)), {}, {}};
+    table.shape_at = [&](std::int64_t row) {
+        Vec2 const p = plan[at(row)].at;
+        return std::vector<Vec3>{{p.x, p.y, node_z[at(row)]}};
+    };
+    table.columns = {
+        integer("node_id", [](auto row) { return row + 1; }),
+        text("kind", [&plan](auto row) { return name_of(kind_of(plan, at(row))); }),
+        integer("deg_in", [&index](auto row) { return index.in[at(row)].size(); }),
+        integer("deg_out", [&index](auto row) { return index.out[at(row)] < 0 ? 0 : 1; }),
+        integer("basin_id", [&orders](auto row) { return orders.node_basin[at(row)]; }),
+        integer("strahler", [&orders](auto row) { return orders.node_strahler[at(row)]; }),
+        real("z", length_decimals, [&node_z](auto row) { return node_z[at(row)]; }),
+        real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[at(row)]; }),
+        real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[at(row)]; }),
+    };
+    return table;
+}
+
+} // namespace thalweg::io

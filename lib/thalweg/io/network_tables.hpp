@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/io/table.hpp>
+#include <thalweg/io/write_network.hpp>
+
+namespace thalweg::io {
+
+/// The layer arcs of the network schema. The arguments must outlive the table.
+Table arcs_table(NetworkTables const& tables, NetworkIndex const& index);
+
+/// The layer nodes of the network schema. The arguments must outlive the table.
+Table nodes_table(NetworkTables const& tables, NetworkIndex const& index);
+
+} // namespace thalweg::io

@@ -1,0 +1,320 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/read_rivers.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/core/suggest.hpp>
+#include <thalweg/io/driver.hpp>
+#include <thalweg/io/projection.hpp>
+#include <thalweg/io/spatial_reference.hpp>
+
+namespace thalweg::io {
+namespace {
+
+[[noreturn]] void refuse(std::string const& text) {
+    throw BadInput("io.read_rivers: " + text);
+}
+
+std::string listed(std::vector<std::string> const& names) {
+    std::string text;
+    for (auto const& name : names) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text;
+}
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return text;
+}
+
+// " Did you mean 'x'? (x, y, z)"
+std::string suggestion(std::string const& wanted, std::vector<std::string> const& names) {
+    if (names.empty()) {
+        return "";
+    }
+    return did_you_mean(wanted, names) + " (" + listed(names) + ")";
+}
+
+bool may_hold_lines(OGRwkbGeometryType type) {
+    auto const flat = wkbFlatten(type);
+    return flat == wkbUnknown || OGR_GT_IsSubClassOf(flat, wkbCurve) != 0 ||
+           OGR_GT_IsSubClassOf(flat, wkbMultiCurve) != 0;
+}
+
+OGRLayer& choose_layer(GDALDataset& data, ReadRiversParams const& params, std::string const& name) {
+    std::vector<std::string> names;
+    std::vector<OGRLayer*> lines;
+    std::vector<OGRLayer*> unknown;
+    for (auto* const layer : data.GetLayers()) {
+        names.emplace_back(layer->GetName());
+        if (layer->GetName() == params.layer && !params.layer.empty()) {
+            if (!may_hold_lines(layer->GetGeomType())) {
+                refuse(fmt::format("layer {} of {} holds {}, not lines", params.layer, name,
+                                   OGRGeometryTypeToName(layer->GetGeomType())));
+            }
+            return *layer;
+        }
+        if (may_hold_lines(layer->GetGeomType())) {
+            (wkbFlatten(layer->GetGeomType()) == wkbUnknown ? unknown : lines).push_back(layer);
+        }
+    }
+    if (!params.layer.empty()) {
+        refuse(fmt::format("{} has no layer '{}'.{}", name, params.layer, suggestion(params.layer, names)));
+    }
+    auto const& candidates = lines.empty() ? unknown : lines;
+    if (candidates.empty()) {
+        refuse(fmt::format("{} has no layer of lines{}", name, names.empty() ? "" : " (" + listed(names) + ")"));
+    }
+    if (candidates.size() > 1) {
+        std::vector<std::string> of_lines;
+        for (auto* const layer : candidates) {
+            of_lines.emplace_back(layer->GetName());
+        }
+        refuse(
+            fmt::format("{} has {} layers of lines; name one of them ({})", name, candidates.size(), listed(of_lines)));
+    }
+    return *candidates.front();
+}
+
+std::vector<std::string> field_names(OGRFeatureDefn& schema) {
+    std::vector<std::string> names;
+    for (int i = 0; i < schema.GetFieldCount(); ++i) {
+        names.emplace_back(schema.GetFieldDefn(i)->GetNameRef());
+    }
+    return names;
+}
+
+// -1 when it may be missing and is.
+int find_field(OGRLayer& layer, std::string const& field, bool may_miss, std::string const& name) {
+    int const index = layer.GetLayerDefn()->GetFieldIndex(field.c_str());
+    if (index < 0 && !may_miss) {
+        refuse(fmt::format("layer {} of {} has no field '{}'.{}", layer.GetName(), name, field,
+                           suggestion(field, field_names(*layer.GetLayerDefn()))));
+    }
+    return index;
+}
+
+int find_rank_field(OGRLayer& layer, ReadRiversParams const& params, std::string const& name) {
+    bool const is_default = params.rank_field.empty();
+    int const index = find_field(layer, is_default ? "hydroseq" : params.rank_field, is_default, name);
+    if (index < 0) {
+        return index;
+    }
+    auto const type = layer.GetLayerDefn()->GetFieldDefn(index)->GetType();
+    bool const is_number = type == OFTInteger || type == OFTInteger64 || type == OFTReal;
+    if (!is_number && !is_default) {
+        refuse(fmt::format("field {} of {} is no number: it cannot rank rivers", params.rank_field, name));
+    }
+    return is_number ? index : -1;
+}
+
+std::int64_t rank_of(OGRFeature const& feature, int field, std::string const& name) {
+    if (field < 0 || feature.IsFieldSetAndNotNull(field) == 0) {
+        return 0;
+    }
+    double const value = feature.GetFieldAsDouble(field);
+    if (!(std::fabs(value) < 9e15) || value != std::floor(value)) { // beyond, doubles leave out whole numbers
+        refuse(
+            fmt::format("feature {} of {} has the rank {}: a whole number is wanted", feature.GetFID(), name, value));
+    }
+    return feature.GetFieldAsInteger64(field);
+}
+
+// One line for each part.
+void add_parts(OGRGeometry const& geometry, RiverLine const& feature, std::string const& name,
+               std::vector<RiverLine>& lines) {
+    auto const flat = wkbFlatten(geometry.getGeometryType());
+    if (OGR_GT_IsSubClassOf(flat, wkbGeometryCollection) != 0) {
+        for (auto const* const part : *geometry.toGeometryCollection()) {
+            add_parts(*part, feature, name, lines);
+        }
+        return;
+    }
+    if (flat != wkbLineString) {
+        refuse(fmt::format("feature {} of {} is a {}, not a line", feature.feature, name, OGRGeometryTypeToName(flat)));
+    }
+    auto const& drawn = *geometry.toLineString();
+    if (drawn.getNumPoints() < 2) {
+        refuse(fmt::format("feature {} of {} is a line of {} vertices; remove it", feature.feature, name,
+                           drawn.getNumPoints()));
+    }
+    RiverLine line = feature;
+    for (int i = 0; i < drawn.getNumPoints(); ++i) {
+        double const x = drawn.getX(i);
+        double const y = drawn.getY(i);
+        double const z = drawn.Is3D() != 0 ? drawn.getZ(i) : std::numeric_limits<double>::quiet_NaN();
+        if (!std::isfinite(x) || !std::isfinite(y) || std::isinf(z)) {
+            refuse(fmt::format("vertex {} of feature {} of {} is not finite: ({}, {}, {}); correct the file", i + 1,
+                               feature.feature, name, x, y, z));
+        }
+        line.vertices.push_back({x, y, z});
+    }
+    lines.push_back(std::move(line));
+}
+
+std::vector<RiverLine> read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string const& name,
+                                  Run const& run) {
+    int const type_field =
+        params.type_field.empty() ? -1 : find_field(layer, params.type_field, params.type_field == "rosgen", name);
+    int const rank_field = find_rank_field(layer, params, name);
+    std::vector<RiverLine> lines;
+    for (auto const& feature : layer) {
+        run.check();
+        RiverLine line;
+        line.feature = feature->GetFID();
+        line.rank = rank_of(*feature, rank_field, name);
+        if (type_field >= 0 && feature->IsFieldSetAndNotNull(type_field) != 0) {
+            line.type = feature->GetFieldAsString(type_field);
+        }
+        OGRGeometry const* const drawn = feature->GetGeometryRef();
+        if (drawn == nullptr || drawn->IsEmpty() != 0) {
+            refuse(fmt::format("feature {} of {} has no line; remove it", line.feature, name));
+        }
+        std::unique_ptr<OGRGeometry> const straight(drawn->getLinearGeometry());
+        add_parts(*straight, line, name, lines);
+    }
+    return lines;
+}
+
+struct Box {
+    double west = std::numeric_limits<double>::infinity();
+    double south = west;
+    double east = -west;
+    double north = -west;
+};
+
+Box box_of(std::vector<RiverLine> const& lines) {
+    Box box;
+    for (auto const& line : lines) {
+        for (auto const& v : line.vertices) {
+            box = {std::min(box.west, v.x), std::min(box.south, v.y), std::max(box.east, v.x),
+                   std::max(box.north, v.y)};
+        }
+    }
+    return box;
+}
+
+// The UTM zone of the middle of the box.
+std::string zone_of(std::vector<RiverLine> const& lines, OGRSpatialReference const& from, std::string const& name) {
+    Box const box = box_of(lines);
+    double x = 0.5 * (box.west + box.east);
+    double y = 0.5 * (box.south + box.north);
+    OGRSpatialReference const geographic = read_reference("EPSG:4326");
+    std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &geographic));
+    if (!turn || turn->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y)) {
+        refuse("the middle of " + name + " has no longitude and latitude; check its CRS");
+    }
+    return utm_zone(x, y);
+}
+
+void reproject(std::vector<RiverLine>& lines, OGRSpatialReference const& from, std::string const& crs,
+               std::string const& name, Driver const& driver, Run const& run) {
+    OGRSpatialReference const to = read_reference(crs);
+    std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &to));
+    if (!turn) {
+        refuse(fmt::format("{} cannot be brought into {}: {}", name, crs, driver.take()));
+    }
+    for (auto& line : lines) {
+        run.check();
+        std::size_t const count = line.vertices.size();
+        std::vector<double> x(count);
+        std::vector<double> y(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            x[i] = line.vertices[i].x;
+            y[i] = line.vertices[i].y;
+        }
+        std::vector<int> done(count, 0);
+        turn->Transform(static_cast<int>(count), x.data(), y.data(), nullptr, done.data());
+        for (std::size_t i = 0; i < count; ++i) {
+            auto& v = line.vertices[i];
+            if (done[i] == 0 || !std::isfinite(x[i]) || !std::isfinite(y[i])) {
+                refuse(fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be brought into {}: {}", i + 1,
+                                   line.feature, name, v.x, v.y, crs, driver.take()));
+            }
+            v.x = x[i];
+            v.y = y[i];
+        }
+    }
+}
+
+// PROJ's last bits differ between machines: a millionth of a metre does not.
+double rounded(double v) {
+    return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0;
+}
+
+bool have_heights(std::vector<RiverLine> const& lines) {
+    double const first = lines.front().vertices.front().z;
+    bool differ = false;
+    for (auto const& line : lines) {
+        for (auto const& v : line.vertices) {
+            if (std::isnan(v.z)) {
+                return false;
+            }
+            differ = differ || v.z != first;
+        }
+    }
+    return differ;
+}
+
+} // namespace
+
+RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
+    Driver const driver;
+    auto const name = std::filesystem::path(params.path).filename().string();
+    GDALDatasetUniquePtr const data(
+        GDALDataset::Open(params.path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+    if (!data) {
+        auto const words = driver.take();
+        VSIStatBufL status;
+        if (params.path.empty() || VSIStatL(params.path.c_str(), &status) != 0) {
+            refuse(fmt::format("there is no file '{}'{}", params.path, words.empty() ? "" : " (" + words + ")"));
+        }
+        refuse(params.path + " is no vector file that GDAL can read (" + words + ")");
+    }
+    OGRLayer& layer = choose_layer(*data, params, name);
+    RiverLines rivers;
+    rivers.name = name;
+    rivers.lines = read_lines(layer, params, name, run);
+    driver.check("io.read_rivers: " + params.path);
+    if (rivers.lines.empty()) {
+        refuse(fmt::format("layer {} of {} is empty", layer.GetName(), name));
+    }
+    OGRSpatialReference const* const own = layer.GetSpatialRef();
+    if (own == nullptr || own->IsEmpty()) {
+        refuse(fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
+    }
+    OGRSpatialReference from(*own);
+    double const height_unit_m = from.IsCompound() != 0 ? from.GetTargetLinearUnits("VERT_CS") : 1.0;
+    from.StripVertical();
+    from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    bool const fits = is_projected_in_metres(from);
+    rivers.crs = !params.crs.empty() ? projected_crs(params.crs)
+                 : fits              ? name_of(from)
+                                     : zone_of(rivers.lines, from, name);
+    if (rivers.crs != name_of(from)) {
+        reproject(rivers.lines, from, rivers.crs, name, driver, run);
+    }
+    for (auto& line : rivers.lines) {
+        for (auto& v : line.vertices) {
+            v = {rounded(v.x), rounded(v.y), height_unit_m * v.z};
+        }
+    }
+    rivers.has_z = have_heights(rivers.lines);
+    return rivers;
+}
+
+} // namespace thalweg::io

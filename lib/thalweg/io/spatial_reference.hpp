@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+class OGRSpatialReference;
+
+/// CRS as GDAL holds them. Private to this room.
+namespace thalweg::io {
+
+/// Reads "EPSG:n" or WKT (never a URL or file) in traditional axis order: x or longitude first.
+/// Throws BadInput when it is none.
+OGRSpatialReference read_reference(std::string const& text);
+
+/// "EPSG:n" where it has a code, else WKT.
+std::string name_of(OGRSpatialReference const& reference);
+
+/// Whether it is projected with both axes in metres.
+bool is_projected_in_metres(OGRSpatialReference const& reference);
+
+} // namespace thalweg::io

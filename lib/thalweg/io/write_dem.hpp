@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run.hpp>
+
+namespace thalweg::io {
+
+/// Writes heights as a new cloud-optimised GeoTIFF: Float32, tiles of 512, DEFLATE with the floating-point predictor,
+/// nodata -9999 for NaN, overviews by mean. Gives: the same bytes for the same raster and any number of threads.
+/// Throws: BadInput at an infinite height or one of -9999 m, or when grid.crs is no CRS; IoError; Cancelled.
+void write_dem(Raster<float> const& dem, std::string const& path, Run const& run = {});
+
+/// Writes a new Byte GeoTIFF (tiled, DEFLATE). Gives and throws: like write_dem.
+void write_mask(Mask const& mask, std::string const& path, Run const& run = {});
+
+} // namespace thalweg::io

@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/carry_outlets.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <queue>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/cells_along.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/network/require_trees.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+struct Segment {
+    Vec2 a;
+    Vec2 b;
+};
+
+double cross(Vec2 o, Vec2 a, Vec2 b) {
+    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+/// a and b lie on one side of the line through s, farther from it than slack.
+bool on_one_side(Segment s, Vec2 a, Vec2 b, double slack) {
+    double const least = slack * distance(s.a, s.b);
+    double const left = cross(s.a, s.b, a);
+    double const right = cross(s.a, s.b, b);
+    return (left > least && right > least) || (left < -least && right < -least);
+}
+
+bool apart(double a, double b, double c, double d, double slack) {
+    return std::max(a, b) + slack < std::min(c, d) || std::max(c, d) + slack < std::min(a, b);
+}
+
+/// s and t do not meet; within slack [m] the answer is no.
+bool clear(Segment s, Segment t, double slack) {
+    return apart(s.a.x, s.b.x, t.a.x, t.b.x, slack) || apart(s.a.y, s.b.y, t.a.y, t.b.y, slack) ||
+           on_one_side(s, t.a, t.b, slack) || on_one_side(t, s.a, s.b, slack);
+}
+
+/// Two segments from one point meet only there; within slack the answer is no.
+bool fan_out(Vec2 from, Vec2 a, Vec2 b, double slack) {
+    double const dot = (a.x - from.x) * (b.x - from.x) + (a.y - from.y) * (b.y - from.y);
+    return dot < 0.0 || std::fabs(cross(from, a, b)) > slack * std::max(distance(from, a), distance(from, b));
+}
+
+/// Where rivers run: their cells, the corners they cut diagonally, and the segments near each cell.
+class Ground {
+public:
+    explicit Ground(Grid const& grid)
+        : grid_(grid), slack_m_(1e-9 * grid.cell_m), distance_(grid, far), corner_(grid, 0) {}
+
+    Grid const& grid() const { return grid_; }
+    bool has_river(Cell c) const { return distance_[c] == 0; }
+
+    void add(std::vector<Vec2> const& line, std::string const& what) {
+        std::vector<Cell> const cells = cells_along(line, grid_, what);
+        std::vector<Cell> changed;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (distance_[cells[i]] != 0) {
+                distance_[cells[i]] = 0;
+                changed.push_back(cells[i]);
+            }
+            if (i > 0 && is_diagonal(cells[i - 1], cells[i])) {
+                corner_[corner_cell(cells[i - 1], cells[i])] |= way(cells[i - 1], cells[i]);
+            }
+        }
+        spread(std::move(changed));
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            touch({line[i - 1], line[i]});
+        }
+    }
+
+    /// What it costs to enter a cell: rivers repel.
+    double cost(Cell c) const {
+        double const d = static_cast<double>(distance_[c]) + 0.5;
+        return 1.0 + 10.0 / (d * d);
+    }
+
+    /// Whether a river may run from p, a point of cell `from`, to the centre of its neighbour `to`. A river that ends
+    /// in p may, too.
+    bool open(Vec2 p, Cell from, Cell to) const {
+        if (has_river(to) || (is_diagonal(from, to) && (corner_[corner_cell(from, to)] & ~way(from, to)) != 0)) {
+            return false;
+        }
+        Segment const step{p, grid_.centre(to)};
+        for (std::int64_t row = std::min(from.row, to.row); row <= std::max(from.row, to.row); ++row) {
+            for (std::int64_t col = std::min(from.col, to.col); col <= std::max(from.col, to.col); ++col) {
+                auto const near = touching_.find(grid_.index({col, row}));
+                if (near == touching_.end()) {
+                    continue;
+                }
+                for (std::size_t const k : near->second) {
+                    Segment const s = segments_[k];
+                    bool const meets_only_there = s.a == p   ? fan_out(p, step.b, s.b, slack_m_)
+                                                  : s.b == p ? fan_out(p, step.b, s.a, slack_m_)
+                                                             : clear(step, s, slack_m_);
+                    if (!meets_only_there) {
+                        return false;
+                    }
+                }
+            }
+        }
+        return true;
+    }
+
+private:
+    static constexpr std::uint8_t far = 255;
+
+    static bool is_diagonal(Cell a, Cell b) { return a.col != b.col && a.row != b.row; }
+    /// The cell whose south-east corner a diagonal step cuts.
+    static Cell corner_cell(Cell a, Cell b) { return {std::min(a.col, b.col), std::min(a.row, b.row)}; }
+    static std::uint8_t way(Cell a, Cell b) { return (a.col < b.col) == (a.row < b.row) ? 1 : 2; }
+
+    /// Lowers the city-block distances around new river cells.
+    void spread(std::vector<Cell> front) {
+        for (std::uint8_t d = 1; d < far && !front.empty(); ++d) {
+            std::vector<Cell> next;
+            for (Cell const c : front) {
+                for (Cell const n :
+                     {Cell{c.col, c.row - 1}, Cell{c.col - 1, c.row}, Cell{c.col + 1, c.row}, Cell{c.col, c.row + 1}}) {
+                    if (grid_.contains(n) && distance_[n] > d) {
+                        distance_[n] = d;
+                        next.push_back(n);
+                    }
+                }
+            }
+            front = std::move(next);
+        }
+    }
+
+    /// Notes a segment with every cell it passes or touches.
+    void touch(Segment s) {
+        std::size_t const number = segments_.size();
+        segments_.push_back(s);
+        double const h = grid_.cell_m;
+        double const eps = 1e-6 * h;
+        auto const row_of = [&](double y) { return static_cast<std::int64_t>(std::floor((grid_.north - y) / h)); };
+        auto const col_of = [&](double x) { return static_cast<std::int64_t>(std::floor((x - grid_.west) / h)); };
+        for (std::int64_t row = row_of(std::max(s.a.y, s.b.y) + eps); row <= row_of(std::min(s.a.y, s.b.y) - eps);
+             ++row) {
+            double begin = 0.0;
+            double end = 1.0;
+            if (s.a.y != s.b.y) {
+                double const top = grid_.north - static_cast<double>(row) * h + eps;
+                double const t = (top - s.a.y) / (s.b.y - s.a.y);
+                double const u = (top - h - 2.0 * eps - s.a.y) / (s.b.y - s.a.y);
+                begin = std::clamp(std::min(t, u), 0.0, 1.0);
+                end = std::clamp(std::max(t, u), 0.0, 1.0);
+            }
+            double const x0 = s.a.x + begin * (s.b.x - s.a.x);
+            double const x1 = s.a.x + end * (s.b.x - s.a.x);
+            for (std::int64_t col = col_of(std::min(x0, x1) - eps); col <= col_of(std::max(x0, x1) + eps); ++col) {
+                if (grid_.contains({col, row})) {
+                    touching_[grid_.index({col, row})].push_back(number);
+                }
+            }
+        }
+    }
+
+    Grid grid_;
+    double slack_m_;
+    Raster<std::uint8_t> distance_; ///< [cells] city-block, to the nearest river cell; 255: that far or farther
+    Raster<std::uint8_t> corner_;   ///< by cell, for its south-east corner: 1 where a river runs NW-SE, 2 NE-SW
+    std::vector<Segment> segments_;
+    std::unordered_map<std::int64_t, std::vector<std::size_t>> touching_; ///< looked up only, never walked
+};
+
+std::int64_t to_border(Grid const& grid, Cell c) {
+    return std::min({c.col, c.row, grid.width - 1 - c.col, grid.height - 1 - c.row});
+}
+
+/// The cheapest way from a river's end to the border, its own cell first; empty where there is none.
+/// A* (Hart, Nilsson and Raphael 1968): each step costs at least one and comes at most one cell nearer to the border.
+std::vector<Cell> way_out(Vec2 outlet, Cell start, Ground const& ground) {
+    struct Reached {
+        double cost = 0.0;
+        std::int64_t from = -1;
+        bool settled = false;
+    };
+    constexpr double sqrt2 = 1.41421356237309504880;
+    Grid const& grid = ground.grid();
+    std::unordered_map<std::int64_t, Reached> reached;
+    using Entry = std::pair<double, std::int64_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    reached[grid.index(start)] = {};
+    queue.emplace(static_cast<double>(to_border(grid, start)), grid.index(start));
+    while (!queue.empty()) {
+        std::int64_t const at = queue.top().second;
+        queue.pop();
+        if (reached[at].settled) {
+            continue;
+        }
+        reached[at].settled = true;
+        Reached const here = reached[at];
+        Cell const c = grid.at(at);
+        if (to_border(grid, c) == 0) {
+            std::vector<Cell> cells;
+            for (std::int64_t i = at; i >= 0; i = reached[i].from) {
+                cells.push_back(grid.at(i));
+            }
+            std::reverse(cells.begin(), cells.end());
+            return cells;
+        }
+        for (std::int64_t dr = -1; dr <= 1; ++dr) {
+            for (std::int64_t dc = -1; dc <= 1; ++dc) {
+                Cell const next{c.col + dc, c.row + dr};
+                if ((dr == 0 && dc == 0) || !ground.open(c == start ? outlet : grid.centre(c), c, next)) {
+                    continue;
+                }
+                std::int64_t const to = grid.index(next);
+                double const cost = here.cost + ground.cost(next) * (dr != 0 && dc != 0 ? sqrt2 : 1.0);
+                auto const [known, is_new] = reached.try_emplace(to);
+                // Of equally cheap ways the one that goes straight on.
+                bool const straight = here.from >= 0 && to - at == at - here.from;
+                if (is_new || cost < known->second.cost ||
+                    (straight && cost == known->second.cost && !known->second.settled)) {
+                    known->second = {cost, at, false};
+                    queue.emplace(cost + static_cast<double>(to_border(grid, next)), to);
+                }
+            }
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+Carried carry_outlets(StreamNetwork const& network, Grid const& grid) {
+    NetworkIndex const index(network);
+    require_trees(network, index, "network.carry_outlets");
+    Ground ground(grid);
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        ground.add(network[index.arcs[a]].line, fmt::format("arc {}", a + 1));
+    }
+
+    // The nearest to the border go first: their short ways leave the others the most room.
+    std::vector<std::pair<std::int64_t, NodeId>> inside;
+    for (NodeId const outlet : index.outlets) {
+        Cell const cell = cells_along({network[outlet].at}, grid).front();
+        if (!grid.on_border(cell)) {
+            inside.emplace_back(to_border(grid, cell), outlet);
+        }
+    }
+    std::sort(inside.begin(), inside.end());
+
+    Carried carried;
+    carried.network = network;
+    NetworkIndex const copy(carried.network);
+    for (auto const& [cells_inside, outlet] : inside) {
+        Vec2 const at = network[outlet].at;
+        auto const last = static_cast<std::size_t>(index.in[outlet].front());
+        std::int64_t const feature = network[index.arcs[last]].feature;
+        Finding note;
+        note.feature = feature != 0 ? feature : static_cast<std::int64_t>(last) + 1;
+        note.where = at;
+        std::vector<Cell> const way = way_out(at, cells_along({at}, grid).front(), ground);
+        if (way.empty()) {
+            note.kind = "closed_basin";
+            note.text = fmt::format("the outlet at ({:.3f}, {:.3f}) stays inside the grid: every way to its border "
+                                    "meets a river",
+                                    at.x, at.y);
+            carried.notes.push_back(std::move(note));
+            continue;
+        }
+        std::vector<Vec2> line{at};
+        for (std::size_t i = 1; i < way.size(); ++i) {
+            line.push_back(grid.centre(way[i]));
+        }
+        ground.add(line, "a carried outlet");
+        note.kind = "carried_outlet";
+        note.amount = length_of(line);
+        note.text = fmt::format("the outlet at ({:.3f}, {:.3f}) was carried {:.3f} m to the border at ({:.3f}, {:.3f})",
+                                at.x, at.y, note.amount, line.back().x, line.back().y);
+        carried.notes.push_back(std::move(note));
+        if (index.in[outlet].size() == 1) {
+            std::vector<Vec2>& drawn = carried.network[copy.arcs[last]].line;
+            drawn.insert(drawn.end(), line.begin() + 1, line.end());
+            carried.network[outlet].at = line.back();
+            continue;
+        }
+        Arc trunk;
+        trunk.survives = 0.0;
+        for (std::int64_t const a : index.in[outlet]) {
+            trunk.survives = std::max(trunk.survives, network[index.arcs[static_cast<std::size_t>(a)]].survives);
+        }
+        NodeId const mouth = boost::add_vertex(Node{line.back()}, carried.network);
+        trunk.line = std::move(line);
+        add_arc(carried.network, outlet, mouth, std::move(trunk));
+    }
+    return carried;
+}
+
+} // namespace thalweg::network

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/frame.hpp>
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/core/memory.hpp>
+#include <thalweg/pipeline/terrain.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+// 45 degrees north on the central meridian of UTM zone 31, where nobody's land is meant.
+constexpr double default_west = 500000.0;
+constexpr double default_north = 5000000.0;
+
+struct Box {
+    double west = std::numeric_limits<double>::infinity();
+    double south = std::numeric_limits<double>::infinity();
+    double east = -std::numeric_limits<double>::infinity();
+    double north = -std::numeric_limits<double>::infinity();
+};
+
+Box box_of(RiverLines const& lines) {
+    Box box;
+    for (RiverLine const& line : lines.lines) {
+        for (Vec3 const& p : line.vertices) {
+            box.west = std::min(box.west, p.x);
+            box.east = std::max(box.east, p.x);
+            box.south = std::min(box.south, p.y);
+            box.north = std::max(box.north, p.y);
+        }
+    }
+    return box;
+}
+
+} // namespace
+
+std::int64_t bytes_needed(std::int64_t cells) {
+    // dem 4, valley 4, level and base 8, drainage 8 + 1 + 4, its queue 16, owners of areas 8, pictures and mask 6
+    constexpr std::int64_t bytes_a_cell = 60;
+    return cells * bytes_a_cell;
+}
+
+void check_memory(std::int64_t width, std::int64_t height) {
+    std::int64_t const needed = bytes_needed(width * height); // sides are at most 1e6 each
+    std::int64_t const free = free_memory_bytes();
+    if (needed > free) {
+        throw BadInput(
+            fmt::format("grid: {}x{} cells need {:.1f} GB; {:.1f} GB are free. Make grid.width and grid.height "
+                        "smaller or grid.cell larger.",
+                        width, height, static_cast<double>(needed) / 1e9, static_cast<double>(free) / 1e9));
+    }
+}
+
+std::int64_t room_for_network(std::int64_t side_cells) {
+    return std::max<std::int64_t>(1, side_cells * 10 / 11);
+}
+
+FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wanted) {
+    Cell low = branch.cells.front();
+    Cell high = low;
+    for (Cell const& c : branch.cells) {
+        low = {std::min(low.col, c.col), std::min(low.row, c.row)};
+        high = {std::max(high.col, c.col), std::max(high.row, c.row)};
+    }
+    std::int64_t const box_width = high.col - low.col + 1;
+    std::int64_t const box_height = high.row - low.row + 1;
+    std::int64_t const margin = std::max<std::int64_t>(2, (std::max(box_width, box_height) + 19) / 20);
+
+    Grid grid;
+    grid.width = wanted.width > 0 ? wanted.width : box_width + 2 * margin;
+    grid.height = wanted.height > 0 ? wanted.height : box_height + 2 * margin;
+    grid.cell_m = wanted.cell_m;
+    grid.west = wanted.origin ? (*wanted.origin)[0] : default_west;
+    grid.north = wanted.origin ? (*wanted.origin)[1] : default_north;
+    grid.crs = wanted.crs;
+    check_memory(grid.width, grid.height);
+
+    std::int64_t const right = (grid.width - box_width) / 2 - low.col;
+    std::int64_t const down = (grid.height - box_height) / 2 - low.row;
+    FramedBranch framed{Mask(grid), grid.centre({right, down})};
+    for (Cell const& c : branch.cells) {
+        framed.mask[Cell{c.col + right, c.row + down}] = 1;
+    }
+    return framed;
+}
+
+Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted) {
+    Box const box = box_of(lines);
+    double const cell = wanted.cell_m;
+    auto const snapped_down = [cell](double v) { return std::floor(v / cell) * cell; };
+    double const margin = std::max(0.05 * std::max(box.east - box.west, box.north - box.south), 2.0 * cell);
+
+    Grid grid;
+    grid.cell_m = cell;
+    grid.crs = lines.crs;
+    if (wanted.width > 0) {
+        grid.width = wanted.width;
+        grid.height = wanted.height;
+        grid.west = snapped_down((box.west + box.east - static_cast<double>(grid.width) * cell) / 2.0 + cell / 2.0);
+        grid.north = snapped_down((box.south + box.north + static_cast<double>(grid.height) * cell) / 2.0 + cell / 2.0);
+    } else {
+        grid.west = snapped_down(box.west - margin);
+        grid.north = snapped_down(box.north + margin) + cell;
+    }
+    if (wanted.origin) {
+        grid.west = (*wanted.origin)[0];
+        grid.north = (*wanted.origin)[1];
+    }
+    if (wanted.width == 0) {
+        double const width = std::ceil((box.east + margin - grid.west) / cell);
+        double const height = std::ceil((grid.north - (box.south - margin)) / cell);
+        if (!(width >= 1.0 && height >= 1.0)) {
+            throw BadInput(fmt::format("grid.origin: [{}, {}] lies beyond the rivers of {} (west {:.0f}, north {:.0f})",
+                                       grid.west, grid.north, lines.name, box.west, box.north));
+        }
+        if (width > 1e6 || height > 1e6) {
+            throw BadInput(
+                fmt::format("grid: the rivers of {} span {:.0f} x {:.0f} cells of {} m: give a larger grid.cell",
+                            lines.name, width, height, cell));
+        }
+        grid.width = static_cast<std::int64_t>(width);
+        grid.height = static_cast<std::int64_t>(height);
+    }
+    check_memory(grid.width, grid.height);
+    if (!wanted.clip) {
+        for (RiverLine const& line : lines.lines) {
+            for (Vec3 const& p : line.vertices) {
+                if (!(p.x >= grid.west && p.x < grid.east() && p.y > grid.south() && p.y <= grid.north)) {
+                    throw BadInput(fmt::format(
+                        "grid: river {} in {} runs outside the grid at ({:.1f}, {:.1f}): the grid "
+                        "spans {:.1f} to {:.1f} east and {:.1f} to {:.1f} north. Enlarge it, leave "
+                        "width and height out, or set grid.clip = true.",
+                        line.feature, lines.name, p.x, p.y, grid.west, grid.east(), grid.south(), grid.north));
+                }
+            }
+        }
+    }
+    return grid;
+}
+
+} // namespace thalweg::pipeline

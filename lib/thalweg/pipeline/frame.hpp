@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_lines.hpp>
+#include <thalweg/network/pick_branch.hpp>
+#include <thalweg/pipeline/recipe.hpp>
+
+namespace thalweg::pipeline {
+
+/// The largest box [cells] a network may have in a side of a grid of this many cells, 5 % left free around it.
+std::int64_t room_for_network(std::int64_t side_cells);
+
+/// A branch on its grid.
+struct FramedBranch {
+    Mask mask;  ///< its cells
+    Vec2 mouth; ///< [m] centre of the cluster's seed; may lie outside the grid
+};
+
+/// Puts a branch into the middle of the grid asked for, or of a grid 5 % larger than its box.
+/// The frame follows from the branch alone: pruning does not move it.
+FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wanted);
+
+/// The grid asked for, or the lines' box and 5 % around it on multiples of the cell.
+/// Throws: BadInput naming the first line outside an asked grid, unless clip is set.
+Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted);
+
+/// Throws BadInput when a terrain on this grid needs more memory than is free.
+void check_memory(std::int64_t width, std::int64_t height);
+
+} // namespace thalweg::pipeline

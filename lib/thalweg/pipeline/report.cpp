@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/report.hpp>
+
+#include <thalweg/core/memory.hpp>
+
+#include <nlohmann/json.hpp>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json extreme(measure::Extreme const& e) {
+    return {{"z", e.z}, {"col", e.cell.col}, {"row", e.cell.row}};
+}
+
+ordered_json dem(measure::Statistics const& s) {
+    return {{"cells", s.cells},         {"nodata", s.nodata},
+            {"mean", s.mean},           {"std", s.std},
+            {"min", extreme(s.min)},    {"max", extreme(s.max)},
+            {"slope_rad", s.slope_rad}, {"slope_true_deg", s.slope_true_deg}};
+}
+
+ordered_json checks_array(std::vector<Check> const& checks) {
+    ordered_json out = ordered_json::array();
+    for (Check const& c : checks) {
+        out.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"ok", c.ok}});
+    }
+    return out;
+}
+
+ordered_json findings_array(std::vector<Finding> const& findings) {
+    ordered_json out = ordered_json::array();
+    for (Finding const& f : findings) {
+        ordered_json one{{"kind", f.kind}, {"feature", f.feature}};
+        if (std::isfinite(f.where.x) && std::isfinite(f.where.y)) {
+            one["x"] = f.where.x;
+            one["y"] = f.where.y;
+        }
+        if (std::isfinite(f.amount)) {
+            one["amount"] = f.amount;
+        }
+        one["text"] = f.text;
+        out.push_back(std::move(one));
+    }
+    return out;
+}
+
+ordered_json recipe_object(Recipe const& recipe) {
+    std::ostringstream text;
+    toml::table const table = toml::parse(write_recipe(recipe));
+    text << toml::json_formatter{table};
+    return ordered_json::parse(text.str());
+}
+
+ordered_json network_object(Terrain const& t) {
+    StreamNetwork const& plan = t.network.plan;
+    NetworkIndex const index(plan);
+    double length = 0.0;
+    for (double const l : index.length_m) {
+        length += l;
+    }
+    int strahler = 0;
+    for (int const s : t.orders.strahler) {
+        strahler = std::max(strahler, s);
+    }
+    auto const arcs = static_cast<std::int64_t>(index.arcs.size());
+    network::HeightReport const& h = t.story.heights;
+    return {{"arcs", arcs},
+            {"nodes", boost::num_vertices(plan)},
+            {"outlets", index.outlets.size()},
+            {"strahler", strahler},
+            {"length_m", length},
+            {"traced", t.story.arcs_traced},
+            {"pruned", t.story.arcs_traced - arcs},
+            {"particles", t.story.particles},
+            {"walkers", t.story.walkers},
+            {"stopped_at", t.story.particles == 0 ? ""
+                           : t.story.cut          ? "margin"
+                                                  : "particles"},
+            {"uphill_before_repair",
+             {{"arcs", h.uphill_arcs}, {"length_m", h.uphill_length_m}, {"max_rise_m", h.max_rise_m}}},
+            {"lifted", {{"count", h.lifted}, {"max_m", h.max_lift_m}, {"rms_m", h.rms_lift_m}}},
+            {"lowered_cells", {{"count", t.story.lowered_cells}, {"max_m", t.story.max_lowered_m}}},
+            {"area_from", t.areas.source}};
+}
+
+} // namespace
+
+std::string version() {
+    return THALWEG_VERSION;
+}
+
+std::string write_report(Terrain const& t, std::vector<std::string> const& files) {
+    ordered_json timings = ordered_json::object();
+    for (auto const& [stage, seconds] : t.timings_s) {
+        timings[stage] = seconds;
+    }
+    ordered_json report{{"version", version()},
+                        {"recipe", recipe_object(t.recipe)},
+                        {"timings_s", timings},
+                        {"peak_rss_mb", static_cast<double>(peak_memory_bytes()) / 1e6},
+                        {"network", network_object(t)}};
+    if (t.statistics) {
+        report["dem"] = dem(*t.statistics);
+        report["dem"]["flat_share"] = t.surface->flat_share;
+        report["dem"]["levels"] = t.surface->levels;
+        report["dem"]["pit_cells"] = t.pits;
+        report["dem"]["pit_volume_m3"] = t.pit_volume_m3;
+    }
+    report["checks"] = checks_array(t.checks);
+    report["findings"] = findings_array(t.findings);
+    report["repairs"] = findings_array(t.story.repairs);
+    report["files"] = files;
+    return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::vector<std::string> files_of_report(std::string const& json) {
+    std::vector<std::string> files;
+    ordered_json const report = ordered_json::parse(json, nullptr, false);
+    if (!report.is_object() || !report.contains("files") || !report["files"].is_array()) {
+        return files;
+    }
+    for (auto const& name : report["files"]) {
+        if (name.is_string()) {
+            files.push_back(name.get<std::string>());
+        }
+    }
+    return files;
+}
+
+std::string statistics_json(measure::Statistics const& statistics) {
+    return dem(statistics).dump() + "\n";
+}
+
+std::string checks_json(std::vector<Check> const& checks, std::vector<Finding> const& findings) {
+    bool const ok = std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
+    ordered_json const out{{"ok", ok}, {"checks", checks_array(checks)}, {"findings", findings_array(findings)}};
+    return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+} // namespace thalweg::pipeline

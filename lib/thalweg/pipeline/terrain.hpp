@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <thalweg/core/finding.hpp>
+#include <thalweg/core/run.hpp>
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/core/valley.hpp>
+#include <thalweg/measure/drainage.hpp>
+#include <thalweg/measure/statistics.hpp>
+#include <thalweg/pipeline/recipe.hpp>
+
+namespace thalweg::pipeline {
+
+/// What the network went through, for the report.
+struct NetworkStory {
+    std::int64_t particles = 0;     ///< of the cluster (dla)
+    std::int64_t walkers = 0;       ///< released for it
+    bool cut = false;               ///< the branch reached the grid's margin before the last particle
+    std::int64_t arcs_traced = 0;   ///< before pruning
+    network::HeightReport heights;  ///< under modes that set heights
+    std::int64_t lowered_cells = 0; ///< shared valley cells lowered to keep every path falling
+    double max_lowered_m = 0.0;
+    std::vector<Finding> repairs; ///< of adopted lines, and outlets carried to the border
+};
+
+/// A terrain with all that led to it.
+struct Terrain {
+    Recipe recipe; ///< every default resolved: made again, it gives the same terrain
+    Grid grid;
+    RaisedNetwork network;
+    NetworkOrders orders;
+    measure::ContributingAreas areas;
+    Valley valley;
+    std::optional<surface::Dilated> surface;
+    std::optional<measure::Statistics> statistics; ///< of the surface
+    std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
+    double pit_volume_m3 = 0.0;
+    NetworkStory story;
+    std::vector<Check> checks;
+    std::vector<Finding> findings;                         ///< of the checks
+    std::vector<std::pair<std::string, double>> timings_s; ///< by stage, in order
+    bool passed() const;                                   ///< every check is ok
+};
+
+/// Called with intermediates: "valley", "surface".
+using Keep = std::function<void(std::string_view, Raster<float> const&)>;
+
+/// From a recipe to a terrain: rivers first, then the land around them.
+/// Gives: the same terrain for the same recipe, whatever the Run. Throws: BadParameter, BadInput, IoError, Cancelled.
+Terrain make_terrain(Recipe const& recipe, Run const& run = {}, Keep const& keep = {});
+
+/// Memory [bytes] that a terrain of this many cells takes while it is made, at most.
+std::int64_t bytes_needed(std::int64_t cells);
+
+} // namespace thalweg::pipeline

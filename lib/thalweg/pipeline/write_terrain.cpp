@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/write_terrain.hpp>
+
+#include <thalweg/draw/curve.hpp>
+#include <thalweg/draw/map.hpp>
+#include <thalweg/draw/profile.hpp>
+#include <thalweg/io/dataset_files.hpp>
+#include <thalweg/io/raster_files.hpp>
+#include <thalweg/io/write_network.hpp>
+#include <thalweg/pipeline/report.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t largest_report = 1 << 30;
+
+std::vector<std::string> files_left_in(std::string const& folder) {
+    std::string const report = folder + "/report.json";
+    return fs::exists(report) ? files_of_report(io::read_text(report, largest_report)) : std::vector<std::string>{};
+}
+
+/// A round interval (1, 2 or 5 times a power of ten) that gives about twenty contours.
+double round_interval(double range_m) {
+    double step = 1e-3;
+    while (step * 20.0 < range_m) {
+        for (double const factor : {2.0, 2.5, 2.0}) { // 1, 2, 5, 10
+            step *= factor;
+            if (step * 20.0 >= range_m) {
+                break;
+            }
+        }
+    }
+    return step;
+}
+
+/// Copies a named input and its companions into inputs/ and gives the name it has there.
+std::string keep_input(io::OutputFolder const& out, std::string const& folder, std::string const& name) {
+    fs::path const given(name);
+    fs::path const path = folder.empty() || given.is_absolute() ? given : fs::path(folder) / given;
+    for (std::string const& file : io::dataset_files(path.string())) {
+        fs::path const copy = out.path("inputs/" + fs::path(file).filename().string());
+        if (!fs::exists(copy)) {
+            io::copy_file(file, copy.string());
+        }
+    }
+    return "inputs/" + path.filename().string();
+}
+
+Recipe keep_inputs(Terrain const& terrain, io::OutputFolder const& out) {
+    Recipe recipe = terrain.recipe;
+    if (recipe.network->source == Source::lines) {
+        recipe.network->lines.path = keep_input(out, recipe.folder, recipe.network->lines.path);
+    }
+    if (recipe.surface && !recipe.surface->mask.empty()) {
+        recipe.surface->mask = keep_input(out, recipe.folder, recipe.surface->mask);
+    }
+    recipe.folder.clear();
+    return recipe;
+}
+
+void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run) {
+    std::map<std::string, std::string> const about = {
+        {"version", version()}, {"seed", fmt::format("{}", t.recipe.seed)}, {"area_from", t.areas.source}};
+    io::NetworkTables const tables{t.network,  t.orders, t.areas.us_area_m2, t.areas.ds_area_m2, t.areas.node_m2,
+                                   t.grid.crs, about};
+    io::write_geopackage(tables, out.path("network"), run);
+    io::write_shapefiles(tables, out.path("network"), run);
+    Mask cells(t.grid);
+    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
+        cells[i] = !std::isnan(t.valley.z[i]);
+    }
+    io::write_mask(cells, out.path("network.tif"), run);
+}
+
+void write_surface(Terrain const& t, io::OutputFolder const& out, Run const& run) {
+    Raster<float> const& dem = t.surface->dem;
+    double const relief = t.statistics->max.z - t.statistics->min.z;
+    double const asked = t.recipe.output.contour_interval_m;
+    double const interval = asked > 0.0 ? asked : round_interval(relief);
+    auto const contours = io::contours(dem, interval, run);
+    io::write_dem(dem, out.path("dem.tif"), run);
+    io::write_contours(contours, interval, t.grid.crs, out.path("contours.gpkg"), run);
+
+    draw::MapSheet sheet{dem, io::hillshade(dem), &t.network, &t.orders, {}};
+    for (auto const& [z, line] : contours) {
+        sheet.contours.emplace_back(z, line);
+    }
+    draw::MapParams map;
+    map.title = t.recipe.output.title.empty() ? fmt::format("thalweg, seed {}", t.recipe.seed) : t.recipe.output.title;
+    map.contour_interval_m = interval;
+    io::write_text(out.path("map.png"), draw::map(sheet, map).bytes);
+    io::write_text(out.path("curve.svg"),
+                   draw::curve(t.surface->increments, {t.recipe.surface->dilate.increment.increment}).bytes);
+}
+
+} // namespace
+
+void check_folder(std::string const& folder, io::Existing existing) {
+    io::OutputFolder const probe(folder, existing, files_left_in(folder));
+}
+
+std::vector<std::string> write_terrain(Terrain const& terrain, std::string const& folder, io::Existing existing,
+                                       Run const& run) {
+    io::OutputFolder out(folder, existing, files_left_in(folder));
+    run.at(0.0, "write");
+    Recipe const recipe = keep_inputs(terrain, out);
+    write_network(terrain, out, run);
+    run.at(0.3, "write");
+    if (terrain.surface) {
+        write_surface(terrain, out, run);
+    }
+    io::write_text(out.path("profile.svg"), draw::profile(terrain.network, terrain.orders).bytes);
+    io::write_text(out.path("recipe.toml"), write_recipe(recipe));
+    run.at(0.9, "write");
+    std::vector<std::string> files = out.files();
+    files.emplace_back("report.json");
+    io::write_text(out.path("report.json"), write_report(terrain, files));
+    run.at(1.0, "write");
+    out.commit();
+    return files;
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Sample 1: where rivers run. Understand this one first.
+// Grows a cluster, draws its skeleton, and counts its streams by order (Horton 1945): each order has several times
+// fewer streams than the one below.
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/network/grow_dla.hpp>
+#include <thalweg/network/order.hpp>
+#include <thalweg/network/pick_branch.hpp>
+#include <thalweg/network/prune.hpp>
+#include <thalweg/network/thin.hpp>
+#include <thalweg/network/trace.hpp>
+#include <thalweg/pipeline/frame.hpp>
+
+#include <cstdio>
+#include <map>
+
+using namespace thalweg;
+
+int main() {
+    // A verb takes its input and its parameters, and gives a value. Whatever is left out has a default.
+    network::Cluster const cluster = network::grow_dla({.particles = 20000, .sticking = 0.85, .visits = 3, .seed = 7});
+
+    // One arm of the cluster becomes a basin: its mouth is the seed of the cluster.
+    network::Branch const branch = network::pick_branch(cluster, {network::BranchChoice::largest});
+
+    // Up to here there were cells of a lattice; a grid gives them a place on the ground, 30 m a cell unless told
+    // otherwise.
+    pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});
+
+    // The skeleton is one cell wide; traced, it is a Boost graph of arcs that run downstream.
+    Mask const skeleton = network::thin(framed.mask);
+    StreamNetwork const traced = network::trace(skeleton, {framed.mouth});
+
+    // Short leaves are burrs of the skeleton: none under 10 cells is left.
+    network::Pruned const pruned = network::prune(traced, {.length_cells = 10.0, .cell_m = 30.0});
+    NetworkOrders const orders = network::order(pruned.network);
+
+    // A stream begins where no arc of its own order flows in.
+    NetworkIndex const index(pruned.network);
+    std::map<int, int> streams;
+    for (std::size_t arc = 0; arc < index.arcs.size(); ++arc) {
+        bool begins = true;
+        for (std::int64_t const above : index.in[index.from[arc]]) {
+            begins = begins && orders.strahler[static_cast<std::size_t>(above)] != orders.strahler[arc];
+        }
+        streams[orders.strahler[arc]] += begins ? 1 : 0;
+    }
+
+    std::printf("%lld particles, %lld arcs traced, %zu kept\n", static_cast<long long>(cluster.cells.size()),
+                static_cast<long long>(pruned.arcs_before), index.arcs.size());
+    for (auto const& [order, count] : streams) {
+        std::printf("order %d: %d %s\n", order, count, count == 1 ? "stream" : "streams");
+    }
+}

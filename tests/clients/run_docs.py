@@ -1,0 +1,49 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""run_docs.py THALWEG SOURCE_DIR: runs every command of README.md and docs/**/*.md.
+
+A command is a line that begins with "$ " in a fenced block marked sh. Each page runs in a folder of its own that
+holds a copy of samples/, with thalweg in PATH; what the commands of a page leave, later ones find. A command whose
+line ends in "# exit N" must exit with N, every other with 0. Commands of scripts/ and the compilers' build are run by
+scripts/test itself and only checked to exist.
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+thalweg, source = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+elsewhere = re.compile(r"^(\./)?(scripts/|cmake |git clone|cd |ctest |build/)")
+pages = [source / "README.md", *sorted((source / "docs").rglob("*.md"))]
+run = failed = 0
+for page in pages:
+    blocks = re.findall(r"^```sh\n(.*?)^```", page.read_text(), re.S | re.M)
+    commands = [line[2:] for block in blocks for line in block.splitlines() if line.startswith("$ ")]
+    if not commands:
+        continue
+    with tempfile.TemporaryDirectory(prefix="thalweg-docs-") as place:
+        shutil.copytree(source / "samples", pathlib.Path(place) / "samples")
+        bin_dir = pathlib.Path(place) / ".bin"
+        bin_dir.mkdir()
+        (bin_dir / "thalweg").symlink_to(thalweg)
+        environment = dict(os.environ, PATH=f"{bin_dir}:{os.environ['PATH']}")
+        for command in commands:
+            if elsewhere.match(command):
+                script = command.split()[0]
+                if script.startswith("scripts/") and not os.access(source / script, os.X_OK):
+                    print(f"{page.name}: {command}: no such script")
+                    failed += 1
+                continue
+            wanted = int((re.search(r"#\s*exit (\d+)\s*$", command) or [0, 0])[1])
+            done = subprocess.run(["bash", "-c", command], cwd=place, env=environment, text=True,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+            run += 1
+            if done.returncode != wanted:
+                failed += 1
+                print(f"{page.name}: {command}\nexit {done.returncode}, wanted {wanted}\n{done.stdout}")
+print(f"{run} commands run, {failed} failed")
+sys.exit(1 if failed or run == 0 else 0)

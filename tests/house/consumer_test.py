@@ -1,0 +1,26 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Installs thalweg into an empty prefix and builds and runs a program against it, all outside the tree.
+Usage: consumer_test.py CMAKE BUILD_DIR CXX_COMPILER"""
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+cmake, build_dir, compiler = sys.argv[1:4]
+with tempfile.TemporaryDirectory() as room:
+    room = pathlib.Path(room)
+    prefix = room / "prefix"
+    subprocess.run([cmake, "--install", build_dir, "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)
+    shutil.copytree(pathlib.Path(__file__).parent / "consumer", room / "consumer")
+    # Moved after the installation: nothing may hold the path it was installed to.
+    moved = prefix.rename(room / "moved")
+    subprocess.run([cmake, "-G", "Ninja", "-S", room / "consumer", "-B", room / "build", f"-DCMAKE_PREFIX_PATH={moved}",
+                    f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_BUILD_TYPE=Release"], check=True)
+    subprocess.run([cmake, "--build", room / "build"], check=True)
+    said = subprocess.run([room / "build" / "consumer"], check=True, capture_output=True, text=True).stdout
+    if said != "1.2\n":
+        sys.exit(f"the consumer says {said!r}, not 1.2")
+    version = subprocess.run([moved / "bin" / "thalweg", "--version"], check=True, capture_output=True, text=True).stdout
+    print(f"consumer built and ran; installed: {version.strip()}")

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Prints a hash of the bits of every stage's result from chance to surface. Every machine, compiler, build type and
+// number of threads must print tests/data/fingerprint.txt. Usage: fingerprint [THREADS]
+#include "fnv.hpp"
+
+#include <thalweg/core/chance.hpp>
+#include <thalweg/core/elementary.hpp>
+#include <thalweg/network/grow_dla.hpp>
+#include <thalweg/network/order.hpp>
+#include <thalweg/network/pick_branch.hpp>
+#include <thalweg/network/prune.hpp>
+#include <thalweg/network/rasterise.hpp>
+#include <thalweg/network/set_heights.hpp>
+#include <thalweg/network/thin.hpp>
+#include <thalweg/network/trace.hpp>
+#include <thalweg/pipeline/frame.hpp>
+#include <thalweg/surface/dilate.hpp>
+#include <thalweg/surface/separable.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+
+using namespace thalweg;
+
+namespace {
+
+void print(char const* stage, Fnv const& fnv) {
+    std::printf("%-28s %016llx\n", stage, static_cast<unsigned long long>(fnv.hash()));
+}
+
+Fnv hash_of_chance() {
+    Fnv fnv;
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+        fnv.add_all(chance_block(7, i, i + 1, i * i, ~i));
+    }
+    return fnv;
+}
+
+Fnv hash_of_elementary() {
+    Fnv fnv;
+    for (int i = 1; i <= 20000; ++i) {
+        double const x = i * 0.37;
+        fnv.add(exact::exp((x - 3700.0) * 0.1));
+        fnv.add(exact::log(x));
+        fnv.add(exact::pow(x, 0.7));
+        fnv.add(exact::sin(x));
+        fnv.add(exact::cos(x));
+        fnv.add(exact::atan2(x - 3700.0, x));
+    }
+    return fnv;
+}
+
+Fnv hash_of(std::vector<Cell> const& cells) {
+    Fnv fnv;
+    for (Cell const& c : cells) {
+        fnv.add(c.col);
+        fnv.add(c.row);
+    }
+    return fnv;
+}
+
+Fnv hash_of(StreamNetwork const& network) {
+    Fnv fnv;
+    for (ArcId const arc : boost::make_iterator_range(boost::edges(network))) {
+        fnv.add(static_cast<std::uint64_t>(boost::source(arc, network)));
+        fnv.add(static_cast<std::uint64_t>(boost::target(arc, network)));
+        fnv.add(network[arc].survives);
+        for (Vec2 const& p : network[arc].line) {
+            fnv.add(p.x);
+            fnv.add(p.y);
+        }
+    }
+    return fnv;
+}
+
+Fnv hash_of(NetworkOrders const& orders) {
+    Fnv fnv;
+    fnv.add_all(orders.strahler);
+    fnv.add_all(orders.shreve);
+    fnv.add_all(orders.hack);
+    fnv.add_all(orders.topological);
+    fnv.add_all(orders.node_dist_out_m);
+    return fnv;
+}
+
+Fnv hash_of(RaisedNetwork const& network) {
+    Fnv fnv;
+    fnv.add_all(network.node_z);
+    for (std::vector<double> const& z : network.arc_z) {
+        fnv.add_all(z);
+    }
+    return fnv;
+}
+
+template <class T> Fnv hash_of(Raster<T> const& raster) {
+    Fnv fnv;
+    for (T const value : raster.values()) {
+        fnv.add(value == value ? value : T{}); // which NaN it is may differ
+    }
+    return fnv;
+}
+
+Fnv hash_of(surface::Expansion const& expansion) {
+    Fnv fnv;
+    fnv.add_all(expansion.level.values());
+    fnv.add_all(expansion.base.values());
+    return fnv;
+}
+
+/// The expansion without the vector instructions of this processor, which the C library's masks do not hide.
+surface::Expansion expand_plain(Valley const& valley, Run const& run) {
+    using namespace surface::separable;
+    surface::Expansion expansion{Raster<std::int32_t>(valley.z.grid()), Raster<float>(valley.z.grid())};
+    auto const swept = sweep_down<std::uint16_t>(valley, expansion.base, Lanes::plain, run);
+    sweep_up(swept, expansion.base, expansion.level, Lanes::plain, run);
+    return expansion;
+}
+
+} // namespace
+
+int main(int count, char** words) {
+    Run run;
+    run.threads = count > 1 ? std::atoi(words[1]) : 0;
+
+    print("chance", hash_of_chance());
+    print("elementary", hash_of_elementary());
+    network::DlaParams const thick{.particles = 3000, .sticking = 0.3, .visits = 1, .seed = 11};
+    print("grow_dla S=0.3 M=1", hash_of(network::grow_dla(thick, run).cells));
+    network::Cluster const cluster = network::grow_dla({.particles = 6000}, run);
+    print("grow_dla S=0.85 M=3", hash_of(cluster.cells));
+    network::Branch const branch = network::pick_branch(cluster);
+    print("pick_branch", hash_of(branch.cells));
+    pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});
+    Mask const skeleton = network::thin(framed.mask, run);
+    print("thin", hash_of(skeleton));
+    StreamNetwork const traced = network::trace(skeleton, {framed.mouth}, run);
+    print("trace", hash_of(traced));
+    double const cell_m = skeleton.grid().cell_m;
+    StreamNetwork const pruned = network::prune(traced, {.length_cells = 8, .cell_m = cell_m}, run).network;
+    print("prune", hash_of(pruned));
+    print("order", hash_of(network::order(pruned)));
+    network::Raised const raised = network::set_heights(pruned, {}, run);
+    print("set_heights", hash_of(raised.network));
+    Valley const valley = network::rasterise(raised.network, skeleton.grid()).valley;
+    print("rasterise", hash_of(valley.z));
+    print("expand", hash_of(surface::expand(valley, run)));
+    print("expand, plain", hash_of(expand_plain(valley, run)));
+    print("expand_frontier", hash_of(surface::expand_frontier(valley, Mask(skeleton.grid(), 1), run)));
+    for (char const* increment : {"uniform", "decreasing", "rise_fall", "2+sin(x/7)*exp(-x/50)+x^0.3"}) {
+        for (auto const metric : {surface::Metric::cityblock, surface::Metric::euclid}) {
+            surface::DilateParams const params{{increment}, metric, 500.0};
+            print(increment, hash_of(surface::dilate(valley, params, run).dem));
+        }
+    }
+}

@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The rules of the house that no compiler keeps. Prints one line a violation; exit status 1 when there is one.
+Usage: rules.py [ROOT]"""
+import pathlib
+import re
+import subprocess
+import sys
+
+# Which rooms a room may include, besides itself. Stage rooms meet in pipeline only.
+BELOW = ["core", "geometry", "solver"]
+STAGES = ["network", "skeleton", "surface", "detail", "blend", "measure", "draw", "io"]
+ROOMS = {"core": [], "geometry": ["core"], "solver": ["core"], "pipeline": BELOW + STAGES}
+ROOMS.update({stage: BELOW for stage in STAGES})
+
+# Which foreign headers (by how their names begin) a room's .cpp files may include.
+FOREIGN = {
+    "core": ["oneapi/tbb/", "Random123/"],
+    "geometry": ["CGAL/", "boost/iterator/"],
+    "solver": ["Eigen/", "CL/", "petsc", "mpi.h"],
+    "skeleton": ["noise/", "libnoise/"],
+    "surface": ["muParser"],
+    "draw": ["cairo"],
+    "io": ["gdal", "ogr", "cpl_"],
+    "pipeline": ["toml++/", "nlohmann/"],
+    "tools": ["CLI/", "nlohmann/", "spdlog/"],
+}
+FOREIGN_ANYWHERE = ["fmt/", "boost/graph/", "boost/property_map/"]
+# A StreamNetwork is a Boost graph: the one foreign header in one of ours.
+FOREIGN_IN_HEADERS = {"lib/thalweg/core/stream_network.hpp": ["boost/graph/"]}
+SYSTEM = re.compile(r"[a-z_0-9]+$|(sys/[a-z]+|unistd|fcntl|signal)\.h$")  # C++ headers have no suffix
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+SPDX = ("SPDX-FileCopyrightText: the thalweg authors", "SPDX-License-Identifier: GPL-3.0-or-later")
+
+LIBM = ("pow|exp|exp2|expm1|log2|log10|log1p|sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|cbrt|hypot|"
+        "fma|erf|erfc|tgamma|lgamma")
+# Bare log( is only libm's where <cmath> is at hand: a Run has a log of its own.
+LIBM_CALL = re.compile(r"\bstd::(?:%s|log)[fl]?\b|(?<![\w:.>])(?:::)?(?:%s)[fl]?\(" % (LIBM, LIBM))
+LIBM_LOG = re.compile(r"(?<![\w:.>])(?:::)?log[fl]?\(")
+# Pictures promise no bytes; elementary is what replaces libm.
+LIBM_FREE_OF = ("lib/thalweg/draw/", "lib/thalweg/core/elementary.")
+
+# In the library: what gives other results with another standard library, processor or number of threads.
+UNREPEATABLE = re.compile(r"\bstd::(?:shuffle|sample|random_device|reduce|transform_reduce|execution|hash)\b|"
+                          r"\bstd::rand\b|(?<![\w:.>])s?rand\(|\bparallel_reduce\b|#\s*include\s*<(?:random|execution)>")
+DISTRIBUTION = re.compile(r"\b(?:std::)?(?:uniform_int|uniform_real|normal|bernoulli|binomial|geometric|poisson|exponential|"
+                          r"gamma|weibull|extreme_value|lognormal|chi_squared|cauchy|fisher_f|student_t|discrete|"
+                          r"piecewise_constant|piecewise_linear)_distribution\b")
+FLAGS = re.compile(r"-march=|-mtune=|-mfma|-mavx|-ffast-math|-Ofast|-funsafe-math|-ffp-contract=fast")
+
+MACHINE_PATH = re.compile(r"(?<![\w.}$)*-])/(?:work|home|root|tmp|Users)(?![\w.-])")
+FETCHED = re.compile(r"FetchContent|ExternalProject|CPMAddPackage|\b(?:pip3?|conan|vcpkg|cargo|gem) install\b|"
+                     r"\b(?:curl|wget) |pypi\.org|pythonhosted\.org|crates\.io|anaconda\.org|"
+                     r"(?:ghcr|docker|quay)\.io", re.IGNORECASE)
+LOCK_HOST = re.compile(r'https?://(?!registry\.npmjs\.org/)[^"\s]+')
+
+CPP = (".cpp", ".hpp", ".inc")
+COMMENTED = {*CPP, ".cmake", ".py", ".sh", ".js", ".ts"}  # suffixes that take the SPDX lines
+PICTURES = {".png", ".jpg", ".tif", ".gpkg", ".shp", ".dbf"}
+RULES_THEMSELVES = {"tests/house/rules.py", "tests/house/rules_test.py"}
+
+
+def files_of(root):
+    """The files of the repository: what git knows and what it would add; without git, all but what is built."""
+    git = subprocess.run(["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+                         capture_output=True)
+    if git.returncode == 0 and git.stdout:
+        names = git.stdout.decode().split("\0")
+    else:
+        names = [str(p.relative_to(root)) for p in root.rglob("*")]
+    left_out = (".git", "build", "out", "valley", "shared")
+    return sorted({n for n in names if n and n.split("/")[0] not in left_out and (root / n).is_file()})
+
+
+def place(name):
+    """The room of a source file: a folder of lib/thalweg, "tools", or None."""
+    parts = name.split("/")
+    if parts[:2] == ["lib", "thalweg"] and len(parts) > 3:
+        return parts[2]
+    return "tools" if parts[0] == "tools" else None
+
+
+def begins(name, beginnings):
+    return any(name.startswith(b) for b in beginnings)
+
+
+def check_include(name, room, quoted, header):
+    """What is wrong with one include of a file in lib or tools, or None."""
+    if quoted:
+        return None if room == "tools" and "/" not in header else f'"{header}": write <thalweg/...>'
+    if header.startswith("thalweg/"):
+        target = header.split("/")[1]
+        if room == "tools" or target == room or target in ROOMS[room]:
+            return None
+        what = "stage rooms meet in pipeline only" if target in STAGES and room in STAGES else "dependencies point one way"
+        return f"{room} includes <{header}>: {what}"
+    if SYSTEM.match(header):
+        return None
+    if name.endswith(".hpp"):
+        if room == "tools" or begins(header, FOREIGN_IN_HEADERS.get(name, [])):
+            return None
+        return f"foreign <{header}> in a header: it belongs in a .cpp file"
+    if begins(header, FOREIGN_ANYWHERE) or begins(header, FOREIGN.get(room, [])):
+        return None
+    return f"foreign <{header}> does not belong to {room}"
+
+
+def check_source(name, lines):
+    """Violations of one C++ file as (line number, text)."""
+    room = place(name)
+    in_lib = name.startswith("lib/")
+    if in_lib and room not in ROOMS:
+        yield 1, f"lib/thalweg/{room or '?'} is no room: add it to the table of tests/house/rules.py"
+        return
+    has_cmath = any(re.match(r"\s*#\s*include\s*<(cmath|math\.h)>", line) for line in lines)
+    for number, line in enumerate(lines, 1):
+        code = line.split("//")[0]
+        include = INCLUDE.match(line)
+        if include and room:
+            fault = check_include(name, room, include[1] == '"', include[2])
+            if fault:
+                yield number, fault
+        if include and re.search(r"\.cpp$", include[2]):
+            yield number, "a .cpp file is included"
+        if found := DISTRIBUTION.search(code):
+            yield number, f"{found[0]}: distributions differ between libraries; use core/chance.hpp"
+        if not in_lib:
+            continue
+        if found := UNREPEATABLE.search(code):
+            yield number, f"{found[0]}: not the same everywhere"
+        if not begins(name, LIBM_FREE_OF):
+            found = LIBM_CALL.search(code) or (LIBM_LOG.search(code) if has_cmath else None)
+            if found:
+                yield number, f"{found[0].rstrip('(')} of libm has other bits on other machines; use core/elementary.hpp"
+
+
+def check_text(name, lines):
+    """Violations of any text file as (line number, text)."""
+    path = pathlib.PurePath(name)
+    takes_spdx = path.suffix in COMMENTED or path.name == "CMakeLists.txt" or (lines and lines[0].startswith("#!"))
+    if takes_spdx and not all(any(s in line for line in lines[:4]) for s in SPDX):
+        yield 1, "the two SPDX lines are missing"
+    if name in RULES_THEMSELVES:
+        return
+    builds = path.name in ("CMakeLists.txt", "CMakePresets.json") or path.suffix == ".cmake"
+    for number, line in enumerate(lines, 1):
+        if found := MACHINE_PATH.search(line):
+            yield number, f"{found[0]}: a path of one machine"
+        if found := FETCHED.search(line):
+            yield number, f"{found[0].strip()}: only Debian packages and npm packages by lock file"
+        if path.name == "package-lock.json" and (found := LOCK_HOST.search(line)):
+            yield number, f"{found[0]}: a foreign registry"
+        if builds and (found := FLAGS.search(line.split("#")[0])):
+            yield number, f"{found[0]}: changes bits from machine to machine"
+
+
+def violations(root):
+    """Every violation under a folder, as printable lines."""
+    root = pathlib.Path(root)
+    found = []
+    for name in files_of(root):
+        data = (root / name).read_bytes()
+        if pathlib.PurePath(name).suffix in PICTURES or b"\0" in data:
+            continue
+        lines = data.decode("utf-8", "replace").splitlines()
+        faults = list(check_text(name, lines))
+        if name.endswith(CPP):
+            faults += check_source(name, lines)
+        found += [f"{name}:{number}: {text}" for number, text in sorted(faults)]
+    return found
+
+
+if __name__ == "__main__":
+    faults = violations(sys.argv[1] if len(sys.argv) > 1 else ".")
+    print("\n".join(faults) if faults else "every rule is kept")
+    sys.exit(1 if faults else 0)

@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Holds the repository to rules.py, and rules.py to planted violations. Usage: rules_test.py"""
+import pathlib
+import tempfile
+import unittest
+
+import rules
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SPDX = "// " + rules.SPDX[0] + "\n// " + rules.SPDX[1] + "\n"
+NETWORK = "lib/thalweg/network/trace.cpp"
+
+# file, its text below the SPDX lines, what must be said of it
+PLANTED = [
+    ("lib/thalweg/core/grid.hpp", "#include <gdal.h>", "foreign <gdal.h> in a header"),
+    ("lib/thalweg/core/raster.hpp", "#include <boost/graph/adjacency_list.hpp>", "in a header"),
+    ("lib/thalweg/core/run.cpp", "#include <thalweg/network/thin.hpp>", "dependencies point one way"),
+    ("lib/thalweg/io/read_dem.cpp", "#include <thalweg/pipeline/recipe.hpp>", "dependencies point one way"),
+    ("lib/thalweg/geometry/crossings.cpp", "#include <gdal.h>", "does not belong to geometry"),
+    (NETWORK, "#include <CGAL/Arrangement_2.h>", "does not belong to network"),
+    (NETWORK, "#include <thalweg/surface/dilate.hpp>", "stage rooms meet in pipeline only"),
+    (NETWORK, "  #  include <thalweg/measure/drainage.hpp>", "stage rooms meet in pipeline only"),
+    (NETWORK, "#include <strange/library.hpp>", "foreign <strange/library.hpp>"),
+    (NETWORK, '#include "thin.hpp"', "write <thalweg/...>"),
+    (NETWORK, "#include <random>", "not the same everywhere"),
+    (NETWORK, "#include <execution>", "not the same everywhere"),
+    (NETWORK, "std::shuffle(a, b, c);", "not the same everywhere"),
+    (NETWORK, "double a = std::pow(b, 2);", "libm"),
+    (NETWORK, "double a = sin(b);", "libm"),
+    (NETWORK, "double a = ::atan2(b, c);", "libm"),
+    (NETWORK, "auto f = std::hypot;", "libm"),
+    (NETWORK, "#include <cmath>\ndouble a = log(b);", "libm"),
+    ("lib/thalweg/rivers/flow.cpp", "", "is no room"),
+    ("tests/network/trace_test.cpp", "std::normal_distribution<double> d;", "distributions differ"),
+    ("tests/core/a_test.cpp", "#include <thalweg/core/grid.cpp>", "a .cpp file is included"),
+    ("samples/1.cpp", 'auto where = "/' + 'home/somebody/a.tif";', "a path of one machine"),
+    ("docs/a.md", "see /" + "tmp/x", "a path of one machine"),
+    ("docs/b.md", "see /" + "work", "a path of one machine"),
+    ("cmake/a.cmake", "FetchContent_Declare(x)", "only Debian packages"),
+    ("scripts/a.sh", "pip install x", "only Debian packages"),
+    ("scripts/b.sh", "curl -O x", "only Debian packages"),
+    ("web/package-lock.json", '"resolved": "https://mirror.example/x.tgz"', "a foreign registry"),
+    ("CMakeLists.txt", "add_compile_options(-march=native)", "changes bits"),
+]
+# What looks like a violation and is none.
+INNOCENT = [
+    ("lib/thalweg/core/stream_network.hpp", "#include <boost/graph/adjacency_list.hpp>"),
+    ("lib/thalweg/core/run.hpp", "if (log) {\n    log(line);\n}"),
+    (NETWORK, "double a = exact::pow(b, 2) + thalweg::exact::sin(c); // sin(x) of old"),
+    (NETWORK, "#include <boost/graph/depth_first_search.hpp>\n#include <fmt/format.h>\n#include <cmath>\n#include <sys/stat.h>"),
+    (NETWORK, "#include <thalweg/geometry/crossings.hpp>\n#include <thalweg/core/grid.hpp>"),
+    (NETWORK, "double lesin(double); double a = lesin(1) + o.log(2) + std::sqrt(2);"),
+    ("lib/thalweg/geometry/crossings.cpp", "#include <CGAL/Arrangement_2.h>"),
+    ("lib/thalweg/pipeline/terrain.cpp", "#include <thalweg/surface/dilate.hpp>\n#include <thalweg/network/thin.hpp>"),
+    ("lib/thalweg/draw/map.cpp", "#include <cairo.h>\ndouble a = std::cos(b);"),
+    ("tests/network/a_test.cpp", "#include <random>\n#include <gdal.h>\nstd::mt19937_64 g; double p = std::pow(2, 3);"),
+    ("tools/make.cpp", '#include <CLI/CLI.hpp>\n#include "commands.hpp"\n#include <unistd.h>'),
+    ("docs/a.md", "${ROOT}/work and file/home and https://x.example/tmp.html"),
+    ("web/package-lock.json", '"resolved": "https://registry.npmjs.org/x.tgz"'),
+]
+
+
+class Rules(unittest.TestCase):
+    def said_of(self, name, text):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, name)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            comments = SPDX if name.endswith((".cpp", ".hpp")) else SPDX.replace("//", "#")
+            path.write_text((comments if not name.endswith((".md", ".json")) else "") + text + "\n")
+            return rules.violations(folder)
+
+    def test_every_planted_violation_is_found(self):
+        for name, text, expected in PLANTED:
+            with self.subTest(name=name, text=text):
+                said = self.said_of(name, text)
+                self.assertEqual(len(said), 1, said)
+                self.assertIn(expected, said[0])
+                self.assertTrue(said[0].startswith(name + ":"), said)
+
+    def test_what_is_allowed_is_left_alone(self):
+        for name, text in INNOCENT:
+            with self.subTest(name=name, text=text):
+                self.assertEqual(self.said_of(name, text), [])
+
+    def test_missing_spdx_lines_are_found(self):
+        for name, text in [("a.cpp", "int main() {}"), ("scripts/x", "#!/bin/sh"), ("b.hpp", SPDX.splitlines()[0]), ("c.py", "")]:
+            with self.subTest(name=name), tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, name)
+                path.parent.mkdir(exist_ok=True)
+                path.write_text(text + "\n")
+                self.assertEqual(rules.violations(folder), [f"{name}:1: the two SPDX lines are missing"])
+
+    def test_the_repository_keeps_every_rule(self):
+        names = rules.files_of(ROOT)
+        self.assertIn("lib/thalweg/core/grid.hpp", names)
+        self.assertEqual(rules.violations(ROOT), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

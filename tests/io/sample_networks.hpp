@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/io/write_network.hpp>
+
+/// A small network with everything its tables hold, numbers that do not end in binary among them.
+struct SampleNetwork {
+    thalweg::RaisedNetwork network;
+    thalweg::NetworkOrders orders;
+    std::vector<double> us_area_m2;
+    std::vector<double> ds_area_m2;
+    std::vector<double> node_area_m2;
+
+    thalweg::io::NetworkTables tables(std::string const& crs = "EPSG:32631") const {
+        return {network, orders, us_area_m2, ds_area_m2, node_area_m2, crs, {{"version", "0.1.0"}, {"seed", "7"}}};
+    }
+
+    thalweg::NodeId node(double x, double y, double z) {
+        network.node_z.push_back(z);
+        return boost::add_vertex(thalweg::Node{{x, y}}, network.plan);
+    }
+
+    /// An arc that falls evenly by vertex, through some positions.
+    void arc(thalweg::NodeId from, thalweg::NodeId to, std::vector<thalweg::Vec2> through = {}) {
+        thalweg::Arc arc;
+        arc.line.push_back({});
+        arc.line.insert(arc.line.end(), through.begin(), through.end());
+        arc.line.push_back({});
+        std::vector<double> z;
+        for (std::size_t i = 0; i < arc.line.size(); ++i) {
+            double const share = static_cast<double>(i) / static_cast<double>(arc.line.size() - 1);
+            z.push_back(network.node_z[from] * (1.0 - share) + network.node_z[to] * share);
+        }
+        z.front() = network.node_z[from];
+        z.back() = network.node_z[to];
+        network.arc_z.push_back(z);
+        add_arc(network.plan, from, to, std::move(arc));
+    }
+
+    /// Fills orders and areas by their definitions, arc by arc from the sources down.
+    void settle() {
+        thalweg::NetworkIndex const index(network.plan);
+        std::size_t const arcs = index.arcs.size();
+        std::size_t const nodes = boost::num_vertices(network.plan);
+        orders = {};
+        orders.strahler.assign(arcs, 1);
+        orders.shreve.assign(arcs, 1);
+        orders.hack.assign(arcs, 1);
+        orders.topological.assign(arcs, 1);
+        orders.arc_basin.assign(arcs, 0);
+        orders.node_basin.assign(index.basin.begin(), index.basin.end());
+        orders.node_strahler.assign(nodes, 0);
+        orders.node_dist_out_m.assign(nodes, 0.0);
+        us_area_m2.assign(arcs, 0.1);
+        ds_area_m2.assign(arcs, 0.0);
+        node_area_m2.assign(nodes, 0.1);
+        std::vector<double> longest(nodes, 0.0); // flow path from the farthest source to the node
+        for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) {
+            int greatest = 0;
+            int how_often = 0;
+            std::int64_t sources = 0;
+            for (std::int64_t const above : index.in[*n]) {
+                auto const a = static_cast<std::size_t>(above);
+                how_often = orders.strahler[a] > greatest ? 1 : how_often + (orders.strahler[a] == greatest ? 1 : 0);
+                greatest = std::max(greatest, orders.strahler[a]);
+                sources += orders.shreve[a];
+                longest[*n] = std::max(longest[*n], longest[index.from[a]] + index.length_m[a]);
+                node_area_m2[*n] += ds_area_m2[a];
+            }
+            int const order = index.in[*n].empty() ? 1 : greatest + (how_often > 1 ? 1 : 0);
+            orders.node_strahler[*n] = index.out[*n] < 0 ? greatest : order;
+            if (index.out[*n] >= 0) {
+                auto const a = static_cast<std::size_t>(index.out[*n]);
+                orders.strahler[a] = order;
+                orders.shreve[a] = index.in[*n].empty() ? 1 : sources;
+                orders.arc_basin[a] = index.basin[*n];
+                us_area_m2[a] = node_area_m2[*n];
+                ds_area_m2[a] = us_area_m2[a] + index.length_m[a];
+            }
+        }
+        for (thalweg::NodeId const n : index.upstream_order) {
+            std::int64_t main = -1;
+            for (std::int64_t const above : index.in[n]) {
+                auto const a = static_cast<std::size_t>(above);
+                auto const path = [&](std::size_t k) { return longest[index.from[k]] + index.length_m[k]; };
+                if (main < 0 || path(a) > path(static_cast<std::size_t>(main))) {
+                    main = above;
+                }
+            }
+            for (std::int64_t const above : index.in[n]) {
+                auto const a = static_cast<std::size_t>(above);
+                auto const below = static_cast<std::size_t>(std::max<std::int64_t>(index.out[n], 0));
+                bool const outlet = index.out[n] < 0;
+                orders.topological[a] = outlet ? 1 : orders.topological[below] + 1;
+                orders.hack[a] = (outlet ? 1 : orders.hack[below]) + (above == main ? 0 : 1);
+                orders.node_dist_out_m[index.from[a]] = orders.node_dist_out_m[n] + index.length_m[a];
+            }
+        }
+    }
+};
+
+inline SampleNetwork single_arc() {
+    SampleNetwork sample;
+    auto const source = sample.node(500000.1, 4000000.2, 12.3);
+    auto const outlet = sample.node(500100.7, 4000000.2, 0.1);
+    sample.arc(source, outlet, {{500033.3, 4000010.1}, {500066.6, 3999990.9}});
+    sample.settle();
+    return sample;
+}
+
+/// Two sources, a confluence, an outlet.
+inline SampleNetwork y_shape() {
+    SampleNetwork sample;
+    auto const outlet = sample.node(0.1, 0.2, 1.0 / 3.0);
+    auto const confluence = sample.node(0.3, 100.7, 4.7);
+    auto const left = sample.node(-70.7, 180.9, 11.1);
+    auto const right = sample.node(90.9, 170.1, 9.9);
+    sample.arc(left, confluence, {{-40.4, 150.1}});
+    sample.arc(confluence, outlet);
+    sample.arc(right, confluence, {{60.6, 130.3}, {30.3, 120.2}});
+    sample.settle();
+    return sample;
+}
+
+/// A basin with a confluence of three and a pseudo node, and another of one arc with a type and a survival threshold.
+inline SampleNetwork two_basins() {
+    SampleNetwork sample;
+    auto const mouth = sample.node(0.0, 0.0, 0.0);
+    auto const pseudo = sample.node(0.5, 50.5, 1.0);
+    auto const three = sample.node(0.7, 100.1, 2.0);
+    auto const up = sample.node(0.9, 250.2, 7.0);
+    auto const west = sample.node(-100.3, 100.4, 5.0);
+    auto const east = sample.node(100.6, 100.8, 6.0);
+    auto const other_mouth = sample.node(1000.1, 0.0, 3.0);
+    auto const other_source = sample.node(1000.1, 99.9, 3.0);
+    sample.arc(up, three);
+    sample.arc(west, three);
+    sample.arc(east, three);
+    sample.arc(three, pseudo);
+    sample.arc(pseudo, mouth);
+    sample.arc(other_source, other_mouth);
+    thalweg::NetworkIndex const index(sample.network.plan);
+    auto& arc = sample.network.plan[index.arcs.back()];
+    arc.type = "Bärenbach";
+    arc.feature = 123456789012345;
+    arc.survives = 20.5;
+    sample.settle();
+    return sample;
+}

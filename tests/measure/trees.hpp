@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <thalweg/core/chance.hpp>
+#include <thalweg/core/stream_network.hpp>
+
+/// Scheidegger's random rivers (1967): every point of a lattice drains to the one south or south-east of it, so that no
+/// two reaches cross. Row 0 holds the outlets; points are spacing_m apart, the first half of it from the axes; heights
+/// are the rows' numbers. Its arcs run from sources and confluences; about half as many as points.
+inline thalweg::RaisedNetwork random_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t rows,
+                                            double spacing_m = 1.0) {
+    using namespace thalweg;
+    auto const id = [&](std::int64_t col, std::int64_t row) { return static_cast<std::size_t>(row * cols + col); };
+    auto const below = [&](std::size_t p) {
+        auto const col = static_cast<std::int64_t>(p) % cols;
+        auto const east = static_cast<std::int64_t>(chance(seed, p) % 2);
+        return id(std::min(col + east, cols - 1), static_cast<std::int64_t>(p) / cols - 1);
+    };
+    auto const row_of = [&](std::size_t p) { return static_cast<double>(static_cast<std::int64_t>(p) / cols); };
+    auto const place = [&](std::size_t p) {
+        return Vec2{(static_cast<double>(static_cast<std::int64_t>(p) % cols) + 0.5) * spacing_m,
+                    (row_of(p) + 0.5) * spacing_m};
+    };
+    std::size_t const points = id(0, rows);
+    std::size_t const first_row = id(0, 1);
+    std::vector<int> arriving(points, 0);
+    for (std::size_t p = first_row; p < points; ++p) {
+        ++arriving[below(p)];
+    }
+    RaisedNetwork rivers;
+    std::vector<NodeId> node(points);
+    auto const is_node = [&](std::size_t p) { return p < first_row ? arriving[p] > 0 : arriving[p] != 1; };
+    for (std::size_t p = 0; p < points; ++p) {
+        if (is_node(p)) {
+            node[p] = boost::add_vertex(Node{place(p)}, rivers.plan);
+            rivers.node_z.push_back(row_of(p));
+        }
+    }
+    for (std::size_t p = first_row; p < points; ++p) {
+        if (is_node(p)) {
+            Arc arc;
+            std::size_t at = p;
+            arc.line.push_back(place(at));
+            rivers.arc_z.push_back({row_of(at)});
+            do {
+                at = below(at);
+                arc.line.push_back(place(at));
+                rivers.arc_z.back().push_back(row_of(at));
+            } while (!is_node(at));
+            add_arc(rivers.plan, node[p], node[at], std::move(arc));
+        }
+    }
+    return rivers;
+}
+
+/// The orders that a network's file holds.
+inline thalweg::NetworkOrders orders_of(thalweg::StreamNetwork const& network) {
+    using namespace thalweg;
+    NetworkIndex const index(network);
+    NetworkOrders orders;
+    orders.strahler.assign(index.arcs.size(), 1);
+    orders.shreve.assign(index.arcs.size(), 1);
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        orders.arc_basin.push_back(index.basin[index.to[a]]);
+    }
+    for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) {
+        if (index.out[*n] < 0 || index.in[*n].empty()) {
+            continue;
+        }
+        std::vector<int> arriving;
+        std::int64_t sources = 0;
+        for (auto const a : index.in[*n]) {
+            arriving.push_back(orders.strahler[static_cast<std::size_t>(a)]);
+            sources += orders.shreve[static_cast<std::size_t>(a)];
+        }
+        int const highest = *std::max_element(arriving.begin(), arriving.end());
+        auto const leaving = static_cast<std::size_t>(index.out[*n]);
+        orders.strahler[leaving] = highest + (std::count(arriving.begin(), arriving.end(), highest) > 1 ? 1 : 0);
+        orders.shreve[leaving] = sources;
+    }
+    return orders;
+}

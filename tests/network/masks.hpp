@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <thalweg/core/chance.hpp>
+#include <thalweg/core/raster.hpp>
+
+/// Masks to thin and trace, drawn by hand or by chance.
+namespace thalweg::test {
+
+/// Cells of one metre, x from 0 eastwards, y from `height` at the north edge down to 0.
+inline Grid grid_of(std::int64_t width, std::int64_t height) {
+    Grid grid;
+    grid.width = width;
+    grid.height = height;
+    grid.north = static_cast<double>(height);
+    return grid;
+}
+
+/// '#' is set; all rows of one length.
+inline Mask mask_of(std::vector<std::string> const& rows) {
+    Mask mask(
+        grid_of(rows.empty() ? 0 : static_cast<std::int64_t>(rows[0].size()), static_cast<std::int64_t>(rows.size())));
+    for (std::int64_t i = 0; i < mask.cells(); ++i) {
+        Cell const c = mask.grid().at(i);
+        mask[i] = rows[static_cast<std::size_t>(c.row)][static_cast<std::size_t>(c.col)] == '#' ? 1 : 0;
+    }
+    return mask;
+}
+
+inline std::vector<std::string> rows_of(Mask const& mask) {
+    std::vector<std::string> rows(static_cast<std::size_t>(mask.height()));
+    for (std::int64_t i = 0; i < mask.cells(); ++i) {
+        rows[static_cast<std::size_t>(i / mask.width())] += mask[i] != 0 ? '#' : '.';
+    }
+    return rows;
+}
+
+/// Each cell set with the given probability.
+inline Mask random_mask(std::uint64_t seed, std::int64_t width, std::int64_t height, double share) {
+    Mask mask(grid_of(width, height));
+    for (std::int64_t i = 0; i < mask.cells(); ++i) {
+        mask[i] = unit(chance(seed, 1, static_cast<std::uint64_t>(i))) < share ? 1 : 0;
+    }
+    return mask;
+}
+
+/// A few thick strokes from the middle and from one another: a branching blob with ragged edges, one component.
+inline Mask random_blob(std::uint64_t seed, std::int64_t width, std::int64_t height, int strokes, int thickness) {
+    Mask mask(grid_of(width, height));
+    std::vector<Cell> on{{width / 2, height / 2}};
+    ChanceStream words(seed, 2, 0);
+    auto const below = [&](std::int64_t n) {
+        return static_cast<std::int64_t>(words.word() % static_cast<std::uint64_t>(n));
+    };
+    for (int s = 0; s < strokes; ++s) {
+        Cell c = on[static_cast<std::size_t>(below(static_cast<std::int64_t>(on.size())))];
+        std::int64_t dc = below(3) - 1;
+        std::int64_t dr = below(3) - 1;
+        for (std::int64_t k = below(width + height); k >= 0 && mask.grid().contains(c); --k) {
+            for (std::int64_t r = c.row; r < c.row + thickness; ++r) {
+                for (std::int64_t q = c.col; q < c.col + thickness; ++q) {
+                    if (mask.grid().contains({q, r})) {
+                        mask[Cell{q, r}] = 1;
+                    }
+                }
+            }
+            on.push_back(c);
+            if (below(5) == 0) {
+                dc = below(3) - 1;
+                dr = below(3) - 1;
+            }
+            c = {c.col + dc, c.row + dr};
+        }
+    }
+    return mask;
+}
+
+/// Components of the cells whose value is `value`, by 4 or 8 neighbours; what lies beyond the grid is 0 and one with
+/// every empty cell on the border.
+inline std::int64_t components(Mask const& mask, int value, int neighbours) {
+    std::int64_t const w = mask.width() + 2;
+    std::int64_t const h = mask.height() + 2;
+    auto const is = [&](std::int64_t col, std::int64_t row) {
+        Cell const c{col - 1, row - 1};
+        return (mask.grid().contains(c) && mask[c] != 0 ? 1 : 0) == value;
+    };
+    std::vector<std::uint8_t> seen(static_cast<std::size_t>(w * h), 0);
+    std::int64_t count = 0;
+    for (std::int64_t i = 0; i < w * h; ++i) {
+        if (seen[static_cast<std::size_t>(i)] != 0 || !is(i % w, i / w)) {
+            continue;
+        }
+        ++count;
+        std::vector<std::int64_t> open{i};
+        seen[static_cast<std::size_t>(i)] = 1;
+        while (!open.empty()) {
+            std::int64_t const at = open.back();
+            open.pop_back();
+            for (std::int64_t dr = -1; dr <= 1; ++dr) {
+                for (std::int64_t dc = -1; dc <= 1; ++dc) {
+                    std::int64_t const col = at % w + dc;
+                    std::int64_t const row = at / w + dr;
+                    if ((neighbours == 4 && dr != 0 && dc != 0) || col < 0 || row < 0 || col >= w || row >= h) {
+                        continue;
+                    }
+                    auto& mark = seen[static_cast<std::size_t>(row * w + col)];
+                    if (mark == 0 && is(col, row)) {
+                        mark = 1;
+                        open.push_back(row * w + col);
+                    }
+                }
+            }
+        }
+    }
+    return count;
+}
+
+} // namespace thalweg::test

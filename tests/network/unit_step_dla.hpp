@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/chance.hpp>
+#include <thalweg/network/birth_circle.hpp>
+#include <thalweg/network/grow_dla.hpp>
+
+/// The oracle and yardstick of the growth: the same birth circle, return from afar and occupancy test, but every step
+/// of a walker is a unit step.
+namespace unit_step {
+
+using thalweg::network::Site;
+
+/// Two bits a step: thirty-two steps a word.
+class Steps {
+public:
+    explicit Steps(thalweg::ChanceStream& chance) : chance_(chance) {}
+
+    unsigned next() {
+        if (left_ == 0) {
+            word_ = chance_.word();
+            left_ = 32;
+        }
+        --left_;
+        auto const step = static_cast<unsigned>(word_ & 3);
+        word_ >>= 2;
+        return step;
+    }
+
+private:
+    thalweg::ChanceStream& chance_;
+    std::uint64_t word_ = 0;
+    int left_ = 0;
+};
+
+class Lattice {
+public:
+    static constexpr std::uint8_t taken = 128;
+
+    /// The state of a cell: `taken`, or the number of its occupied neighbours.
+    std::uint8_t state(Site s) const { return cells_[index(s)]; }
+    double radius() const { return radius_; }
+
+    void occupy(Site site) {
+        double const distance = std::sqrt(static_cast<double>(thalweg::network::squared(site)));
+        if (distance >= radius_) {
+            radius_ = distance;
+            circle_ = thalweg::network::birth_circle(distance);
+            widen(circle_.far + 2);
+        }
+        cells_[index(site)] |= taken;
+        for (std::ptrdiff_t const step : {-width_, std::ptrdiff_t{1}, width_, std::ptrdiff_t{-1}}) {
+            ++cells_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index(site)) + step)];
+        }
+        occupied_.push_back(site);
+    }
+
+    Site born(thalweg::ChanceStream& chance) const { return thalweg::network::born(circle_, chance); }
+
+    /// Walks from a site that is not next to the cluster until it is.
+    Site approach(Site site, Steps& steps, thalweg::ChanceStream& chance) const {
+        while (state(site) == 0) {
+            site = move(site, steps.next());
+            if (circle_.lost(site)) {
+                site = thalweg::network::back_from_afar(circle_, site, chance);
+            }
+        }
+        return site;
+    }
+
+    /// One step to a free neighbour.
+    Site step(Site site, Steps& steps) const {
+        for (;;) {
+            Site const next = move(site, steps.next());
+            if (state(next) < taken) {
+                return next;
+            }
+        }
+    }
+
+private:
+    static Site move(Site s, unsigned step) {
+        std::int32_t const way = (step & 1) != 0 ? 1 : -1;
+        return (step & 2) != 0 ? Site{s.x + way, s.y} : Site{s.x, s.y + way};
+    }
+    std::size_t index(Site s) const { return static_cast<std::size_t>((s.y + half_) * width_ + s.x + half_); }
+
+    void widen(std::int32_t half) {
+        if (half <= half_) {
+            return;
+        }
+        half_ = 2 * half;
+        width_ = 2 * half_ + 1;
+        cells_.assign(static_cast<std::size_t>(width_ * width_), 0);
+        std::vector<Site> const before = std::move(occupied_);
+        occupied_.clear();
+        for (Site const s : before) {
+            occupy(s);
+        }
+    }
+
+    std::vector<Site> occupied_;
+    std::vector<std::uint8_t> cells_;
+    std::ptrdiff_t width_ = 0;
+    std::int32_t half_ = 0;
+    double radius_ = 0.0;
+    thalweg::network::BirthCircle circle_;
+};
+
+/// The law of grow_dla word by word; parents are not recorded.
+inline thalweg::network::Cluster grow(thalweg::network::DlaParams const& params) {
+    thalweg::network::Cluster cluster;
+    Lattice lattice;
+    std::vector<std::vector<int>> visits;
+    auto const add = [&](Site s) {
+        lattice.occupy(s);
+        cluster.cells.push_back({s.x, s.y});
+    };
+    auto const count = [&](Site s) {
+        auto const x = static_cast<std::size_t>(2 * std::abs(s.x) + (s.x < 0));
+        auto const y = static_cast<std::size_t>(2 * std::abs(s.y) + (s.y < 0));
+        visits.resize(std::max(visits.size(), y + 1));
+        visits[y].resize(std::max(visits[y].size(), x + 1));
+        return ++visits[y][x] >= params.visits;
+    };
+    add({0, 0});
+    while (static_cast<std::int64_t>(cluster.cells.size()) < params.particles) {
+        thalweg::ChanceStream chance(params.seed, 2, static_cast<std::uint64_t>(cluster.walkers++));
+        Steps steps(chance);
+        for (Site s = lattice.approach(lattice.born(chance), steps, chance);;) {
+            double const hold = std::pow(params.sticking, 3 - lattice.state(s));
+            bool removed = false;
+            bool sticks = false;
+            if (params.rule == thalweg::network::VisitRule::count_first) {
+                removed = !count(s);
+                sticks = !removed && chance.real() < hold;
+            } else if (chance.real() < hold) {
+                sticks = count(s);
+                removed = !sticks;
+            }
+            if (sticks) {
+                add(s);
+            }
+            if (sticks || removed) {
+                break;
+            }
+            s = lattice.approach(lattice.step(s, steps), steps, chance);
+        }
+    }
+    cluster.radius = lattice.radius();
+    return cluster;
+}
+
+} // namespace unit_step

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <iterator>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string const small = "make --set grid.width=64 --set grid.height=64 --set network.dla.particles=400 "
+                          "--set network.prune=4 -o out ";
+
+std::string geojson(std::string const& features) {
+    return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32631"}},)"
+           R"("features":[)" +
+           features + "]}";
+}
+
+std::string river(int id, std::string const& coordinates) {
+    return R"({"type":"Feature","id":)" + std::to_string(id) +
+           R"(,"properties":{"a":1},"geometry":{"type":"LineString","coordinates":[)" + coordinates + "]}}";
+}
+
+std::string lines_recipe(std::string const& path, std::string const& more = "") {
+    return "[grid]\ncell = 10\n[network]\nsource = \"lines\"\n[network.lines]\npath = \"" + path + "\"\n" + more +
+           "[surface]\n";
+}
+
+/// Exit 2, the words in the message, nothing written.
+void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
+    auto const before = std::distance(fs::directory_iterator(place.path()), {});
+    Outcome const o = thalweg_run(arguments, place.path());
+    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
+    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
+    EXPECT_EQ(o.err.rfind("error: ", 0), 0U) << o.err;
+    EXPECT_EQ(o.out, "") << arguments;
+    EXPECT_EQ(std::distance(fs::directory_iterator(place.path()), {}), before) << arguments;
+}
+
+} // namespace
+
+TEST(BadInput, CommandLine) {
+    Workplace const place;
+    refused(place, "", "");
+    refused(place, "mak", "Did you mean 'make'?");
+    refused(place, "make --overwrit", "Did you mean '--overwrite'?");
+    refused(place, "make --threads -1", "--threads");
+    refused(place, "make nowhere.toml", "nowhere.toml");
+    refused(place, "make .", "");
+    refused(place, "check nowhere.gpkg", "nowhere.gpkg");
+    refused(place, "stats nowhere.tif", "nowhere.tif");
+    refused(place, "replay nowhere", "nowhere");
+    refused(place, "make --set nothing", "section.key=value");
+}
+
+TEST(BadInput, RecipeKeys) {
+    Workplace const place;
+    refused(place, small + "--set network.prun=3", "Did you mean 'network.prune'?");
+    refused(place, small + "--set surface.increment=rise_fal", "Did you mean 'rise_fall'?");
+    refused(place, small + "--set network.dla.sticking=0", "network.dla.sticking");
+    refused(place, small + "--set network.dla.sticking=1.5", "network.dla.sticking");
+    refused(place, small + "--set network.dla.visits=0", "network.dla.visits");
+    refused(place, small + "--set network.dla.particles=0", "network.dla.particles");
+    refused(place, small + "--set network.dla.particles=many", "an integer is wanted");
+    refused(place, small + "--set grid.width=0", "grid.width");
+    refused(place, small + "--set grid.cell=0", "grid.cell");
+    refused(place, small + "--set grid.cell=-3", "grid.cell");
+    refused(place, small + "--set grid.crs=EPSG:4326", "EPSG:4326");
+    refused(place, small + "--set grid.crs=nonsense", "nonsense");
+    refused(place, "make --set grid.width=900000 --set grid.height=900000", "GB are free");
+    place.write("bad.toml", "[grid]\ncell = \"wide\"\n[network]\nprun = 3\n");
+    refused(place, "make bad.toml", "line 2: grid.cell: a number is wanted");
+    refused(place, "make bad.toml", "line 4: network.prun is not a key");
+}
+
+TEST(BadInput, PruningBeyondEveryPathNamesTheLongest) {
+    Workplace const place;
+    refused(place, small + "--set network.prune=5000", "the longest is");
+}
+
+TEST(BadInput, FolderThatIsTaken) {
+    Workplace const place;
+    fs::create_directory(place / "out");
+    place.write("out/precious.txt", "mine");
+    refused(place, small, "--overwrite");
+    EXPECT_EQ(file_bytes(place / "out/precious.txt"), "mine");
+    place.write("file", "mine");
+    refused(place, "make -o file", "file");
+    EXPECT_EQ(file_bytes(place / "file"), "mine");
+}
+
+TEST(BadInput, LineFiles) {
+    Workplace const place;
+    auto const with = [&](std::string const& json, std::string const& more = "") {
+        place.write("rivers.geojson", json);
+        place.write("r.toml", lines_recipe("rivers.geojson", more));
+    };
+    place.write("r.toml", lines_recipe("missing.gpkg"));
+    refused(place, "make r.toml -o out", "missing.gpkg");
+    with(geojson(""));
+    refused(place, "make r.toml -o out", "rivers.geojson");
+    with("{not json");
+    refused(place, "make r.toml -o out", "rivers.geojson");
+    with(geojson(R"({"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[500000,5000000]}})"));
+    refused(place, "make r.toml -o out", "line");
+    with(geojson(river(1, "[500000,5000000],[500100,5000100]")), "layer = \"streams\"\n");
+    refused(place, "make r.toml -o out", "streams");
+    with(geojson(river(3, "[500000,5000000,9],[500050,5000000,12.1],[500100,5000000,12.9],[500200,5000000,1]")),
+         "orientation = \"as_drawn\"\n");
+    refused(place, "make r.toml -o out", "runs uphill");
+    with(geojson(river(1, "[500000,5000000],[500100,5000000]") + "," + river(2, "[500100,5000000],[500100,5000100]") +
+                 "," + river(3, "[500100,5000100],[500000,5000000]")));
+    refused(place, "make r.toml -o out", "cycle");
+    with(geojson(river(1, "[500000,5000000],[500300,5000000]")));
+    refused(place, "make r.toml -o out --set grid.width=10 --set grid.height=10", "outside the grid");
+    refused(place, "make r.toml -o out --set network.heights=file", "Z");
+    refused(place, "make r.toml -o out --set grid.crs=EPSG:4258", "EPSG:4258");
+}
+
+TEST(BadInput, NotANumberInAShapefile) {
+    Workplace const place;
+    fs::create_directory(place / "in");
+    std::string const script = R"(
+from osgeo import ogr, osr
+s = osr.SpatialReference(); s.ImportFromEPSG(32631)
+d = ogr.GetDriverByName('ESRI Shapefile').CreateDataSource('in/r.shp')
+l = d.CreateLayer('r', s, ogr.wkbLineString)
+g = ogr.Geometry(ogr.wkbLineString)
+for p in ((500000, 5000000), (float('nan'), 5000010), (500020, 5000020)): g.AddPoint_2D(*p)
+f = ogr.Feature(l.GetLayerDefn()); f.SetGeometry(g); l.CreateFeature(f)
+d = None
+)";
+    place.write("in/make.py", script);
+    ASSERT_EQ(std::system(("cd '" + place.path().string() + "' && /usr/bin/python3 in/make.py").c_str()), 0);
+    place.write("r.toml", lines_recipe("in/r.shp"));
+    refused(place, "make r.toml -o out", "vertex");
+}

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string const small = "make --set grid.width=64 --set grid.height=48 --set network.dla.particles=400 "
+                          "--set network.prune=4 ";
+
+std::size_t entries(fs::path const& folder) {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
+}
+
+} // namespace
+
+TEST(Manners, HelpAndVersionGoToStdout) {
+    Workplace const place;
+    Outcome const help = thalweg_run("--help", place.path());
+    EXPECT_EQ(help.code, 0);
+    EXPECT_NE(help.out.find("make"), std::string::npos);
+    Outcome const version = thalweg_run("--version", place.path());
+    EXPECT_EQ(version.code, 0);
+    EXPECT_EQ(version.out.rfind("thalweg 0.", 0), 0U) << version.out;
+    EXPECT_EQ(thalweg_run("make --help", place.path()).code, 0);
+}
+
+TEST(Manners, RecipeListsKeysAndItsDumpCanBeMade) {
+    Workplace const place;
+    Outcome const keys = thalweg_run("recipe", place.path());
+    EXPECT_EQ(keys.code, 0);
+    EXPECT_NE(keys.out.find("sticking"), std::string::npos);
+    Outcome const dump = thalweg_run("recipe --dump", place.path());
+    place.write("r.toml", dump.out);
+    Outcome const made = thalweg_run("make r.toml " + small.substr(5) + "-o out -q", place.path());
+    EXPECT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(made.err, "");
+}
+
+TEST(Manners, NoEscapeCodesInAPipe) {
+    Workplace const place;
+    Outcome const o = thalweg_run(small + "-o out", place.path());
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ((o.out + o.err).find('\033'), std::string::npos);
+    EXPECT_EQ(o.out, "out\n");
+}
+
+TEST(Manners, JsonIsExactlyOneObject) {
+    Workplace const place;
+    Outcome const made = thalweg_run(small + "-o out --json -q", place.path());
+    ASSERT_EQ(made.code, 0) << made.err;
+    auto const report = nlohmann::json::parse(made.out);
+    EXPECT_EQ(report["recipe"]["grid"]["width"], 64);
+    EXPECT_GT(report["network"]["arcs"], 0);
+    EXPECT_TRUE(report["dem"]["max"].contains("col"));
+    for (auto const& name : report["files"]) {
+        EXPECT_TRUE(fs::exists(place / "out" / name.get<std::string>())) << name;
+    }
+    auto const check = nlohmann::json::parse(thalweg_run("check out --json", place.path()).out);
+    EXPECT_EQ(check["ok"], true);
+    auto const stats = nlohmann::json::parse(thalweg_run("stats out/dem.tif --json", place.path()).out);
+    EXPECT_EQ(stats["mean"], report["dem"]["mean"]);
+}
+
+TEST(Manners, OverwriteReplacesOnlyItsOwn) {
+    Workplace const place;
+    ASSERT_EQ(thalweg_run(small + "-o out -q", place.path()).code, 0);
+    std::string const before = file_bytes(place / "out/dem.tif");
+    place.write("out/mine.txt", "mine");
+    EXPECT_EQ(thalweg_run(small + "-o out -q", place.path()).code, 2);
+    EXPECT_EQ(file_bytes(place / "out/dem.tif"), before);
+    Outcome const again = thalweg_run(small + "--seed 8 -o out -q --overwrite", place.path());
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_NE(file_bytes(place / "out/dem.tif"), before);
+    EXPECT_EQ(file_bytes(place / "out/mine.txt"), "mine");
+    EXPECT_EQ(entries(place.path()), 1U) << "nothing temporary stays";
+}
+
+TEST(Manners, StraightHeightsThatRiseFailTheCheckAndLeaveTheFiles) {
+    Workplace const place;
+    Outcome const o =
+        thalweg_run("make --set grid.width=256 --set grid.height=256 --set network.dla.particles=6000 --set "
+                    "network.prune=3 --set network.heights=straight -o out",
+                    place.path());
+    EXPECT_EQ(o.code, 3) << o.err;
+    EXPECT_TRUE(fs::exists(place / "out/dem.tif"));
+    EXPECT_NE(o.err.find("uphill_arcs"), std::string::npos) << o.err;
+    EXPECT_EQ(thalweg_run("check out", place.path()).code, 3);
+}
+
+TEST(Manners, InterruptLeavesNothing) {
+    Workplace const place;
+    Workplace const aside;
+    aside.write("run.sh", "cd '" + place.path().string() +
+                              "'\n'" THALWEG_EXE
+                              "' make --set grid.width=4000 --set grid.height=4000 --set network.dla.particles=5000000 "
+                              "-o out >/dev/null 2>&1 &\nsleep 1\nkill -INT $!\nwait $!\n");
+    int const status = std::system(("bash " + (aside / "run.sh").string()).c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_EQ(entries(place.path()), 0U);
+}
+
+TEST(Manners, ATamperedFileIsFoundByReplay) {
+    Workplace const place;
+    ASSERT_EQ(thalweg_run(small + "-o out -q", place.path()).code, 0);
+    EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
+    std::string bytes = file_bytes(place / "out/network.tif");
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    place.write("out/network.tif", bytes);
+    fs::remove(place / "out/map.png");
+    Outcome const o = thalweg_run("replay out --verify", place.path());
+    EXPECT_EQ(o.code, 3);
+    EXPECT_NE(o.out.find("DIFFERS  network.tif"), std::string::npos) << o.out;
+    EXPECT_NE(o.out.find("MISSING  map.png"), std::string::npos) << o.out;
+}

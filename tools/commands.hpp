@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include <thalweg/core/run.hpp>
+
+namespace CLI {
+class App;
+}
+
+namespace thalweg::tools {
+
+/// Exit codes (contract).
+enum Exit : int { done = 0, failed = 1, wrong = 2, check_failed = 3, interrupted = 130 };
+
+/// How a command runs: options every command has.
+struct Session {
+    int threads = 0;
+    bool quiet = false;
+    bool json = false;
+    Run run; ///< ready when the command is called
+};
+
+/// A command adds its options to the app and leaves what to do when it is chosen.
+using Command = std::function<int()>;
+Command add_make(CLI::App& app, Session& session);
+Command add_check(CLI::App& app, Session& session);
+Command add_stats(CLI::App& app, Session& session);
+Command add_replay(CLI::App& app, Session& session);
+Command add_recipe(CLI::App& app, Session& session);
+
+} // namespace thalweg::tools

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+
+#include <thalweg/io/raster_files.hpp>
+#include <thalweg/measure/statistics.hpp>
+#include <thalweg/pipeline/report.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+namespace thalweg::tools {
+
+namespace {
+
+int stats(std::string const& path, Session const& session) {
+    Raster<float> const dem = io::read_dem(path, session.run);
+    measure::Statistics const s = measure::statistics(dem, session.run);
+    if (session.json) {
+        fmt::print("{}", pipeline::statistics_json(s));
+        return Exit::done;
+    }
+    fmt::print("cells      {} with data, {} without ({} x {})\n", s.cells, s.nodata, dem.width(), dem.height());
+    fmt::print("mean       {:.3f} m\n", s.mean);
+    fmt::print("std        {:.3f} m\n", s.std);
+    fmt::print("min        {:.3f} m at column {}, row {}\n", s.min.z, s.min.cell.col, s.min.cell.row);
+    fmt::print("max        {:.3f} m at column {}, row {}\n", s.max.z, s.max.cell.col, s.max.cell.row);
+    fmt::print("slope      {:.4f} rad in metres per cell, {:.2f} degrees on the ground\n", s.slope_rad,
+               s.slope_true_deg);
+    return Exit::done;
+}
+
+} // namespace
+
+Command add_stats(CLI::App& app, Session& session) {
+    auto const path = std::make_shared<std::string>();
+    app.add_option("DEM", *path, "any raster of heights")->required();
+    app.add_flag("--json", session.json, "one JSON object on stdout");
+    return [path, &session] { return stats(*path, session); };
+}
+
+} // namespace thalweg::tools
