@@ -35,8 +35,8 @@ struct Carry {
     std::int32_t* key = nullptr;
 };
 
-#ifdef __clang__
-#define THALWEG_UNROLL _Pragma("unroll")
+#ifdef __clang__ // unrolls what is constant unasked, and warns of the rest
+#define THALWEG_UNROLL
 #else
 #define THALWEG_UNROLL _Pragma("GCC unroll 8")
 #endif
