@@ -79,8 +79,10 @@ void bench_areas_nearest(benchmark::State& state) {
     StreamNetwork rivers;
     for (std::int64_t k = 0; k < 100; ++k) {
         std::int64_t const col = k * grid.width / 100;
-        auto const north = boost::add_vertex(Node{grid.centre({col, 0})}, rivers);
-        auto const south = boost::add_vertex(Node{grid.centre({col, grid.height - 1})}, rivers);
+        auto const north = boost::add_vertex(rivers);
+        rivers[north].at = grid.centre({col, 0});
+        auto const south = boost::add_vertex(rivers);
+        rivers[south].at = grid.centre({col, grid.height - 1});
         add_arc(rivers, north, south, {});
     }
     for (auto _ : state) {

@@ -30,10 +30,10 @@ using Numbers = std::vector<double>;
 /// A river down the middle column of five rows, joined from the west in its middle cell.
 StreamNetwork small_rivers() {
     StreamNetwork net;
-    auto const north = boost::add_vertex(Node{{2.5, 4.5}}, net);
-    auto const west = boost::add_vertex(Node{{0.5, 2.5}}, net);
-    auto const joint = boost::add_vertex(Node{{2.5, 2.5}}, net);
-    auto const mouth = boost::add_vertex(Node{{2.5, 0.5}}, net);
+    auto const north = add_node(net, {2.5, 4.5});
+    auto const west = add_node(net, {0.5, 2.5});
+    auto const joint = add_node(net, {2.5, 2.5});
+    auto const mouth = add_node(net, {2.5, 0.5});
     add_arc(net, north, joint, {});
     add_arc(net, west, joint, {});
     add_arc(net, joint, mouth, {});
@@ -112,7 +112,7 @@ TEST(AreasNearest, NoRiversNoAreas) {
     EXPECT_TRUE(areas.us_area_m2.empty());
     EXPECT_TRUE(areas.node_m2.empty());
     StreamNetwork lonely;
-    boost::add_vertex(Node{{0.5, 0.5}}, lonely);
+    add_node(lonely, {0.5, 0.5});
     EXPECT_EQ(areas_nearest(lonely, frame(3, 3)).node_m2, Numbers{0.0});
 }
 
@@ -128,7 +128,7 @@ TEST(AreasNearest, RefusesWhatIsNoTreeOrOutside) {
     EXPECT_THROW(areas_nearest(net, frame(5, 5)), BadInput);
     StreamNetwork circle;
     for (double const x : {0.5, 1.5}) {
-        boost::add_vertex(Node{{x, 0.5}}, circle);
+        add_node(circle, {x, 0.5});
     }
     add_arc(circle, 0, 1, {});
     add_arc(circle, 1, 0, {});
@@ -203,14 +203,14 @@ TEST(AreasD8, SmallRiversInTheirValley) {
 TEST(AreasD8, ArcInsideOneCellAndNodesOffTheGrid) {
     StreamNetwork net;
     for (double const y : {0.9, 0.5, 0.1}) {
-        boost::add_vertex(Node{{0.5, y}}, net);
+        add_node(net, {0.5, y});
     }
     add_arc(net, 0, 1, {});
     add_arc(net, 1, 2, {});
     auto const drainage = measure::drain(dem_of(2, {1, 2}));
     EXPECT_EQ(areas_d8(net, drainage).us_area_m2, (Numbers{0, 2}));
     EXPECT_EQ(areas_d8(net, drainage).ds_area_m2, (Numbers{0, 2}));
-    boost::add_vertex(Node{{0.5, 7.0}}, net);
+    add_node(net, {0.5, 7.0});
     add_arc(net, 3, 0, {});
     EXPECT_THROW(areas_d8(net, drainage), BadInput);
 }
@@ -223,8 +223,8 @@ TEST(AreasD8, WaterOfARiverStaysInItWhereTheDemLeavesIt) {
                                          30, 29, 14, 29, 30, //
                                          30, 29, 12, 29, 30});
     StreamNetwork net;
-    boost::add_vertex(Node{{2.5, 4.5}}, net);
-    boost::add_vertex(Node{{2.5, 0.5}}, net);
+    add_node(net, {2.5, 4.5});
+    add_node(net, {2.5, 0.5});
     add_arc(net, 0, 1, {});
     auto const drainage = measure::drain(dem);
     ContributingAreas const areas = areas_d8(net, drainage);

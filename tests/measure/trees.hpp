@@ -10,6 +10,13 @@
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/stream_network.hpp>
 
+/// Boost's add_vertex with properties makes GCC's sanitizer builds warn.
+inline thalweg::NodeId add_node(thalweg::StreamNetwork& network, thalweg::Vec2 at) {
+    auto const node = boost::add_vertex(network);
+    network[node].at = at;
+    return node;
+}
+
 /// Scheidegger's random rivers (1967): every point of a lattice drains to the one south or south-east of it, so that no
 /// two reaches cross. Row 0 holds the outlets; points are spacing_m apart, the first half of it from the axes; heights
 /// are the rows' numbers. Its arcs run from sources and confluences; about half as many as points.
@@ -38,7 +45,7 @@ inline thalweg::RaisedNetwork random_rivers(std::uint64_t seed, std::int64_t col
     auto const is_node = [&](std::size_t p) { return p < first_row ? arriving[p] > 0 : arriving[p] != 1; };
     for (std::size_t p = 0; p < points; ++p) {
         if (is_node(p)) {
-            node[p] = boost::add_vertex(Node{place(p)}, rivers.plan);
+            node[p] = add_node(rivers.plan, place(p));
             rivers.node_z.push_back(row_of(p));
         }
     }
