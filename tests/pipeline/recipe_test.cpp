@@ -51,7 +51,7 @@ TEST(Recipe, WrittenRecipeReadsBack) {
     Recipe recipe = default_recipe();
     recipe.grid.origin = {1.0 / 3.0, -2.5e6};
     recipe.network->prune_cells = 0.1;
-    recipe.output.title = "quotes \" and \ and 谷";
+    recipe.output.title = "quotes \" and \\ and 谷";
     std::string const text = write_recipe(recipe);
     EXPECT_EQ(write_recipe(read_recipe(text, "again")), text);
     EXPECT_EQ(read_recipe(text, "again").grid.origin, recipe.grid.origin);
