@@ -40,6 +40,7 @@ function(thalweg_tests NAME)
   target_include_directories(test_${NAME} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(test_${NAME} PRIVATE
     THALWEG_SOURCE_DIR="${PROJECT_SOURCE_DIR}" THALWEG_EXE="$<TARGET_FILE:thalweg_cli>" THALWEG_VERSION="${PROJECT_VERSION}")
+  target_compile_options(test_${NAME} PRIVATE -O1) # what is tested keeps its own level; -O3 doubles the wait here
   target_link_libraries(test_${NAME} PRIVATE thalweg thalweg_options GTest::gtest GTest::gtest_main rapidcheck ${ARGN})
   gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. PROPERTIES LABELS ${NAME} TIMEOUT 600 DISCOVERY_TIMEOUT 60)
 endfunction()

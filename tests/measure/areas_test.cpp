@@ -228,7 +228,7 @@ TEST(AreasD8, WaterOfARiverStaysInItWhereTheDemLeavesIt) {
     add_arc(net, 0, 1, {});
     auto const drainage = measure::drain(dem);
     ContributingAreas const areas = areas_d8(net, drainage);
-    EXPECT_LT(drainage.area_cells[Cell{2, 4}], 15) << "the upper river is lost to the accumulation of the DEM";
+    EXPECT_LT((drainage.area_cells[Cell{2, 4}]), 15) << "the upper river is lost to the accumulation of the DEM";
     EXPECT_GE(areas.ds_area_m2[0], 15.0);
 }
 

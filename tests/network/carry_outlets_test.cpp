@@ -20,7 +20,6 @@ namespace {
 
 using namespace thalweg;
 using network::carry_outlets;
-using network::cells_of;
 
 /// Positions are multiples of 1/128: segments are tested in whole numbers, without rounding.
 struct Point {

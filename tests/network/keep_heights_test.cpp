@@ -10,7 +10,7 @@ namespace {
 using namespace thalweg;
 
 /// Two sources that meet, and an outlet.
-StreamNetwork fork() {
+StreamNetwork two_rivers() {
     StreamNetwork net;
     NodeId const a = boost::add_vertex(Node{{0, 4}}, net);
     NodeId const b = boost::add_vertex(Node{{4, 4}}, net);
@@ -29,18 +29,18 @@ TEST(KeepHeights, EmptyNetwork) {
 }
 
 TEST(KeepHeights, NoHeightsAtAll) {
-    EXPECT_THROW(network::keep_heights(fork(), {}, 0.1), BadInput);
+    EXPECT_THROW(network::keep_heights(two_rivers(), {}, 0.1), BadInput);
 }
 
 TEST(KeepHeights, SameNetworkKeepsItsHeights) {
-    RaisedNetwork const known{fork(), {9, 8, 5, 1}, {{9, 7, 5}, {8, 5}, {5, 1}}};
+    RaisedNetwork const known{two_rivers(), {9, 8, 5, 1}, {{9, 7, 5}, {8, 5}, {5, 1}}};
     RaisedNetwork const out = network::keep_heights(known.plan, known, 0.1);
     EXPECT_EQ(out.node_z, known.node_z);
     EXPECT_EQ(out.arc_z, known.arc_z);
 }
 
 TEST(KeepHeights, OutletCarriedOnFallsWithTheSlope) {
-    RaisedNetwork const known{fork(), {9, 8, 5, 1}, {{9, 7, 5}, {8, 5}, {5, 1}}};
+    RaisedNetwork const known{two_rivers(), {9, 8, 5, 1}, {{9, 7, 5}, {8, 5}, {5, 1}}};
     StreamNetwork longer = known.plan;
     ArcId const last = NetworkIndex(longer).arcs[2];
     longer[boost::target(last, longer)].at = {2, -10};

@@ -18,7 +18,6 @@
 namespace {
 
 using namespace thalweg;
-using network::cells_of;
 using network::rasterise;
 
 RaisedNetwork raised(StreamNetwork const& net, std::vector<std::vector<double>> arc_z) {
@@ -90,7 +89,7 @@ TEST(Rasterise, OutsideTheGrid) {
     Grid const grid = test::grid_of(4, 4);
     StreamNetwork const net = test::network_of({{0.5, 0.5}, {2.5, 2.5}, {5, 1}}, {{1, 0}, {2, 1}});
     EXPECT_EQ(refusal(raised(net, {{1, 0}, {2, 1}}), grid),
-              "network.rasterise: vertex 0 of arc 2 at (5.000, 1.000) lies outside the grid (x 0.000 to 4.000, y 0.000 "
+              "core.cells_along: vertex 0 of arc 2 at (5.000, 1.000) lies outside the grid (x 0.000 to 4.000, y 0.000 "
               "to 4.000); enlarge the grid or clip the rivers");
     EXPECT_NE(refusal(raised(test::network_of({{1, 1}, {NAN, 1}}, {{1, 0}}), {{1, 0}}), grid).find("outside"),
               std::string::npos);

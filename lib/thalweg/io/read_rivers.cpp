@@ -36,11 +36,6 @@ std::string listed(std::vector<std::string> const& names) {
     return text;
 }
 
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    return text;
-}
-
 // " Did you mean 'x'? (x, y, z)"
 std::string suggestion(std::string const& wanted, std::vector<std::string> const& names) {
     if (names.empty()) {

@@ -511,9 +511,11 @@ Recipe default_recipe() {
     recipe.grid.width = 1024;
     recipe.grid.height = 1024;
     recipe.network.emplace();
-    recipe.network->dla.particles = 120000;
+    recipe.network->dla.particles = 100000;
+    recipe.network->branch = network::BranchChoice::south;
     recipe.network->slope = 0.02;
     recipe.surface.emplace();
+    recipe.surface->dilate.metric = surface::Metric::euclid;
     recipe.surface->dilate.relief_m = 900.0;
     return recipe;
 }
