@@ -63,7 +63,9 @@ TEST(Increments, ExpressionsAreRoundedTo32Bits) {
     for (double const v : increments(200, {"1+sin(x)/3"})) {
         EXPECT_EQ(v * 0x1p32, std::floor(v * 0x1p32));
     }
-    EXPECT_EQ(increments(2, {"x^40*1e5"})[1], std::floor(0x1p40 * 1e5 / 0x1p21 + 0.5) * 0x1p21);
+    double const large = increments(1, {"1e6*sqrt(2)"})[0];
+    EXPECT_NEAR(large, 1414213.5623730951, 0x1p-16);
+    EXPECT_EQ(large * 0x1p15, std::floor(large * 0x1p15));
 }
 
 TEST(Increments, DidYouMean) {

@@ -14,7 +14,8 @@ struct IncrementParams {
 };
 
 /// The increment dh(x) of the x-th dilation, x = 1 .. levels, as values[x - 1], in the papers' units.
-/// Gives: Table 1 of paper 000 for the three names; an expression rounded to 2^-32, the same on every machine.
+/// Gives: Table 1 of paper 000 for the three names; an expression rounded to 2^-32 (from 16 up, to 36
+/// significant bits), the same on every machine.
 /// Throws: BadParameter: not a name (did you mean ...) and not an expression; a value that is not finite.
 /// Source: paper 000, Table 1.
 std::vector<double> increments(std::int64_t levels, IncrementParams const& params = {});
