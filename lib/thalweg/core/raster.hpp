@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <thalweg/core/grid.hpp>
+#include <thalweg/core/large_pages.hpp>
 
 namespace thalweg {
 
@@ -41,7 +42,7 @@ public:
 
 private:
     Grid grid_;
-    std::vector<T> values_;
+    std::vector<T, LargePages<T>> values_;
 };
 
 /// 1 where something is, 0 elsewhere.

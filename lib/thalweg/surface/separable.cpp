@@ -3,6 +3,7 @@
 #include <thalweg/surface/separable.hpp>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/large_pages.hpp>
 #include <thalweg/core/parallel.hpp>
 
 #include <algorithm>
@@ -10,10 +11,6 @@
 #include <cstring>
 #include <new>
 #include <thread>
-
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 namespace thalweg::surface::separable {
 namespace {
@@ -64,18 +61,8 @@ namespace avx2 = plain;
 
 constexpr std::int64_t rows_between_checks = 512;
 
-/// Large pages where the system has them: first touch of 4 KiB pages costs more than the sweeps.
 template <class T> std::unique_ptr<T[], Free> fresh(std::int64_t count) {
-    constexpr std::size_t page = std::size_t{2} << 20;
-    std::size_t const bytes = (static_cast<std::size_t>(count) * sizeof(T) + page - 1) / page * page;
-    void* const memory = std::aligned_alloc(page, bytes);
-    if (memory == nullptr) {
-        throw std::bad_alloc();
-    }
-#ifdef __linux__
-    madvise(memory, bytes, MADV_HUGEPAGE);
-#endif
-    return std::unique_ptr<T[], Free>(static_cast<T*>(memory));
+    return std::unique_ptr<T[], Free>(static_cast<T*>(take_large_pages(static_cast<std::size_t>(count) * sizeof(T))));
 }
 
 template <class T> void raise_to(std::atomic<T>& most, T value) {

@@ -34,7 +34,7 @@ inline float height_of(std::int32_t order) {
 }
 
 struct Free {
-    void operator()(void* memory) const { std::free(memory); }
+    void operator()(void* memory) const { give_large_pages(memory); }
 };
 
 /// What is known after the sweep down. Level: std::uint16_t where fits16(grid), else std::int32_t.

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <new>
+
+namespace thalweg {
+
+/// Memory [bytes] aligned to 2 MiB, for which the system is asked for pages of that size: touching it first costs a
+/// third of what small pages cost, which is more than most kernels here. Throws: std::bad_alloc.
+void* take_large_pages(std::size_t bytes);
+void give_large_pages(void* memory) noexcept;
+
+/// An allocator that takes large blocks in large pages and leaves small ones to operator new.
+template <class T> struct LargePages {
+    using value_type = T;
+    static constexpr std::size_t least_bytes = std::size_t{4} << 20;
+
+    LargePages() = default;
+    template <class U> LargePages(LargePages<U> const&) noexcept {}
+
+    T* allocate(std::size_t n) {
+        std::size_t const bytes = n * sizeof(T);
+        return static_cast<T*>(bytes < least_bytes ? ::operator new(bytes) : take_large_pages(bytes));
+    }
+    void deallocate(T* memory, std::size_t n) noexcept {
+        if (n * sizeof(T) < least_bytes) {
+            ::operator delete(memory);
+        } else {
+            give_large_pages(memory);
+        }
+    }
+    friend bool operator==(LargePages const&, LargePages const&) { return true; }
+};
+
+} // namespace thalweg
