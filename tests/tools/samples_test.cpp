@@ -189,3 +189,96 @@ TEST(Samples, FrameLeftOutReplaysToTheSameBytes) {
     ASSERT_EQ(thalweg_run("make r.toml -o out -q", place.path()).code, 0);
     EXPECT_EQ(thalweg_run("replay out", place.path()).code, 0);
 }
+
+TEST(Samples, WithoutASurfaceOnlyTheNetworkIsMade) {
+    Workplace const place;
+    place.write("r.toml", "[network]\nprune = 6\n[network.dla]\nparticles = 3000\n");
+    Outcome const o = thalweg_run("make r.toml -o out -q --json", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    auto const report = nlohmann::json::parse(o.out);
+    EXPECT_FALSE(report.contains("dem"));
+    EXPECT_EQ(report["network"]["area_from"], "nearest");
+    EXPECT_TRUE(fs::exists(place / "out/network.gpkg"));
+    EXPECT_TRUE(fs::exists(place / "out/profile.svg"));
+    EXPECT_FALSE(fs::exists(place / "out/dem.tif"));
+    EXPECT_FALSE(fs::exists(place / "out/map.png"));
+    EXPECT_EQ(thalweg_run("replay out", place.path()).code, 0);
+}
+
+namespace {
+
+/// Two rivers with heights that meet, in UTM zone 31: from the north-west and the north-east, leaving to the south.
+char const* const rivers_with_heights =
+    R"({"type":"FeatureCollection","crs":{"type":"name","properties":)"
+    R"({"name":"urn:ogc:def:crs:EPSG::32631"}},"features":[)"
+    R"({"type":"Feature","id":1,"properties":{},"geometry":{"type":"LineString",)"
+    R"("coordinates":[[500000,5002000,90],[500700,5001300,70],[501000,5001000,50]]}},)"
+    R"({"type":"Feature","id":2,"properties":{},"geometry":{"type":"LineString",)"
+    R"("coordinates":[[502000,5002000,95],[501000,5001000,50]]}},)"
+    R"({"type":"Feature","id":3,"properties":{},"geometry":{"type":"LineString",)"
+    R"("coordinates":[[501000,5000000,10],[501000,5001000,50]]}}]})";
+
+std::string lines_recipe(std::string const& grid, std::string const& surface) {
+    return "[grid]\ncell = 20\n" + grid + "[network]\nsource = \"lines\"\n[network.lines]\npath = \"r.geojson\"\n" +
+           "[surface]\n" + surface;
+}
+
+} // namespace
+
+TEST(Samples, HeightsOfTheFileAreKeptAndTheOutletGoesOnDown) {
+    Workplace const place;
+    place.write("r.geojson", rivers_with_heights);
+    place.write("r.toml", lines_recipe("", ""));
+    Outcome const o = thalweg_run("make r.toml -o out -q --json", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    hold_to_contract(place / "out");
+    auto const report = nlohmann::json::parse(o.out);
+    EXPECT_EQ(report["recipe"]["network"]["heights"], "file");
+    auto const gpkg = open(place / "out/network.gpkg", GDAL_OF_VECTOR);
+    std::set<double> heights;
+    double lowest = 1e9;
+    for (auto const& [id, arc] : read_arcs(gpkg->GetLayerByName("arcs"))) {
+        heights.insert(arc.z.begin(), arc.z.end());
+        lowest = std::min(lowest, arc.z.back());
+    }
+    for (double const z : {90.0, 70.0, 50.0, 95.0, 10.0}) {
+        EXPECT_EQ(heights.count(z), 1U) << z;
+    }
+    EXPECT_LT(lowest, 10.0);
+    EXPECT_EQ(thalweg_run("replay out", place.path()).code, 0);
+}
+
+TEST(Samples, ClippedRiversAndAMask) {
+    Workplace const place;
+    place.write("r.geojson", rivers_with_heights);
+    std::string const grid = "width = 60\nheight = 60\norigin = [500400, 5001600]\n";
+    place.write("r.toml", lines_recipe(grid, ""));
+    EXPECT_EQ(thalweg_run("make r.toml -o out -q", place.path()).code, 2);
+    place.write("r.toml", lines_recipe(grid + "clip = true\n", ""));
+    Outcome const clipped = thalweg_run("make r.toml -o out -q", place.path());
+    ASSERT_EQ(clipped.code, 0) << clipped.err;
+    hold_to_contract(place / "out");
+
+    // A mask that leaves out the outermost column in the east, where no river runs.
+    GDALAllRegister();
+    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+    std::vector<unsigned char> ones(60 * 60, 1);
+    for (std::size_t row = 0; row < 60; ++row) {
+        ones[row * 60 + 59] = row > 20 ? 0 : 1;
+    }
+    {
+        GDALDatasetUniquePtr const mask(
+            driver->Create((place / "mask.tif").string().c_str(), 60, 60, 1, GDT_Byte, nullptr));
+        double frame[6] = {500400, 20, 0, 5001600, 0, -20};
+        mask->SetGeoTransform(frame);
+        ASSERT_EQ(
+            mask->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, 60, 60, ones.data(), 60, 60, GDT_Byte, 0, 0, nullptr),
+            CE_None);
+    }
+    place.write("r.toml", lines_recipe(grid + "clip = true\n", "mask = \"mask.tif\"\n"));
+    Outcome const masked = thalweg_run("make r.toml -o masked -q --json", place.path());
+    ASSERT_EQ(masked.code, 0) << masked.err;
+    EXPECT_EQ(nlohmann::json::parse(masked.out)["dem"]["nodata"], 39);
+    hold_to_contract(place / "masked");
+    EXPECT_EQ(thalweg_run("replay masked", place.path()).code, 0);
+}

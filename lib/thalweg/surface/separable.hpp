@@ -4,11 +4,11 @@
 
 #include <bit>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <vector>
 
+#include <thalweg/core/large_pages.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/valley.hpp>
