@@ -10,7 +10,8 @@ endif()
 if(THALWEG_SANITIZE)
   # g++ with sanitizers takes Boost's named_graph for uninitialised.
   target_compile_options(thalweg_options INTERFACE
-    -fsanitize=${THALWEG_SANITIZE} -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-error=maybe-uninitialized>)
+    -fsanitize=${THALWEG_SANITIZE} -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-error=maybe-uninitialized>
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-error=uninitialized>)
   target_link_options(thalweg_options INTERFACE -fsanitize=${THALWEG_SANITIZE})
 endif()
 if(THALWEG_COVERAGE)
