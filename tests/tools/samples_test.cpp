@@ -282,3 +282,19 @@ TEST(Samples, ClippedRiversAndAMask) {
     hold_to_contract(place / "masked");
     EXPECT_EQ(thalweg_run("replay masked", place.path()).code, 0);
 }
+
+TEST(Samples, AFolderOfShapefilesIsKeptWhole) {
+    Workplace const place;
+    place.write("r.geojson", rivers_with_heights);
+    ASSERT_EQ(std::system(("cd '" + place.path().string() + "' && ogr2ogr -q rivers r.geojson -nln rivers").c_str()),
+              0);
+    place.write("r.toml", "[grid]\ncell = 20\n[network]\nsource = \"lines\"\n[network.lines]\npath = \"rivers\"\n");
+    ASSERT_EQ(thalweg_run("make r.toml -o folder -q", place.path()).code, 0);
+    EXPECT_TRUE(fs::exists(place / "folder/inputs/rivers/rivers.dbf"));
+    EXPECT_EQ(thalweg_run("replay folder", place.path()).code, 0);
+    place.write("r.toml",
+                "[grid]\ncell = 20\n[network]\nsource = \"lines\"\n[network.lines]\npath = \"rivers/rivers.shp\"\n");
+    ASSERT_EQ(thalweg_run("make r.toml -o file -q", place.path()).code, 0);
+    EXPECT_TRUE(fs::exists(place / "file/inputs/rivers.prj"));
+    EXPECT_EQ(thalweg_run("replay file", place.path()).code, 0);
+}

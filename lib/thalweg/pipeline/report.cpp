@@ -79,7 +79,7 @@ ordered_json network_object(Terrain const& t) {
             {"strahler", strahler},
             {"length_m", length},
             {"traced", t.story.arcs_traced},
-            {"pruned", t.story.arcs_traced - arcs},
+            {"pruned", t.story.arcs_traced - t.story.arcs_kept},
             {"particles", t.story.particles},
             {"walkers", t.story.walkers},
             {"stopped_at", t.story.particles == 0 ? ""

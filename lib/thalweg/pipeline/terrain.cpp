@@ -213,8 +213,9 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
         return network::prune(planned.plan, {*rivers.prune_cells, grid.cell_m}, run);
     });
     terrain.story.arcs_traced = pruned.arcs_before;
-    diary.say(fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, boost::num_edges(pruned.network),
-                          pruned.arcs_before));
+    terrain.story.arcs_kept = static_cast<std::int64_t>(boost::num_edges(pruned.network));
+    diary.say(
+        fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, terrain.story.arcs_kept, pruned.arcs_before));
     network::Carried carried = network::carry_outlets(pruned.network, grid);
     terrain.story.repairs.insert(terrain.story.repairs.end(), carried.notes.begin(), carried.notes.end());
     planned.plan = std::move(carried.network);

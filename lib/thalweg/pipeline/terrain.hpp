@@ -26,6 +26,7 @@ struct NetworkStory {
     std::int64_t walkers = 0;       ///< released for it
     bool cut = false;               ///< the branch reached the grid's margin before the last particle
     std::int64_t arcs_traced = 0;   ///< before pruning
+    std::int64_t arcs_kept = 0;     ///< by pruning; merged ones count once
     network::HeightReport heights;  ///< under modes that set heights
     std::int64_t lowered_cells = 0; ///< shared valley cells lowered to keep every path falling
     double max_lowered_m = 0.0;

@@ -45,26 +45,33 @@ double round_interval(double range_m) {
     return step;
 }
 
-/// Copies a named input and its companions into inputs/ and gives the name it has there.
-std::string keep_input(io::OutputFolder const& out, std::string const& folder, std::string const& name) {
+/// Copies a named input and its companions into a folder of the output and gives the name it has there. A source that
+/// is no file (a database) keeps its name.
+std::string keep_input(io::OutputFolder const& out, std::string const& folder, std::string const& name,
+                       std::string const& into) {
     fs::path const given(name);
     fs::path const path = folder.empty() || given.is_absolute() ? given : fs::path(folder) / given;
-    for (std::string const& file : io::dataset_files(path.string())) {
-        fs::path const copy = out.path("inputs/" + fs::path(file).filename().string());
-        if (!fs::exists(copy)) {
-            io::copy_file(file, copy.string());
+    std::vector<std::string> const files = io::dataset_files(path.string());
+    if (files.empty()) {
+        return name;
+    }
+    std::string const own = path.filename().string();
+    std::string const place = into + (fs::is_directory(path) ? own + "/" : "");
+    for (std::string const& file : files) {
+        if (fs::is_regular_file(file)) {
+            io::copy_file(file, out.path(place + fs::path(file).filename().string()));
         }
     }
-    return "inputs/" + path.filename().string();
+    return into + own;
 }
 
 Recipe keep_inputs(Terrain const& terrain, io::OutputFolder const& out) {
     Recipe recipe = terrain.recipe;
     if (recipe.network->source == Source::lines) {
-        recipe.network->lines.path = keep_input(out, recipe.folder, recipe.network->lines.path);
+        recipe.network->lines.path = keep_input(out, recipe.folder, recipe.network->lines.path, "inputs/");
     }
     if (recipe.surface && !recipe.surface->mask.empty()) {
-        recipe.surface->mask = keep_input(out, recipe.folder, recipe.surface->mask);
+        recipe.surface->mask = keep_input(out, recipe.folder, recipe.surface->mask, "inputs/mask/");
     }
     recipe.folder.clear();
     return recipe;
