@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <thalweg/pipeline/recipe.hpp>
+
+/// The table of a recipe's keys. Private to this room.
+namespace thalweg::pipeline {
+
+using Pair = std::array<double, 2>;
+using Value = std::variant<bool, std::int64_t, double, std::string, Pair>;
+
+/// A key, bound to its field. put throws BadParameter with the reason alone; take gives nothing where the value is
+/// unset.
+struct Key {
+    KeyHelp help;
+    std::function<void(Recipe&, Value const&)> put;
+    std::function<std::optional<Value>(Recipe const&)> take;
+    std::string section() const {
+        auto const dot = help.path.rfind('.');
+        return dot == std::string::npos ? "" : help.path.substr(0, dot);
+    }
+};
+
+/// A value as TOML writes it.
+std::string toml_text(Value const& value);
+
+/// Every key in the order of recipe files.
+std::vector<Key> const& all_keys();
+
+} // namespace thalweg::pipeline
