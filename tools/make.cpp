@@ -51,16 +51,18 @@ int make(Options const& options, Session const& session) {
     pipeline::Recipe const recipe = recipe_of(options);
     pipeline::check_folder(options.folder, existing);
     pipeline::Terrain const terrain = pipeline::make_terrain(recipe, session.run);
-    auto const files = pipeline::write_terrain(terrain, options.folder, existing, session.run);
+    pipeline::write_terrain(terrain, options.folder, existing, session.run);
     for (Check const& check : terrain.checks) {
         if (!check.ok) {
             session.run.say(fmt::format("check  {}: {} (at most {})  FAILED", check.name, check.value, check.limit));
         }
     }
     if (terrain.passed()) {
-        session.run.say(fmt::format("check  {} checks, {} outlet{}                  ok", terrain.checks.size(),
-                                    NetworkIndex(terrain.network.plan).outlets.size(),
-                                    NetworkIndex(terrain.network.plan).outlets.size() == 1 ? "" : "s"));
+        std::size_t const outlets = NetworkIndex(terrain.network.plan).outlets.size();
+        std::string const words =
+            fmt::format("{} checks, {} outlet{}{}", terrain.checks.size(), outlets, outlets == 1 ? "" : "s",
+                        terrain.surface ? fmt::format(", {} cells in pits", terrain.pits) : "");
+        session.run.say(fmt::format("check  {:<60}      ok", words));
     }
     session.run.say(fmt::format("open   {}/map.png", options.folder));
     fmt::print("{}", session.json ? io::read_text(options.folder + "/report.json", 1 << 30) : options.folder + "\n");

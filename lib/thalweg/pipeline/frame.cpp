@@ -40,6 +40,14 @@ Box box_of(RiverLines const& lines) {
     return box;
 }
 
+/// Throws BadInput where that much memory is not free.
+void require(std::string const& what, std::int64_t bytes, char const* advice) {
+    if (std::int64_t const free = free_memory_bytes(); bytes > free) {
+        throw BadInput(fmt::format("{} need {:.1f} GB; {:.1f} GB are free. {}", what, static_cast<double>(bytes) / 1e9,
+                                   static_cast<double>(free) / 1e9, advice));
+    }
+}
+
 } // namespace
 
 std::int64_t bytes_needed(std::int64_t cells) {
@@ -49,14 +57,15 @@ std::int64_t bytes_needed(std::int64_t cells) {
 }
 
 void check_memory(std::int64_t width, std::int64_t height) {
-    std::int64_t const needed = bytes_needed(width * height); // sides are at most 1e6 each
-    std::int64_t const free = free_memory_bytes();
-    if (needed > free) {
-        throw BadInput(
-            fmt::format("grid: {}x{} cells need {:.1f} GB; {:.1f} GB are free. Make grid.width and grid.height "
-                        "smaller or grid.cell larger.",
-                        width, height, static_cast<double>(needed) / 1e9, static_cast<double>(free) / 1e9));
-    }
+    require(fmt::format("grid: {}x{} cells", width, height), bytes_needed(width * height), // sides are at most 1e6 each
+            "Make grid.width and grid.height smaller or grid.cell larger.");
+}
+
+void check_memory_of_cluster(std::int64_t particles) {
+    // cell 16, parent 8, its register 10; the fields around it are about twenty bytes a particle at S = 1
+    constexpr std::int64_t bytes_a_particle = 60;
+    require(fmt::format("network.dla: {} particles", particles), particles * bytes_a_particle,
+            "Make network.dla.particles smaller.");
 }
 
 std::int64_t room_for_network(std::int64_t side_cells) {

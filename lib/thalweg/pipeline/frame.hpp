@@ -31,4 +31,7 @@ Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted);
 /// Throws BadInput when a terrain on this grid needs more memory than is free.
 void check_memory(std::int64_t width, std::int64_t height);
 
+/// Throws BadInput when a cluster of this many particles needs more memory than is free.
+void check_memory_of_cluster(std::int64_t particles);
+
 } // namespace thalweg::pipeline

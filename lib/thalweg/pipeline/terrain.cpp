@@ -70,6 +70,7 @@ Planned grow(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     if (recipe.grid.width > 0) {
         check_memory(recipe.grid.width, recipe.grid.height);
     }
+    check_memory_of_cluster(wanted.dla.particles);
     wanted.dla.seed = recipe.seed;
     network::Cluster const cluster = diary.stage("grow", [&] { return network::grow_dla(wanted.dla, run); });
     diary.say(
