@@ -56,13 +56,13 @@ TEST(CellsAlong, LawsOfTheLine) {
         Cell const a = *any;
         Cell const b = *any;
         auto const cells = cells_along({grid.centre(a), grid.centre(b)}, grid);
-        RC_ASSERT(cells.front() == a && cells.back() == b);
+        RC_ASSERT((cells.front() == a && cells.back() == b));
         std::int64_t const across = std::abs(b.col - a.col);
         std::int64_t const down = std::abs(b.row - a.row);
         RC_ASSERT(static_cast<std::int64_t>(cells.size()) == std::max(across, down) + 1);
         for (std::size_t i = 1; i < cells.size(); ++i) {
             Cell const step{cells[i].col - cells[i - 1].col, cells[i].row - cells[i - 1].row};
-            RC_ASSERT(std::abs(step.col) <= 1 && std::abs(step.row) <= 1 && !(step == Cell{0, 0}));
+            RC_ASSERT((std::abs(step.col) <= 1 && std::abs(step.row) <= 1 && !(step == Cell{0, 0})));
             // Off the ideal line, across the longer axis, by at most half a cell.
             std::int64_t const off =
                 (cells[i].col - a.col) * (b.row - a.row) - (cells[i].row - a.row) * (b.col - a.col);

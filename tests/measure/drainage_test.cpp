@@ -194,7 +194,7 @@ TEST(Drain, LawsOnAnyDem) {
                 RC_ASSERT(rim);
             } else {
                 Cell const n = next_of(grid.at(i), d.direction[i]);
-                RC_ASSERT(grid.contains(n) && level[static_cast<std::size_t>(grid.index(n))] == here);
+                RC_ASSERT((grid.contains(n) && level[static_cast<std::size_t>(grid.index(n))] == here));
             }
 
             std::int64_t steps = 0;

@@ -147,9 +147,9 @@ TEST(Statistics, FollowTheDefinition) {
         RC_PRE(std::any_of(dem.values().begin(), dem.values().end(), [](float z) { return !std::isnan(z); }));
         Statistics const s = statistics(dem);
         Statistics const o = oracle(dem);
-        RC_ASSERT(s.cells == o.cells && s.nodata == o.nodata);
-        RC_ASSERT(s.min.z == o.min.z && s.min.cell == o.min.cell);
-        RC_ASSERT(s.max.z == o.max.z && s.max.cell == o.max.cell);
+        RC_ASSERT((s.cells == o.cells && s.nodata == o.nodata));
+        RC_ASSERT((s.min.z == o.min.z && s.min.cell == o.min.cell));
+        RC_ASSERT((s.max.z == o.max.z && s.max.cell == o.max.cell));
         RC_ASSERT(std::fabs(s.mean - o.mean) <= 1e-12);
         RC_ASSERT(std::fabs(s.std - o.std) <= 1e-12);
         RC_ASSERT(std::fabs(s.slope_rad - o.slope_rad) <= 1e-14);

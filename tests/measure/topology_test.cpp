@@ -403,10 +403,10 @@ TEST(CheckTopology, NothingInAFileIsAnError) {
         }
         RC_ASSERT(counted == static_cast<double>(report.findings.size()));
         for (Finding const& f : report.findings) {
-            RC_ASSERT(std::isfinite(f.where.x) && std::isfinite(f.where.y) && std::isfinite(f.amount));
-            RC_ASSERT(!f.text.empty() && f.text.find('\n') == std::string::npos);
+            RC_ASSERT((std::isfinite(f.where.x) && std::isfinite(f.where.y) && std::isfinite(f.amount)));
+            RC_ASSERT((!f.text.empty() && f.text.find('\n') == std::string::npos));
         }
-        RC_ASSERT(!report.findings.empty() || !file.arcs.empty());
+        RC_ASSERT((!report.findings.empty() || !file.arcs.empty()));
     }));
 }
 

@@ -614,7 +614,7 @@ TEST(AdoptLaws, MovedEndsAreSnapped) {
         RC_ASSERT(coarse(steps(adopted.network)) == coarse(steps(tree)));
         RC_ASSERT(steps(adopted.network).size() == steps(tree).size());
         for (auto const& repair : adopted.repairs) {
-            RC_ASSERT(repair.kind != "snapped" || repair.amount <= snap_m);
+            RC_ASSERT((repair.kind != "snapped" || repair.amount <= snap_m));
         }
     });
     ASSERT_TRUE(ok);

@@ -204,7 +204,7 @@ std::vector<std::vector<Vec2>> ways_of(StreamNetwork const& before, network::Car
             continue;
         }
         std::vector<Vec2> const& drawn = before[old.arcs[a]].line;
-        RC_ASSERT(now.from[a] == old.from[a] && now.to[a] == old.to[a]);
+        RC_ASSERT((now.from[a] == old.from[a] && now.to[a] == old.to[a]));
         RC_ASSERT(before[old.arcs[a]].feature == carried.network[now.arcs[a]].feature);
         RC_ASSERT(line.size() >= drawn.size());
         RC_ASSERT(std::equal(drawn.begin(), drawn.end(), line.begin()));
@@ -337,11 +337,11 @@ TEST(CarryOutlets, AddsNoCrossing) {
                 for (Piece const& other : ground.pieces) {
                     RC_ASSERT(!conflict(own[i], other));
                     // Only the old outlet may be touched.
-                    RC_ASSERT(i == 0 || !meet(own[i], other));
+                    RC_ASSERT((i == 0 || !meet(own[i], other)));
                 }
                 for (std::size_t k = 0; k < i; ++k) {
                     RC_ASSERT(!conflict(own[i], own[k]));
-                    RC_ASSERT(k + 1 == i || !meet(own[i], own[k]));
+                    RC_ASSERT((k + 1 == i || !meet(own[i], own[k])));
                 }
             }
             for (std::size_t i = 1; i < cells.size(); ++i) {

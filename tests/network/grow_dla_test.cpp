@@ -151,7 +151,7 @@ TEST(GrowDla, laws_of_a_cluster) {
                 RC_ASSERT(c.parent[p] == -1);
                 continue;
             }
-            RC_ASSERT(c.parent[p] >= 0 && c.parent[p] < static_cast<std::int64_t>(p));
+            RC_ASSERT((c.parent[p] >= 0 && c.parent[p] < static_cast<std::int64_t>(p)));
             Cell const on = c.cells[static_cast<std::size_t>(c.parent[p])];
             RC_ASSERT(std::abs(cell.col - on.col) + std::abs(cell.row - on.row) == 1);
         }

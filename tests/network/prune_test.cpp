@@ -273,7 +273,7 @@ TEST(Prune, Laws) {
         for (std::size_t a = 0; a < index.arcs.size(); ++a) {
             NodeId const from = index.from[a];
             RC_ASSERT(kind_of(pruned.network, from) != NodeKind::pseudo);
-            RC_ASSERT(!index.in[from].empty() || index.length_m[a] >= length - 1e-6);
+            RC_ASSERT((!index.in[from].empty() || index.length_m[a] >= length - 1e-6));
             RC_ASSERT(pruned.network[index.arcs[a]].line.front() == pruned.network[from].at);
             RC_ASSERT(pruned.network[index.arcs[a]].line.back() == pruned.network[index.to[a]].at);
         }

@@ -170,7 +170,7 @@ TEST(Rasterise, NoPathRises) {
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             auto const at = expected.find(i);
             RC_ASSERT(std::isnan(out.valley.z[i]) == (at == expected.end()));
-            RC_ASSERT(at == expected.end() || out.valley.z[i] == at->second);
+            RC_ASSERT((at == expected.end() || out.valley.z[i] == at->second));
         }
         RC_ASSERT(out.lowered_cells == lowered);
     }));

@@ -99,7 +99,7 @@ TEST(Thin, OneCellWide) {
         for (std::int64_t i = 0; i < skeleton.cells(); ++i) {
             if (skeleton[i] != 0) {
                 auto const p = test::guo_hall_neighbours(skeleton, skeleton.grid().at(i));
-                RC_ASSERT(!test::guo_hall_deletes(p, 0) && !test::guo_hall_deletes(p, 1));
+                RC_ASSERT((!test::guo_hall_deletes(p, 0) && !test::guo_hall_deletes(p, 1)));
                 // Two orthogonal neighbours round a corner and nothing else: the diagonal does as well.
                 for (std::size_t k = 2; k <= 8; k += 2) {
                     std::size_t const next = k == 8 ? 2 : k + 2;

@@ -209,7 +209,7 @@ TEST(Trace, IsTheShortestPathTree) {
             RC_ASSERT(children[cells.front()] != 1);
             for (std::size_t i = 0; i + 1 < cells.size(); ++i, ++steps) {
                 RC_ASSERT(tree.at(cells[i]).parent == cells[i + 1]);
-                RC_ASSERT(i == 0 || children[cells[i]] == 1);
+                RC_ASSERT((i == 0 || children[cells[i]] == 1));
             }
         }
         std::int64_t draining = 0;

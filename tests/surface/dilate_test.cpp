@@ -118,8 +118,8 @@ TEST(Dilate, KeepsTheValleyToTheBit) {
                 Dilated const d = dilate(valley, with(increment, metric));
                 for (std::int64_t i = 0; i < valley.z.cells(); ++i) {
                     RC_ASSERT(!std::isnan(d.dem[i]));
-                    RC_ASSERT(std::isnan(valley.z[i]) ||
-                              std::bit_cast<std::uint32_t>(valley.z[i]) == std::bit_cast<std::uint32_t>(d.dem[i]));
+                    RC_ASSERT((std::isnan(valley.z[i]) ||
+                               std::bit_cast<std::uint32_t>(valley.z[i]) == std::bit_cast<std::uint32_t>(d.dem[i])));
                 }
             }
         }
