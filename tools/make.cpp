@@ -64,7 +64,7 @@ int make(Options const& options, Session const& session) {
                         terrain.surface ? fmt::format(", {} cells in pits", terrain.pits) : "");
         session.run.say(fmt::format("check  {:<60}      ok", words));
     }
-    session.run.say(fmt::format("open   {}/map.png", options.folder));
+    session.run.say(fmt::format("open   {}/report.html   (no internet needed)", options.folder));
     fmt::print("{}", session.json ? io::read_text(options.folder + "/report.json", 1 << 30) : options.folder + "\n");
     return terrain.passed() ? Exit::done : Exit::check_failed;
 }

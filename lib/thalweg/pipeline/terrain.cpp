@@ -240,6 +240,7 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
             keep("surface", dem);
         }
         terrain.statistics = measure::statistics(dem, run);
+        terrain.hypsometry = measure::hypsometry(dem, run);
         measure::Drainage const drainage = diary.stage("drain", [&] { return measure::drain(dem, run); });
         terrain.pits = drainage.pits;
         terrain.pit_volume_m3 = drainage.pit_volume_m3;
@@ -248,6 +249,7 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
     } else {
         terrain.areas = measure::areas_nearest(terrain.network.plan, grid, run);
     }
+    terrain.laws = measure::horton(terrain.network.plan, terrain.orders, terrain.areas.ds_area_m2);
 
     measure::TopologyReport topology = diary.stage(
         "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), run); });
