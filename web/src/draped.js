@@ -7,8 +7,10 @@ import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
 
 export class DrapedLines {
-  constructor(ground) {
+  /** rank: of several such, the higher lies on top. */
+  constructor(ground, rank) {
     this.ground = ground;
+    this.rank = rank;
     this.group = new Group();
     this.ready = new Map(); // line -> its segments in space
   }
@@ -43,7 +45,8 @@ export class DrapedLines {
       child.material.dispose();
     }
     this.group.clear();
-    groups.filter(({ lines }) => lines.length > 0).forEach(({ lines, width, colour }, rank) => {
+    groups.filter(({ lines }) => lines.length > 0).forEach(({ lines, width, colour }, place) => {
+      const rank = this.rank + place;
       const parts = lines.map((line) => this.#segments(line));
       const positions = new Float32Array(parts.reduce((sum, part) => sum + part.length, 0));
       let at = 0;
@@ -53,7 +56,7 @@ export class DrapedLines {
       }
       if (at === 0) return;
       const geometry = new LineSegmentsGeometry().setPositions(positions);
-      const material = new LineMaterial({ linewidth: width, polygonOffset: true, polygonOffsetFactor: -2,
+      const material = new LineMaterial({ linewidth: width, polygonOffset: true, polygonOffsetFactor: -2 - rank,
         polygonOffsetUnits: -4 - 2 * rank });
       material.color.setRGB(...colour.map((c) => c / 255)); // the page paints in the screen's own space
       const object = new LineSegments2(geometry, material);

@@ -222,6 +222,8 @@ function start() {
     pick,
     /** The heights of the page [m], row-major, NaN where there are none. */
     heights: () => Float32Array.from(land.z, (z, i) => (land.has && !land.has[i] ? NaN : z)),
+    /** Strahler orders of the arcs as pruned now, 0 for those that are gone. */
+    orders: () => Array.from(orders),
     ready: true,
   });
 }

@@ -224,7 +224,7 @@ export class View2d {
     };
     if (this.showsRidges) stroke(this.rivers.ridges, 1.2, ridgeColour);
     for (const { lines, width, colour } of this.groups) stroke(lines, width + 0.3, colour);
-    stroke(this.marks, 3.2, markColour);
+    stroke(this.marks, 2.4, markColour);
     this.ondraw?.(0);
   }
 

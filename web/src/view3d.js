@@ -35,9 +35,9 @@ export class View3d {
     parent.append(this.canvas);
     this.scene = new Scene();
     this.ground = new Ground(land, options.segments ?? (gl.software ? 255 : 511), gl.linear);
-    this.rivers3d = new DrapedLines(this.ground);
-    this.ridges3d = new DrapedLines(this.ground);
-    this.mark3d = new DrapedLines(this.ground);
+    this.rivers3d = new DrapedLines(this.ground, 1);
+    this.ridges3d = new DrapedLines(this.ground, 0);
+    this.mark3d = new DrapedLines(this.ground, 20);
     this.ground.group.add(this.rivers3d.group, this.ridges3d.group, this.mark3d.group);
     this.scene.add(this.ground.group);
     this.perspective = new PerspectiveCamera(32, 1, 0.02, 60);
@@ -148,7 +148,7 @@ export class View3d {
   }
 
   mark(lines) {
-    this.mark3d.show(lines.length ? [{ lines, width: 3.2, colour: markColour }] : []);
+    this.mark3d.show(lines.length ? [{ lines, width: 2.4, colour: markColour }] : []);
     this.#fitLines();
   }
 
