@@ -66,10 +66,10 @@ function fit(points) {
   return [points[0][0], points.at(-1)[0]].map((x) => [x, 10 ** (my + slope * (x - mx))]);
 }
 
-function listed(title, { count, shown }) {
+function listed(one, { count, shown }) {
   if (!count) return null;
   const more = count > shown.length ? `; the first ${shown.length}` : '';
-  return make('details', {}, make('summary', { textContent: `${number(count)} ${title}${more}` }),
+  return make('details', {}, make('summary', { textContent: `${number(count)} ${one}${count === 1 ? '' : 's'}${more}` }),
     make('ul', {}, ...shown.map((text) => make('li', { textContent: text }))));
 }
 
@@ -111,7 +111,7 @@ export function fillReport(parent, data) {
     section('Checks', data.checks.length ? make('details', { open: failed > 0 },
       make('summary', {}, failed ? `${failed} of ${data.checks.length} checks failed ` : `${data.checks.length} checks passed `, verdict(failed === 0)),
       table(['check', 'found', 'limit', ''], data.checks.map((c) => [words(c.name), number(c.value), number(c.limit), verdict(c.ok)]), 'Checks')) : null,
-    listed('findings', data.findings), listed('repairs of the given lines', data.repairs)),
+    listed('finding', data.findings), listed('repair', data.repairs)),
     section('Time', table(['stage', 'seconds'], [...data.timings.map(([name, s]) => [name, s.toFixed(2)]), ['all', whole.toFixed(2)]], 'Time by stage')),
     section('Make it again', copyable(data.command, 'the command'), make('details', {}, make('summary', { textContent: 'recipe.toml' }),
       copyable(data.recipe, 'the recipe'))),
