@@ -20,7 +20,7 @@ const deep = [12, 56, 140];
 /** The higher the order, the wider and the deeper blue. width in pixels. */
 export function riverStyle(order, highest) {
   const share = highest > 1 ? (order - 1) / (highest - 1) : 1;
-  return { width: 1.1 + 0.75 * (order - 1), colour: shallow.map((c, i) => Math.round(c + (deep[i] - c) * share)) };
+  return { width: 1.1 + Math.min(0.75, 4 / Math.max(1, highest - 1)) * (order - 1), colour: shallow.map((c, i) => Math.round(c + (deep[i] - c) * share)) };
 }
 
 export const css = ([r, g, b]) => `rgb(${Math.round(r)} ${Math.round(g)} ${Math.round(b)})`;

@@ -6,7 +6,7 @@ import { Land } from './land.js';
 import { ArcFinder, Rivers } from './rivers.js';
 import { number } from './chart.js';
 import { css, riverStyle, tints } from './colours.js';
-import { fillReport, summary } from './report.js';
+import { fillReport, metres, summary } from './report.js';
 import { probe, View3d } from './view3d.js';
 import { View2d } from './view2d.js';
 
@@ -245,7 +245,7 @@ function legend(highest, land) {
     const ramp = Object.assign(document.createElement('div'), { className: 'ramp' });
     const bar = document.createElement('i');
     bar.style.background = `linear-gradient(to right, ${tints.map(css).join(', ')})`;
-    ramp.append(number(land.min), bar, `${number(land.max)} m`);
+    ramp.append(metres(land.min, land), bar, `${metres(land.max, land)} m`);
     box.append(ramp);
   }
 }

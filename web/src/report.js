@@ -119,6 +119,11 @@ export function fillReport(parent, data) {
   ].filter(Boolean));
 }
 
+/** A height with as many digits as tell heights of this land apart. */
+export function metres(z, { min, max }) {
+  return number(max - min >= 50 ? Math.round(z) : z, 5);
+}
+
 /** One line under the title. */
 export function summary(data, rivers) {
   const { grid, heights } = data;
@@ -126,5 +131,5 @@ export function summary(data, rivers) {
   return [`${number(grid.width, 7)} × ${number(grid.height, 7)} cells of ${number(grid.cell_m)} m (${km(grid.width)} × ${km(grid.height)} km)`,
     grid.crs ? (grid.crs.length < 24 ? grid.crs : 'own CRS') : 'no CRS',
     `${number(rivers.count)} arcs to order ${rivers.highest}`,
-    heights ? `${number(heights.min)} to ${number(heights.max)} m` : 'no surface'].join(' · ');
+    heights ? `${metres(heights.min, heights)} to ${metres(heights.max, heights)} m` : 'no surface'].join(' · ');
 }
