@@ -107,7 +107,7 @@ void hold_to_contract(fs::path const& folder) {
     EXPECT_TRUE(dem->GetSpatialRef()->IsSame(layer->GetSpatialRef()));
 
     for (char const* name :
-         {"map.png", "profile.svg", "curve.svg", "contours.gpkg", "recipe.toml", "network_nodes.shp"}) {
+         {"report.html", "map.png", "profile.svg", "curve.svg", "contours.gpkg", "recipe.toml", "network_nodes.shp"}) {
         EXPECT_TRUE(fs::exists(folder / name)) << name;
     }
 }
