@@ -53,7 +53,7 @@ MACHINE_PATH = re.compile(r"(?<![\w.}$)*-])/(?:work|home|root|tmp|Users)(?![\w.-
 FETCHED = re.compile(r"FetchContent|ExternalProject|CPMAddPackage|\b(?:pip3?|conan|vcpkg|cargo|gem) install\b|"
                      r"\b(?:curl|wget) |pypi\.org|pythonhosted\.org|crates\.io|anaconda\.org|"
                      r"(?:ghcr|docker|quay)\.io", re.IGNORECASE)
-LOCK_HOST = re.compile(r'https?://(?!registry\.npmjs\.org/)[^"\s]+')
+LOCK_HOST = re.compile(r'"resolved": *"https?://(?!registry\.npmjs\.org/)[^"\s]+')
 
 CPP = (".cpp", ".hpp", ".inc")
 COMMENTED = {*CPP, ".cmake", ".py", ".sh", ".js", ".ts"}  # suffixes that take the SPDX lines
