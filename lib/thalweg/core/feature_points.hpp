@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <thalweg/core/vec.hpp>
+
+namespace thalweg {
+
+/// Points whose heights the land shall have: surveyed, read from a file, or drawn at random (paper 001).
+/// Law: coordinates and heights are finite.
+struct FeaturePoints {
+    std::vector<Vec3> points; ///< [m]
+    std::string crs;          ///< as in Grid; "" for none
+};
+
+} // namespace thalweg

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/vec.hpp>
+
+namespace thalweg {
+
+/// A triangulated irregular network: the land as triangles over the plane.
+/// Law: every vertex belongs to a triangle, no two lie at the same place in plan; triangles run counterclockwise seen
+/// from above, have area and do not overlap.
+struct Tin {
+    std::vector<Vec3> vertices;                          ///< [m]
+    std::vector<std::array<std::uint32_t, 3>> triangles; ///< vertices by number
+};
+
+} // namespace thalweg
