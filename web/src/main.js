@@ -60,7 +60,7 @@ function start() {
   const rivers = new Rivers(data.rivers, data.ridges, $('lines').textContent);
   $('summary').textContent = summary(data, rivers);
   fillReport($('sections'), data);
-  $('foot').textContent = `thalweg ${data.version}, seed ${data.seed}`;
+  $('foot').textContent = `thalweg ${data.version}` + (data.recipe ? `, seed ${data.seed}` : '');
 
   const asked = new URLSearchParams(location.search);
   const gl = probe();

@@ -5,7 +5,7 @@ import { chart, number } from './chart.js';
 
 function make(tag, properties = {}, ...children) {
   const e = Object.assign(document.createElement(tag), properties);
-  e.append(...children.filter((child) => child !== null && child !== undefined));
+  e.append(...children.filter((child) => child !== null && child !== undefined && child !== ''));
   return e;
 }
 
@@ -113,7 +113,7 @@ export function fillReport(parent, data) {
       table(['check', 'found', 'limit', ''], data.checks.map((c) => [words(c.name), number(c.value), number(c.limit), verdict(c.ok)]), 'Checks')) : null,
     listed('finding', data.findings), listed('repair', data.repairs)),
     section('Time', table(['stage', 'seconds'], [...data.timings.map(([name, s]) => [name, s.toFixed(2)]), ['all', whole.toFixed(2)]], 'Time by stage')),
-    section('Make it again', copyable(data.command, 'the command'), make('details', {}, make('summary', { textContent: 'recipe.toml' }),
+    section('Make it again', copyable(data.command, 'the command'), data.recipe && make('details', {}, make('summary', { textContent: 'recipe.toml' }),
       copyable(data.recipe, 'the recipe'))),
     section('Notes', data.notes.length ? make('ul', {}, ...data.notes.map((text) => make('li', { textContent: text }))) : null),
   ].filter(Boolean));

@@ -290,7 +290,7 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
     ordered_json const data{{"version", version()},
                             {"title", title_of(t.recipe)},
                             {"seed", t.recipe.seed},
-                            {"command", "thalweg make recipe.toml -o again"},
+                            {"command", params.command},
                             {"recipe", params.recipe},
                             {"grid", grid_object(t.grid)},
                             {"heights", heights_object(heights)},
