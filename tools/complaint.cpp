@@ -100,7 +100,8 @@ std::string fault(CommandHelp const& program, std::vector<std::string> const& wo
                 continue;
             }
             if (!glued && i + 1 == words.size()) {
-                return fmt::format("{} {} is missing its {}.", at->name, option->names.back(), option->placeholder);
+                return fmt::format("thalweg {} {} is missing its {}.", at->name, option->names.back(),
+                                   option->placeholder);
             }
             std::string const value = !glued ? words[++i] : is_long ? word.substr(word.find('=') + 1) : word.substr(2);
             if (std::string const wrong = wrong_choice(*option, value); !wrong.empty()) {

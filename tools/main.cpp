@@ -29,30 +29,24 @@ void complain(std::string const& text) {
     fmt::print(stderr, "{} {}\n", toned(Tone::bad, "error:", stderr), text);
 }
 
-/// Errors are told when the bar is gone.
 int call(Command const& command, Terminal& terminal) {
+    auto const end = [&](std::string const& why, Exit code) {
+        terminal.wipe();
+        complain(why);
+        return code;
+    };
     try {
-        try {
-            return command();
-        } catch (...) {
-            terminal.wipe();
-            throw;
-        }
+        return command();
     } catch (Cancelled const&) {
-        complain("interrupted; nothing was written");
-        return Exit::interrupted;
+        return end("interrupted; nothing was written", Exit::interrupted);
     } catch (BadParameter const& e) {
-        complain(e.what());
-        return Exit::wrong;
+        return end(e.what(), Exit::wrong);
     } catch (BadInput const& e) {
-        complain(e.what());
-        return Exit::wrong;
+        return end(e.what(), Exit::wrong);
     } catch (std::bad_alloc const&) {
-        complain("out of memory: make the grid smaller or the cell larger");
-        return Exit::failed;
+        return end("out of memory: make the grid smaller or the cell larger", Exit::failed);
     } catch (std::exception const& e) {
-        complain(e.what());
-        return Exit::failed;
+        return end(e.what(), Exit::failed);
     }
 }
 
@@ -82,13 +76,13 @@ int main(int argc, char** argv) {
     add("stats", "Measure a DEM.", add_stats);
     add("replay", "Run a folder's recipe again and compare the bytes.", add_replay);
     add("recipe", "List every key of a recipe.", add_recipe);
-    auto const add_plain = [&](char const* name, char const* words, auto const& add_command) {
-        CLI::App* const sub = app.add_subcommand(name, words);
-        commands[sub] = add_command(*sub);
-    };
-    add_plain("completion", "Write the script that completes thalweg's command line in a shell.", add_completion);
-    add_plain("man", "Write the manual pages.", add_man);
-    add_plain("help", "Explain a command.", add_help); // the last: it knows those before it
+    CLI::App* const completion =
+        app.add_subcommand("completion", "Write the script that completes thalweg's command line in a shell.");
+    CLI::App* const man = app.add_subcommand("man", "Write the manual pages.");
+    CLI::App* const help = app.add_subcommand("help", "Explain a command.");
+    commands[completion] = add_completion(*completion);
+    commands[man] = add_man(*man); // these two know every command that is there already
+    commands[help] = add_help(*help);
     app.footer("Examples:\n"
                "  thalweg make\n"
                "  thalweg make samples/lines.toml -o out/walker\n"

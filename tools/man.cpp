@@ -3,14 +3,12 @@
 #include "commands.hpp"
 #include "man_pages.hpp"
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/suggest.hpp>
 #include <thalweg/io/files.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -29,36 +27,37 @@ void write_pages(std::vector<ManPage> const& pages, std::string const& folder) {
     }
 }
 
-void print_page(std::vector<ManPage> const& pages, std::string const& wanted) {
-    std::vector<std::string> names;
-    for (ManPage const& page : pages) {
-        names.push_back(fmt::format("{}.{}", page.name, page.section));
-        if (wanted == names.back() ||
-            (page.section == '1' && (wanted == page.name || "thalweg-" + wanted == page.name))) {
-            fmt::print("{}", page.roff);
-            return;
-        }
-    }
-    throw BadInput(fmt::format("man: there is no page '{}'.{} Its pages are {}.", wanted, did_you_mean(wanted, names),
-                               fmt::join(names, ", ")));
+/// "thalweg", a command's name, or with its section, "recipe.5".
+bool is_called(ManPage const& page, std::string const& name) {
+    return page.section == '1' ? name == page.name || "thalweg-" + name == page.name
+                               : fmt::format("thalweg-{}", name) == fmt::format("{}.{}", page.name, page.section);
 }
 
 } // namespace
 
 Command add_man(CLI::App& app) {
-    auto const page = std::make_shared<std::string>("thalweg");
+    auto const name = std::make_shared<std::string>("thalweg");
     auto const folder = std::make_shared<std::string>();
-    app.add_option("PAGE", *page, "The page to print: a command's name, or thalweg-recipe.5.")->capture_default_str();
+    std::vector<std::string> names{"thalweg"};
+    for (CLI::App const* command : app.get_parent()->get_subcommands(nullptr)) {
+        names.push_back(command->get_name());
+    }
+    names.emplace_back("recipe.5");
+    app.add_option("PAGE", *name, "The page to print: of a command, or of recipe files.")
+        ->check(CLI::IsMember(names))
+        ->capture_default_str();
     app.add_option("-o,--output", *folder, "Write every page below this folder, as man1/*.1 and man5/*.5, instead.")
         ->type_name("DIR");
     app.footer("The pages are in man(7), and follow from what --help knows.\n\n"
                "Examples:\n"
                "  thalweg man make | man -l -\n"
-               "  thalweg man thalweg-recipe.5 | man -l -\n");
-    return [page, folder, &app] {
+               "  thalweg man recipe.5 | man -l -\n");
+    return [name, folder, &app] {
         std::vector<ManPage> const pages = man_pages(describe(*app.get_parent()));
         if (folder->empty()) {
-            print_page(pages, *page);
+            auto const page =
+                std::find_if(pages.begin(), pages.end(), [&](ManPage const& p) { return is_called(p, *name); });
+            fmt::print("{}", page->roff);
         } else {
             write_pages(pages, *folder);
         }

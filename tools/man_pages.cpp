@@ -57,7 +57,8 @@ std::string heading(std::string const& name, char number, std::string const& man
     std::string capitals = name;
     std::transform(capitals.begin(), capitals.end(), capitals.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    return fmt::format(".TH {} {} \"\" \"thalweg {}\" \"{}\"\n", roff(capitals), number, pipeline::version(), manual);
+    return fmt::format(".TH {} {} \"\" \"thalweg {}\" \"{}\"\n.nh\n.ad l\n", roff(capitals), number,
+                       pipeline::version(), manual);
 }
 
 /// A sentence as NAME has it: "make a terrain".
@@ -75,7 +76,7 @@ std::string paragraphs(std::string const& text) {
     std::string out;
     for (std::size_t begin = 0; begin < text.size();) {
         std::size_t const end = std::min(text.find("\n\n", begin), text.size());
-        out += ".PP\n" + roff(text.substr(begin, end - begin)) + "\n";
+        out += ".PP\n" + paragraph(text.substr(begin, end - begin));
         begin = end + 2;
     }
     return out;
@@ -136,11 +137,11 @@ std::string program_page(CommandHelp const& program) {
     out += section("NAME") + "thalweg \\- terrain from its valleys outward\n";
     out += section("SYNOPSIS") + ".B thalweg\n.I COMMAND\n.RI [ OPTIONS ]\n";
     out += section("DESCRIPTION") +
-           roff("thalweg starts where other generators of terrain end: with the rivers. A network of valleys is grown, "
-                "or taken from a file of lines; it is traced into arcs, pruned, ordered and given heights; and the "
-                "land is drawn around it. Out come a checked river network, a DEM through exactly those rivers, "
-                "contours and pictures.") +
-           "\n";
+           paragraph(
+               "thalweg starts where other generators of terrain end: with the rivers. A network of valleys is grown, "
+               "or taken from a file of lines; it is traced into arcs, pruned, ordered and given heights; and the "
+               "land is drawn around it. Out come a checked river network, a DEM through exactly those rivers, "
+               "contours and pictures.");
     out += section("COMMANDS");
     for (CommandHelp const& command : program.commands) {
         out += tagged(fmt::format(".BR {} (1)", roff("thalweg-" + command.name)), command.summary);
@@ -161,7 +162,7 @@ std::string command_page(CommandHelp const& command, CommandHelp const& program)
         std::string const word = roff(long_name(p)) + (p.repeats ? "..." : "");
         out += p.required ? ".I " + word + "\n" : ".RI [ " + word + " ]\n";
     }
-    out += section("DESCRIPTION") + roff(command.summary) + "\n" + paragraphs(command.text);
+    out += section("DESCRIPTION") + paragraph(command.summary) + paragraphs(command.text);
     out += options(command);
     out += section("EXIT STATUS") + rows(exit_codes);
     if (command.name == "make") {
@@ -180,11 +181,11 @@ std::string recipe_page(CommandHelp const& program) {
     std::string out = heading("thalweg-recipe", '5', "File Formats");
     out += section("NAME") + roff("thalweg-recipe") + " \\- everything that decides a terrain, in one file\n";
     out += section("DESCRIPTION") +
-           roff("A recipe is a TOML file. A key that is left out has its default; one that is unknown is an error. On "
-                "the command line of thalweg make, --set section.key=value sets a key over what the file says. File "
-                "names are relative to the recipe's folder. Without a section network nothing tells where rivers run; "
-                "without a section surface only the network is made.") +
-           "\n";
+           paragraph(
+               "A recipe is a TOML file. A key that is left out has its default; one that is unknown is an error. On "
+               "the command line of thalweg make, --set section.key=value sets a key over what the file says. File "
+               "names are relative to the recipe's folder. Without a section network nothing tells where rivers run; "
+               "without a section surface only the network is made.");
     out += section("KEYS");
     std::string at;
     for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {
@@ -198,7 +199,7 @@ std::string recipe_page(CommandHelp const& program) {
         out += tagged(fmt::format("\\fB{}\\fR{}", roff(name), key.unit.empty() ? "" : roff(" [" + key.unit + "]")),
                       key_text(key));
     }
-    out += section("EXAMPLES") + roff("The recipe that thalweg make uses without one:") + "\n" +
+    out += section("EXAMPLES") + paragraph("The recipe that thalweg make uses without one:") + ".PP\n" +
            verbatim(pipeline::write_recipe(pipeline::default_recipe()));
     return out + see_also("thalweg-recipe5", program);
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "roff.hpp"
 
+#include "describe.hpp"
+
 namespace thalweg::tools {
 
 std::string roff(std::string const& text) {
@@ -31,11 +33,15 @@ std::string bold_line(std::string const& text) {
 }
 
 std::string verbatim(std::string const& lines) {
-    return ".PP\n.nf\n.RS 4\n" + roff(lines) + ".RE\n.fi\n";
+    return ".RS 4\n.nf\n" + roff(lines) + ".fi\n.RE\n";
 }
 
 std::string tagged(std::string const& tag, std::string const& text) {
-    return ".TP\n" + tag + "\n" + roff(text) + "\n";
+    return ".TP\n" + tag + "\n" + roff(wrapped(text, 76, 0)) + "\n";
+}
+
+std::string paragraph(std::string const& text) {
+    return roff(wrapped(text, 76, 0)) + "\n";
 }
 
 std::string section(std::string const& name) {

@@ -18,6 +18,9 @@ std::string verbatim(std::string const& lines);
 /// A tag and, indented below it, what it means. tag: roff.
 std::string tagged(std::string const& tag, std::string const& text);
 
+/// Filled text.
+std::string paragraph(std::string const& text);
+
 std::string section(std::string const& name);
 
 } // namespace thalweg::tools

@@ -365,7 +365,8 @@ std::vector<Key> make_keys() {
     standard.surface.emplace();
     for (Key& key : keys) {
         if (auto const value = key.take(standard)) {
-            key.help.standard = toml_text(*value);
+            auto const* const number = std::get_if<double>(&*value); // for a reader: 0.087, not its 17 digits
+            key.help.standard = number != nullptr ? fmt::format("{}", *number) : toml_text(*value);
         }
     }
     for (Key& key : keys) {
