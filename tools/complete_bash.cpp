@@ -91,25 +91,25 @@ _thalweg_settings() { # KEY=VALUE of a recipe
 }
 
 _thalweg() {
-    local IFS=$' \t\n' command=thalweg option= current= before= takes= offers= place=0 joins= word i
+    local IFS=$' \t\n' rest=$COMP_LINE command=thalweg option= current= before= takes= offers= place=0 joins= word i
     local words=()
-    # Bash takes words apart at = and : and they are put together again.
-    for ((i = 1; i <= COMP_CWORD; ++i)); do
+    # Bash takes words apart at = and : and those with no blank between are put together again.
+    for ((i = 0; i <= COMP_CWORD; ++i)); do
         word=${COMP_WORDS[i]}
-        if [[ ! $word && $joins && ${COMP_LINE:0:COMP_POINT} == *[[:space:]] ]]; then
-            joins=
-        fi
-        if [[ ${#words[@]} -gt 0 && ($joins || $word =~ ^[=:]+$) ]]; then
+        [[ $rest != [[:space:]]* ]] || joins=
+        rest=${rest#"${rest%%[![:space:]]*}"}
+        rest=${rest#"$word"}
+        if [[ $joins && ($joins == sign || $word =~ ^[=:]+$) ]]; then
             words[${#words[@]}-1]+=$word
         else
             words+=("$word")
         fi
-        joins=
-        [[ ! $word =~ ^[=:]+$ ]] || joins=yes
+        joins=word
+        [[ ! $word =~ ^[=:]+$ ]] || joins=sign
     done
     current=${words[${#words[@]}-1]}
     unset "words[${#words[@]}-1]"
-    for word in "${words[@]}"; do
+    for word in "${words[@]:1}"; do
         if [[ $option ]]; then
             option=
         elif [[ $word == --*=* ]]; then

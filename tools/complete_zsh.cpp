@@ -31,7 +31,10 @@ std::string action(OptionHelp const& option) {
     switch (option.takes) {
     case Takes::word: return fmt::format("({})", fmt::join(option.words, " "));
     case Takes::file:
-        return option.words.empty() ? "_files" : fmt::format("_files -g \"*.({})\"", fmt::join(option.words, "|"));
+        // *.(toml) would be read as qualifiers of the pattern.
+        return option.words.empty()       ? "_files"
+               : option.words.size() == 1 ? fmt::format("_files -g \"*.{}\"", option.words.front())
+                                          : fmt::format("_files -g \"*.({})\"", fmt::join(option.words, "|"));
     case Takes::folder: return "_files -/";
     case Takes::setting: return "_thalweg_settings";
     case Takes::nothing:
@@ -82,7 +85,7 @@ _thalweg_settings() {
 _thalweg() {
     local curcontext=$curcontext state line
     local -A opt_args
-    _arguments -C $thalweg_options '1:command:->command' '*::argument:->argument'
+    _arguments -C $thalweg_options '(-)1:command:->command' '(-)*::argument:->argument'
     case $state in
     command) _describe -t commands command thalweg_commands ;;
     argument)
