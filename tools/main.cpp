@@ -100,6 +100,7 @@ int main(int argc, char** argv) {
     add("make", "a terrain from a recipe, or the sample valley without one", add_make);
     add("check", "the topology of a network's files", add_check);
     add("stats", "statistics of a DEM", add_stats);
+    add("draw", "pictures of a DEM or of what make left", add_draw);
     add("replay", "runs a folder's recipe again and compares the bytes", add_replay);
     add("recipe", "every key of a recipe", add_recipe);
 

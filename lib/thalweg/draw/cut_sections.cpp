@@ -106,7 +106,7 @@ std::vector<Section> cut_sections(Raster<float> const& dem, RaisedNetwork const*
     double const length = stem.from_out_m.back();
     // The course over a stretch of the river: a step from cell to cell says nothing of where the valley runs.
     double const stretch = std::max(0.06 * length, 4.0 * grid.cell_m);
-    double const reach = std::max(0.25 * length, 12.0 * grid.cell_m);
+    double const reach = std::max(0.18 * length, 12.0 * grid.cell_m);
     std::vector<Section> sections;
     for (int k = 0; k < count; ++k) {
         double const where = length * (count == 1 ? 0.5 : 0.9 - 0.8 * k / (count - 1));

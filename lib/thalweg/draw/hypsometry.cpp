@@ -26,7 +26,7 @@ void demand_curve(std::vector<Vec2> const& curve, double integral) {
                                        i + 1, curve[i].x, curve[i].y));
         }
     }
-    if (!curve.empty() && !(integral >= 0.0 && integral <= 1.0)) {
+    if (!curve.empty() && !std::isnan(integral) && !(integral >= 0.0 && integral <= 1.0)) {
         throw BadInput(fmt::format("draw.hypsometry: the integral is {}, must lie in [0, 1]", integral));
     }
 }
@@ -55,7 +55,8 @@ Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryPa
 
     return paint(width, height, params.format, [&](Cairo* sheet) {
         std::string words = params.title.empty() ? "Hypsometric curve" : params.title;
-        if (!curve.empty()) {
+        bool const has_integral = !curve.empty() && !std::isnan(integral);
+        if (has_integral) {
             words += fmt::format("{}integral {:.3f}", params.title.empty() ? ", " : ": hypsometric ", integral);
         }
         draw_text_within(sheet, {plot.box.x, 2.4 * unit}, words, {1.35 * unit, ink, Weight::bold}, plot.box.width);
@@ -77,6 +78,9 @@ Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryPa
         set_colour(sheet, stroke);
         cairo_set_line_width(sheet, 0.17 * unit);
         cairo_stroke(sheet);
+        if (!has_integral) {
+            return;
+        }
         // The integral is where the mean height lies between the lowest and the highest.
         double const mean = low + integral * (high - low);
         Vec2 const right = plot.at(100.0, mean);

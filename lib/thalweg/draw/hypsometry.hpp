@@ -19,7 +19,7 @@ struct HypsometryParams {
 
 /// The hypsometric curve: height over the share of the area that lies above it, with its integral.
 /// Takes: curve: x = share of the area above [0, 1], y = height [m], by rising or falling height; none gives empty axes
-/// that say so. integral: [0, 1].
+/// that say so. integral: [0, 1], or NaN where it is not defined (one height).
 /// Throws: BadParameter; BadInput when a number is not finite or a share lies outside [0, 1].
 /// Source: Strahler 1952.
 Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryParams const& params = {});

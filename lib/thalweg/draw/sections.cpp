@@ -177,14 +177,25 @@ void draw_key(Cairo* sheet, Box room, Grid const& grid, MainStem const& stem, st
     cairo_restore(sheet);
     frame_box(sheet, window.frame, 0.08 * unit, faint_ink);
     TextStyle const letter{unit, ink, Weight::bold, 0.22 * unit};
+    std::vector<Vec2> taken;
+    auto const room_at = [&](Vec2 at) {
+        double least = 1e9;
+        for (Vec2 const other : taken) {
+            least = std::min(least, distance(at, other));
+        }
+        return least;
+    };
     for (std::size_t k = 0; k < sections.size(); ++k) {
         Vec2 const begin = window.at(sections[k].begin);
         Vec2 const end = window.at(sections[k].end);
         draw_line(sheet, begin, end, 0.11 * unit, ink);
-        double const length = distance(begin, end);
-        Vec2 const along = length > 0.0 ? Vec2{(end.x - begin.x) / length, (end.y - begin.y) / length} : Vec2{1.0, 0.0};
-        draw_text(sheet, {begin.x - along.x * 0.8 * unit, begin.y - along.y * 0.8 * unit + 0.36 * unit}, letter_of(k),
-                  letter, Anchor::middle);
+        double const length = std::max(1e-9, distance(begin, end));
+        Vec2 const off{(end.x - begin.x) / length * 0.8 * unit, (end.y - begin.y) / length * 0.8 * unit};
+        Vec2 const at_begin{begin.x - off.x, begin.y - off.y};
+        Vec2 const at_end{end.x + off.x, end.y + off.y};
+        bool const crowded = room_at(at_begin) < 1.4 * unit && room_at(at_end) > room_at(at_begin);
+        taken.push_back(crowded ? at_end : at_begin);
+        draw_text(sheet, {taken.back().x, taken.back().y + 0.36 * unit}, letter_of(k), letter, Anchor::middle);
     }
 }
 

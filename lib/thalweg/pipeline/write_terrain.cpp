@@ -5,9 +5,12 @@
 #include <thalweg/draw/curve.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/profile.hpp>
+#include <thalweg/draw/sections.hpp>
+#include <thalweg/draw/wireframe.hpp>
 #include <thalweg/io/dataset_files.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/io/write_network.hpp>
+#include <thalweg/pipeline/pictures.hpp>
 #include <thalweg/pipeline/report.hpp>
 
 #include <fmt/format.h>
@@ -29,20 +32,6 @@ constexpr std::int64_t largest_report = 1 << 30;
 std::vector<std::string> files_left_in(std::string const& folder) {
     std::string const report = folder + "/report.json";
     return fs::exists(report) ? files_of_report(io::read_text(report, largest_report)) : std::vector<std::string>{};
-}
-
-/// A round interval (1, 2 or 5 times a power of ten) that gives about twenty contours.
-double round_interval(double range_m) {
-    double step = 1e-3;
-    while (step * 20.0 < range_m) {
-        for (double const factor : {2.0, 2.5, 2.0}) { // 1, 2, 5, 10
-            step *= factor;
-            if (step * 20.0 >= range_m) {
-                break;
-            }
-        }
-    }
-    return step;
 }
 
 /// Copies a named input and its companions into a folder of the output and gives the name it has there. A source that
@@ -110,6 +99,14 @@ void write_surface(Terrain const& t, io::OutputFolder const& out, Run const& run
     io::write_text(out.path("map.png"), draw::map(sheet, map).bytes);
     io::write_text(out.path("curve.svg"),
                    draw::curve(t.surface->increments, {t.recipe.surface->dilate.increment.increment}).bytes);
+    draw::WireframeScene const land{dem, &t.network, &t.orders};
+    draw::WireframeParams wireframe;
+    wireframe.title = map.title;
+    wireframe.azimuth_deg = draw::azimuth_up_valley(land);
+    io::write_text(out.path("wireframe.svg"), draw::wireframe(land, wireframe).bytes);
+    draw::SectionsParams sections;
+    sections.title = map.title;
+    io::write_text(out.path("sections.svg"), draw::sections(dem, &t.network, &t.orders, sections).bytes);
 }
 
 } // namespace
