@@ -9,16 +9,38 @@
 namespace thalweg::draw {
 namespace {
 
-/// Where the lines across one direction lie [cells].
-std::vector<double> spread(std::int64_t cells, double apart) {
-    if (cells == 1) {
-        return {-0.5, 0.5};
+/// The columns and rows that hold heights; all of them where none does.
+struct Extent {
+    std::int64_t west = 0;
+    std::int64_t east = 0;
+    std::int64_t north = 0;
+    std::int64_t south = 0;
+};
+
+Extent extent_of(Raster<float> const& dem) {
+    Extent box{dem.width(), -1, dem.height(), -1};
+    for (std::int64_t row = 0; row < dem.height(); ++row) {
+        auto const line = dem.row(row);
+        for (std::int64_t col = 0; col < dem.width(); ++col) {
+            if (std::isfinite(line[static_cast<std::size_t>(col)])) {
+                box = {std::min(box.west, col), std::max(box.east, col), std::min(box.north, row), row};
+            }
+        }
     }
-    double const span = static_cast<double>(cells - 1);
+    return box.east < 0 ? Extent{0, dem.width() - 1, 0, dem.height() - 1} : box;
+}
+
+/// Where the lines across one direction lie [cells].
+std::vector<double> spread(std::int64_t first, std::int64_t last, double apart) {
+    auto const start = static_cast<double>(first);
+    if (first == last) {
+        return {start - 0.5, start + 0.5};
+    }
+    double const span = static_cast<double>(last - first);
     auto const meshes = static_cast<std::int64_t>(std::max(1.0, std::floor(span / apart + 0.5)));
     std::vector<double> at(static_cast<std::size_t>(meshes + 1));
     for (std::size_t k = 0; k < at.size(); ++k) {
-        at[k] = span * static_cast<double>(k) / static_cast<double>(meshes);
+        at[k] = start + span * static_cast<double>(k) / static_cast<double>(meshes);
     }
     return at;
 }
@@ -50,11 +72,12 @@ double mean_around(Raster<float> const& dem, double col, double row, double reac
 } // namespace
 
 Fishnet fishnet(Raster<float> const& dem, std::int64_t most_lines) {
-    double const longer = static_cast<double>(std::max(dem.width(), dem.height()) - 1);
+    Extent const box = extent_of(dem);
+    double const longer = static_cast<double>(std::max(box.east - box.west, box.south - box.north));
     double const apart = std::max(1.0, longer / static_cast<double>(most_lines - 1));
     Fishnet net;
-    net.col_at = spread(dem.width(), apart);
-    net.row_at = spread(dem.height(), apart);
+    net.col_at = spread(box.west, box.east, apart);
+    net.row_at = spread(box.north, box.south, apart);
     net.columns = static_cast<std::int64_t>(net.col_at.size());
     net.rows = static_cast<std::int64_t>(net.row_at.size());
     net.low_m = std::numeric_limits<double>::infinity();

@@ -21,7 +21,8 @@ struct Fishnet {
     double high_m = 0.0;
 };
 
-/// A net of at most most_lines lines each way over a DEM, its meshes as square as whole numbers allow.
+/// A net of at most most_lines lines each way over the part of a DEM that holds heights, its meshes as square as whole
+/// numbers allow.
 /// Takes: a DEM of one cell or more; most_lines >= 2. Gives: a knot in every cell where these are few enough, else
 /// evenly spread knots with the mean height around them. A single row or column of cells gets two lines, on its edges.
 Fishnet fishnet(Raster<float> const& dem, std::int64_t most_lines);

@@ -54,10 +54,10 @@ Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryPa
     settle_scales(plot);
 
     return paint(width, height, params.format, [&](Cairo* sheet) {
-        std::string words = params.title.empty() ? "Hypsometric curve" : params.title;
         bool const has_integral = !curve.empty() && !std::isnan(integral);
+        std::string words = params.title.empty() ? "Hypsometric curve" : params.title + ": hypsometric curve";
         if (has_integral) {
-            words += fmt::format("{}integral {:.3f}", params.title.empty() ? ", " : ": hypsometric ", integral);
+            words += fmt::format(", integral {:.3f}", integral);
         }
         draw_text_within(sheet, {plot.box.x, 2.4 * unit}, words, {1.35 * unit, ink, Weight::bold}, plot.box.width);
         draw_axes(sheet, plot, "share of the area above [%]", "height [m]", unit);

@@ -56,14 +56,17 @@ Scales scales_of(std::vector<Section> const& sections, int ticks) {
         ranges.push_back(range.x <= range.y ? range : Vec2{0.0, 0.0});
         greatest = std::max(greatest, ranges.back().y - ranges.back().x);
     }
-    double const floor_of_span = std::max(1e-3, 1e-5 * std::fabs(ranges.front().x));
-    Ticks const marks = ticks_between(0.0, std::max(greatest, floor_of_span), ticks);
+    bool const level = !(greatest > 0.0);
+    greatest = level ? 1.0 : greatest;
+    Ticks const marks = ticks_between(0.0, greatest, ticks);
     scales.step_m = marks.step;
     scales.decimals = decimals_of(marks.step);
     double const fifth = 0.2 * marks.step;
     double highest_share = 0.0;
     for (Vec2 const range : ranges) {
-        scales.y_low.push_back(std::floor(range.x / fifth + 1e-9) * fifth);
+        // Some land below the lowest place, for a line on the axis would not be seen.
+        double const low = range.x - (level ? 0.5 : 0.03) * greatest;
+        scales.y_low.push_back(std::floor(low / fifth + 1e-9) * fifth);
         highest_share = std::max(highest_share, range.y - scales.y_low.back());
     }
     scales.span_m = std::max(scales.step_m, std::ceil(1.02 * highest_share / fifth) * fifth);
@@ -79,6 +82,15 @@ std::string place_of(Section const& section) {
     double const m = section.from_outlet_m;
     return m >= 1000.0 ? number(m / 1000.0, m < 100000.0 ? 1 : 0) + " km from the outlet"
                        : number(m, m < 10.0 ? 1 : 0) + " m from the outlet";
+}
+
+/// Two figures that count: "3.2", "48", "1300".
+std::string two_figures(double value) {
+    double unit = 0.1;
+    while (unit * 100.0 <= value && unit < 1e9) {
+        unit *= 10.0;
+    }
+    return number(std::floor(value / unit + 0.5) * unit, unit < 1.0 ? 1 : 0);
 }
 
 /// The stretches of a line between its gaps, on the sheet.
@@ -277,8 +289,8 @@ Picture sections(Raster<float> const& dem, RaisedNetwork const* network, Network
         TextStyle const small{unit, faint_ink};
         draw_text_within(sheet, {key.x, key.y + key_high + 3.2 * unit}, "all panels on the same scales,", small,
                          key.width);
-        draw_text_within(sheet, {key.x, key.y + key_high + 4.7 * unit}, fmt::format("heights ×{:.2g}", exaggeration),
-                         small, key.width);
+        draw_text_within(sheet, {key.x, key.y + key_high + 4.7 * unit}, "heights ×" + two_figures(exaggeration), small,
+                         key.width);
     });
 }
 

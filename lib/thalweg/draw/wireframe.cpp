@@ -93,7 +93,7 @@ struct Model {
     Fishnet knots;
     Net net;
     double exaggeration = 1.0;
-    std::vector<std::array<Vec2, 2>> skirt;  ///< from knots on the front edges down to the base
+    std::vector<std::array<Vec2, 2>> skirt;  ///< from knots on front edges down to the base, where seen
     std::vector<std::array<Vec2, 2>> bottom; ///< the base between them
     Vec2 base_corner;                        ///< the nearest corner, on the base
     Vec2 base_col_end;                       ///< the far end of the front edge along columns
@@ -105,6 +105,84 @@ Vec2 ground_of(Grid const& grid, double col, double row) {
     return {(col + 0.5) * grid.cell_m, -(row + 0.5) * grid.cell_m};
 }
 
+/// A place on the base below a knot.
+struct Foot {
+    Vec2 at;
+    double depth = 0.0; ///< [m] of the knot, growing away from the viewer
+};
+
+/// Down to where a line that falls from a knot is seen: below, nearer land covers it.
+double seen_down_to(Net const& net, std::vector<Foot> const& feet, std::size_t knot) {
+    Vec2 const foot = feet[knot].at;
+    double cover = foot.y;
+    auto const ask = [&](std::size_t a, std::size_t b) {
+        Vec2 const from = net.at[a];
+        Vec2 const to = net.at[b];
+        double const share = (foot.x - from.x) / (to.x - from.x);
+        // Sides that end in the knot cover nothing; between two knots the share is never a hair from the ends.
+        if (share > 1e-9 && share < 1.0 - 1e-9 && std::isfinite(from.y) && std::isfinite(to.y) &&
+            feet[a].depth + (feet[b].depth - feet[a].depth) * share < feet[knot].depth) {
+            cover = std::max(cover, from.y + (to.y - from.y) * share);
+        }
+    };
+    auto const columns = static_cast<std::size_t>(net.columns);
+    for (std::size_t i = 0; i < net.at.size(); ++i) {
+        if ((i + 1) % columns != 0) {
+            ask(i, i + 1);
+        }
+        if (i + columns < net.at.size()) {
+            ask(i, i + columns);
+        }
+    }
+    return cover;
+}
+
+/// Hangs a skirt on every side of a mesh that has land behind it and none before it.
+void hang_skirt(Model& model, std::vector<Foot> const& feet) {
+    Net const& net = model.net;
+    auto const has = [&](std::int64_t col, std::int64_t row) {
+        return col >= 0 && row >= 0 && col < net.columns && row < net.rows && std::isfinite(net.knot(col, row).y);
+    };
+    auto const has_mesh = [&](std::int64_t col, std::int64_t row) { // by its knot of lowest column and row
+        return has(col, row) && has(col + 1, row) && has(col, row + 1) && has(col + 1, row + 1);
+    };
+    std::vector<std::int8_t> hung(net.at.size(), 0); // 1: seen down to the base, 2: covered there
+    auto const hang = [&](std::int64_t col, std::int64_t row) {
+        auto const knot = static_cast<std::size_t>(row * net.columns + col);
+        if (hung[knot] == 0) {
+            double const down_to = seen_down_to(net, feet, knot);
+            Vec2 const top = net.at[knot];
+            if (down_to < top.y) {
+                model.skirt.push_back({top, Vec2{top.x, down_to}});
+            }
+            hung[knot] = down_to > feet[knot].at.y ? 2 : 1;
+        }
+        return hung[knot] == 1;
+    };
+    auto const hang_side = [&](std::int64_t col, std::int64_t row, std::int64_t next_col, std::int64_t next_row) {
+        bool const first = hang(col, row);
+        bool const second = hang(next_col, next_row);
+        if (first && second) {
+            model.bottom.push_back({feet[static_cast<std::size_t>(row * net.columns + col)].at,
+                                    feet[static_cast<std::size_t>(next_row * net.columns + next_col)].at});
+        }
+    };
+    for (std::int64_t row = 0; row < net.rows; ++row) {
+        for (std::int64_t col = 0; col < net.columns; ++col) {
+            std::int64_t const above = net.away_row > 0 ? row : row - 1; // the mesh behind a side along the row
+            std::int64_t const before = net.away_row > 0 ? row - 1 : row;
+            if (has_mesh(col, above) && !has_mesh(col, before)) {
+                hang_side(col, row, col + 1, row);
+            }
+            std::int64_t const behind = net.away_col > 0 ? col : col - 1;
+            std::int64_t const in_front = net.away_col > 0 ? col - 1 : col;
+            if (has_mesh(behind, row) && !has_mesh(in_front, row)) {
+                hang_side(col, row, col, row + 1);
+            }
+        }
+    }
+}
+
 Model model_of(Raster<float> const& dem, WireframeParams const& params) {
     Grid const& grid = dem.grid();
     Model model;
@@ -113,7 +191,8 @@ Model model_of(Raster<float> const& dem, WireframeParams const& params) {
     bool const empty = knots.low_m > knots.high_m;
     double const low = empty ? 0.0 : knots.low_m;
     double const relief = empty ? 0.0 : knots.high_m - knots.low_m;
-    double const side = static_cast<double>(std::max(grid.width, grid.height)) * grid.cell_m;
+    double const side =
+        grid.cell_m * std::max(knots.col_at.back() - knots.col_at.front(), knots.row_at.back() - knots.row_at.front());
     model.exaggeration = params.exaggeration > 0.0 ? params.exaggeration : choose_exaggeration(relief, side);
     View const view(params.azimuth_deg, params.elevation_deg, model.exaggeration);
 
@@ -136,27 +215,14 @@ Model model_of(Raster<float> const& dem, WireframeParams const& params) {
     }
     std::int64_t const front_col = net.away_col > 0 ? 0 : net.columns - 1;
     std::int64_t const front_row = net.away_row > 0 ? 0 : net.rows - 1;
-    auto const hang = [&](std::int64_t length, auto const& knot_at) {
-        bool before = false;
-        Vec2 last;
-        for (std::int64_t k = 0; k < length; ++k) {
-            auto const [col, row] = knot_at(k);
-            Vec2 const top = net.knot(col, row);
-            Vec2 const foot = view.at(place(col, row), base);
-            bool const there = std::isfinite(top.y);
-            if (there) {
-                model.skirt.push_back({top, foot});
-            }
-            if (there && before) {
-                model.bottom.push_back({last, foot});
-            }
-            before = there;
-            last = foot;
+    std::vector<Foot> feet;
+    for (std::int64_t row = 0; row < net.rows; ++row) {
+        for (std::int64_t col = 0; col < net.columns; ++col) {
+            Vec2 const ground = place(col, row);
+            feet.push_back({view.at(ground, base), ground.x * view.sine + ground.y * view.cosine});
         }
-    };
-    using Knot = std::pair<std::int64_t, std::int64_t>;
-    hang(net.columns, [&](std::int64_t k) { return Knot{k, front_row}; });
-    hang(net.rows, [&](std::int64_t k) { return Knot{front_col, k}; });
+    }
+    hang_skirt(model, feet);
     model.base_corner = view.at(place(front_col, front_row), base);
     model.base_col_end = view.at(place(net.columns - 1 - front_col, front_row), base);
     model.base_row_end = view.at(place(front_col, net.rows - 1 - front_row), base);
@@ -369,8 +435,13 @@ Picture wireframe(WireframeScene const& scene, WireframeParams const& params) {
             draw_text(sheet, {middle.x + (left ? -8.0 : 8.0) * unit, middle.y + 19.0 * unit}, length_text(metres),
                       small, left ? Anchor::end : Anchor::start);
         };
-        name_side(model.base_col_end, static_cast<double>(grid.width) * grid.cell_m);
-        name_side(model.base_row_end, static_cast<double>(grid.height) * grid.cell_m);
+        auto const extent_m = [&](std::vector<double> const& at, std::int64_t cells) {
+            // Knots stand in the middle of cells, so that the land reaches half a cell further.
+            double const reach = at.back() - at.front();
+            return grid.cell_m * (cells == 1 ? 1.0 : std::min(static_cast<double>(cells), reach + 1.0));
+        };
+        name_side(model.base_col_end, extent_m(model.knots.col_at, grid.width));
+        name_side(model.base_row_end, extent_m(model.knots.row_at, grid.height));
 
         double const mesh_m = grid.cell_m * (model.knots.col_at.back() - model.knots.col_at.front()) /
                               static_cast<double>(model.knots.columns - 1);
@@ -379,8 +450,10 @@ Picture wireframe(WireframeScene const& scene, WireframeParams const& params) {
         if (model.knots.low_m <= model.knots.high_m) {
             double const relief = model.knots.high_m - model.knots.low_m;
             int const decimals = relief < 10.0 && relief > 0.0 ? 1 : 0;
-            caption += fmt::format("   ·   {} – {} m   ·   lines {} apart", number(model.knots.low_m, decimals),
-                                   number(model.knots.high_m, decimals), length_text(mesh_m));
+            std::string const low = number(model.knots.low_m, decimals);
+            caption +=
+                fmt::format("   ·   {}{} m   ·   lines {} apart", low,
+                            relief > 0.0 ? " – " + number(model.knots.high_m, decimals) : "", length_text(mesh_m));
         }
         draw_text_within(sheet, {margin, height - 20.0 * unit}, caption, small, width - 2.0 * margin - 70.0 * unit);
         draw_north(sheet, {width - margin - 26.0 * unit, height - 34.0 * unit}, view, unit);

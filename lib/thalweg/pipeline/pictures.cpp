@@ -104,27 +104,22 @@ draw::Picture draw_wireframe(Scene const& scene, Look const& look) {
     return draw::wireframe(land, params);
 }
 
-draw::Picture draw_hypsometry(Scene const& scene, Look const& look) {
-    Hypsometry const found = hypsometry_of(*scene.dem);
-    draw::HypsometryParams params;
-    params.title = scene.title;
-    params.format = look.format;
-    if (look.width_px > 0) {
-        params.height_px = std::max(200, params.height_px * look.width_px / params.width_px);
-        params.width_px = look.width_px;
-    }
-    return draw::hypsometry(found.curve, found.integral, params);
-}
-
-/// Profile and curve keep their shape at another width.
+/// Pictures of a given shape keep it at another width.
 template <class Params> Params sized(Look const& look) {
     Params params;
     params.format = look.format;
     if (look.width_px > 0) {
-        params.height_px = std::max(200, params.height_px * look.width_px / params.width_px);
+        params.height_px = std::clamp(params.height_px * look.width_px / params.width_px, 200, 8000);
         params.width_px = look.width_px;
     }
     return params;
+}
+
+draw::Picture draw_hypsometry(Scene const& scene, Look const& look) {
+    Hypsometry const found = hypsometry_of(*scene.dem);
+    draw::HypsometryParams params = sized<draw::HypsometryParams>(look);
+    params.title = scene.title;
+    return draw::hypsometry(found.curve, found.integral, params);
 }
 
 } // namespace
@@ -146,6 +141,10 @@ char const* name_of(PictureKind kind) {
     case PictureKind::wireframe: break;
     }
     return "wireframe";
+}
+
+std::string title_of(Recipe const& recipe) {
+    return recipe.output.title.empty() ? fmt::format("thalweg, seed {}", recipe.seed) : recipe.output.title;
 }
 
 double round_interval(double relief_m) {
@@ -181,7 +180,11 @@ draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& loo
     }
     switch (kind) {
     case PictureKind::map: return draw_map(scene, look, run);
-    case PictureKind::profile: return draw::profile(*scene.network, scene.orders, sized<draw::ProfileParams>(look));
+    case PictureKind::profile: {
+        draw::ProfileParams params = sized<draw::ProfileParams>(look);
+        params.title = scene.title;
+        return draw::profile(*scene.network, scene.orders, params);
+    }
     case PictureKind::hypsometry: return draw_hypsometry(scene, look);
     case PictureKind::wireframe: return draw_wireframe(scene, look);
     case PictureKind::sections: {

@@ -11,6 +11,7 @@
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/draw/picture.hpp>
+#include <thalweg/pipeline/recipe.hpp>
 
 namespace thalweg::pipeline {
 
@@ -46,6 +47,9 @@ std::string missing_for(PictureKind kind, Scene const& scene);
 /// Draws one picture of a scene.
 /// Throws: BadInput when something is missing for it; what the pictures throw.
 draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& look, Run const& run = {});
+
+/// The title of a recipe's pictures: its own, else one that names the seed.
+std::string title_of(Recipe const& recipe);
 
 /// A round contour interval (1, 2 or 5 times a power of ten) that gives about twenty contours.
 double round_interval(double relief_m);

@@ -134,26 +134,24 @@ std::optional<RaisedNetwork> rivers_on(Raster<float> const& dem, std::string con
     return drape(std::move(adopted.network), dem);
 }
 
-/// The increments of the surface, from the recipe and the number of levels the report names.
+/// The increments of the surface: the recipe names them, the report says how many there were and how they were scaled.
 void read_increments(Scene& scene, Recipe const& recipe, std::string const& report) {
     auto const json = nlohmann::json::parse(report, nullptr, false);
-    if (!recipe.surface || !json.is_object() || !json.contains("dem") || !json["dem"].contains("levels") ||
-        !json["dem"]["levels"].is_number_integer()) {
+    auto const dem = json.is_object() && json.contains("dem") ? json["dem"] : nlohmann::json();
+    if (!recipe.surface || !dem.is_object() || !dem.contains("levels") || !dem["levels"].is_number_integer() ||
+        !dem.contains("metres_per_unit") || !dem["metres_per_unit"].is_number()) {
         return;
     }
     constexpr std::int64_t most = 1 << 24;
-    std::int64_t const levels = json["dem"]["levels"].get<std::int64_t>();
+    std::int64_t const levels = dem["levels"].get<std::int64_t>();
     if (levels < 1 || levels > most) {
         return;
     }
-    surface::DilateParams const& dilate = recipe.surface->dilate;
-    scene.increments = surface::increments(levels, dilate.increment);
-    scene.increment = dilate.increment.increment;
-    std::vector<double> const sums = surface::heights_above_valley(scene.increments);
-    double const top = *std::max_element(sums.begin(), sums.end());
-    double const factor = dilate.relief_m > 0.0 ? (top > 0.0 ? dilate.relief_m / top : 1.0) : recipe.grid.cell_m;
+    surface::IncrementParams const& wanted = recipe.surface->dilate.increment;
+    scene.increments = surface::increments(levels, wanted);
+    scene.increment = wanted.increment;
     for (double& increment : scene.increments) {
-        increment *= factor;
+        increment *= dem["metres_per_unit"].get<double>();
     }
 }
 
@@ -179,7 +177,7 @@ SceneRead read_folder(fs::path const& folder, std::string const& network, Run co
     }
     if (fs::exists(recipe)) {
         Recipe const made = read_recipe(io::read_text(recipe, 2 << 20), recipe);
-        scene.title = made.output.title.empty() ? fmt::format("thalweg, seed {}", made.seed) : made.output.title;
+        scene.title = title_of(made);
         scene.contour_interval_m = made.output.contour_interval_m;
         if (fs::exists(report)) {
             read_increments(scene, made, io::read_text(report, largest_text));

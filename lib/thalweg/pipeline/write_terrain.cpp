@@ -80,7 +80,7 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
     io::write_mask(cells, out.path("network.tif"), run);
 }
 
-void write_surface(Terrain const& t, io::OutputFolder const& out, Run const& run) {
+void write_surface(Terrain const& t, std::string const& title, io::OutputFolder const& out, Run const& run) {
     Raster<float> const& dem = t.surface->dem;
     double const relief = t.statistics->max.z - t.statistics->min.z;
     double const asked = t.recipe.output.contour_interval_m;
@@ -94,18 +94,18 @@ void write_surface(Terrain const& t, io::OutputFolder const& out, Run const& run
         sheet.contours.emplace_back(z, line);
     }
     draw::MapParams map;
-    map.title = t.recipe.output.title.empty() ? fmt::format("thalweg, seed {}", t.recipe.seed) : t.recipe.output.title;
+    map.title = title;
     map.contour_interval_m = interval;
     io::write_text(out.path("map.png"), draw::map(sheet, map).bytes);
     io::write_text(out.path("curve.svg"),
                    draw::curve(t.surface->increments, {t.recipe.surface->dilate.increment.increment}).bytes);
     draw::WireframeScene const land{dem, &t.network, &t.orders};
     draw::WireframeParams wireframe;
-    wireframe.title = map.title;
+    wireframe.title = title;
     wireframe.azimuth_deg = draw::azimuth_up_valley(land);
     io::write_text(out.path("wireframe.svg"), draw::wireframe(land, wireframe).bytes);
     draw::SectionsParams sections;
-    sections.title = map.title;
+    sections.title = title;
     io::write_text(out.path("sections.svg"), draw::sections(dem, &t.network, &t.orders, sections).bytes);
 }
 
@@ -122,10 +122,13 @@ std::vector<std::string> write_terrain(Terrain const& terrain, std::string const
     Recipe const recipe = keep_inputs(terrain, out);
     write_network(terrain, out, run);
     run.at(0.3, "write");
+    std::string const title = title_of(terrain.recipe);
     if (terrain.surface) {
-        write_surface(terrain, out, run);
+        write_surface(terrain, title, out, run);
     }
-    io::write_text(out.path("profile.svg"), draw::profile(terrain.network, terrain.orders).bytes);
+    draw::ProfileParams profile;
+    profile.title = title;
+    io::write_text(out.path("profile.svg"), draw::profile(terrain.network, terrain.orders, profile).bytes);
     io::write_text(out.path("recipe.toml"), write_recipe(recipe));
     run.at(0.9, "write");
     std::vector<std::string> files = out.files();
