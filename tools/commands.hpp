@@ -29,6 +29,7 @@ using Command = std::function<int()>;
 Command add_make(CLI::App& app, Session& session);
 Command add_check(CLI::App& app, Session& session);
 Command add_stats(CLI::App& app, Session& session);
+Command add_draw(CLI::App& app, Session& session);
 Command add_replay(CLI::App& app, Session& session);
 Command add_recipe(CLI::App& app, Session& session);
 // Of the command line itself: they read the other commands.

@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
     add("make", "Make a terrain from a recipe, or the sample valley without one.", add_make);
     add("check", "Check the topology of a network's files.", add_check);
     add("stats", "Measure a DEM.", add_stats);
+    add("draw", "Draw pictures of a DEM, or of what make left.", add_draw);
     add("replay", "Run a folder's recipe again and compare the bytes.", add_replay);
     add("recipe", "List every key of a recipe.", add_recipe);
     CLI::App* const completion =

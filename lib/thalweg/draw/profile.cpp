@@ -99,7 +99,9 @@ Picture profile(RaisedNetwork const& network, NetworkOrders const& orders, Profi
         Plot axes = plot;
         axes.x_high = in_km ? plot.x_high / 1000.0 : plot.x_high;
         TextStyle const title{1.35 * unit, ink, Weight::bold};
-        draw_text_within(sheet, {box.x, 2.2 * unit}, "Long profiles", title, 0.45 * box.width);
+        draw_text_within(sheet, {box.x, 2.2 * unit},
+                         params.title.empty() ? "Long profiles" : params.title + ": long profiles", title,
+                         0.62 * box.width);
         draw_axes(sheet, axes, in_km ? "distance from the outlet [km]" : "distance from the outlet [m]", "height [m]",
                   unit);
         if (reaches.empty()) {
