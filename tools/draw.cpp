@@ -46,30 +46,35 @@ int draw(Options const& options, Session const& session) {
 Command add_draw(CLI::App& app, Session& session) {
     auto const options = std::make_shared<Options>();
     pipeline::DrawParams& params = options->params;
-    app.add_option("SOURCE", options->source, "a folder that make left, or any raster of heights")->required();
-    app.add_option("-o,--output", options->output, "folder for the pictures, or the name of one (.png, .svg, .pdf)")
+    app.add_option("SOURCE", options->source, "A folder that make left, or any raster of heights.")->required();
+    app.add_option("-o,--output", options->output,
+                   "The folder for the pictures, or the name of one (.png, .svg, .pdf).")
         ->required();
-    app.add_option("--what", params.what,
-                   "map, profile, curve, hypsometry, sections, wireframe; without it all that can be drawn")
+    app.add_option(
+           "--what", params.what,
+           "Draw these: map, profile, curve, hypsometry, sections, wireframe; without it all that can be drawn.")
         ->delimiter(',')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--format", params.formats, "png, svg, pdf; without it png")
+    app.add_option("--format", params.formats, "Write these formats: png, svg, pdf; without it png.")
         ->delimiter(',')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--network", params.network, "rivers to draw: any file of lines");
-    app.add_option("--title", params.title, "of the pictures");
-    app.add_option("--width", params.look.width_px, "of the pictures [pixels]")->check(CLI::Range(200, 8000));
+    app.add_option("--network", params.network, "Draw the rivers of this file, any file of lines.");
+    app.add_option("--title", params.title, "Give the pictures this title.");
+    app.add_option("--width", params.look.width_px, "Make the pictures this wide [pixels].")
+        ->check(CLI::Range(200, 8000));
     app.add_option("--azimuth", params.look.azimuth_deg,
-                   "the way one looks at the wireframe [degrees from north, clockwise]; without it up the valley")
+                   "Look at the wireframe this way [degrees from north, clockwise]; without it up the valley.")
         ->check(CLI::Range(-360.0, 360.0));
-    app.add_option("--elevation", params.look.elevation_deg, "of the eye above the wireframe's horizon [degrees]")
+    app.add_option("--elevation", params.look.elevation_deg,
+                   "Look at the wireframe from this far above the horizon [degrees].")
         ->check(CLI::Range(5.0, 85.0));
-    app.add_option("--exaggeration", params.look.exaggeration, "of the wireframe's heights; without it a round number")
+    app.add_option("--exaggeration", params.look.exaggeration,
+                   "Multiply the wireframe's heights; without it by a round number that reads well.")
         ->check(CLI::Range(0.001, 100000.0));
-    app.add_flag("--overwrite", options->overwrite, "replace pictures of the same names");
-    app.add_flag("--json", session.json, "one JSON object on stdout");
+    app.add_flag("--overwrite", options->overwrite, "Replace pictures of the same names.");
+    app.add_flag("--json", session.json, "Print one JSON object to stdout.");
     return [options, &session] { return draw(*options, session); };
 }
 

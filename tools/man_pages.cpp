@@ -41,6 +41,8 @@ Rows const made{
     {"network.tif", "The cells in which rivers run."},
     {"contours.gpkg", "Contour lines."},
     {"map.png, profile.svg, curve.svg", "A map, the long profiles of the streams, the curve of the increments."},
+    {"wireframe.svg, sections.svg", "The land as a net of lines seen up the valley, and sections across it."},
+    {"report.html", "Terrain, rivers, diagrams and figures on one page for any browser; it needs no internet."},
     {"report.json", "Figures, timings, checks and repairs."},
     {"recipe.toml, inputs/", "The recipe with every default written out, and the files it names."},
 };
