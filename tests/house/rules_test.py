@@ -41,6 +41,8 @@ PLANTED = [
     ("scripts/a.sh", "pip install x", "only Debian packages"),
     ("scripts/b.sh", "curl -O x", "only Debian packages"),
     ("web/package-lock.json", '"resolved": "https://mirror.example/x.tgz"', "a foreign registry"),
+    ("web/src/report.html", "see /" + "home/somebody", "a path of one machine"),
+    ("web/dist/other.html", "see /" + "home/somebody", "a path of one machine"),
     ("CMakeLists.txt", "add_compile_options(-march=native)", "changes bits"),
 ]
 # What looks like a violation and is none.
@@ -58,6 +60,7 @@ INNOCENT = [
     ("tools/make.cpp", '#include <CLI/CLI.hpp>\n#include "commands.hpp"\n#include <unistd.h>'),
     ("docs/a.md", "${ROOT}/work and file/home and https://x.example/tmp.html"),
     ("web/package-lock.json", '"resolved": "https://registry.npmjs.org/x.tgz"'),
+    ("web/dist/report.html", 'a="/' + 'home/";b="curl -O x and pip install x"'),
 ]
 
 

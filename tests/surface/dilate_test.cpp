@@ -162,7 +162,8 @@ TEST(Dilate, ReachesTheReliefAskedFor) {
         Mask const inside = walled ? valleys::barriers(valley, 0.3, 9) : Mask(valley.z.grid(), 1);
         Metric const metric = *rc::gen::element(Metric::cityblock, Metric::euclid).as("metric");
         std::string const increment = *rc::gen::element<std::string>("rise_fall", "decreasing", "4-x").as("increment");
-        DilateParams params = with(increment, metric, 250.0);
+        double const relief_m = *rc::gen::element(0.0, 250.0).as("relief");
+        DilateParams params = with(increment, metric, relief_m);
         params.increment.allow_negative = true;
         Dilated const d = dilate(valley, inside, params);
         RC_ASSERT(static_cast<std::int64_t>(d.increments.size()) == d.levels);
@@ -170,7 +171,10 @@ TEST(Dilate, ReachesTheReliefAskedFor) {
         for (float const z : d.dem.values()) {
             highest = z > highest ? z : highest;
         }
-        RC_ASSERT(highest == (d.levels > 0 ? 250.0F : 0.0F));
+        RC_ASSERT(std::fabs(static_cast<double>(highest) - d.rise_m) <= 1e-6 * d.rise_m);
+        if (relief_m > 0.0) {
+            RC_ASSERT(highest == (d.levels > 0 ? 250.0F : 0.0F));
+        }
     }));
 }
 

@@ -106,8 +106,8 @@ void hold_to_contract(fs::path const& folder) {
     ASSERT_NE(dem->GetSpatialRef(), nullptr);
     EXPECT_TRUE(dem->GetSpatialRef()->IsSame(layer->GetSpatialRef()));
 
-    for (char const* name : {"map.png", "profile.svg", "curve.svg", "wireframe.svg", "sections.svg", "contours.gpkg",
-                             "recipe.toml", "network_nodes.shp"}) {
+    for (char const* name : {"report.html", "map.png", "profile.svg", "curve.svg", "wireframe.svg", "sections.svg",
+                             "contours.gpkg", "recipe.toml", "network_nodes.shp"}) {
         EXPECT_TRUE(fs::exists(folder / name)) << name;
     }
 }

@@ -143,10 +143,6 @@ char const* name_of(PictureKind kind) {
     return "wireframe";
 }
 
-std::string title_of(Recipe const& recipe) {
-    return recipe.output.title.empty() ? fmt::format("thalweg, seed {}", recipe.seed) : recipe.output.title;
-}
-
 double round_interval(double relief_m) {
     double step = 1e-3;
     while (step * 20.0 < relief_m) {

@@ -48,9 +48,6 @@ std::string missing_for(PictureKind kind, Scene const& scene);
 /// Throws: BadInput when something is missing for it; what the pictures throw.
 draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& look, Run const& run = {});
 
-/// The title of a recipe's pictures: its own, else one that names the seed.
-std::string title_of(Recipe const& recipe);
-
 /// A round contour interval (1, 2 or 5 times a power of ten) that gives about twenty contours.
 double round_interval(double relief_m);
 

@@ -228,6 +228,10 @@ std::string write_recipe(Recipe const& recipe) {
     return out;
 }
 
+std::string title_of(Recipe const& recipe) {
+    return recipe.output.title.empty() ? fmt::format("thalweg, seed {}", recipe.seed) : recipe.output.title;
+}
+
 void check_recipe(Recipe const& recipe) {
     std::vector<std::string> faults;
     if (!recipe.network) {

@@ -59,7 +59,7 @@ struct SurfaceRecipe {
 };
 
 struct OutputRecipe {
-    std::string title;               ///< of the pictures; "" takes the recipe's name
+    std::string title;               ///< of the pictures and the page; "" names the seed
     double contour_interval_m = 0.0; ///< [m] 0 chooses a round number
 };
 
@@ -84,6 +84,7 @@ struct KeyHelp {
     std::string unit;     ///< "" for none
     std::string standard; ///< default as TOML, or in words
     std::string meaning;
+    std::vector<std::string> choices = {}; ///< words it may be; of an expression, those with a name; {} for none
 };
 
 /// Every key in the order of recipe files.
@@ -98,6 +99,9 @@ void set_key(Recipe& recipe, std::string const& assignment);
 
 /// The recipe as TOML, every default written out, sections without a stage left out. read_recipe gives it back.
 std::string write_recipe(Recipe const& recipe);
+
+/// The title of what a recipe makes: output.title, or "thalweg, seed 7" where that is "".
+std::string title_of(Recipe const& recipe);
 
 /// Throws BadParameter naming all that does not fit together (a source without its file, ...).
 void check_recipe(Recipe const& recipe);

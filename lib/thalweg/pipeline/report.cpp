@@ -60,6 +60,23 @@ ordered_json recipe_object(Recipe const& recipe) {
     return ordered_json::parse(text.str());
 }
 
+/// A ratio, or null where it is unknown.
+ordered_json ratio(std::optional<double> const& value) {
+    return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json horton(measure::HortonLaws const& laws) {
+    ordered_json orders = ordered_json::array();
+    for (measure::StreamOrder const& o : laws.orders) {
+        orders.push_back(
+            {{"order", o.order}, {"streams", o.streams}, {"length_m", o.length_m}, {"area_m2", o.area_m2}});
+    }
+    return {{"orders", orders},
+            {"bifurcation", ratio(laws.bifurcation)},
+            {"length", ratio(laws.length)},
+            {"area", ratio(laws.area)}};
+}
+
 ordered_json network_object(Terrain const& t) {
     StreamNetwork const& plan = t.network.plan;
     NetworkIndex const index(plan);
@@ -89,7 +106,8 @@ ordered_json network_object(Terrain const& t) {
              {{"arcs", h.uphill_arcs}, {"length_m", h.uphill_length_m}, {"max_rise_m", h.max_rise_m}}},
             {"lifted", {{"count", h.lifted}, {"max_m", h.max_lift_m}, {"rms_m", h.rms_lift_m}}},
             {"lowered_cells", {{"count", t.story.lowered_cells}, {"max_m", t.story.max_lowered_m}}},
-            {"area_from", t.areas.source}};
+            {"area_from", t.areas.source},
+            {"horton", horton(t.laws)}};
 }
 
 /// From the increments as the recipe names them to those used.
@@ -122,6 +140,7 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
                         {"network", network_object(t)}};
     if (t.statistics) {
         report["dem"] = dem(*t.statistics);
+        report["dem"]["hypsometric_integral"] = t.hypsometry->integral;
         report["dem"]["flat_share"] = t.surface->flat_share;
         report["dem"]["levels"] = t.surface->levels;
         report["dem"]["metres_per_unit"] = metres_per_unit(t);

@@ -15,6 +15,8 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/measure/drainage.hpp>
+#include <thalweg/measure/horton.hpp>
+#include <thalweg/measure/hypsometry.hpp>
 #include <thalweg/measure/statistics.hpp>
 #include <thalweg/pipeline/recipe.hpp>
 
@@ -40,9 +42,11 @@ struct Terrain {
     RaisedNetwork network;
     NetworkOrders orders;
     measure::ContributingAreas areas;
+    measure::HortonLaws laws;
     Valley valley;
     std::optional<surface::Dilated> surface;
     std::optional<measure::Statistics> statistics; ///< of the surface
+    std::optional<measure::Hypsometry> hypsometry; ///< likewise
     std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
     double pit_volume_m3 = 0.0;
     NetworkStory story;

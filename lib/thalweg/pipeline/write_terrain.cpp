@@ -10,6 +10,7 @@
 #include <thalweg/io/dataset_files.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/io/write_network.hpp>
+#include <thalweg/pipeline/page.hpp>
 #include <thalweg/pipeline/pictures.hpp>
 #include <thalweg/pipeline/report.hpp>
 
@@ -32,6 +33,11 @@ constexpr std::int64_t largest_report = 1 << 30;
 std::vector<std::string> files_left_in(std::string const& folder) {
     std::string const report = folder + "/report.json";
     return fs::exists(report) ? files_of_report(io::read_text(report, largest_report)) : std::vector<std::string>{};
+}
+
+double contour_interval(Terrain const& t) {
+    double const asked = t.recipe.output.contour_interval_m;
+    return asked > 0.0 ? asked : round_interval(t.statistics->max.z - t.statistics->min.z);
 }
 
 /// Copies a named input and its companions into a folder of the output and gives the name it has there. A source that
@@ -82,9 +88,7 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
 
 void write_surface(Terrain const& t, std::string const& title, io::OutputFolder const& out, Run const& run) {
     Raster<float> const& dem = t.surface->dem;
-    double const relief = t.statistics->max.z - t.statistics->min.z;
-    double const asked = t.recipe.output.contour_interval_m;
-    double const interval = asked > 0.0 ? asked : round_interval(relief);
+    double const interval = contour_interval(t);
     auto const contours = io::contours(dem, interval, run);
     io::write_dem(dem, out.path("dem.tif"), run);
     io::write_contours(contours, interval, t.grid.crs, out.path("contours.gpkg"), run);
@@ -129,7 +133,10 @@ std::vector<std::string> write_terrain(Terrain const& terrain, std::string const
     draw::ProfileParams profile;
     profile.title = title;
     io::write_text(out.path("profile.svg"), draw::profile(terrain.network, terrain.orders, profile).bytes);
-    io::write_text(out.path("recipe.toml"), write_recipe(recipe));
+    std::string const recipe_toml = write_recipe(recipe);
+    io::write_text(out.path("recipe.toml"), recipe_toml);
+    io::write_text(out.path("report.html"),
+                   page(terrain, {terrain.surface ? contour_interval(terrain) : 0.0, recipe_toml}, run));
     run.at(0.9, "write");
     std::vector<std::string> files = out.files();
     files.emplace_back("report.json");

@@ -70,8 +70,10 @@ std::vector<double> to_metres(std::vector<double>& dh, double top, double greate
 std::vector<double> use_increments(Dilated& dilated, double greatest, DilateParams const& params) {
     dilated.increments = increments(dilated.levels, params.increment);
     std::vector<double> const units = heights_above_valley(dilated.increments);
-    return to_metres(dilated.increments, *std::max_element(units.begin(), units.end()), greatest, params,
-                     dilated.dem.grid());
+    std::vector<double> sums = to_metres(dilated.increments, *std::max_element(units.begin(), units.end()), greatest,
+                                         params, dilated.dem.grid());
+    dilated.rise_m = *std::max_element(sums.begin(), sums.end());
+    return sums;
 }
 
 double greatest_height(Raster<float> const& valley) {
@@ -210,6 +212,7 @@ Dilated dilate_euclid(Valley valley, Mask const& inside, DilateParams const& par
         }
     }
     std::vector<double> const sums = to_metres(dilated.increments, top, greatest_height(valley.z), params, grid);
+    dilated.rise_m = farthest > 0.0 ? top * metres_per_unit(top, params, grid) : 0.0;
     dilated.dem = valley.z;
     parallel_ranges(run, grid.height, 64, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first * grid.width; i < last * grid.width; ++i) {

@@ -47,6 +47,7 @@ struct Dilated {
     Raster<float> dem;              ///< [m] NaN where no dilation came
     std::vector<double> increments; ///< [m] dh(x), x = 1 .. levels, as used
     std::int64_t levels = 0;        ///< greatest number of dilations (euclid: greatest distance in cells, rounded up)
+    double rise_m = 0.0;            ///< [m] greatest sum of increments on this grid, as used: what relief_m asks for
     double flat_share = 0.0;        ///< [0,1] of the cells of the DEM off the valley: those without a lower 4-neighbour
 };
 

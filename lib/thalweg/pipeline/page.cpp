@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/page.hpp>
+
+#include <thalweg/io/packed.hpp>
+#include <thalweg/pipeline/fill_page.hpp>
+#include <thalweg/pipeline/page_data.hpp>
+#include <thalweg/pipeline/page_heights.hpp>
+#include <thalweg/pipeline/page_lines.hpp>
+#include <thalweg/pipeline/page_template.hpp>
+
+#include <nlohmann/json.hpp>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+/// A text with all that is no UTF-8 replaced.
+std::string as_utf8(std::string const& text) {
+    using nlohmann::json;
+    return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+}
+
+std::string html_text(std::string const& text) {
+    std::string out;
+    for (char const c : text) {
+        switch (c) {
+        case '&': out += "&amp;"; break;
+        case '<': out += "&lt;"; break;
+        case '>': out += "&gt;"; break;
+        case '"': out += "&quot;"; break;
+        case '\'': out += "&#39;"; break;
+        default: out += c;
+        }
+    }
+    return out;
+}
+
+PageLines lines_of(StreamNetwork const& plan, Grid const& grid) {
+    std::vector<std::span<Vec2 const>> lines;
+    for (ArcId const arc : boost::make_iterator_range(boost::edges(plan))) {
+        lines.emplace_back(plan[arc].line);
+    }
+    return page_lines(lines, grid);
+}
+
+} // namespace
+
+std::string page(Terrain const& terrain, PageParams const& params, Run const& run) {
+    std::optional<PageHeights> const heights = terrain.surface ? page_heights(terrain.surface->dem, run) : std::nullopt;
+    run.check();
+    PageLines const lines = lines_of(terrain.network.plan, terrain.grid);
+    PageParts parts;
+    parts.title = html_text(as_utf8(title_of(terrain.recipe)));
+    parts.data = page_data(terrain, params, heights, lines);
+    parts.heights = heights ? io::packed(heights->bytes) : "";
+    parts.lines = io::packed(lines.bytes);
+    return fill_page(page_template(), parts);
+}
+
+} // namespace thalweg::pipeline

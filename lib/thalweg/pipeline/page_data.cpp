@@ -1,0 +1,316 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/page_data.hpp>
+
+#include <thalweg/pipeline/report.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t most_points = 600;
+constexpr std::size_t most_shown = 50;
+
+/// To the millimetre, so that no digits are written that no one needs.
+double rounded(double metres) {
+    constexpr double finest = 1e12; // beyond, a double has not much finer steps
+    return std::fabs(metres) < finest ? std::floor(metres * 1000.0 + 0.5) / 1000.0 : metres;
+}
+
+ordered_json ratio(std::optional<double> const& value) {
+    return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+/// At most so many of a list, evenly, the first and last among them.
+template <class T> std::vector<T> thinned(std::vector<T> const& all) {
+    if (all.size() <= most_points) {
+        return all;
+    }
+    std::vector<T> some;
+    for (std::size_t i = 0; i < most_points; ++i) {
+        some.push_back(all[i * (all.size() - 1) / (most_points - 1)]);
+    }
+    return some;
+}
+
+ordered_json grid_object(Grid const& grid) {
+    return {{"width", grid.width}, {"height", grid.height}, {"cell_m", grid.cell_m},
+            {"west", grid.west},   {"north", grid.north},   {"crs", grid.crs}};
+}
+
+ordered_json heights_object(std::optional<PageHeights> const& heights) {
+    if (!heights) {
+        return nullptr;
+    }
+    return {{"width", heights->width}, {"height", heights->height}, {"cells", heights->cells},
+            {"min", heights->min},     {"max", heights->max},       {"nodata", heights->nodata}};
+}
+
+ordered_json arcs_object(Terrain const& t, NetworkIndex const& index, PageLines const& lines) {
+    ordered_json id = ordered_json::array();
+    ordered_json downstream = ordered_json::array();
+    ordered_json survives = ordered_json::array();
+    ordered_json length = ordered_json::array();
+    ordered_json z_up = ordered_json::array();
+    ordered_json z_down = ordered_json::array();
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        id.push_back(a + 1);
+        downstream.push_back(index.out[index.to[a]] + 1);
+        double const until = t.network.plan[index.arcs[a]].survives;
+        survives.push_back(std::isfinite(until) ? ordered_json(rounded(until)) : ordered_json(nullptr));
+        length.push_back(rounded(index.length_m[a]));
+        z_up.push_back(rounded(t.network.arc_z[a].front()));
+        z_down.push_back(rounded(t.network.arc_z[a].back()));
+    }
+    std::vector<std::int64_t> const n(lines.vertices.begin(),
+                                      lines.vertices.begin() + static_cast<std::ptrdiff_t>(index.arcs.size()));
+    return {{"id", id},
+            {"ds", downstream},
+            {"basin", t.orders.arc_basin},
+            {"strahler", t.orders.strahler},
+            {"shreve", t.orders.shreve},
+            {"hack", t.orders.hack},
+            {"survives", survives},
+            {"length", length},
+            {"z_up", z_up},
+            {"z_down", z_down},
+            {"us_area", t.areas.us_area_m2},
+            {"ds_area", t.areas.ds_area_m2},
+            {"n", n}};
+}
+
+/// A place on a profile: distance to the outlet and height, both in metres.
+struct ProfilePoint {
+    double to_outlet_m;
+    double z;
+};
+
+/// The main stem of the basin that drains the largest area, from its source down.
+std::vector<ProfilePoint> main_stem(Terrain const& t, NetworkIndex const& index) {
+    std::vector<ProfilePoint> upstream;
+    if (index.outlets.empty()) {
+        return upstream;
+    }
+    NodeId const outlet = *std::max_element(index.outlets.begin(), index.outlets.end(), [&](NodeId a, NodeId b) {
+        return t.areas.node_m2[a] < t.areas.node_m2[b];
+    });
+    auto const stem_above = [&](NodeId node) {
+        auto const& in = index.in[node];
+        auto const at = std::find_if(in.begin(), in.end(),
+                                     [&](std::int64_t a) { return t.orders.hack[static_cast<std::size_t>(a)] == 1; });
+        return at == in.end() ? std::int64_t{-1} : *at;
+    };
+    for (std::int64_t arc = stem_above(outlet); arc >= 0;) {
+        auto const a = static_cast<std::size_t>(arc);
+        std::vector<Vec2> const& line = t.network.plan[index.arcs[a]].line;
+        double to_outlet = t.orders.node_dist_out_m[index.to[a]];
+        for (std::size_t i = line.size(); i-- > 0;) {
+            bool const shared = i + 1 == line.size() && !upstream.empty();
+            to_outlet += i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0;
+            if (!shared) {
+                upstream.push_back({to_outlet, t.network.arc_z[a][i]});
+            }
+        }
+        arc = stem_above(index.from[a]);
+    }
+    std::reverse(upstream.begin(), upstream.end());
+    return upstream;
+}
+
+ordered_json profile_array(std::vector<ProfilePoint> const& stem) {
+    ordered_json out = ordered_json::array();
+    for (ProfilePoint const& p : thinned(stem)) {
+        out.push_back({rounded(p.to_outlet_m), rounded(p.z)});
+    }
+    return out;
+}
+
+ordered_json curve_object(Terrain const& t) {
+    if (!t.surface || !t.recipe.surface || t.surface->increments.empty()) {
+        return nullptr;
+    }
+    std::vector<ordered_json> points;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < t.surface->increments.size(); ++i) {
+        sum += t.surface->increments[i];
+        points.push_back({i + 1, rounded(t.surface->increments[i]), rounded(sum)});
+    }
+    return {{"name", t.recipe.surface->dilate.increment.increment}, {"points", thinned(points)}};
+}
+
+ordered_json hypsometry_object(Terrain const& t) {
+    if (!t.hypsometry) {
+        return nullptr;
+    }
+    ordered_json points = ordered_json::array();
+    for (measure::HypsometricPoint const& p : t.hypsometry->points) {
+        points.push_back({p.share_above, rounded(p.z)});
+    }
+    return {{"integral", t.hypsometry->integral}, {"points", points}};
+}
+
+ordered_json laws_object(measure::HortonLaws const& laws) {
+    ordered_json orders = ordered_json::array();
+    for (measure::StreamOrder const& o : laws.orders) {
+        orders.push_back({{"order", o.order},
+                          {"streams", o.streams},
+                          {"length_m", rounded(o.length_m)},
+                          {"area_m2", rounded(o.area_m2)}});
+    }
+    return {{"orders", orders},
+            {"bifurcation", ratio(laws.bifurcation)},
+            {"length", ratio(laws.length)},
+            {"area", ratio(laws.area)}};
+}
+
+/// A list of figures: what was asked, where something was, and what came of it.
+class Figures {
+public:
+    template <class Number> void add(char const* name, Number got, char const* unit) {
+        rows_.push_back({{"name", name}, {"asked", nullptr}, {"got", got}, {"unit", unit}});
+    }
+    template <class Number> void add(char const* name, std::optional<Number> asked, Number got, char const* unit) {
+        add(name, got, unit);
+        if (asked) {
+            rows_.back()["asked"] = *asked;
+        }
+    }
+    ordered_json take() { return std::move(rows_); }
+
+private:
+    ordered_json rows_ = ordered_json::array();
+};
+
+void add_land(Terrain const& t, Figures& figures) {
+    measure::Statistics const& s = *t.statistics;
+    double const relief = t.recipe.surface ? t.recipe.surface->dilate.relief_m : 0.0;
+    figures.add("mean height", rounded(s.mean), "m");
+    figures.add("standard deviation", rounded(s.std), "m");
+    figures.add("lowest height", rounded(s.min.z), "m");
+    figures.add("highest height", rounded(s.max.z), "m");
+    figures.add("relief, highest less lowest", rounded(s.max.z - s.min.z), "m");
+    if (t.recipe.surface) {
+        figures.add("greatest rise above the valley", relief > 0.0 ? std::optional(relief) : std::nullopt,
+                    rounded(t.surface->rise_m), "m");
+    }
+    figures.add("mean slope", s.slope_true_deg, "degrees");
+    figures.add("hypsometric integral", t.hypsometry->integral, "");
+    figures.add("cells in pits", t.pits, "");
+}
+
+void add_rivers(Terrain const& t, NetworkIndex const& index, std::vector<ProfilePoint> const& stem, Figures& figures) {
+    std::optional<NetworkRecipe> const& wanted = t.recipe.network;
+    double const length = std::accumulate(index.length_m.begin(), index.length_m.end(), 0.0);
+    auto const land = static_cast<double>(t.statistics ? t.statistics->cells : t.grid.cells());
+    if (wanted && wanted->source == Source::dla) {
+        figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.story.particles, "");
+    }
+    figures.add("arcs", index.arcs.size(), "");
+    figures.add("outlets", index.outlets.size(), "");
+    figures.add("highest Strahler order", t.laws.orders.size(), "");
+    figures.add("length of all rivers", rounded(length / 1000.0), "km");
+    figures.add("drainage density", length / 1000.0 / (land * t.grid.cell_m * t.grid.cell_m / 1e6), "km/km2");
+    if (!stem.empty() && stem.front().to_outlet_m > 0.0) {
+        // Only along_stream asks for a slope along the water; the others ask for one along a straight line.
+        figures.add("slope of the main stem",
+                    wanted && wanted->heights == Heights::along_stream ? std::optional(wanted->slope) : std::nullopt,
+                    (stem.front().z - stem.back().z) / stem.front().to_outlet_m, "m/m");
+    }
+}
+
+ordered_json shown(std::vector<Finding> const& findings) {
+    ordered_json texts = ordered_json::array();
+    for (std::size_t i = 0; i < std::min(findings.size(), most_shown); ++i) {
+        texts.push_back(findings[i].text);
+    }
+    return {{"count", findings.size()}, {"shown", texts}};
+}
+
+ordered_json checks_array(std::vector<Check> const& checks) {
+    ordered_json out = ordered_json::array();
+    for (Check const& c : checks) {
+        out.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"ok", c.ok}});
+    }
+    return out;
+}
+
+ordered_json timings_array(Terrain const& t) {
+    ordered_json out = ordered_json::array();
+    for (auto const& [stage, seconds] : t.timings_s) {
+        out.push_back({stage, rounded(seconds)});
+    }
+    return out;
+}
+
+ordered_json notes_array(Terrain const& t, std::optional<PageHeights> const& heights) {
+    ordered_json out = ordered_json::array();
+    if (!t.surface) {
+        out.push_back("the recipe asks for no surface: the page shows the rivers alone");
+    }
+    if (heights && heights->cells > 1) {
+        out.push_back(fmt::format("heights are shown as means of {0}x{0} cells", heights->cells));
+    }
+    return out;
+}
+
+/// Within a string of JSON any character may be written so; elsewhere JSON has no '<'.
+std::string without_tags(std::string const& json) {
+    std::string out;
+    out.reserve(json.size());
+    for (char const c : json) {
+        if (c == '<') {
+            out += "\\u003c";
+        } else {
+            out += c;
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+std::string page_data(Terrain const& t, PageParams const& params, std::optional<PageHeights> const& heights,
+                      PageLines const& lines) {
+    NetworkIndex const index(t.network.plan);
+    std::vector<ProfilePoint> const stem = main_stem(t, index);
+    Figures figures;
+    if (t.statistics) {
+        add_land(t, figures);
+    }
+    add_rivers(t, index, stem, figures);
+    ordered_json const data{{"version", version()},
+                            {"title", title_of(t.recipe)},
+                            {"seed", t.recipe.seed},
+                            {"command", params.command},
+                            {"recipe", params.recipe},
+                            {"grid", grid_object(t.grid)},
+                            {"heights", heights_object(heights)},
+                            {"contour_m", params.contour_interval_m},
+                            {"rivers",
+                             {{"step", lines.step},
+                              {"prune", t.recipe.network ? t.recipe.network->prune_cells.value_or(0.0) : 0.0},
+                              {"arcs", arcs_object(t, index, lines)}}},
+                            {"ridges", nullptr},
+                            {"profile", profile_array(stem)},
+                            {"curve", curve_object(t)},
+                            {"hypsometry", hypsometry_object(t)},
+                            {"laws", laws_object(t.laws)},
+                            {"statistics", figures.take()},
+                            {"checks", checks_array(t.checks)},
+                            {"timings", timings_array(t)},
+                            {"repairs", shown(t.story.repairs)},
+                            {"findings", shown(t.findings)},
+                            {"notes", notes_array(t, heights)}};
+    return without_tags(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,364 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// report.html as readers meet it, in Debian's Chromium. THALWEG_EXE and THALWEG_SOURCE_DIR name the program and the sources.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { barriers, launch, look, open, pickCentre, set } from './browser.mjs';
+
+const exe = process.env.THALWEG_EXE;
+const sources = process.env.THALWEG_SOURCE_DIR;
+const place = fs.mkdtempSync(path.join(os.tmpdir(), 'thalweg-page-'));
+const pageOf = (name) => path.join(place, name, 'report.html');
+const make = (name, ...args) => execFileSync(exe, ['make', ...args, '-o', path.join(place, name), '-q']);
+
+/** Heights of a raster file as GDAL reads them. */
+function heightsOf(file) {
+  const raw = path.join(place, 'heights.raw');
+  execFileSync('gdal_translate', ['-q', '-of', 'ENVI', '-ot', 'Float32', file, raw]);
+  const bytes = fs.readFileSync(raw);
+  return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.length / 4);
+}
+
+/** A page with other data than thalweg gave it. */
+function altered(name, change) {
+  const html = fs.readFileSync(pageOf(name), 'utf8');
+  const [all, head, json, tail] = html.match(/(<script type="application\/json" id="data">)(.*?)(<\/script>)/s);
+  const data = JSON.parse(json);
+  change(data);
+  const file = path.join(place, `${name}-altered.html`);
+  fs.writeFileSync(file, html.replace(all, () => head + JSON.stringify(data) + tail));
+  return file;
+}
+
+let gl;
+let flat;
+before(async () => {
+  make('dla', path.join(sources, 'samples/dla.toml'));
+  make('lines', path.join(sources, 'samples/lines.toml'));
+  make('small', '--set', 'grid.width=150', '--set', 'grid.height=100', '--set', 'network.dla.particles=2500', '--set', 'network.prune=6');
+  [gl, flat] = await Promise.all([launch('webgl'), launch('no3d')]);
+});
+after(async () => {
+  await gl?.close();
+  await flat?.close();
+  fs.rmSync(place, { recursive: true, force: true });
+});
+
+describe('samples/dla.toml with WebGL', () => {
+  let seen;
+  before(async () => {
+    seen = await open(gl, pageOf('dla'));
+  });
+
+  test('is under 3 MB and ready in under 15 s, without a word of complaint and without any request', () => {
+    const bytes = fs.statSync(pageOf('dla')).size;
+    console.log(`# ${bytes} bytes, ready after ${seen.seconds} s`);
+    assert.ok(bytes < 3e6);
+    assert.ok(seen.seconds < 15);
+    assert.deepEqual(seen.complaints, []);
+    assert.equal(seen.requests.length, 1, seen.requests.join(' ')); // the file itself
+  });
+
+  test('has a WebGL 2 view and no error', async () => {
+    assert.deepEqual(await seen.page.evaluate(() => [window.__thalweg.mode, window.__thalweg.error]), ['webgl2', null]);
+  });
+
+  test('shows land in more than 2000 colours and rivers on more than 1500 pixels', async () => {
+    const shown = await look(seen.page);
+    console.log(`# ${shown.colours} colours, ${shown.rivers} river pixels`);
+    assert.ok(shown.colours > 2000);
+    assert.ok(shown.rivers > 1500);
+  });
+
+  test('picks the middle of the grid in the middle of the view, in 3-D and on the map', async () => {
+    for (const way of ['3-D', 'map']) {
+      const at = await pickCentre(seen.page);
+      assert.ok(Math.hypot(at.col - 511.5, at.row - 511.5) <= 2, `${way}: ${JSON.stringify(at)}`);
+      assert.equal(typeof at.z, 'number');
+      await seen.page.click('#bmap');
+    }
+  });
+
+  test('keeps fewer links and draws less river as L rises from 20 to 160', async () => {
+    const kept = [];
+    const rivers = [];
+    for (let L = 20; L <= 160; L += 20) {
+      await set(seen.page, 'L', L);
+      kept.push(await seen.page.evaluate(() => window.__thalweg.kept));
+      rivers.push((await look(seen.page)).rivers);
+    }
+    console.log(`# kept ${kept.join(' ')}; river pixels ${rivers.join(' ')}`);
+    const survives = await seen.page.evaluate(() => JSON.parse(document.getElementById('data').textContent).rivers.arcs.survives);
+    kept.forEach((n, i) => assert.equal(n, survives.filter((s) => s === null || s >= 20 * (i + 1)).length));
+    assert.ok(kept.every((n, i) => i === 0 || n <= kept[i - 1]));
+    assert.ok(kept.at(-1) < kept[0]);
+    assert.ok(rivers.every((n, i) => i === 0 || n <= 1.02 * rivers[i - 1])); // a higher order may be drawn thinner, never wider
+    assert.ok(rivers.at(-1) < 0.7 * rivers[0]);
+    await set(seen.page, 'L', 20);
+  });
+
+  test('holds the heights of dem.tif to (max − min) / 65535', async () => {
+    const wanted = heightsOf(path.join(place, 'dla/dem.tif'));
+    const given = await seen.page.evaluate(() => Array.from(window.__thalweg.heights()));
+    assert.equal(given.length, wanted.length);
+    let [low, high, off] = [Infinity, -Infinity, 0];
+    for (const z of wanted) [low, high] = [Math.min(low, z), Math.max(high, z)];
+    given.forEach((z, i) => (off = Math.max(off, Math.abs(z - wanted[i]))));
+    console.log(`# greatest difference ${off} m, ${(high - low) / 65535} m allowed`);
+    assert.ok(off <= (high - low) / 65535);
+  });
+
+  test('has the network that network.gpkg has', async () => {
+    const arcs = await seen.page.evaluate(() => JSON.parse(document.getElementById('data').textContent).rivers.arcs);
+    const csv = execFileSync('ogr2ogr', ['-f', 'CSV', '/vsistdout/', path.join(place, 'dla/network.gpkg'), '-sql',
+      'SELECT arc_id, ds_arc, strahler, hack, survives, length FROM arcs ORDER BY arc_id']).toString().trim().split('\n').slice(1);
+    assert.equal(csv.length, arcs.id.length);
+    csv.forEach((row, k) => {
+      const [id, ds, strahler, hack, survives, length] = row.replaceAll('"', '').split(',').map(Number);
+      assert.deepEqual([arcs.id[k], arcs.ds[k], arcs.strahler[k], arcs.hack[k]], [id, ds, strahler, hack]);
+      assert.ok(Math.abs((arcs.survives[k] ?? -1) - survives) < 1e-3, `${arcs.survives[k]} ${survives}`);
+      assert.ok(Math.abs(arcs.length[k] - length) < 0.01);
+    });
+  });
+
+  test('orders the kept arcs as thalweg does when it prunes at that length', async () => {
+    const lengthByOrder = (arcs, orders) => {
+      const sums = [];
+      orders.forEach((order, k) => (sums[order] = (sums[order] ?? 0) + (order > 0 ? arcs.length[k] : 0)));
+      return sums.slice(1);
+    };
+    const arcsOf = (page) => page.evaluate(() => JSON.parse(document.getElementById('data').textContent).rivers.arcs);
+    const arcs = await arcsOf(seen.page);
+    assert.deepEqual(await seen.page.evaluate(() => window.__thalweg.orders()), arcs.strahler);
+    for (const L of [45, 90]) {
+      make(`pruned${L}`, path.join(sources, 'samples/dla.toml'), '--set', `network.prune=${L}`);
+      const { page } = await open(gl, pageOf(`pruned${L}`), { query: '?seg=15' });
+      const pruned = await arcsOf(page);
+      const wanted = lengthByOrder(pruned, pruned.strahler);
+      await page.close();
+      await set(seen.page, 'L', L);
+      const got = lengthByOrder(arcs, await seen.page.evaluate(() => window.__thalweg.orders()));
+      assert.equal(got.length, wanted.length);
+      got.forEach((length, i) => assert.ok(Math.abs(length - wanted[i]) < 1, `L = ${L}: ${got} for ${wanted}`));
+    }
+    await set(seen.page, 'L', 20);
+  });
+
+  test('answers the keyboard', async () => {
+    const { page } = seen;
+    await page.focus('#view canvas');
+    let last = (await look(page)).hash;
+    for (const key of ['ArrowLeft', 'ArrowUp', '+', 'Shift+ArrowRight', 'm', '-', 'ArrowDown', 'm', '-', '0']) {
+      await page.keyboard.press(key);
+      const { hash } = await look(page);
+      assert.notEqual(hash, last, key);
+      last = hash;
+    }
+    await page.keyboard.press('p');
+    assert.match(await page.textContent('#point'), /cell 51\d, 51\d · \d+\.\d m/);
+    await page.focus('#L');
+    await page.keyboard.press('ArrowRight');
+    assert.match(await page.textContent('#Lout'), /^21 cells/);
+    await page.keyboard.press('ArrowLeft');
+  });
+
+  test('every control changes the view', async () => {
+    const { page } = seen;
+    let { hash: last } = await look(page);
+    for (const [id, value] of [['exaggeration', 8], ['contour', 1], ['sun', 10], ['altitude', 1]]) {
+      await set(page, id, value);
+      const { hash } = await look(page);
+      assert.notEqual(hash, last, id);
+      last = hash;
+    }
+    for (const id of ['show-rivers', 'show-contours', 'show-tint', 'show-rivers']) {
+      await page.click(`#${id}`);
+      const { hash } = await look(page);
+      assert.notEqual(hash, last, id);
+      last = hash;
+    }
+  });
+
+  test('names the arc under the pointer, marks its way to the outlet, and saves the picture', async () => {
+    const fresh = await open(gl, pageOf('dla'));
+    const { page } = fresh;
+    await page.click('#bmap');
+    // A vertex in the middle of the main stem, on the map.
+    const at = await page.evaluate(() => {
+      const { clientWidth: w, clientHeight: h } = document.querySelector('#view canvas');
+      for (let y = 0.2; y < 0.8; y += 0.01) {
+        for (let x = 0.2; x < 0.8; x += 0.005) {
+          const found = window.__thalweg.pick(x * w, y * h);
+          if (found?.arc?.hack === 1) return [x * w, y * h, found.arc.id];
+        }
+      }
+      return null;
+    });
+    assert.ok(at);
+    const box = await page.locator('#view canvas').boundingBox();
+    await page.mouse.move(box.x + at[0], box.y + at[1]);
+    assert.match(await page.textContent('#point'), new RegExp(`arc ${at[2]}: order`));
+    const before_ = (await look(page)).hash;
+    await page.mouse.click(box.x + at[0], box.y + at[1]);
+    assert.notEqual((await look(page)).hash, before_);
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#bpicture')]);
+    const png = fs.readFileSync(await download.path());
+    assert.equal(png.subarray(1, 4).toString(), 'PNG');
+    assert.ok(png.length > 50000);
+    assert.deepEqual(fresh.complaints, []);
+    await page.close();
+  });
+
+  test('shows diagrams, laws, statistics, checks, times, command and recipe', async () => {
+    const { page } = seen;
+    const heads = await page.$$eval('#panel h2', (all) => all.map((e) => e.textContent));
+    assert.deepEqual(heads, ['Long profile', 'Hypsometry', 'Increment', 'Network laws', 'Statistics', 'Checks', 'Time', 'Make it again', 'Notes'].filter((h) => heads.includes(h)));
+    for (const head of ['Long profile', 'Hypsometry', 'Increment', 'Network laws', 'Statistics', 'Checks', 'Time', 'Make it again']) assert.ok(heads.includes(head), head);
+    const text = await page.textContent('#panel');
+    for (const word of ['R_B', 'R_L', 'R_A', 'uphill arcs', 'thalweg make', 'particles = 100000', 'rise_fall']) assert.ok(text.includes(word), word);
+    const paths = await page.$$eval('#panel path', (all) => all.map((e) => e.getAttribute('d')));
+    assert.ok(paths.length > 6);
+    assert.ok(paths.every((d) => !d.includes('NaN') && !d.includes('Infinity')));
+  });
+
+  test('has no serious barrier, light, dark and on a phone, where nothing overflows', async () => {
+    for (const context of [{ colorScheme: 'light' }, { colorScheme: 'dark' }, { colorScheme: 'light', viewport: { width: 360, height: 740 } }]) {
+      const { page, complaints } = await open(gl, pageOf('dla'), { query: '?aa=0&seg=63', ...context });
+      await page.$$eval('details', (all) => all.forEach((e) => (e.open = true)));
+      assert.deepEqual(await barriers(page), []);
+      assert.deepEqual(complaints, []);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+      assert.ok(wide <= 0, `${wide} px too wide`);
+      await page.close();
+    }
+  });
+});
+
+describe('without WebGL', () => {
+  test('a map of land and rivers is drawn, pruned and picked', async () => {
+    const { page, complaints, seconds } = await open(flat, pageOf('dla'));
+    console.log(`# ready after ${seconds} s`);
+    assert.equal(await page.evaluate(() => window.__thalweg.mode), '2d');
+    assert.equal(await page.evaluate(() => window.__thalweg.error), null);
+    const whole = await look(page);
+    assert.ok(whole.colours > 2000 && whole.rivers > 1500, JSON.stringify(whole));
+    await set(page, 'L', 160);
+    assert.ok((await look(page)).rivers < 0.7 * whole.rivers);
+    const at = await pickCentre(page);
+    assert.ok(Math.hypot(at.col - 511.5, at.row - 511.5) <= 2);
+    const before_ = (await look(page)).hash;
+    await page.mouse.move(300, 300);
+    await page.mouse.wheel(0, -400);
+    assert.notEqual((await look(page)).hash, before_);
+    assert.deepEqual(await barriers(page), []);
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+});
+
+describe('other land', () => {
+  const shows = async (browser, file, check) => {
+    const { page, complaints } = await open(browser, file);
+    assert.equal(await page.evaluate(() => window.__thalweg.error), null);
+    await check?.(page);
+    assert.deepEqual(complaints, []);
+    await page.close();
+  };
+
+  test('real rivers', () => shows(gl, pageOf('lines'), async (page) => assert.ok((await look(page)).rivers > 800)));
+
+  test('a network without a surface', async () => {
+    fs.writeFileSync(path.join(place, 'bare.toml'), '[network]\nprune = 6\n[network.dla]\nparticles = 3000\n');
+    make('bare', path.join(place, 'bare.toml'));
+    for (const browser of [gl, flat]) await shows(browser, pageOf('bare'), async (page) => assert.ok((await look(page)).rivers > 300));
+  });
+
+  test('holes', async () => {
+    const grid = ['-q', '-srcwin', '0', '0', '150', '100', '-ot', 'Byte', '-scale', '0', '200', '1', '1'];
+    const all = path.join(place, 'all.tif');
+    execFileSync('gdal_translate', [...grid, path.join(place, 'small/dem.tif'), all]);
+    // Corners in which no river runs are left out.
+    const mask = path.join(place, 'mask.tif');
+    execFileSync('python3', ['-c', `
+from osgeo import gdal
+import sys
+d = gdal.Open(sys.argv[1]); n = gdal.Open(sys.argv[2]).ReadAsArray()
+out = gdal.GetDriverByName('GTiff').CreateCopy(sys.argv[3], d)
+a = out.ReadAsArray(); a[:] = 1
+for rows, cols in ((slice(0, 12), slice(0, 12)), (slice(-12, None), slice(-12, None))):
+    if not n[rows, cols].any(): a[rows, cols] = 0
+assert (a == 0).any()
+out.GetRasterBand(1).WriteArray(a)
+`, all, path.join(place, 'small/network.tif'), mask], { env: { ...process.env, PATH: `/usr/bin:${process.env.PATH}` } });
+    make('holes', path.join(place, 'small/recipe.toml'), '--set', `surface.mask=${mask}`);
+    for (const browser of [gl, flat]) {
+      await shows(browser, pageOf('holes'), async (page) => {
+        const given = await page.evaluate(() => Array.from(window.__thalweg.heights()));
+        const dem = path.join(place, 'holes/dem.tif');
+        const wanted = heightsOf(dem);
+        const { noDataValue } = JSON.parse(execFileSync('gdalinfo', ['-json', dem])).bands[0];
+        let holes = 0;
+        given.forEach((z, i) => {
+          const hole = wanted[i] === noDataValue;
+          holes += hole;
+          assert.equal(Number.isNaN(z), hole);
+        });
+        assert.ok(holes > 100);
+      });
+    }
+  });
+
+  test('one height, and one cell', async () => {
+    for (const browser of [gl, flat]) {
+      await shows(browser, altered('small', (data) => (data.heights.max = data.heights.min)));
+      await shows(browser, altered('small', (data) => {
+        data.grid.width = data.grid.height = 1;
+        data.heights = null;
+        for (const key of Object.keys(data.rivers.arcs)) data.rivers.arcs[key] = [];
+        data.profile = [];
+        data.laws.orders = [];
+      }));
+    }
+  });
+
+  test('ridges are drawn and can be hidden', async () => {
+    for (const browser of [gl, flat]) {
+      // The last arcs' lines are handed over to be ridges.
+      await shows(browser, altered('small', (data) => {
+        const { arcs } = data.rivers;
+        data.ridges = { n: [arcs.n.at(-1)] };
+        for (const key of Object.keys(arcs)) arcs[key].pop();
+        arcs.ds = arcs.ds.map((ds) => (arcs.id.includes(ds) ? ds : 0));
+      }), async (page) => {
+        const with_ = (await look(page)).hash;
+        await page.click('#show-ridges');
+        assert.notEqual((await look(page)).hash, with_);
+      });
+    }
+  });
+
+  test('a hostile title and CRS do nothing', async () => {
+    fs.writeFileSync(path.join(place, 'title.toml'), '[grid]\nwidth = 90\nheight = 90\n[network]\nprune = 4\n[network.dla]\nparticles = 1200\n[surface]\n' +
+      '[output]\ntitle = "</title></script><script>window.hurt=1</script><img src=x onerror=window.hurt=1> 河谷 @@DATA@@ $& @@LINES@@"\n');
+    make('title', path.join(place, 'title.toml'));
+    await shows(gl, pageOf('title'), async (page) => {
+      assert.equal(await page.evaluate(() => window.hurt), undefined);
+      assert.match(await page.textContent('#title'), /^<\/title><\/script>.*河谷 @@DATA@@ \$& @@LINES@@$/);
+      assert.equal(await page.title(), await page.textContent('#title'));
+    });
+  });
+
+  test('a damaged page says so', async () => {
+    const html = fs.readFileSync(pageOf('small'), 'utf8');
+    const file = path.join(place, 'damaged.html');
+    fs.writeFileSync(file, html.replace(/(id="heights">.{200})/s, '$1AAAA'));
+    const { page } = await open(gl, file);
+    assert.notEqual(await page.evaluate(() => window.__thalweg.error), null);
+    assert.match(await page.textContent('#message'), /cannot be shown/);
+    await page.close();
+  });
+});

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The written part of the page: diagrams, tables, what was asked and what came of it.
+import { chart, number } from './chart.js';
+
+function make(tag, properties = {}, ...children) {
+  const e = Object.assign(document.createElement(tag), properties);
+  e.append(...children.filter((child) => child !== null && child !== undefined && child !== ''));
+  return e;
+}
+
+function section(title, ...children) {
+  const body = children.filter(Boolean);
+  return body.length ? make('section', {}, make('h2', { textContent: title }), ...body) : null;
+}
+
+/** rows: [[cell, …], …]; the first cell of a row names it; cells after it are numbers unless they are nodes. */
+function table(heads, rows, label) {
+  const head = make('tr', {}, ...heads.map((text, i) => make('th', { scope: 'col', textContent: text, className: i ? 'n' : '' })));
+  const body = rows.map(([name, ...cells]) => make('tr', {}, make('th', { scope: 'row', textContent: name }),
+    ...cells.map((cell) => (cell instanceof Node ? make('td', { className: 'n' }, cell) : make('td', { className: 'n', textContent: cell })))));
+  const t = make('table', {}, make('thead', {}, head), make('tbody', {}, ...body));
+  t.setAttribute('aria-label', label);
+  return t;
+}
+
+const words = (name) => name.replace(/_/g, ' ');
+
+function increments(curve) {
+  if (!curve) return [];
+  return [
+    chart([{ points: curve.points.map(([x, dh]) => [x, dh]), name: 'Δh', kind: 'line' }],
+      { title: `Increment “${curve.name}”: height gained at each step from the valley`, x: 'distance [cells]', y: 'Δh [m]', zeroX: true, zeroY: true }),
+    chart([{ points: [[0, 0], ...curve.points.map(([x, , H]) => [x, H])], name: 'H', kind: 'area' }],
+      { title: 'Height above the valley', x: 'distance [cells]', y: 'H [m]', zeroX: true, zeroY: true }),
+  ];
+}
+
+function laws(law) {
+  if (!law || law.orders.length === 0) return [];
+  const order = law.orders.map((o) => o.order);
+  const one = (pick, title, y) => {
+    const points = law.orders.map((o) => [o.order, pick(o)]).filter(([, v]) => v > 0);
+    return points.length ? chart([{ points, kind: 'points', fit: fit(points), name: y }],
+      { title, x: 'Strahler order', y, logY: true, wholeX: true, height: 150 }) : null;
+  };
+  const ratio = (name, value) => [name, number(value, 3)];
+  return [
+    table(['order', 'streams', 'mean length [m]', 'mean area [km²]'],
+      law.orders.map((o) => [String(o.order), number(o.streams), number(o.length_m), number(o.area_m2 / 1e6)]), 'Streams by Strahler order'),
+    order.length > 1 ? table(['Horton’s ratios', ''], [ratio('R_B, bifurcation', law.bifurcation), ratio('R_L, length', law.length),
+      ratio('R_A, area', law.area)], 'Horton’s ratios') : null,
+    one((o) => o.streams, 'Law of stream numbers', 'streams'),
+    one((o) => o.length_m / 1000, 'Law of stream lengths', 'mean length [km]'),
+    one((o) => o.area_m2 / 1e6, 'Law of drainage areas', 'mean area [km²]'),
+  ];
+}
+
+/** The straight line through logarithms, least squares: the one whose slope is the ratio. */
+function fit(points) {
+  if (points.length < 2) return undefined;
+  const n = points.length;
+  const mx = points.reduce((s, p) => s + p[0], 0) / n;
+  const my = points.reduce((s, p) => s + Math.log10(p[1]), 0) / n;
+  const slope = points.reduce((s, p) => s + (p[0] - mx) * (Math.log10(p[1]) - my), 0) / points.reduce((s, p) => s + (p[0] - mx) ** 2, 0);
+  return [points[0][0], points.at(-1)[0]].map((x) => [x, 10 ** (my + slope * (x - mx))]);
+}
+
+function listed(one, { count, shown }) {
+  if (!count) return null;
+  const more = count > shown.length ? `; the first ${shown.length}` : '';
+  return make('details', {}, make('summary', { textContent: `${number(count)} ${one}${count === 1 ? '' : 's'}${more}` }),
+    make('ul', {}, ...shown.map((text) => make('li', { textContent: text }))));
+}
+
+function copyable(text, label) {
+  const button = make('button', { type: 'button', textContent: 'Copy' });
+  button.setAttribute('aria-label', `Copy ${label}`);
+  const box = make('pre', { textContent: text, tabIndex: 0 });
+  box.setAttribute('aria-label', label);
+  box.setAttribute('role', 'region');
+  button.addEventListener('click', async () => {
+    try {
+      await navigator.clipboard.writeText(text);
+      button.textContent = 'Copied';
+    } catch { // a page from a file may not write to the clipboard
+      getSelection().selectAllChildren(box);
+      button.textContent = 'Selected';
+    }
+    setTimeout(() => (button.textContent = 'Copy'), 1500);
+  });
+  return make('div', { className: 'copy' }, button, box);
+}
+
+export function fillReport(parent, data) {
+  const verdict = (ok) => make('span', { className: ok ? 'ok' : 'bad', textContent: ok ? 'ok' : 'not ok' });
+  const failed = data.checks.filter((c) => !c.ok).length;
+  const whole = data.timings.reduce((sum, [, s]) => sum + s, 0);
+  const km = data.profile.length > 1 && data.profile[0][0] >= 2000;
+  parent.append(...[
+    section('Long profile', data.profile.length > 1 ? chart(
+      [{ points: data.profile.map(([d, z]) => [km ? d / 1000 : d, z]).reverse(), kind: 'area', name: 'height' }],
+      { title: 'Main stem, from the outlet up to its farthest source', x: km ? 'distance from the outlet [km]' : 'distance from the outlet [m]', y: 'height [m]', zeroX: true }) : null),
+    section('Hypsometry', data.hypsometry ? chart(
+      [{ points: data.hypsometry.points.map(([a, z]) => [100 * a, z]), kind: 'area', name: 'height' }],
+      { title: `Share of the land above a height; integral ${number(data.hypsometry.integral, 3)}`, x: 'area above [%]', y: 'height [m]', zeroX: true }) : null),
+    section('Increment', ...increments(data.curve)),
+    section('Network laws', ...laws(data.laws)),
+    section('Statistics', data.statistics.length ? table(['', 'asked', 'got', ''],
+      data.statistics.map((s) => [s.name, s.asked === null ? '–' : number(s.asked, 5), number(s.got, 5), s.unit]), 'Statistics asked and got') : null),
+    section('Checks', data.checks.length ? make('details', { open: failed > 0 },
+      make('summary', {}, failed ? `${failed} of ${data.checks.length} checks failed ` : `${data.checks.length} checks passed `, verdict(failed === 0)),
+      table(['check', 'found', 'limit', ''], data.checks.map((c) => [words(c.name), number(c.value), number(c.limit), verdict(c.ok)]), 'Checks')) : null,
+    listed('finding', data.findings), listed('repair', data.repairs)),
+    section('Time', table(['stage', 'seconds'], [...data.timings.map(([name, s]) => [name, s.toFixed(2)]), ['all', whole.toFixed(2)]], 'Time by stage')),
+    section('Make it again', copyable(data.command, 'the command'), data.recipe && make('details', {}, make('summary', { textContent: 'recipe.toml' }),
+      copyable(data.recipe, 'the recipe'))),
+    section('Notes', data.notes.length ? make('ul', {}, ...data.notes.map((text) => make('li', { textContent: text }))) : null),
+  ].filter(Boolean));
+}
+
+/** A height with as many digits as tell heights of this land apart. */
+export function metres(z, { min, max }) {
+  return number(max - min >= 50 ? Math.round(z) : z, 5);
+}
+
+/** One line under the title. */
+export function summary(data, rivers) {
+  const { grid, heights } = data;
+  const km = (cells) => number((cells * grid.cell_m) / 1000, 3);
+  return [`${number(grid.width, 7)} × ${number(grid.height, 7)} cells of ${number(grid.cell_m)} m (${km(grid.width)} × ${km(grid.height)} km)`,
+    grid.crs ? (grid.crs.length < 24 ? grid.crs : 'own CRS') : 'no CRS',
+    `${number(rivers.count)} arcs to order ${rivers.highest}`,
+    heights ? `${metres(heights.min, heights)} to ${metres(heights.max, heights)} m` : 'no surface'].join(' · ');
+}

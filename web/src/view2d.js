@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The map without WebGL: shaded and tinted land, contours and rivers on a plain canvas.
+import { css, markColour, ridgeColour, riverStyle, tint } from './colours.js';
+
+export class View2d {
+  mode = '2d';
+  onmap = true;
+
+  constructor(parent, land, rivers) {
+    this.parent = parent;
+    this.land = land;
+    this.rivers = rivers;
+    this.canvas = document.createElement('canvas');
+    parent.append(this.canvas);
+    this.groups = [];
+    this.marks = [];
+    this.zoom = 1;
+    this.centre = [land.grid.width / 2, land.grid.height / 2];
+    this.paper = [255, 255, 255];
+    this.#listen();
+  }
+
+  #listen() {
+    const held = new Map();
+    this.canvas.addEventListener('pointerdown', (event) => {
+      held.set(event.pointerId, [event.offsetX, event.offsetY]);
+      this.canvas.setPointerCapture(event.pointerId);
+    });
+    this.canvas.addEventListener('pointermove', (event) => {
+      const from = held.get(event.pointerId);
+      if (!from) return;
+      if (held.size === 1) {
+        this.centre[0] -= (event.offsetX - from[0]) * this.cellsPerPixel;
+        this.centre[1] -= (event.offsetY - from[1]) * this.cellsPerPixel;
+      } else {
+        const [other] = [...held].find(([id]) => id !== event.pointerId).slice(1);
+        const apart = (p) => Math.hypot(p[0] - other[0], p[1] - other[1]) || 1;
+        this.zoom *= apart([event.offsetX, event.offsetY]) / apart(from);
+      }
+      held.set(event.pointerId, [event.offsetX, event.offsetY]);
+      this.redraw();
+    });
+    for (const kind of ['pointerup', 'pointercancel']) this.canvas.addEventListener(kind, (event) => held.delete(event.pointerId));
+    this.canvas.addEventListener('wheel', (event) => {
+      event.preventDefault();
+      const [dx, dy] = [event.offsetX - this.parent.clientWidth / 2, event.offsetY - this.parent.clientHeight / 2];
+      const before = this.cellsPerPixel;
+      this.zoom = Math.min(60, Math.max(0.5, this.zoom * Math.exp(-event.deltaY * 0.0015)));
+      this.centre[0] += dx * (before - this.cellsPerPixel);
+      this.centre[1] += dy * (before - this.cellsPerPixel);
+      this.redraw();
+    }, { passive: false });
+    this.canvas.style.touchAction = 'none';
+  }
+
+  get cellsPerPixel() {
+    const { width, height } = this.land.grid;
+    return (1.04 * Math.max(width / this.parent.clientWidth, height / this.parent.clientHeight)) / this.zoom;
+  }
+
+  home() {
+    this.zoom = 1;
+    this.centre = [this.land.grid.width / 2, this.land.grid.height / 2];
+    this.resize();
+  }
+
+  map() {
+    this.home();
+  }
+
+  resize() {
+    this.ratio = Math.min(window.devicePixelRatio || 1, 2);
+    this.canvas.width = Math.round(this.parent.clientWidth * this.ratio);
+    this.canvas.height = Math.round(this.parent.clientHeight * this.ratio);
+    this.draw();
+  }
+
+  look(how) {
+    const relief = JSON.stringify([how.azimuth, how.altitude, how.tint, how.shadeGain]);
+    if (relief !== this.relief) {
+      this.relief = relief;
+      this.#shade(how);
+    }
+    if (how.contour !== this.contour) {
+      this.contour = how.contour;
+      this.#trace(how.contour);
+    }
+    this.showsRidges = how.ridges;
+    this.redraw();
+  }
+
+  #shade({ azimuth, altitude, tint: tinted, shadeGain }) {
+    const { land } = this;
+    const { width, height, z } = land;
+    const picture = new ImageData(width, height);
+    const a = (azimuth * Math.PI) / 180;
+    const h = (altitude * Math.PI) / 180;
+    const sun = [Math.sin(a) * Math.cos(h), Math.cos(a) * Math.cos(h), Math.sin(h)];
+    const scale = shadeGain / (2 * land.cells * land.grid.cell_m);
+    const span = land.max - land.min;
+    const ramp = Array.from({ length: 257 }, (_, i) => tint(i / 256));
+    for (let r = 0, i = 0; r < height; ++r) {
+      const up = r > 0 ? width : 0;
+      const down = r + 1 < height ? width : 0;
+      for (let c = 0; c < width; ++c, ++i) {
+        if (land.level || (land.has && !land.has[i])) {
+          picture.data.set(land.level ? [222, 219, 209, 255] : [0, 0, 0, 0], 4 * i);
+          continue;
+        }
+        const dx = (z[c + 1 < width ? i + 1 : i] - z[c > 0 ? i - 1 : i]) * scale;
+        const dy = (z[i + down] - z[i - up]) * scale;
+        const light = (-dx * sun[0] + dy * sun[1] + sun[2]) / Math.hypot(dx, dy, 1) - sun[2];
+        const ground = tinted ? ramp[span > 0 ? Math.round((256 * (z[i] - land.min)) / span) : 102] : [222, 219, 209];
+        const share = light < 0 ? Math.min(1, -light / Math.max(sun[2], 0.2)) : 0.55 * Math.min(1, light / Math.max(1 - sun[2], 0.2));
+        for (let k = 0; k < 3; ++k) {
+          const end = light < 0 ? ground[k] * [0.26, 0.29, 0.4][k] : [255, 255, 245][k];
+          picture.data[4 * i + k] = ground[k] + (end - ground[k]) * share;
+        }
+        picture.data[4 * i + 3] = 255;
+      }
+    }
+    this.picture ??= document.createElement('canvas');
+    this.picture.width = width;
+    this.picture.height = height;
+    this.picture.getContext('2d').putImageData(picture, 0, 0);
+  }
+
+  /** Contours by marching squares, as segments in cells. */
+  #trace(interval) {
+    this.contours = new Map();
+    const { land } = this;
+    if (!(interval > 0) || land.level) return;
+    const step = Math.max(1, Math.ceil(Math.max(land.width, land.height) / 700));
+    const add = (level, x0, y0, x1, y1) => {
+      if (!this.contours.has(level)) this.contours.set(level, []);
+      this.contours.get(level).push(x0, y0, x1, y1);
+    };
+    for (let r = 0; r + step < land.height; r += step) {
+      for (let c = 0; c + step < land.width; c += step) {
+        const corners = [[c, r], [c + step, r], [c + step, r + step], [c, r + step]];
+        const at = corners.map(([i, j]) => j * land.width + i);
+        if (land.has && at.some((i) => !land.has[i])) continue;
+        const z = at.map((i) => land.z[i]);
+        const first = Math.floor(Math.min(...z) / interval) + 1;
+        const last = Math.floor(Math.max(...z) / interval);
+        for (let level = first; level <= last && level < first + 50; ++level) {
+          const cuts = [];
+          for (let k = 0; k < 4; ++k) {
+            const [p, q] = [z[k], z[(k + 1) % 4]];
+            const wanted = level * interval;
+            if (p < wanted !== q < wanted) {
+              const share = (wanted - p) / (q - p);
+              const [a, b] = [corners[k], corners[(k + 1) % 4]];
+              cuts.push((a[0] + (b[0] - a[0]) * share + 0.5) * land.cells, (a[1] + (b[1] - a[1]) * share + 0.5) * land.cells);
+            }
+          }
+          for (let k = 0; k + 3 < cuts.length; k += 4) add(level, ...cuts.slice(k, k + 4));
+        }
+      }
+    }
+  }
+
+  showRivers(orders, highest) {
+    this.groups = Array.from({ length: highest }, (_, i) => ({ lines: [], ...riverStyle(i + 1, highest) }));
+    orders.forEach((order, k) => order > 0 && this.groups[order - 1].lines.push(this.rivers.lines[k]));
+    this.redraw();
+  }
+
+  mark(lines) {
+    this.marks = lines;
+    this.redraw();
+  }
+
+  background(colour) {
+    this.paper = colour;
+    this.redraw();
+  }
+
+  redraw() {
+    this.waiting ??= requestAnimationFrame(() => this.draw());
+  }
+
+  draw() {
+    if (this.waiting) cancelAnimationFrame(this.waiting);
+    this.waiting = undefined;
+    const pen = this.canvas.getContext('2d');
+    const scale = this.ratio / this.cellsPerPixel;
+    pen.setTransform(1, 0, 0, 1, 0, 0);
+    pen.fillStyle = css(this.paper);
+    pen.fillRect(0, 0, this.canvas.width, this.canvas.height);
+    pen.setTransform(scale, 0, 0, scale, this.canvas.width / 2 - this.centre[0] * scale, this.canvas.height / 2 - this.centre[1] * scale);
+    if (this.picture) {
+      pen.imageSmoothingEnabled = true;
+      pen.imageSmoothingQuality = 'high';
+      pen.save();
+      pen.beginPath();
+      pen.rect(0, 0, this.land.grid.width, this.land.grid.height);
+      pen.clip();
+      pen.drawImage(this.picture, 0, 0, this.land.width * this.land.cells, this.land.height * this.land.cells);
+      pen.restore();
+    }
+    const px = this.ratio / scale;
+    pen.lineJoin = pen.lineCap = 'round';
+    for (const [level, segments] of this.contours ?? []) {
+      pen.beginPath();
+      for (let i = 0; i < segments.length; i += 4) {
+        pen.moveTo(segments[i], segments[i + 1]);
+        pen.lineTo(segments[i + 2], segments[i + 3]);
+      }
+      pen.lineWidth = (level % 5 === 0 ? 1.1 : 0.5) * px;
+      pen.strokeStyle = `rgb(112 69 36 / ${level % 5 === 0 ? 0.6 : 0.45})`;
+      pen.stroke();
+    }
+    const stroke = (lines, width, colour) => {
+      pen.beginPath();
+      for (const line of lines) {
+        pen.moveTo(line[0], line[1]);
+        for (let i = 2; i < line.length; i += 2) pen.lineTo(line[i], line[i + 1]);
+      }
+      pen.lineWidth = width * px;
+      pen.strokeStyle = css(colour);
+      pen.stroke();
+    };
+    if (this.showsRidges) stroke(this.rivers.ridges, 1.2, ridgeColour);
+    for (const { lines, width, colour } of this.groups) stroke(lines, width + 0.3, colour);
+    stroke(this.marks, 2.4, markColour);
+    this.ondraw?.(0);
+  }
+
+  under(px, py) {
+    const x = this.centre[0] + (px - this.parent.clientWidth / 2) * this.cellsPerPixel;
+    const y = this.centre[1] + (py - this.parent.clientHeight / 2) * this.cellsPerPixel;
+    return this.land.inside(x, y) ? { x, y } : null;
+  }
+
+  move({ turn = 0, tip = 0, right = 0, up = 0, zoom = 1 }) {
+    this.zoom = Math.min(60, Math.max(0.5, this.zoom * zoom));
+    const reach = this.cellsPerPixel * this.parent.clientHeight;
+    this.centre[0] += (right + turn) * reach;
+    this.centre[1] -= (up - tip) * reach;
+    this.redraw();
+  }
+}
