@@ -35,12 +35,14 @@ Rows const environment{
 
 /// What make leaves.
 Rows const made{
+    {"report.html", "All of this on one page, for any browser; it needs no internet."},
     {"dem.tif", "Heights: a cloud-optimised GeoTIFF of 32-bit floats with its CRS and no-data value."},
     {"network.gpkg", "The layers arcs (lines with heights, drawn downstream) and nodes, and the table run."},
     {"network_arcs.shp, network_nodes.shp", "The same as shapefiles."},
     {"network.tif", "The cells in which rivers run."},
     {"contours.gpkg", "Contour lines."},
     {"map.png, profile.svg, curve.svg", "A map, the long profiles of the streams, the curve of the increments."},
+    {"wireframe.svg, sections.svg", "The land as a net of lines, cross-sections of the valley."},
     {"report.json", "Figures, timings, checks and repairs."},
     {"recipe.toml, inputs/", "The recipe with every default written out, and the files it names."},
 };
