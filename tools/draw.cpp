@@ -46,35 +46,50 @@ int draw(Options const& options, Session const& session) {
 Command add_draw(CLI::App& app, Session& session) {
     auto const options = std::make_shared<Options>();
     pipeline::DrawParams& params = options->params;
-    app.add_option("SOURCE", options->source, "A folder that make left, or any raster of heights.")->required();
-    app.add_option("-o,--output", options->output,
-                   "The folder for the pictures, or the name of one (.png, .svg, .pdf).")
+    app.add_option("SOURCE", options->source, "A folder that make left, or any raster of heights that GDAL reads.")
+        ->type_name("FILE")
         ->required();
-    app.add_option(
-           "--what", params.what,
-           "Draw these: map, profile, curve, hypsometry, sections, wireframe; without it all that can be drawn.")
+    app.add_option("-o,--output", options->output,
+                   "Write into this folder; or one picture, where the name ends in .png, .svg or .pdf.")
+        ->type_name("DIR")
+        ->required();
+    app.add_option("--what", params.what,
+                   "Draw these, with commas between: map, profile, curve, hypsometry, sections, wireframe. Without it, "
+                   "all that can be drawn.")
+        ->type_name("LIST")
         ->delimiter(',')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--format", params.formats, "Write these formats: png, svg, pdf; without it png.")
+    app.add_option("--format", params.formats,
+                   "Draw in these formats, with commas between: png, svg, pdf. Without it, "
+                   "png.")
+        ->type_name("LIST")
         ->delimiter(',')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--network", params.network, "Draw the rivers of this file, any file of lines.");
-    app.add_option("--title", params.title, "Give the pictures this title.");
-    app.add_option("--width", params.look.width_px, "Make the pictures this wide [pixels].")
-        ->check(CLI::Range(200, 8000));
+    app.add_option("--network", params.network, "Draw the rivers of this file of lines, any that OGR reads.")
+        ->type_name("FILE");
+    app.add_option("--title", params.title, "Set the title.");
+    app.add_option("--width", params.look.width_px, "Set the width in pixels.")->check(CLI::Range(200, 8000));
     app.add_option("--azimuth", params.look.azimuth_deg,
-                   "Look at the wireframe this way [degrees from north, clockwise]; without it up the valley.")
+                   "Look this way at the wireframe, in degrees from north, clockwise. Without it, up the valley.")
         ->check(CLI::Range(-360.0, 360.0));
     app.add_option("--elevation", params.look.elevation_deg,
-                   "Look at the wireframe from this far above the horizon [degrees].")
+                   "Put the eye this many degrees above the wireframe's horizon.")
         ->check(CLI::Range(5.0, 85.0));
     app.add_option("--exaggeration", params.look.exaggeration,
-                   "Multiply the wireframe's heights; without it by a round number that reads well.")
+                   "Multiply the wireframe's heights. Without it, a round number is chosen.")
         ->check(CLI::Range(0.001, 100000.0));
-    app.add_flag("--overwrite", options->overwrite, "Replace pictures of the same names.");
-    app.add_flag("--json", session.json, "Print one JSON object to stdout.");
+    app.add_flag("--overwrite", options->overwrite, "Replace pictures of the same names. Other files stay.");
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    app.footer(
+        "Of a folder: what its dem.tif, network.gpkg and recipe hold. Of a raster: map, hypsometric curve, sections "
+        "and wireframe, and with rivers their long profiles too. A raster larger than 4000 cells a side is drawn "
+        "from means, a geographic one is brought into its UTM zone; what was changed is said on stderr.\n\n"
+        "Examples:\n"
+        "  thalweg draw valley -o pictures\n"
+        "  thalweg draw valley --what wireframe --azimuth 300 -o valley.svg\n"
+        "  thalweg draw dem.tif --network rivers.gpkg --what map,sections --format png,pdf -o pictures\n");
     return [options, &session] { return draw(*options, session); };
 }
 

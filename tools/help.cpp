@@ -10,14 +10,14 @@ namespace thalweg::tools {
 
 namespace {
 
-constexpr std::size_t width = 80;
+constexpr std::size_t line_width = 80;
 constexpr std::size_t column = 26;
 
 /// A name, and beside it, or below where it is long, what it means.
 std::string entry(std::string const& name, std::string const& meaning) {
     std::string const gap =
         name.size() + 2 > column ? "\n" + std::string(column, ' ') : std::string(column - name.size(), ' ');
-    return name + gap + wrapped(meaning, width - column, column) + "\n";
+    return name + gap + wrapped(meaning, line_width - column, column) + "\n";
 }
 
 std::string meaning_of(OptionHelp const& option) {

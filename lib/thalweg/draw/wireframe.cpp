@@ -111,17 +111,16 @@ struct Foot {
     double depth = 0.0; ///< [m] of the knot, growing away from the viewer
 };
 
-/// Down to where a line that falls from a knot is seen: below, nearer land covers it.
-double seen_down_to(Net const& net, std::vector<Foot> const& feet, std::size_t knot) {
-    Vec2 const foot = feet[knot].at;
-    double cover = foot.y;
+/// How high the land nearer to the viewer than a place stands in its column of the sheet.
+double cover_before(Net const& net, std::vector<Foot> const& feet, Foot const& place) {
+    double cover = -std::numeric_limits<double>::infinity();
     auto const ask = [&](std::size_t a, std::size_t b) {
         Vec2 const from = net.at[a];
         Vec2 const to = net.at[b];
-        double const share = (foot.x - from.x) / (to.x - from.x);
-        // Sides that end in the knot cover nothing; between two knots the share is never a hair from the ends.
+        double const share = (place.at.x - from.x) / (to.x - from.x);
+        // Sides that end in the knot above cover nothing; between two knots the share is never a hair from the ends.
         if (share > 1e-9 && share < 1.0 - 1e-9 && std::isfinite(from.y) && std::isfinite(to.y) &&
-            feet[a].depth + (feet[b].depth - feet[a].depth) * share < feet[knot].depth) {
+            feet[a].depth + (feet[b].depth - feet[a].depth) * share < place.depth - 1e-9 * std::fabs(place.depth)) {
             cover = std::max(cover, from.y + (to.y - from.y) * share);
         }
     };
@@ -150,7 +149,7 @@ void hang_skirt(Model& model, std::vector<Foot> const& feet) {
     auto const hang = [&](std::int64_t col, std::int64_t row) {
         auto const knot = static_cast<std::size_t>(row * net.columns + col);
         if (hung[knot] == 0) {
-            double const down_to = seen_down_to(net, feet, knot);
+            double const down_to = std::max(feet[knot].at.y, cover_before(net, feet, feet[knot]));
             Vec2 const top = net.at[knot];
             if (down_to < top.y) {
                 model.skirt.push_back({top, Vec2{top.x, down_to}});
@@ -162,9 +161,22 @@ void hang_skirt(Model& model, std::vector<Foot> const& feet) {
     auto const hang_side = [&](std::int64_t col, std::int64_t row, std::int64_t next_col, std::int64_t next_row) {
         bool const first = hang(col, row);
         bool const second = hang(next_col, next_row);
+        Foot const& from = feet[static_cast<std::size_t>(row * net.columns + col)];
+        Foot const& to = feet[static_cast<std::size_t>(next_row * net.columns + next_col)];
         if (first && second) {
-            model.bottom.push_back({feet[static_cast<std::size_t>(row * net.columns + col)].at,
-                                    feet[static_cast<std::size_t>(next_row * net.columns + next_col)].at});
+            model.bottom.push_back({from.at, to.at});
+            return;
+        }
+        constexpr int parts = 12; // of a line that is partly covered
+        auto const at = [&](double share) {
+            return Foot{{from.at.x + (to.at.x - from.at.x) * share, from.at.y + (to.at.y - from.at.y) * share},
+                        from.depth + (to.depth - from.depth) * share};
+        };
+        for (int k = 0; k < parts; ++k) {
+            Foot const middle = at((k + 0.5) / parts);
+            if (cover_before(net, feet, middle) < middle.at.y) {
+                model.bottom.push_back({at(static_cast<double>(k) / parts).at, at((k + 1.0) / parts).at});
+            }
         }
     };
     for (std::int64_t row = 0; row < net.rows; ++row) {
@@ -362,7 +374,7 @@ Picture wireframe(WireframeScene const& scene, WireframeParams const& params) {
     Grid const& grid = scene.dem.grid();
     Model const model = model_of(scene.dem, params);
     double const width = params.width_px;
-    double const unit = std::max(0.6, width / 1200.0);
+    double const unit = std::max(0.5, width / 1200.0);
     double const margin = 30.0 * unit;
     double const top = (params.title.empty() ? 24.0 : 74.0) * unit;
     double const below = 92.0 * unit; // lengths of the sides, caption, arrow

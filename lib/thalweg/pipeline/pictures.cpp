@@ -10,6 +10,7 @@
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/draw/wireframe.hpp>
 #include <thalweg/io/raster_files.hpp>
+#include <thalweg/measure/hypsometry.hpp>
 
 #include <fmt/format.h>
 
@@ -39,42 +40,6 @@ double relief_of(Raster<float> const& dem) {
         }
     }
     return high > low ? high - low : 0.0;
-}
-
-struct Hypsometry {
-    std::vector<Vec2> curve; ///< share of the area above, height [m]
-    double integral = std::numeric_limits<double>::quiet_NaN();
-};
-
-/// The curve by quantiles of the cells.
-Hypsometry hypsometry_of(Raster<float> const& dem) {
-    std::vector<float> heights;
-    heights.reserve(static_cast<std::size_t>(dem.cells()));
-    double sum = 0.0;
-    for (float const z : dem.values()) {
-        if (std::isfinite(z)) {
-            heights.push_back(z);
-            sum += static_cast<double>(z);
-        }
-    }
-    Hypsometry out;
-    if (heights.empty()) {
-        return out;
-    }
-    std::sort(heights.begin(), heights.end());
-    constexpr std::size_t points = 256;
-    auto const last = static_cast<double>(heights.size() - 1);
-    for (std::size_t k = 0; k <= points; ++k) {
-        double const below = static_cast<double>(k) / static_cast<double>(points);
-        auto const rank = static_cast<std::size_t>(below * last + 0.5);
-        out.curve.push_back({1.0 - below, static_cast<double>(heights[rank])});
-    }
-    double const low = static_cast<double>(heights.front());
-    double const high = static_cast<double>(heights.back());
-    if (high > low) {
-        out.integral = std::clamp((sum / static_cast<double>(heights.size()) - low) / (high - low), 0.0, 1.0);
-    }
-    return out;
 }
 
 draw::Picture draw_map(Scene const& scene, Look const& look, Run const& run) {
@@ -115,11 +80,15 @@ template <class Params> Params sized(Look const& look) {
     return params;
 }
 
-draw::Picture draw_hypsometry(Scene const& scene, Look const& look) {
-    Hypsometry const found = hypsometry_of(*scene.dem);
+draw::Picture draw_hypsometry(Scene const& scene, Look const& look, Run const& run) {
+    measure::Hypsometry const found = measure::hypsometry(*scene.dem, run);
+    std::vector<Vec2> curve;
+    for (measure::HypsometricPoint const& point : found.points) {
+        curve.push_back({point.share_above, point.z});
+    }
     draw::HypsometryParams params = sized<draw::HypsometryParams>(look);
     params.title = scene.title;
-    return draw::hypsometry(found.curve, found.integral, params);
+    return draw::hypsometry(curve, found.integral, params);
 }
 
 } // namespace
@@ -181,7 +150,7 @@ draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& loo
         params.title = scene.title;
         return draw::profile(*scene.network, scene.orders, params);
     }
-    case PictureKind::hypsometry: return draw_hypsometry(scene, look);
+    case PictureKind::hypsometry: return draw_hypsometry(scene, look, run);
     case PictureKind::wireframe: return draw_wireframe(scene, look);
     case PictureKind::sections: {
         draw::SectionsParams params;

@@ -11,7 +11,6 @@
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/draw/picture.hpp>
-#include <thalweg/pipeline/recipe.hpp>
 
 namespace thalweg::pipeline {
 
