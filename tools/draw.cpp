@@ -49,13 +49,14 @@ Command add_draw(CLI::App& app, Session& session) {
     app.add_option("SOURCE", options->source, "A folder that make left, or any raster of heights that GDAL reads.")
         ->type_name("FILE")
         ->required();
-    app.add_option("-o,--output", options->output,
-                   "Write into this folder; or one picture, where the name ends in .png, .svg or .pdf.")
+    app.add_option(
+           "-o,--output", options->output,
+           "Write into this folder; or one picture, where the name ends in .png, .svg or .pdf, or .html for a page.")
         ->type_name("DIR")
         ->required();
     app.add_option("--what", params.what,
-                   "Draw these, with commas between: map, profile, curve, hypsometry, sections, wireframe. Without it, "
-                   "all that can be drawn.")
+                   "Draw these, with commas between: map, profile, curve, hypsometry, sections, wireframe; or page, a "
+                   "report page for the browser. Without it, all pictures that can be drawn.")
         ->type_name("LIST")
         ->delimiter(',')
         ->expected(1)

@@ -62,7 +62,7 @@ std::string wrapped(std::string const& text, std::size_t width, std::size_t inde
 
 std::string help_text(CLI::App const& app) {
     CommandHelp const help = describe(app);
-    std::string out = wrapped(help.summary, width, 0) + "\n\nUsage: thalweg ";
+    std::string out = wrapped(help.summary, line_width, 0) + "\n\nUsage: thalweg ";
     out += app.get_parent() == nullptr ? "COMMAND" : help.name;
     out += " [OPTIONS]";
     for (OptionHelp const& p : help.positionals) {
@@ -74,7 +74,7 @@ std::string help_text(CLI::App const& app) {
         out += "\n";
         for (std::size_t begin = 0; begin < help.text.size();) {
             std::size_t const end = std::min(help.text.find('\n', begin), help.text.size());
-            out += wrapped(help.text.substr(begin, end - begin), width, 0) + "\n";
+            out += wrapped(help.text.substr(begin, end - begin), line_width, 0) + "\n";
             begin = end + 1;
         }
     }

@@ -180,6 +180,29 @@ TEST(Draw, RiversFromAnyLineFile) {
     refused(place, "draw far.tif --network rivers.geojson --what profile -o p", "no profile can be drawn");
 }
 
+TEST(Draw, AReportPageOfAnyRaster) {
+    Workplace const place;
+    make_dem(place, "it's.tif", {}, hill);
+    Outcome const o = thalweg_run("draw \"it's.tif\" -o hill.html --json", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(nlohmann::json::parse(o.out)["files"][0], "hill.html");
+    std::string const page = file_bytes(place / "hill.html");
+    EXPECT_NE(page.find(R"("command":"thalweg draw 'it'\\''s.tif' -o hill.html --what page")"), std::string::npos);
+    EXPECT_EQ(page.find("@@"), std::string::npos);
+
+    ASSERT_EQ(thalweg_run(small, place.path()).code, 0);
+    ASSERT_EQ(thalweg_run("draw made -o made --what page,map", place.path()).code, 2); // map.png is there
+    ASSERT_EQ(thalweg_run("draw made -o made --what page", place.path()).code, 0);
+    EXPECT_NE(file_bytes(place / "made/page.html").find("\"strahler\":["), std::string::npos);
+    refused(place, "draw made -o made --what page", "already exists");
+    refused(place, "draw made -o x.html --what map", "name of a page");
+    refused(place, "draw made -o x.png --what page", "name of one picture");
+    refused(place, "draw made -o x --what pag", "Did you mean 'page'?");
+    place.write("r.toml", "[network]\nprune = 6\n[network.dla]\nparticles = 3000\n");
+    ASSERT_EQ(thalweg_run("make r.toml -o bare -q", place.path()).code, 0);
+    refused(place, "draw bare -o x.html", "no DEM");
+}
+
 TEST(Draw, LandThatIsHardlyLand) {
     Workplace const place;
     make_dem(place, "holes.tif", {}, [](int x, int y) { return (x + y) % 7 == 0 || x > 30 ? NAN : hill(x, y); });

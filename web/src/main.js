@@ -92,6 +92,8 @@ function start() {
   }
   for (const id of ['show-contours', 'show-tint', 'show-ridges']) $(id).addEventListener('change', () => update({}));
   $('show-rivers').addEventListener('change', () => prune());
+  $('field-L').hidden = rivers.count === 0;
+  $('show-rivers').parentElement.hidden = rivers.count === 0;
   $('label-ridges').hidden = rivers.ridges.length === 0;
   if (land.level) for (const id of ['exaggeration', 'contour', 'sun', 'altitude', 'show-contours', 'show-tint']) $(id).disabled = true;
   $('exaggeration').disabled ||= view.mode === '2d';

@@ -5,11 +5,13 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/suggest.hpp>
 #include <thalweg/pipeline/read_scene.hpp>
+#include <thalweg/pipeline/scene_page.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 namespace thalweg::pipeline {
@@ -24,6 +26,9 @@ struct NamedFormat {
 };
 constexpr NamedFormat formats[] = {{"png", draw::Format::png}, {"svg", draw::Format::svg}, {"pdf", draw::Format::pdf}};
 
+constexpr char const* page_word = "page";
+constexpr char const* page_ending = ".html";
+
 [[noreturn]] void unknown(char const* what, std::string const& word, std::vector<std::string> const& known) {
     throw BadParameter(fmt::format("pipeline.draw_files: '{}' is no {}: {}.{}", word, what, fmt::join(known, ", "),
                                    did_you_mean(word, known)));
@@ -37,6 +42,7 @@ PictureKind kind_of(std::string const& word) {
         }
         known.emplace_back(name_of(kind));
     }
+    known.emplace_back(page_word);
     unknown("picture", word, known);
 }
 
@@ -51,9 +57,9 @@ NamedFormat format_of(std::string const& word) {
     unknown("format", word, known);
 }
 
-/// One file to be written.
+/// One file to be written: a picture, or without a kind the report page.
 struct Task {
-    PictureKind kind = PictureKind::map;
+    std::optional<PictureKind> kind;
     draw::Format format = draw::Format::png;
     std::string name;
 };
@@ -64,6 +70,8 @@ struct Order {
     std::string single; ///< the name of the one picture; "" for a folder of them
     std::vector<PictureKind> kinds;
     std::vector<NamedFormat> formats;
+    bool page = false;
+    bool everything() const { return kinds.empty() && !page; }
 };
 
 template <class T, class Same> void add_once(std::vector<T>& list, T const& item, Same const& same) {
@@ -75,6 +83,10 @@ template <class T, class Same> void add_once(std::vector<T>& list, T const& item
 Order order_of(std::string const& output, DrawParams const& params) {
     Order order;
     for (std::string const& word : params.what) {
+        if (word == page_word) {
+            order.page = true;
+            continue;
+        }
         add_once(order.kinds, kind_of(word), [](PictureKind a, PictureKind b) { return a == b; });
     }
     for (std::string const& word : params.formats) {
@@ -86,6 +98,16 @@ Order order_of(std::string const& output, DrawParams const& params) {
     }
     fs::path const path(output);
     std::string const ending = path.extension().string();
+    if (!fs::is_directory(path) && ending == page_ending) {
+        if (!order.kinds.empty() || !order.formats.empty()) {
+            throw BadParameter(
+                fmt::format("pipeline.draw_files: {} is the name of a page: name a folder for pictures", output));
+        }
+        order.page = true;
+        order.single = path.filename().string();
+        order.folder = path.has_parent_path() ? path.parent_path().string() : ".";
+        return order;
+    }
     bool const is_picture =
         !fs::is_directory(path) && std::any_of(std::begin(formats), std::end(formats),
                                                [&](auto const& f) { return ending == std::string(".") + f.name; });
@@ -99,7 +121,7 @@ Order order_of(std::string const& output, DrawParams const& params) {
     NamedFormat const own = format_of(ending.substr(1));
     bool const other = std::any_of(order.formats.begin(), order.formats.end(),
                                    [&](NamedFormat const& f) { return f.format != own.format; });
-    if (order.kinds.size() > 1 || other) {
+    if (order.kinds.size() > 1 || other || order.page) {
         throw BadParameter(fmt::format("pipeline.draw_files: {} is the name of one picture in one format: name a "
                                        "folder for several",
                                        output));
@@ -115,9 +137,12 @@ Order order_of(std::string const& output, DrawParams const& params) {
 
 std::vector<Task> tasks_of(Order const& order, Scene const& scene) {
     std::vector<Task> tasks;
-    for (PictureKind const kind : order.kinds.empty() ? picture_kinds() : order.kinds) {
+    if (order.page) {
+        tasks.push_back({{}, {}, order.single.empty() ? std::string(page_word) + page_ending : order.single});
+    }
+    for (PictureKind const kind : order.everything() ? picture_kinds() : order.kinds) {
         std::string const missing = missing_for(kind, scene);
-        if (!missing.empty() && order.kinds.empty()) {
+        if (!missing.empty() && order.everything()) {
             continue;
         }
         if (!missing.empty()) {
@@ -129,6 +154,31 @@ std::vector<Task> tasks_of(Order const& order, Scene const& scene) {
         }
     }
     return tasks;
+}
+
+/// A word as a shell takes it.
+std::string quoted(std::string const& word) {
+    bool const plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                               "0123456789_./+:=@%-") == std::string::npos;
+    if (plain) {
+        return word;
+    }
+    std::string out = "'";
+    for (char const c : word) {
+        out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+    return out + "'";
+}
+
+std::string command_of(std::string const& source, std::string const& output, DrawParams const& params) {
+    std::string command = fmt::format("thalweg draw {} -o {} --what page", quoted(source), quoted(output));
+    if (!params.network.empty()) {
+        command += " --network " + quoted(params.network);
+    }
+    if (!params.title.empty()) {
+        command += " --title " + quoted(params.title);
+    }
+    return command;
 }
 
 } // namespace
@@ -154,10 +204,13 @@ Drawn draw_files(std::string const& source, std::string const& output, DrawParam
     io::OutputFolder out(order.folder, io::Existing::add, there);
     Drawn drawn{{}, std::move(read.notes)};
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-        run.at(static_cast<double>(i) / static_cast<double>(tasks.size()), name_of(tasks[i].kind));
+        run.at(static_cast<double>(i) / static_cast<double>(tasks.size()),
+               tasks[i].kind ? name_of(*tasks[i].kind) : page_word);
         Look look = params.look;
         look.format = tasks[i].format;
-        io::write_text(out.path(tasks[i].name), draw_picture(tasks[i].kind, read.scene, look, run).bytes);
+        io::write_text(out.path(tasks[i].name),
+                       tasks[i].kind ? draw_picture(*tasks[i].kind, read.scene, look, run).bytes
+                                     : scene_page(read.scene, drawn.notes, command_of(source, output, params), run));
         drawn.files.push_back(order.folder == "." && !order.single.empty()
                                   ? tasks[i].name
                                   : (fs::path(order.folder) / tasks[i].name).string());

@@ -251,8 +251,9 @@ ordered_json timings_array(Terrain const& t) {
     return out;
 }
 
-ordered_json notes_array(Terrain const& t, std::optional<PageHeights> const& heights) {
-    ordered_json out = ordered_json::array();
+ordered_json notes_array(Terrain const& t, std::optional<PageHeights> const& heights,
+                         std::vector<std::string> const& further) {
+    ordered_json out = further;
     if (!t.surface) {
         out.push_back("the recipe asks for no surface: the page shows the rivers alone");
     }
@@ -286,7 +287,9 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
     if (t.statistics) {
         add_land(t, figures);
     }
-    add_rivers(t, index, stem, figures);
+    if (t.recipe.network || !index.arcs.empty()) {
+        add_rivers(t, index, stem, figures);
+    }
     ordered_json const data{{"version", version()},
                             {"title", title_of(t.recipe)},
                             {"seed", t.recipe.seed},
@@ -309,7 +312,7 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
                             {"timings", timings_array(t)},
                             {"repairs", shown(t.story.repairs)},
                             {"findings", shown(t.findings)},
-                            {"notes", notes_array(t, heights)}};
+                            {"notes", notes_array(t, heights, params.notes)}};
     return without_tags(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 

@@ -135,8 +135,10 @@ std::vector<std::string> write_terrain(Terrain const& terrain, std::string const
     io::write_text(out.path("profile.svg"), draw::profile(terrain.network, terrain.orders, profile).bytes);
     std::string const recipe_toml = write_recipe(recipe);
     io::write_text(out.path("recipe.toml"), recipe_toml);
-    io::write_text(out.path("report.html"),
-                   page(terrain, {terrain.surface ? contour_interval(terrain) : 0.0, recipe_toml}, run));
+    PageParams params;
+    params.contour_interval_m = terrain.surface ? contour_interval(terrain) : 0.0;
+    params.recipe = recipe_toml;
+    io::write_text(out.path("report.html"), page(terrain, params, run));
     run.at(0.9, "write");
     std::vector<std::string> files = out.files();
     files.emplace_back("report.json");
