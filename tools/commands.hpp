@@ -23,12 +23,18 @@ struct Session {
     Run run; ///< ready when the command is called
 };
 
-/// A command adds its options to the app and leaves what to do when it is chosen.
+/// A command adds its options to the app and leaves what to do when it is chosen. describe.hpp says how help, manual
+/// and completion read them.
 using Command = std::function<int()>;
 Command add_make(CLI::App& app, Session& session);
 Command add_check(CLI::App& app, Session& session);
 Command add_stats(CLI::App& app, Session& session);
+Command add_draw(CLI::App& app, Session& session);
 Command add_replay(CLI::App& app, Session& session);
 Command add_recipe(CLI::App& app, Session& session);
+// Of the command line itself: they read the other commands.
+Command add_completion(CLI::App& app);
+Command add_man(CLI::App& app);
+Command add_help(CLI::App& app);
 
 } // namespace thalweg::tools

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interrupt.hpp"
 
+#include "terminal.hpp"
+
 #include <unistd.h>
 
 #include <csignal>
@@ -22,6 +24,7 @@ std::stop_token stop_at_interrupt() {
         sigwait(&signals, &number);
         source.request_stop();
         sigwait(&signals, &number);
+        wipe_last_line();
         _exit(130);
     }).detach();
     return source.get_token();

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "complaint.hpp"
+#include "describe.hpp"
 #include "interrupt.hpp"
 #include "terminal.hpp"
 
 #include <thalweg/core/error.hpp>
-#include <thalweg/core/suggest.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/pipeline/report.hpp>
 
@@ -25,58 +26,27 @@ using namespace thalweg;
 using namespace thalweg::tools;
 
 void complain(std::string const& text) {
-    fmt::print(stderr, "{} {}\n", alarmed("error:"), text);
+    fmt::print(stderr, "{} {}\n", toned(Tone::bad, "error:", stderr), text);
 }
 
-/// What CLI11 leaves out: which command or option was meant.
-std::string suggestion(CLI::App const& app, int argc, char const* const* argv) {
-    CLI::App const* at = &app;
-    for (int i = 1; i < argc; ++i) {
-        std::string const word = argv[i];
-        std::vector<std::string> known;
-        if (word.rfind("--", 0) == 0) {
-            std::string const name = word.substr(0, word.find('='));
-            for (CLI::Option const* option : at->get_options()) {
-                for (std::string const& l : option->get_lnames()) {
-                    known.push_back("--" + l);
-                }
-            }
-            if (std::find(known.begin(), known.end(), name) == known.end()) {
-                return did_you_mean(name, known);
-            }
-        } else if (at == &app) {
-            for (CLI::App const* sub : app.get_subcommands(nullptr)) {
-                known.push_back(sub->get_name());
-                if (sub->get_name() == word) {
-                    at = sub;
-                }
-            }
-            if (at == &app) {
-                return did_you_mean(word, known);
-            }
-        }
-    }
-    return "";
-}
-
-int call(Command const& command) {
+int call(Command const& command, Terminal& terminal) {
+    auto const end = [&](std::string const& why, Exit code) {
+        terminal.wipe();
+        complain(why);
+        return code;
+    };
     try {
         return command();
     } catch (Cancelled const&) {
-        complain("interrupted; nothing was written");
-        return Exit::interrupted;
+        return end("interrupted; nothing was written", Exit::interrupted);
     } catch (BadParameter const& e) {
-        complain(e.what());
-        return Exit::wrong;
+        return end(e.what(), Exit::wrong);
     } catch (BadInput const& e) {
-        complain(e.what());
-        return Exit::wrong;
+        return end(e.what(), Exit::wrong);
     } catch (std::bad_alloc const&) {
-        complain("out of memory: make the grid smaller or the cell larger");
-        return Exit::failed;
+        return end("out of memory: make the grid smaller or the cell larger", Exit::failed);
     } catch (std::exception const& e) {
-        complain(e.what());
-        return Exit::failed;
+        return end(e.what(), Exit::failed);
     }
 }
 
@@ -87,29 +57,50 @@ int main(int argc, char** argv) {
     session.run.stop = stop_at_interrupt();
 
     CLI::App app("thalweg builds terrain from its valleys outward.", "thalweg");
-    app.set_version_flag("--version", fmt::format("thalweg {} ({})", pipeline::version(), io::gdal_version()));
+    app.formatter_fn([](CLI::App const* of, std::string const&, CLI::AppFormatMode) { return help_text(*of); });
+    app.set_help_flag("-h,--help", "Show this help.");
+    app.set_version_flag("--version", fmt::format("thalweg {} ({})", pipeline::version(), io::gdal_version()),
+                         "Show the version of thalweg and of GDAL.");
     app.require_subcommand(1);
     app.fallthrough(false);
     std::map<CLI::App*, Command> commands;
     auto const add = [&](char const* name, char const* words, auto const& add_command) {
         CLI::App* const sub = app.add_subcommand(name, words);
-        sub->add_option("--threads", session.threads, "workers; 0 takes every core")->check(CLI::Range(0, 1024));
-        sub->add_flag("-q,--quiet", session.quiet, "say nothing but errors");
+        sub->add_option("--threads", session.threads, "Use this many workers; 0 takes every core.")
+            ->check(CLI::Range(0, 1024));
+        sub->add_flag("-q,--quiet", session.quiet, "Say nothing but errors.");
         commands[sub] = add_command(*sub, session);
     };
-    add("make", "a terrain from a recipe, or the sample valley without one", add_make);
-    add("check", "the topology of a network's files", add_check);
-    add("stats", "statistics of a DEM", add_stats);
-    add("replay", "runs a folder's recipe again and compares the bytes", add_replay);
-    add("recipe", "every key of a recipe", add_recipe);
+    add("make", "Make a terrain from a recipe, or the sample valley without one.", add_make);
+    add("check", "Check the topology of a network's files.", add_check);
+    add("stats", "Measure a DEM.", add_stats);
+    add("draw", "Draw pictures of a DEM, or of what make left.", add_draw);
+    add("replay", "Run a folder's recipe again and compare the bytes.", add_replay);
+    add("recipe", "List every key of a recipe.", add_recipe);
+    CLI::App* const completion =
+        app.add_subcommand("completion", "Write the script that completes thalweg's command line in a shell.");
+    CLI::App* const man = app.add_subcommand("man", "Write the manual pages.");
+    CLI::App* const help = app.add_subcommand("help", "Explain a command.");
+    commands[completion] = add_completion(*completion);
+    commands[man] = add_man(*man); // these two know every command that is there already
+    commands[help] = add_help(*help);
+    app.footer("Examples:\n"
+               "  thalweg make\n"
+               "  thalweg make samples/lines.toml -o out/walker\n"
+               "  thalweg check out/walker\n"
+               "  thalweg help make\n"); // after the commands: they would take it over
 
+    if (argc == 1) {
+        fmt::print(stderr, "{}", app.help());
+        return Exit::wrong;
+    }
     try {
         app.parse(argc, argv);
     } catch (CLI::ParseError const& e) {
         if (e.get_exit_code() == 0) { // --help, --version
             return app.exit(e);
         }
-        complain(e.what() + std::string(".") + suggestion(app, argc, argv) + " See thalweg --help.");
+        complain(complaint(app, {argv + 1, argv + argc}, e.what()));
         return Exit::wrong;
     }
 
@@ -119,5 +110,5 @@ int main(int argc, char** argv) {
     session.run.progress_arg = &terminal;
     session.run.log = [&](std::string_view line) { terminal.line(line); };
     CLI::App* const chosen = app.get_subcommands().front();
-    return call(commands.at(chosen));
+    return call(commands.at(chosen), terminal);
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "terminal.hpp"
 
 #include <thalweg/io/files.hpp>
 #include <thalweg/pipeline/recipe.hpp>
@@ -54,7 +55,8 @@ int make(Options const& options, Session const& session) {
     pipeline::write_terrain(terrain, options.folder, existing, session.run);
     for (Check const& check : terrain.checks) {
         if (!check.ok) {
-            session.run.say(fmt::format("check  {}: {} (at most {})  FAILED", check.name, check.value, check.limit));
+            session.run.say(fmt::format("check  {}: {} (at most {})  {}", check.name, check.value, check.limit,
+                                        toned(Tone::bad, "FAILED", stderr)));
         }
     }
     if (terrain.passed()) {
@@ -62,9 +64,10 @@ int make(Options const& options, Session const& session) {
         std::string const words =
             fmt::format("{} checks, {} outlet{}{}", terrain.checks.size(), outlets, outlets == 1 ? "" : "s",
                         terrain.surface ? fmt::format(", {} cells in pits", terrain.pits) : "");
-        session.run.say(fmt::format("check  {:<60}      ok", words));
+        session.run.say(fmt::format("check  {:<60}      {}", words, toned(Tone::good, "ok", stderr)));
     }
-    session.run.say(fmt::format("open   {}/report.html   (no internet needed)", options.folder));
+    session.run.say(
+        fmt::format("open   {}   (no internet needed)", toned(Tone::name, options.folder + "/report.html", stderr)));
     fmt::print("{}", session.json ? io::read_text(options.folder + "/report.json", 1 << 30) : options.folder + "\n");
     return terrain.passed() ? Exit::done : Exit::check_failed;
 }
@@ -73,14 +76,26 @@ int make(Options const& options, Session const& session) {
 
 Command add_make(CLI::App& app, Session& session) {
     auto const options = std::make_shared<Options>();
-    app.add_option("RECIPE", options->recipe, "a recipe file (TOML); without one, a valley grown on 1024x1024 cells");
-    app.add_option("-o,--output", options->folder, "folder for what is made")->capture_default_str();
-    app.add_option("--set", options->set, "section.key=value, over the recipe; may be repeated")
+    app.add_option("RECIPE", options->recipe,
+                   "The recipe, a TOML file; without one, a valley is grown on 1024x1024 cells.")
+        ->type_name("FILE(toml)");
+    app.add_option("-o,--output", options->folder, "Write into this folder.")->type_name("DIR")->capture_default_str();
+    app.add_option("--set", options->set,
+                   "Set a key of the recipe, over what the file says. May be given many times; the last holds.")
+        ->type_name("KEY=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--seed", options->seed, "of every chance");
-    app.add_flag("--json", session.json, "report.json on stdout");
-    app.add_flag("--overwrite", options->overwrite, "replace what an earlier make left in the folder");
+    app.add_option("--seed", options->seed, "Set the seed of every chance: the same as --set seed=N.");
+    app.add_flag("--json", session.json, "Print report.json to stdout instead of the folder's name.");
+    app.add_flag("--overwrite", options->overwrite,
+                 "Replace what an earlier make left in the folder. Files of others stay.");
+    app.footer("Rivers are grown, or read from a file of lines; they get heights, and the land is drawn around them. "
+               "All that decides the result is in the recipe: the same recipe gives the same bytes on any machine. "
+               "The folder appears whole or not at all.\n\n"
+               "Examples:\n"
+               "  thalweg make\n"
+               "  thalweg make samples/dla.toml --seed 8 --set network.prune=40 -o out/sparse\n"
+               "  thalweg make out/sparse/recipe.toml -o out/again\n");
     return [options, &session] { return make(*options, session); };
 }
 

@@ -35,7 +35,11 @@ int print_keys() {
 
 Command add_recipe(CLI::App& app, Session&) {
     auto const dump = std::make_shared<bool>(false);
-    app.add_flag("--dump", *dump, "print the recipe that make uses without one");
+    app.add_flag("--dump", *dump, "Print the recipe that make uses without one, as a file to begin with.");
+    app.footer("Each key with its unit, range and default. thalweg-recipe(5) is the same as a manual page.\n\n"
+               "Examples:\n"
+               "  thalweg recipe\n"
+               "  thalweg recipe --dump > mine.toml\n");
     return [dump] {
         if (*dump) {
             fmt::print("{}", pipeline::write_recipe(pipeline::default_recipe()));

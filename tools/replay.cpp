@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "terminal.hpp"
 
 #include <thalweg/pipeline/replay.hpp>
 
@@ -18,13 +19,13 @@ namespace {
 int replay(std::string const& folder, Session const& session) {
     pipeline::Replayed const found = pipeline::replay(folder, session.run);
     for (std::string const& name : found.same) {
-        fmt::print("same     {}\n", name);
+        fmt::print("{}     {}\n", toned(Tone::good, "same", stdout), name);
     }
     for (std::string const& name : found.differ) {
-        fmt::print("DIFFERS  {}\n", name);
+        fmt::print("{}  {}\n", toned(Tone::bad, "DIFFERS", stdout), name);
     }
     for (std::string const& name : found.missing) {
-        fmt::print("MISSING  {}\n", name);
+        fmt::print("{}  {}\n", toned(Tone::bad, "MISSING", stdout), name);
     }
     return found.verified() ? Exit::done : Exit::check_failed;
 }
@@ -34,8 +35,12 @@ int replay(std::string const& folder, Session const& session) {
 Command add_replay(CLI::App& app, Session& session) {
     auto const folder = std::make_shared<std::string>();
     auto const verify = std::make_shared<bool>(true);
-    app.add_option("DIR", *folder, "what an earlier make left")->required();
-    app.add_flag("--verify", *verify, "compare the bytes, as it always does");
+    app.add_option("DIR", *folder, "What an earlier make left.")->type_name("DIR")->required();
+    app.add_flag("--verify", *verify, "Compare the bytes. It always does; the option is for the reader of a script.");
+    app.footer("Makes the folder's recipe.toml again, beside it, and compares each file. Exit status 3 tells that one "
+               "differs or is missing. Nothing is changed.\n\n"
+               "Examples:\n"
+               "  thalweg replay valley --verify\n");
     return [folder, verify, &session] { return replay(*folder, session); };
 }
 

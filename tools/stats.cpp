@@ -38,8 +38,12 @@ int stats(std::string const& path, Session const& session) {
 
 Command add_stats(CLI::App& app, Session& session) {
     auto const path = std::make_shared<std::string>();
-    app.add_option("DEM", *path, "any raster of heights")->required();
-    app.add_flag("--json", session.json, "one JSON object on stdout");
+    app.add_option("DEM", *path, "Any raster of heights that GDAL reads.")->type_name("FILE")->required();
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    app.footer("Count, mean, standard deviation, lowest and highest cell, and mean slope. Cells without data are left "
+               "out.\n\n"
+               "Examples:\n"
+               "  thalweg stats valley/dem.tif\n");
     return [path, &session] { return stats(*path, session); };
 }
 

@@ -4,37 +4,63 @@
 
 #include <fmt/format.h>
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <charconv>
 #include <cstdlib>
 
 namespace thalweg::tools {
 
 namespace {
 
-bool stderr_is_terminal() {
-    return isatty(STDERR_FILENO) == 1;
-}
+constexpr std::string_view to_the_lines_begin = "\r\033[K";
 
-bool colour_wanted() {
-    char const* const no = std::getenv("NO_COLOR");
-    return stderr_is_terminal() && (no == nullptr || *no == '\0');
+int columns_of_stderr() {
+    winsize size{};
+    constexpr int usual = 80;
+    return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual;
 }
 
 } // namespace
 
-Terminal::Terminal(Manner manner)
-    : talks_(manner == Manner::talk), bar_wanted_(talks_ && stderr_is_terminal()), colour_(colour_wanted()) {}
+Abilities abilities(bool is_terminal, char const* term, char const* no_color) {
+    std::string_view const kind = term == nullptr ? "" : term;
+    bool const moves = is_terminal && !kind.empty() && kind != "dumb";
+    return {moves, moves && (no_color == nullptr || *no_color == '\0')};
+}
+
+Abilities abilities(std::FILE* stream) {
+    return abilities(isatty(fileno(stream)) == 1, std::getenv("TERM"), std::getenv("NO_COLOR"));
+}
+
+std::string toned(Tone tone, std::string_view text, std::FILE* stream) {
+    if (!abilities(stream).colours) {
+        return std::string(text);
+    }
+    char const* const code = tone == Tone::good      ? "32"
+                             : tone == Tone::careful ? "33"
+                             : tone == Tone::bad     ? "1;31"
+                                                     : "1";
+    return fmt::format("\033[{}m{}\033[0m", code, text);
+}
+
+Terminal::Terminal(Manner manner) : talks_(manner == Manner::talk), abilities_(abilities(stderr)) {}
 
 Terminal::~Terminal() {
     wipe();
 }
 
 void Terminal::wipe() {
+    std::lock_guard const lock(mutex_);
+    take_bar_away();
+}
+
+void Terminal::take_bar_away() {
     if (bar_shown_) {
-        std::fputs("\r\033[K", stderr);
+        fmt::print(stderr, "{}", to_the_lines_begin);
+        std::fflush(stderr);
         bar_shown_ = false;
     }
 }
@@ -42,44 +68,71 @@ void Terminal::wipe() {
 void Terminal::line(std::string_view text) {
     std::lock_guard const lock(mutex_);
     if (talks_) {
-        wipe();
+        take_bar_away();
         fmt::print(stderr, "{}\n", text);
     }
 }
 
-void Terminal::bar(double share, char const* what) {
-    auto const now = std::chrono::steady_clock::now();
-    if (what_ != what) {
-        what_ = what;
-        begin_ = now;
-        last_ = {};
+void Terminal::begin_stage(std::string_view what) {
+    auto const name_end = std::min(what.find(' '), what.size());
+    std::string_view const name = what.substr(0, name_end);
+    if (state_.what == name && name_end == what.size()) {
+        return;
     }
-    if (now - begin_ < std::chrono::milliseconds(300) || now - last_ < std::chrono::milliseconds(100)) {
+    state_ = BarState{};
+    state_.what = name;
+    pace_ = Pace();
+    begin_ = std::chrono::steady_clock::now();
+    last_ = {};
+    if (name_end < what.size()) { // "grow 100000 particles"
+        std::string_view const rest = what.substr(name_end + 1);
+        long long amount = 0;
+        auto const [end, fault] = std::from_chars(rest.data(), rest.data() + rest.size(), amount);
+        if (fault == std::errc() && end != rest.data() + rest.size()) {
+            state_.amount = static_cast<double>(amount);
+            state_.unit = std::string(end + 1, rest.data() + rest.size());
+        }
+    }
+}
+
+void Terminal::show(double share) {
+    auto const now = std::chrono::steady_clock::now();
+    std::chrono::duration<double> const gone = now - begin_;
+    if (gone < std::chrono::milliseconds(300) || now - last_ < std::chrono::milliseconds(100)) {
         return; // what is over at once needs no bar
     }
     last_ = now;
-    share = std::clamp(share, 0.0, 1.0);
-    std::chrono::duration<double> const gone = now - begin_;
-    constexpr int width = 30;
-    int const full = static_cast<int>(share * width);
-    std::string const left = share > 0.02 ? fmt::format("{:.0f} s left", gone.count() * (1.0 - share) / share) : "";
-    fmt::print(stderr, "\r\033[K{:<7}{}{:#>{}}{:.>{}}{} {:3.0f} %  {}", what, colour_ ? "\033[34m" : "", "", full, "",
-               width - full, colour_ ? "\033[0m" : "", share * 100.0, left);
+    pace_.at(share, gone.count());
+    state_.share = share;
+    state_.per_second = pace_.per_second();
+    state_.left_s = pace_.left_s();
+    fmt::print(stderr, "{}{}", to_the_lines_begin,
+               bar_text(state_, columns_of_stderr(), abilities_.colours ? Colour::ansi : Colour::none));
     std::fflush(stderr);
     bar_shown_ = true;
 }
 
 int Terminal::progress(double share, char const* what, void* terminal) {
     auto& self = *static_cast<Terminal*>(terminal);
+    if (!self.talks_ || !self.abilities_.moves) {
+        return 1;
+    }
     std::lock_guard const lock(self.mutex_);
-    if (self.bar_wanted_) {
-        self.bar(share, what == nullptr ? "" : what);
+    self.begin_stage(what == nullptr ? "" : what);
+    if (share >= 1.0) {
+        self.take_bar_away();
+    } else {
+        self.show(share);
     }
     return 1;
 }
 
-std::string alarmed(std::string_view text) {
-    return colour_wanted() ? fmt::format("\033[1;31m{}\033[0m", text) : std::string(text);
+void wipe_last_line() {
+    if (abilities(stderr).moves) {
+        // write, not stdio: another thread may hold the stream's lock.
+        [[maybe_unused]] auto const written =
+            write(STDERR_FILENO, to_the_lines_begin.data(), to_the_lines_begin.size());
+    }
 }
 
 } // namespace thalweg::tools

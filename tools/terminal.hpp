@@ -2,16 +2,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "bar.hpp"
+
 #include <chrono>
+#include <cstdio>
 #include <mutex>
 #include <string>
 #include <string_view>
 
-#include <thalweg/core/run.hpp>
-
 namespace thalweg::tools {
 
-/// What a person sees on stderr: finished lines, and below them a progress bar with the time left, on a terminal only.
+/// What may be written to a stream besides plain lines.
+struct Abilities {
+    bool moves = false; ///< the cursor: a line may be written over
+    bool colours = false;
+};
+
+/// A terminal moves unless TERM is "dumb" or unset, and colours unless NO_COLOR says anything; nothing else does.
+Abilities abilities(bool is_terminal, char const* term, char const* no_color);
+
+/// Of stdout or stderr as they are now.
+Abilities abilities(std::FILE* stream);
+
+enum class Tone { good, careful, bad, name };
+
+/// Text in the tone's colour (green, yellow, red, bold) where the stream takes colours; else as it is.
+std::string toned(Tone tone, std::string_view text, std::FILE* stream);
+
+/// What a person sees on stderr: finished lines, and below them a bar with rate and time left, on a terminal only. A
+/// stage that is over within 0.3 s shows none.
 class Terminal {
 public:
     enum class Manner { talk, quiet };
@@ -21,24 +40,27 @@ public:
     Terminal& operator=(Terminal const&) = delete;
 
     void line(std::string_view text);
+    /// Takes the bar away; another report brings it back.
+    void wipe();
     /// Run::progress; argument: the Terminal.
     static int progress(double share, char const* what, void* terminal);
 
 private:
-    void wipe();
-    void bar(double share, char const* what);
+    void take_bar_away();
+    void begin_stage(std::string_view what);
+    void show(double share);
 
     std::mutex mutex_;
     bool talks_;
-    bool bar_wanted_;
+    Abilities abilities_;
     bool bar_shown_ = false;
-    bool colour_;
-    std::string what_;
+    BarState state_;
+    Pace pace_;
     std::chrono::steady_clock::time_point begin_;
     std::chrono::steady_clock::time_point last_;
 };
 
-/// Text in bold red, where stderr is a terminal and NO_COLOR is unset; else as it is.
-std::string alarmed(std::string_view text);
+/// Takes whatever stands on stderr's last line away, where that is a terminal: for an end without unwinding.
+void wipe_last_line();
 
 } // namespace thalweg::tools

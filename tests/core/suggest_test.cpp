@@ -21,3 +21,11 @@ TEST(Suggest, TypingErrors) {
     EXPECT_EQ(closest("decreasing", known), "decreasing");
     EXPECT_EQ(thalweg::did_you_mean("unifom", known), " Did you mean 'uniform'?");
 }
+
+TEST(Suggest, SwappedNeighboursAreOneSlip) {
+    std::vector<std::string> const known = {"make", "check", "man"};
+    EXPECT_EQ(closest("maek", known), "make");
+    EXPECT_EQ(closest("mkae", known), "make");
+    EXPECT_EQ(closest("chekc", known), "check");
+    EXPECT_EQ(closest("ekam", known), "");
+}

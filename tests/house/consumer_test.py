@@ -22,5 +22,9 @@ with tempfile.TemporaryDirectory() as room:
     said = subprocess.run([room / "build" / "consumer"], check=True, capture_output=True, text=True).stdout
     if said != "1.2\n":
         sys.exit(f"the consumer says {said!r}, not 1.2")
+    for name in ("man/man1/thalweg-make.1", "man/man5/thalweg-recipe.5", "bash-completion/completions/thalweg",
+                 "zsh/site-functions/_thalweg", "fish/vendor_completions.d/thalweg.fish"):
+        if not (moved / "share" / name).is_file():
+            sys.exit(f"share/{name} is not installed")
     version = subprocess.run([moved / "bin" / "thalweg", "--version"], check=True, capture_output=True, text=True).stdout
     print(f"consumer built and ran; installed: {version.strip()}")

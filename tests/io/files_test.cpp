@@ -128,6 +128,30 @@ TEST(OutputFolder, OverwriteReplacesAndRemovesOnlyWhatIsListed) {
     EXPECT_EQ(content(scratch.path()), "out/ out/dem.tif=new out/notes/ out/notes/mine.txt=mine out/report.json=new ");
 }
 
+TEST(OutputFolder, AddsBesideWhatIsThereAndReplacesOnlyTheSameNames) {
+    ScratchFolder const scratch;
+    put(scratch / "out/mine.txt");
+    put(scratch / "out/map.png");
+    put(scratch / "out/other.png");
+    {
+        io::OutputFolder out(scratch / "out", io::Existing::add);
+        io::write_text(out.path("new.png"), "new");
+        out.commit();
+    }
+    EXPECT_EQ(content(scratch.path()), "out/ out/map.png=old out/mine.txt=old out/new.png=new out/other.png=old ");
+    {
+        io::OutputFolder out(scratch / "out", io::Existing::add);
+        io::write_text(out.path("map.png"), "new");
+        EXPECT_TRUE(says([&] { out.commit(); }, "already exists"));
+    }
+    {
+        io::OutputFolder out(scratch / "out", io::Existing::add, {"map.png", "other.png"});
+        io::write_text(out.path("map.png"), "new");
+        out.commit();
+    }
+    EXPECT_EQ(content(scratch.path()), "out/ out/map.png=new out/mine.txt=old out/new.png=new out/other.png=old ");
+}
+
 TEST(OutputFolder, AForeignFileIsNeverReplacedAndNothingChanges) {
     ScratchFolder const scratch;
     put(scratch / "out/report.json");

@@ -312,6 +312,46 @@ out.GetRasterBand(1).WriteArray(a)
     }
   });
 
+  test('any raster by thalweg draw: holes, one cell, one row, level, geographic, 20000 x 20000', async () => {
+    execFileSync('/usr/bin/python3', ['-c', `
+import sys
+import numpy
+from osgeo import gdal, osr
+gdal.UseExceptions()
+def save(name, z, frame=(500000, 30, 0, 5000000, 0, -30), epsg=32631):
+    out = gdal.GetDriverByName('GTiff').Create(sys.argv[1] + '/' + name + '.tif', z.shape[1], z.shape[0], 1, gdal.GDT_Float32)
+    reference = osr.SpatialReference()
+    reference.ImportFromEPSG(epsg)
+    out.SetProjection(reference.ExportToWkt())
+    out.SetGeoTransform(frame)
+    out.GetRasterBand(1).SetNoDataValue(-9999)
+    out.GetRasterBand(1).WriteArray(numpy.where(numpy.isnan(z), -9999, z))
+y, x = numpy.mgrid[0:90, 0:120]
+hill = 300 * numpy.exp(-((x - 60) ** 2 + (y - 40) ** 2) / 900.0) + x
+save('hill', hill)
+save('gaps', numpy.where((x + y) % 7 == 0, numpy.nan, hill))
+save('cell', hill[:1, :1])
+save('row', hill[:1, :])
+save('level', 0 * hill + 8848)
+save('globe', hill, (3, 0.001, 0, 45, 0, -0.001), 4326)
+save('square', hill[:80, :80])
+gdal.Translate(sys.argv[1] + '/large.vrt', sys.argv[1] + '/square.tif', width=20000, height=20000)
+`, place]);
+    for (const [name, note] of [['gaps.tif'], ['cell.tif'], ['row.tif'], ['level.tif'], ['globe.tif', /UTM zone 31N/], ['large.vrt', /means of 5x5 cells/]]) {
+      const file = path.join(place, `${name}.html`);
+      execFileSync(exe, ['draw', path.join(place, name), '-o', file, '-q']);
+      for (const browser of [gl, flat]) {
+        await shows(browser, file, async (page) => {
+          assert.ok((await look(page)).colours > 1, name);
+          assert.equal(await page.isVisible('#L'), false); // nothing to prune
+          const at = await pickCentre(page);
+          assert.ok(name === 'gaps.tif' || typeof at.z === 'number', `${name}: ${JSON.stringify(at)}`);
+          if (note) assert.match(await page.textContent('#sections'), note);
+        });
+      }
+    }
+  });
+
   test('one height, and one cell', async () => {
     for (const browser of [gl, flat]) {
       await shows(browser, altered('small', (data) => (data.heights.max = data.heights.min)));

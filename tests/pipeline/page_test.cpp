@@ -53,7 +53,7 @@ json row(json const& data, std::string const& name) {
 
 TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
     Terrain const terrain = small_terrain(Land::with);
-    std::string const html = page(terrain, {25.0, "seed = 7\n"});
+    std::string const html = page(terrain, {.contour_interval_m = 25.0, .recipe = "seed = 7\n"});
     for (char const* marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@"}) {
         EXPECT_EQ(html.find(marker), std::string::npos) << marker;
     }
@@ -99,7 +99,7 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
 
 TEST(Page, FiguresSayWhatWasAskedAndWhatCame) {
     Terrain const terrain = small_terrain(Land::with);
-    json const data = data_of(page(terrain, {25.0, "seed = 7\n"}));
+    json const data = data_of(page(terrain, {.contour_interval_m = 25.0, .recipe = "seed = 7\n"}));
     EXPECT_EQ(data["version"], version());
     EXPECT_EQ(data["title"], "thalweg, seed 7");
     EXPECT_EQ(data["seed"], 7);
@@ -200,7 +200,7 @@ TEST(Page, NoTextLeavesItsPlace) {
     terrain.recipe.output.title = hostile + "\xff\xc3";
     terrain.findings.push_back({"uphill", 1, {}, std::numeric_limits<double>::quiet_NaN(), hostile});
     terrain.checks.push_back({hostile, std::numeric_limits<double>::quiet_NaN(), 0.0, false});
-    std::string const html = page(terrain, {0.0, hostile});
+    std::string const html = page(terrain, {.contour_interval_m = 0.0, .recipe = hostile});
     EXPECT_EQ(html.find("<script>alert"), std::string::npos);
     EXPECT_EQ(page_decoder::part(html, "@@DATA@@").find('<'), std::string::npos);
     EXPECT_EQ(page_decoder::part(html, "@@TITLE@@"),

@@ -45,9 +45,19 @@ void refused(Workplace const& place, std::string const& arguments, std::string c
 
 TEST(BadInput, CommandLine) {
     Workplace const place;
-    refused(place, "", "");
-    refused(place, "mak", "Did you mean 'make'?");
-    refused(place, "make --overwrit", "Did you mean '--overwrite'?");
+    refused(place, "mak", "thalweg has no command 'mak'. Did you mean 'make'?");
+    refused(place, "wombat", "Its commands are make, check");
+    refused(place, "make --overwrit", "thalweg make has no option '--overwrit'. Did you mean '--overwrite'?");
+    refused(place, "make --theads=3", "Did you mean '--threads'? See thalweg make --help.");
+    refused(place, "make -seed 3", "thalweg make has no option '-seed'. Did you mean '--seed'?");
+    refused(place, "make -Q", "Did you mean '-q'?");
+    refused(place, "--seed 3 make", "Options stand behind the command.");
+    refused(place, "--sed 3 make", "thalweg has no option '--sed'.");
+    refused(place, "make -o make --overwrit", "'--overwrit'");
+    refused(place, "make --seed", "thalweg make --seed is missing its N");
+    refused(place, "completion bsh", "not 'bsh'. Did you mean 'bash'?");
+    refused(place, "help maek", "Did you mean 'make'?");
+    refused(place, "recipe all", "'all' is one word too many for thalweg recipe");
     refused(place, "make --threads -1", "--threads");
     refused(place, "make nowhere.toml", "nowhere.toml");
     refused(place, "make .", "");

@@ -29,7 +29,20 @@ TEST(Manners, HelpAndVersionGoToStdout) {
     Outcome const version = thalweg_run("--version", place.path());
     EXPECT_EQ(version.code, 0);
     EXPECT_EQ(version.out.rfind("thalweg 0.", 0), 0U) << version.out;
-    EXPECT_EQ(thalweg_run("make --help", place.path()).code, 0);
+    Outcome const of_make = thalweg_run("make --help", place.path());
+    EXPECT_EQ(of_make.code, 0);
+    EXPECT_NE(of_make.out.find("Examples:\n  thalweg make"), std::string::npos);
+    EXPECT_EQ(thalweg_run("help make", place.path()).out, of_make.out);
+    EXPECT_EQ(thalweg_run("help", place.path()).out, help.out);
+    EXPECT_EQ(thalweg_run("help make", place.path()).err, "");
+}
+
+TEST(Manners, WithoutAWordHelpGoesToStderr) {
+    Workplace const place;
+    Outcome const o = thalweg_run("", place.path());
+    EXPECT_EQ(o.code, 2);
+    EXPECT_EQ(o.out, "");
+    EXPECT_EQ(o.err, thalweg_run("--help", place.path()).out);
 }
 
 TEST(Manners, RecipeListsKeysAndItsDumpCanBeMade) {

@@ -106,8 +106,8 @@ void hold_to_contract(fs::path const& folder) {
     ASSERT_NE(dem->GetSpatialRef(), nullptr);
     EXPECT_TRUE(dem->GetSpatialRef()->IsSame(layer->GetSpatialRef()));
 
-    for (char const* name :
-         {"report.html", "map.png", "profile.svg", "curve.svg", "contours.gpkg", "recipe.toml", "network_nodes.shp"}) {
+    for (char const* name : {"report.html", "map.png", "profile.svg", "curve.svg", "wireframe.svg", "sections.svg",
+                             "contours.gpkg", "recipe.toml", "network_nodes.shp"}) {
         EXPECT_TRUE(fs::exists(folder / name)) << name;
     }
 }
@@ -115,7 +115,7 @@ void hold_to_contract(fs::path const& folder) {
 void same_bytes(fs::path const& a, fs::path const& b) {
     for (char const* name : {"dem.tif", "network.tif", "network.gpkg", "network_arcs.shp", "network_arcs.dbf",
                              "network_arcs.shx", "network_nodes.shp", "network_nodes.dbf", "contours.gpkg", "map.png",
-                             "profile.svg", "curve.svg", "recipe.toml"}) {
+                             "profile.svg", "curve.svg", "wireframe.svg", "sections.svg", "recipe.toml"}) {
         EXPECT_FALSE(file_bytes(a / name).empty()) << name;
         EXPECT_TRUE(file_bytes(a / name) == file_bytes(b / name)) << name;
     }

@@ -32,6 +32,30 @@ export class Land {
       this.z[i] = q[i] === 0 ? about.min : about.min + (q[i] - 1) * scale;
       if (this.has) this.has[i] = q[i] === 0 ? 0 : 255;
     }
+    if (this.has) this.#fillHoles();
+  }
+
+  /** Gives holes the heights beside them, so that the land does not fall into them: they are not drawn. */
+  #fillHoles() {
+    const { width, height, z } = this;
+    const known = this.has.slice();
+    const take = (i, j) => {
+      if (known[i] || !known[j]) return;
+      z[i] = z[j];
+      known[i] = 1;
+    };
+    for (let r = 0, i = 0; r < height; ++r) {
+      for (let c = 0; c < width; ++c, ++i) {
+        if (c > 0) take(i, i - 1);
+        if (r > 0) take(i, i - width);
+      }
+    }
+    for (let r = height - 1, i = width * height - 1; r >= 0; --r) {
+      for (let c = width - 1; c >= 0; --c, --i) {
+        if (c + 1 < width) take(i, i + 1);
+        if (r + 1 < height) take(i, i + width);
+      }
+    }
   }
 
   /** Height at a place [cells from the north-west corner], bilinear between centres of values. */

@@ -60,7 +60,7 @@ function start() {
   const rivers = new Rivers(data.rivers, data.ridges, $('lines').textContent);
   $('summary').textContent = summary(data, rivers);
   fillReport($('sections'), data);
-  $('foot').textContent = `thalweg ${data.version}, seed ${data.seed}`;
+  $('foot').textContent = `thalweg ${data.version}` + (data.recipe ? `, seed ${data.seed}` : '');
 
   const asked = new URLSearchParams(location.search);
   const gl = probe();
@@ -92,6 +92,8 @@ function start() {
   }
   for (const id of ['show-contours', 'show-tint', 'show-ridges']) $(id).addEventListener('change', () => update({}));
   $('show-rivers').addEventListener('change', () => prune());
+  $('field-L').hidden = rivers.count === 0;
+  $('show-rivers').parentElement.hidden = rivers.count === 0;
   $('label-ridges').hidden = rivers.ridges.length === 0;
   if (land.level) for (const id of ['exaggeration', 'contour', 'sun', 'altitude', 'show-contours', 'show-tint']) $(id).disabled = true;
   $('exaggeration').disabled ||= view.mode === '2d';

@@ -5,7 +5,7 @@ import { chart, number } from './chart.js';
 
 function make(tag, properties = {}, ...children) {
   const e = Object.assign(document.createElement(tag), properties);
-  e.append(...children.filter((child) => child !== null && child !== undefined));
+  e.append(...children.filter((child) => child !== null && child !== undefined && child !== ''));
   return e;
 }
 
@@ -112,8 +112,8 @@ export function fillReport(parent, data) {
       make('summary', {}, failed ? `${failed} of ${data.checks.length} checks failed ` : `${data.checks.length} checks passed `, verdict(failed === 0)),
       table(['check', 'found', 'limit', ''], data.checks.map((c) => [words(c.name), number(c.value), number(c.limit), verdict(c.ok)]), 'Checks')) : null,
     listed('finding', data.findings), listed('repair', data.repairs)),
-    section('Time', table(['stage', 'seconds'], [...data.timings.map(([name, s]) => [name, s.toFixed(2)]), ['all', whole.toFixed(2)]], 'Time by stage')),
-    section('Make it again', copyable(data.command, 'the command'), make('details', {}, make('summary', { textContent: 'recipe.toml' }),
+    section('Time', data.timings.length && table(['stage', 'seconds'], [...data.timings.map(([name, s]) => [name, s.toFixed(2)]), ['all', whole.toFixed(2)]], 'Time by stage')),
+    section('Make it again', copyable(data.command, 'the command'), data.recipe && make('details', {}, make('summary', { textContent: 'recipe.toml' }),
       copyable(data.recipe, 'the recipe'))),
     section('Notes', data.notes.length ? make('ul', {}, ...data.notes.map((text) => make('li', { textContent: text }))) : null),
   ].filter(Boolean));
@@ -130,6 +130,6 @@ export function summary(data, rivers) {
   const km = (cells) => number((cells * grid.cell_m) / 1000, 3);
   return [`${number(grid.width, 7)} × ${number(grid.height, 7)} cells of ${number(grid.cell_m)} m (${km(grid.width)} × ${km(grid.height)} km)`,
     grid.crs ? (grid.crs.length < 24 ? grid.crs : 'own CRS') : 'no CRS',
-    `${number(rivers.count)} arcs to order ${rivers.highest}`,
+    rivers.count ? `${number(rivers.count)} arcs to order ${rivers.highest}` : 'no rivers',
     heights ? `${metres(heights.min, heights)} to ${metres(heights.max, heights)} m` : 'no surface'].join(' · ');
 }

@@ -11,7 +11,8 @@ namespace thalweg {
 /// How a stage runs, never what it makes: no field changes a result.
 struct Run {
     /// GDAL's signature: share done [0,1], what is being done, progress_arg. Called from one thread at a time;
-    /// returning 0 stops the work like the stop token.
+    /// returning 0 stops the work like the stop token. What is one word, a stage's name; where a stage's share is one
+    /// of a known amount, it is said once before it: "grow 100000 particles".
     using Progress = int (*)(double, char const*, void*);
 
     int threads = 0; ///< [1, ...] workers; 0 takes every core

@@ -14,16 +14,23 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
+/// Letters put in, left out, replaced, or swapped with their neighbour.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
+    std::vector<std::size_t> above = row;
+    std::vector<std::size_t> two_above = row;
     for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
+        two_above.swap(above);
+        above = row;
         row[0] = i;
         for (std::size_t k = 1; k <= b.size(); ++k) {
-            std::size_t const replaced = diagonal + (lower(a[i - 1]) == lower(b[k - 1]) ? 0 : 1);
-            diagonal = row[k];
-            row[k] = std::min({row[k] + 1, row[k - 1] + 1, replaced});
+            char const mine = lower(a[i - 1]);
+            char const its = lower(b[k - 1]);
+            row[k] = std::min({above[k] + 1, row[k - 1] + 1, above[k - 1] + (mine == its ? 0 : 1)});
+            if (i > 1 && k > 1 && mine == lower(b[k - 2]) && its == lower(a[i - 2])) {
+                row[k] = std::min(row[k], two_above[k - 2] + 1);
+            }
         }
     }
     return row.back();

@@ -99,7 +99,14 @@ Picture profile(RaisedNetwork const& network, NetworkOrders const& orders, Profi
         Plot axes = plot;
         axes.x_high = in_km ? plot.x_high / 1000.0 : plot.x_high;
         TextStyle const title{1.35 * unit, ink, Weight::bold};
-        draw_text_within(sheet, {box.x, 2.2 * unit}, "Long profiles", title, 0.45 * box.width);
+        TextStyle const small{unit, faint_ink};
+        double legend_width = reaches.empty() ? 0.0 : unit;
+        for (char const* name : {"main stem", "tributaries"}) {
+            legend_width += reaches.empty() ? 0.0 : text_width(sheet, name, small) + 4.2 * unit;
+        }
+        draw_text_within(sheet, {box.x, 2.2 * unit},
+                         params.title.empty() ? "Long profiles" : params.title + ": long profiles", title,
+                         box.width - legend_width);
         draw_axes(sheet, axes, in_km ? "distance from the outlet [km]" : "distance from the outlet [m]", "height [m]",
                   unit);
         if (reaches.empty()) {
@@ -118,7 +125,6 @@ Picture profile(RaisedNetwork const& network, NetworkOrders const& orders, Profi
             cairo_stroke(sheet);
         }
         cairo_set_line_cap(sheet, CAIRO_LINE_CAP_BUTT);
-        TextStyle const small{unit, faint_ink};
         double x = box.right();
         for (bool const main : {false, true}) {
             std::string const name = main ? "main stem" : "tributaries";

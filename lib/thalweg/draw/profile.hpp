@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/draw/picture.hpp>
 
@@ -11,6 +13,7 @@ struct ProfileParams {
     int width_px = 1000; ///< [200, 8000]
     int height_px = 560; ///< [200, 8000]
     Format format = Format::svg;
+    std::string title; ///< "" for none
 };
 
 /// Long profiles: height against distance from the outlet along the water of every arc, main stems (Hack 1) emphasised.

@@ -125,7 +125,7 @@ private:
 } // namespace
 
 OutputFolder::OutputFolder(std::string const& folder, Existing existing, std::vector<std::string> old_files)
-    : old_files_(std::move(old_files)) {
+    : old_files_(std::move(old_files)), adds_(existing == Existing::add) {
     if (folder.empty()) {
         throw BadParameter("io.output_folder: the name of the folder is empty");
     }
@@ -146,7 +146,7 @@ OutputFolder::OutputFolder(std::string const& folder, Existing existing, std::ve
             throw BadInput(
                 fmt::format("io.output_folder: {} already exists: name another or use --overwrite", folder_));
         }
-        if (!empty && old_files_.empty()) {
+        if (!empty && existing == Existing::replace && old_files_.empty()) {
             throw BadInput(
                 fmt::format("io.output_folder: {} holds files but no report.json that lists them: nothing in "
                             "it may be replaced, name another folder",
@@ -210,9 +210,16 @@ void OutputFolder::commit() {
         return;
     }
     std::vector<std::string> const names = files();
+    if (adds_) {
+        std::erase_if(old_files_, [&](std::string const& old) { return std::ranges::find(names, old) == names.end(); });
+    }
     for (std::string const& name : names) {
         bool const ours = std::ranges::find(old_files_, name) != old_files_.end();
         if (!ours && fs::exists(fs::symlink_status(folder / name, error))) {
+            if (adds_) {
+                throw BadInput(fmt::format("io.output_folder: {} already exists: name another or use --overwrite",
+                                           (folder / name).string()));
+            }
             throw BadInput(
                 fmt::format("io.output_folder: {} was not written by thalweg and will not be replaced: move it "
                             "away",

@@ -9,15 +9,19 @@
 namespace thalweg::io {
 
 /// What to do where an output folder holds something.
-enum class Existing { refuse, replace };
+enum class Existing {
+    refuse,  ///< stop
+    replace, ///< old files go, new ones come
+    add      ///< new files come beside what is there; of old ones only those of the same name go
+};
 
 /// An output folder that appears whole or not at all: files are written into staging() and moved by commit(); without
 /// it nothing is left. Only files that thalweg wrote before are ever replaced or removed. Takes: folder, which need not
 /// exist; old_files: every file an earlier run left in it, report.json included, by its name relative to it
 /// ("inputs/rivers.gpkg"); an empty list when it holds no report. Throws: BadParameter when folder is ""; BadInput when
-/// it is no folder, holds something and existing is refuse, holds something and old_files is empty, or when an old name
-/// is absolute, climbs out with "..", is no plain file, or passes through a link; IoError with the path and the
-/// system's reason.
+/// it is no folder, holds something and existing is refuse, holds something and old_files is empty under replace, or
+/// when an old name is absolute, climbs out with "..", is no plain file, or passes through a link; IoError with the
+/// path and the system's reason.
 class OutputFolder {
 public:
     explicit OutputFolder(std::string const& folder, Existing existing = Existing::refuse,
@@ -44,6 +48,7 @@ private:
     std::string staging_;
     std::vector<std::string> old_files_;
     std::vector<std::string> made_; // folders above folder_ that were missing, outermost first
+    bool adds_ = false;
     bool existed_ = false;
     bool committed_ = false;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <thalweg/core/run.hpp>
 #include <thalweg/pipeline/terrain.hpp>
@@ -11,7 +12,9 @@ namespace thalweg::pipeline {
 
 struct PageParams {
     double contour_interval_m = 0.0; ///< [m] of the contours the page draws first; 0 where there is no surface
-    std::string recipe;              ///< TOML as it lies beside the page
+    std::string recipe;              ///< TOML as it lies beside the page; "" for none
+    std::string command = "thalweg make recipe.toml -o again"; ///< that makes it again
+    std::vector<std::string> notes = {};                       ///< further ones
 };
 
 /// report.html of a terrain: one page that a browser opens without a network.

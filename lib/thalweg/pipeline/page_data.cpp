@@ -135,7 +135,7 @@ ordered_json profile_array(std::vector<ProfilePoint> const& stem) {
 }
 
 ordered_json curve_object(Terrain const& t) {
-    if (!t.surface) {
+    if (!t.surface || !t.recipe.surface || t.surface->increments.empty()) {
         return nullptr;
     }
     std::vector<ordered_json> points;
@@ -192,25 +192,27 @@ private:
 
 void add_land(Terrain const& t, Figures& figures) {
     measure::Statistics const& s = *t.statistics;
-    double const relief = t.recipe.surface->dilate.relief_m;
+    double const relief = t.recipe.surface ? t.recipe.surface->dilate.relief_m : 0.0;
     figures.add("mean height", rounded(s.mean), "m");
     figures.add("standard deviation", rounded(s.std), "m");
     figures.add("lowest height", rounded(s.min.z), "m");
     figures.add("highest height", rounded(s.max.z), "m");
     figures.add("relief, highest less lowest", rounded(s.max.z - s.min.z), "m");
-    figures.add("greatest rise above the valley", relief > 0.0 ? std::optional(relief) : std::nullopt,
-                rounded(t.surface->rise_m), "m");
+    if (t.recipe.surface) {
+        figures.add("greatest rise above the valley", relief > 0.0 ? std::optional(relief) : std::nullopt,
+                    rounded(t.surface->rise_m), "m");
+    }
     figures.add("mean slope", s.slope_true_deg, "degrees");
     figures.add("hypsometric integral", t.hypsometry->integral, "");
     figures.add("cells in pits", t.pits, "");
 }
 
 void add_rivers(Terrain const& t, NetworkIndex const& index, std::vector<ProfilePoint> const& stem, Figures& figures) {
-    NetworkRecipe const& wanted = *t.recipe.network;
+    std::optional<NetworkRecipe> const& wanted = t.recipe.network;
     double const length = std::accumulate(index.length_m.begin(), index.length_m.end(), 0.0);
     auto const land = static_cast<double>(t.statistics ? t.statistics->cells : t.grid.cells());
-    if (wanted.source == Source::dla) {
-        figures.add("particles of the cluster", std::optional(wanted.dla.particles), t.story.particles, "");
+    if (wanted && wanted->source == Source::dla) {
+        figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.story.particles, "");
     }
     figures.add("arcs", index.arcs.size(), "");
     figures.add("outlets", index.outlets.size(), "");
@@ -220,7 +222,7 @@ void add_rivers(Terrain const& t, NetworkIndex const& index, std::vector<Profile
     if (!stem.empty() && stem.front().to_outlet_m > 0.0) {
         // Only along_stream asks for a slope along the water; the others ask for one along a straight line.
         figures.add("slope of the main stem",
-                    wanted.heights == Heights::along_stream ? std::optional(wanted.slope) : std::nullopt,
+                    wanted && wanted->heights == Heights::along_stream ? std::optional(wanted->slope) : std::nullopt,
                     (stem.front().z - stem.back().z) / stem.front().to_outlet_m, "m/m");
     }
 }
@@ -249,8 +251,9 @@ ordered_json timings_array(Terrain const& t) {
     return out;
 }
 
-ordered_json notes_array(Terrain const& t, std::optional<PageHeights> const& heights) {
-    ordered_json out = ordered_json::array();
+ordered_json notes_array(Terrain const& t, std::optional<PageHeights> const& heights,
+                         std::vector<std::string> const& further) {
+    ordered_json out = further;
     if (!t.surface) {
         out.push_back("the recipe asks for no surface: the page shows the rivers alone");
     }
@@ -284,18 +287,20 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
     if (t.statistics) {
         add_land(t, figures);
     }
-    add_rivers(t, index, stem, figures);
+    if (t.recipe.network || !index.arcs.empty()) {
+        add_rivers(t, index, stem, figures);
+    }
     ordered_json const data{{"version", version()},
                             {"title", title_of(t.recipe)},
                             {"seed", t.recipe.seed},
-                            {"command", "thalweg make recipe.toml -o again"},
+                            {"command", params.command},
                             {"recipe", params.recipe},
                             {"grid", grid_object(t.grid)},
                             {"heights", heights_object(heights)},
                             {"contour_m", params.contour_interval_m},
                             {"rivers",
                              {{"step", lines.step},
-                              {"prune", t.recipe.network->prune_cells.value_or(0.0)},
+                              {"prune", t.recipe.network ? t.recipe.network->prune_cells.value_or(0.0) : 0.0},
                               {"arcs", arcs_object(t, index, lines)}}},
                             {"ridges", nullptr},
                             {"profile", profile_array(stem)},
@@ -307,7 +312,7 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
                             {"timings", timings_array(t)},
                             {"repairs", shown(t.story.repairs)},
                             {"findings", shown(t.findings)},
-                            {"notes", notes_array(t, heights)}};
+                            {"notes", notes_array(t, heights, params.notes)}};
     return without_tags(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 

@@ -84,6 +84,7 @@ struct KeyHelp {
     std::string unit;     ///< "" for none
     std::string standard; ///< default as TOML, or in words
     std::string meaning;
+    std::vector<std::string> choices = {}; ///< words it may be; of an expression, those with a name; {} for none
 };
 
 /// Every key in the order of recipe files.

@@ -166,7 +166,7 @@ Key text(char const* path, char const* range, char const* meaning, Field<std::st
 
 Key yes_no(char const* path, char const* meaning, Field<bool> field) {
     Key key;
-    key.help = {path, "yes/no", "true | false", "", "", meaning};
+    key.help = {path, "yes/no", "true | false", "", "", meaning, {"true", "false"}};
     key.put = [field](Recipe& r, Value const& v) {
         auto const* b = std::get_if<bool>(&v);
         if (b == nullptr) {
@@ -186,7 +186,7 @@ template <class Enum> Key choice(char const* path, Choices<Enum> choices, char c
         words.push_back(word);
     }
     Key key;
-    key.help = {path, "text", fmt::format("{}", fmt::join(words, " | ")), "", "", meaning};
+    key.help = {path, "text", fmt::format("{}", fmt::join(words, " | ")), "", "", meaning, words};
     key.put = [choices, words, field](Recipe& r, Value const& v) {
         std::string const& s = as_text(v);
         for (auto const& [word, value] : choices) {
@@ -333,6 +333,7 @@ std::vector<Key> make_keys() {
         Key key = text(
             "surface.increment", "uniform | decreasing | rise_fall | an expression in x", "dh of the x-th dilation",
             in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.dilate.increment.increment; }));
+        key.help.choices = {"uniform", "decreasing", "rise_fall"};
         auto const put = key.put;
         key.put = [put](Recipe& r, Value const& v) {
             surface::increments(1, {as_text(v)}); // says what is wrong with it
@@ -364,7 +365,8 @@ std::vector<Key> make_keys() {
     standard.surface.emplace();
     for (Key& key : keys) {
         if (auto const value = key.take(standard)) {
-            key.help.standard = toml_text(*value);
+            auto const* const number = std::get_if<double>(&*value); // for a reader: 0.087, not its 17 digits
+            key.help.standard = number != nullptr ? fmt::format("{}", *number) : toml_text(*value);
         }
     }
     for (Key& key : keys) {

@@ -110,6 +110,18 @@ ordered_json network_object(Terrain const& t) {
             {"horton", horton(t.laws)}};
 }
 
+/// From the increments as the recipe names them to those used.
+double metres_per_unit(Terrain const& t) {
+    std::vector<double> const& used = t.surface->increments;
+    std::vector<double> const named =
+        surface::increments(static_cast<std::int64_t>(used.size()), t.recipe.surface->dilate.increment);
+    auto const greatest =
+        std::max_element(named.begin(), named.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); });
+    return greatest == named.end() || *greatest == 0.0
+               ? 1.0
+               : used[static_cast<std::size_t>(greatest - named.begin())] / *greatest;
+}
+
 } // namespace
 
 std::string version() {
@@ -131,6 +143,7 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
         report["dem"]["hypsometric_integral"] = t.hypsometry->integral;
         report["dem"]["flat_share"] = t.surface->flat_share;
         report["dem"]["levels"] = t.surface->levels;
+        report["dem"]["metres_per_unit"] = metres_per_unit(t);
         report["dem"]["pit_cells"] = t.pits;
         report["dem"]["pit_volume_m3"] = t.pit_volume_m3;
     }

@@ -72,6 +72,7 @@ Planned grow(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     }
     check_memory_of_cluster(wanted.dla.particles);
     wanted.dla.seed = recipe.seed;
+    run.at(0.0, fmt::format("grow {} particles", wanted.dla.particles).c_str());
     network::Cluster const cluster = diary.stage("grow", [&] { return network::grow_dla(wanted.dla, run); });
     diary.say(
         fmt::format("{} particles  seed {}  radius {:.0f} cells", cluster.cells.size(), recipe.seed, cluster.radius));
@@ -241,6 +242,7 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
         }
         terrain.statistics = measure::statistics(dem, run);
         terrain.hypsometry = measure::hypsometry(dem, run);
+        run.at(0.0, fmt::format("drain {} cells", grid.cells()).c_str());
         measure::Drainage const drainage = diary.stage("drain", [&] { return measure::drain(dem, run); });
         terrain.pits = drainage.pits;
         terrain.pit_volume_m3 = drainage.pit_volume_m3;

@@ -5,10 +5,13 @@
 #include <thalweg/draw/curve.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/profile.hpp>
+#include <thalweg/draw/sections.hpp>
+#include <thalweg/draw/wireframe.hpp>
 #include <thalweg/io/dataset_files.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/io/write_network.hpp>
 #include <thalweg/pipeline/page.hpp>
+#include <thalweg/pipeline/pictures.hpp>
 #include <thalweg/pipeline/report.hpp>
 
 #include <fmt/format.h>
@@ -30,20 +33,6 @@ constexpr std::int64_t largest_report = 1 << 30;
 std::vector<std::string> files_left_in(std::string const& folder) {
     std::string const report = folder + "/report.json";
     return fs::exists(report) ? files_of_report(io::read_text(report, largest_report)) : std::vector<std::string>{};
-}
-
-/// A round interval (1, 2 or 5 times a power of ten) that gives about twenty contours.
-double round_interval(double range_m) {
-    double step = 1e-3;
-    while (step * 20.0 < range_m) {
-        for (double const factor : {2.0, 2.5, 2.0}) { // 1, 2, 5, 10
-            step *= factor;
-            if (step * 20.0 >= range_m) {
-                break;
-            }
-        }
-    }
-    return step;
 }
 
 double contour_interval(Terrain const& t) {
@@ -97,7 +86,7 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
     io::write_mask(cells, out.path("network.tif"), run);
 }
 
-void write_surface(Terrain const& t, io::OutputFolder const& out, Run const& run) {
+void write_surface(Terrain const& t, std::string const& title, io::OutputFolder const& out, Run const& run) {
     Raster<float> const& dem = t.surface->dem;
     double const interval = contour_interval(t);
     auto const contours = io::contours(dem, interval, run);
@@ -109,11 +98,19 @@ void write_surface(Terrain const& t, io::OutputFolder const& out, Run const& run
         sheet.contours.emplace_back(z, line);
     }
     draw::MapParams map;
-    map.title = title_of(t.recipe);
+    map.title = title;
     map.contour_interval_m = interval;
     io::write_text(out.path("map.png"), draw::map(sheet, map).bytes);
     io::write_text(out.path("curve.svg"),
                    draw::curve(t.surface->increments, {t.recipe.surface->dilate.increment.increment}).bytes);
+    draw::WireframeScene const land{dem, &t.network, &t.orders};
+    draw::WireframeParams wireframe;
+    wireframe.title = title;
+    wireframe.azimuth_deg = draw::azimuth_up_valley(land);
+    io::write_text(out.path("wireframe.svg"), draw::wireframe(land, wireframe).bytes);
+    draw::SectionsParams sections;
+    sections.title = title;
+    io::write_text(out.path("sections.svg"), draw::sections(dem, &t.network, &t.orders, sections).bytes);
 }
 
 } // namespace
@@ -129,14 +126,19 @@ std::vector<std::string> write_terrain(Terrain const& terrain, std::string const
     Recipe const recipe = keep_inputs(terrain, out);
     write_network(terrain, out, run);
     run.at(0.3, "write");
+    std::string const title = title_of(terrain.recipe);
     if (terrain.surface) {
-        write_surface(terrain, out, run);
+        write_surface(terrain, title, out, run);
     }
-    io::write_text(out.path("profile.svg"), draw::profile(terrain.network, terrain.orders).bytes);
+    draw::ProfileParams profile;
+    profile.title = title;
+    io::write_text(out.path("profile.svg"), draw::profile(terrain.network, terrain.orders, profile).bytes);
     std::string const recipe_toml = write_recipe(recipe);
     io::write_text(out.path("recipe.toml"), recipe_toml);
-    io::write_text(out.path("report.html"),
-                   page(terrain, {terrain.surface ? contour_interval(terrain) : 0.0, recipe_toml}, run));
+    PageParams params;
+    params.contour_interval_m = terrain.surface ? contour_interval(terrain) : 0.0;
+    params.recipe = recipe_toml;
+    io::write_text(out.path("report.html"), page(terrain, params, run));
     run.at(0.9, "write");
     std::vector<std::string> files = out.files();
     files.emplace_back("report.json");

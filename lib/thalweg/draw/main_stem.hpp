@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <thalweg/core/stream_network.hpp>
+
+/// The longest stream of a network. Private to this room.
+namespace thalweg::draw {
+
+struct MainStem {
+    std::vector<Vec2> line;         ///< [m] from the outlet upstream; empty where there is none
+    std::vector<double> from_out_m; ///< by vertex, along the stream
+};
+
+/// The longest flow path of all basins. Takes: a network and its orders.
+MainStem main_stem(StreamNetwork const& network, NetworkOrders const& orders);
+
+} // namespace thalweg::draw

@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/draw/sections.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <cairo.h>
+#include <fmt/format.h>
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/draw/axes.hpp>
+#include <thalweg/draw/canvas.hpp>
+#include <thalweg/draw/cut_sections.hpp>
+#include <thalweg/draw/main_stem.hpp>
+#include <thalweg/draw/window.hpp>
+
+namespace thalweg::draw {
+namespace {
+
+constexpr Colour land_line{0.45, 0.28, 0.14};
+constexpr Colour land{0.72, 0.56, 0.38, 0.22};
+constexpr Colour water{0.08, 0.36, 0.72};
+constexpr Colour grid_line{0.88, 0.88, 0.89};
+
+std::string letter_of(std::size_t k) {
+    return {static_cast<char>('A' + k)};
+}
+
+/// Scales that all panels share: x, and the span of y.
+struct Scales {
+    double x_low = 0.0;
+    double x_high = 1.0;
+    double span_m = 1.0;
+    double step_m = 1.0;       ///< between the ticks of y
+    int decimals = 0;          ///< of these
+    std::vector<double> y_low; ///< by panel
+};
+
+Scales scales_of(std::vector<Section> const& sections, int ticks) {
+    Scales scales;
+    scales.x_low = std::numeric_limits<double>::infinity();
+    scales.x_high = -scales.x_low;
+    std::vector<Vec2> ranges;
+    double greatest = 0.0;
+    for (Section const& section : sections) {
+        Vec2 range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+        for (Vec2 const p : section.points) {
+            scales.x_low = std::min(scales.x_low, p.x);
+            scales.x_high = std::max(scales.x_high, p.x);
+            if (std::isfinite(p.y)) {
+                range = {std::min(range.x, p.y), std::max(range.y, p.y)};
+            }
+        }
+        ranges.push_back(range.x <= range.y ? range : Vec2{0.0, 0.0});
+        greatest = std::max(greatest, ranges.back().y - ranges.back().x);
+    }
+    bool const level = !(greatest > 0.0);
+    greatest = level ? 1.0 : greatest;
+    Ticks const marks = ticks_between(0.0, greatest, ticks);
+    scales.step_m = marks.step;
+    scales.decimals = decimals_of(marks.step);
+    double const fifth = 0.2 * marks.step;
+    double highest_share = 0.0;
+    for (Vec2 const range : ranges) {
+        // Some land below the lowest place, for a line on the axis would not be seen.
+        double const low = range.x - (level ? 0.5 : 0.03) * greatest;
+        scales.y_low.push_back(std::floor(low / fifth + 1e-9) * fifth);
+        highest_share = std::max(highest_share, range.y - scales.y_low.back());
+    }
+    scales.span_m = std::max(scales.step_m, std::ceil(1.02 * highest_share / fifth) * fifth);
+    return scales;
+}
+
+std::string place_of(Section const& section) {
+    switch (section.kind) {
+    case Section::Kind::row: return "west to east, through the middle row";
+    case Section::Kind::column: return "south to north, through the middle column";
+    case Section::Kind::river: break;
+    }
+    double const m = section.from_outlet_m;
+    return m >= 1000.0 ? number(m / 1000.0, m < 100000.0 ? 1 : 0) + " km from the outlet"
+                       : number(m, m < 10.0 ? 1 : 0) + " m from the outlet";
+}
+
+/// Two figures that count: "3.2", "48", "1300".
+std::string two_figures(double value) {
+    double unit = 0.1;
+    while (unit * 100.0 <= value && unit < 1e9) {
+        unit *= 10.0;
+    }
+    return number(std::floor(value / unit + 0.5) * unit, unit < 1.0 ? 1 : 0);
+}
+
+/// The stretches of a line between its gaps, on the sheet.
+std::vector<std::vector<Vec2>> stretches_of(std::vector<Vec2> const& points, Plot const& plot) {
+    std::vector<std::vector<Vec2>> out;
+    bool open = false;
+    for (Vec2 const p : points) {
+        if (!std::isfinite(p.y)) {
+            open = false;
+            continue;
+        }
+        if (!open) {
+            out.emplace_back();
+        }
+        out.back().push_back(plot.at(p.x, p.y));
+        open = true;
+    }
+    return out;
+}
+
+void draw_panel(Cairo* sheet, Plot const& plot, Section const& section, Scales const& scales, std::size_t number_of,
+                double unit) {
+    Box const& box = plot.box;
+    double const hair = 0.07 * unit;
+    TextStyle const small{unit, faint_ink};
+    double const first = std::ceil(plot.y_low / scales.step_m - 1e-9) * scales.step_m;
+    for (double z = first; z <= plot.y_high + 1e-9 * scales.step_m; z += scales.step_m) {
+        double const y = plot.at(plot.x_low, z).y;
+        draw_line(sheet, {box.x, y}, {box.right(), y}, hair, grid_line);
+        draw_line(sheet, {box.x - 0.35 * unit, y}, {box.x, y}, hair, faint_ink);
+        draw_text(sheet, {box.x - 0.7 * unit, y + 0.36 * unit}, number(z, scales.decimals), small, Anchor::end);
+    }
+    std::vector<std::vector<Vec2>> const stretches = stretches_of(section.points, plot);
+    for (std::vector<Vec2> const& line : stretches) {
+        trace_line(sheet, line, 0.0);
+        cairo_line_to(sheet, line.back().x, box.bottom());
+        cairo_line_to(sheet, line.front().x, box.bottom());
+        cairo_close_path(sheet);
+        set_colour(sheet, land);
+        cairo_fill(sheet);
+        trace_line(sheet, line, 0.0);
+        set_colour(sheet, land_line);
+        cairo_set_line_width(sheet, 0.13 * unit);
+        cairo_stroke(sheet);
+    }
+    if (section.kind == Section::Kind::river) {
+        // A water mark over the river: a triangle that stands on the land.
+        auto const nearest = std::min_element(section.points.begin(), section.points.end(),
+                                              [](Vec2 a, Vec2 b) { return std::fabs(a.x) < std::fabs(b.x); });
+        if (nearest != section.points.end() && std::isfinite(nearest->y)) {
+            Vec2 const at = plot.at(nearest->x, nearest->y);
+            cairo_move_to(sheet, at.x, at.y - 0.15 * unit);
+            cairo_line_to(sheet, at.x - 0.5 * unit, at.y - 1.0 * unit);
+            cairo_line_to(sheet, at.x + 0.5 * unit, at.y - 1.0 * unit);
+            cairo_close_path(sheet);
+            set_colour(sheet, water);
+            cairo_fill(sheet);
+        }
+    }
+    draw_line(sheet, {box.x, box.bottom()}, {box.right(), box.bottom()}, 1.6 * hair, ink);
+    draw_line(sheet, {box.x, box.y}, {box.x, box.bottom()}, 1.6 * hair, ink);
+    TextStyle const bold{1.15 * unit, ink, Weight::bold, 0.25 * unit};
+    std::string const letter = letter_of(number_of);
+    double const base = box.y - 0.5 * unit;
+    draw_text(sheet, {box.x, base}, letter, bold);
+    draw_text_within(sheet, {box.x + text_width(sheet, letter, bold) + 0.7 * unit, base}, place_of(section),
+                     {unit, ink, Weight::normal, 0.25 * unit}, box.width - 3.0 * unit);
+    if (stretches.empty()) {
+        draw_text(sheet, {box.x + 0.5 * box.width, box.y + 0.55 * box.height}, "no heights", small, Anchor::middle);
+    }
+}
+
+/// Where the sections lie: the DEM's frame, the main stem, and the lines with their letters.
+void draw_key(Cairo* sheet, Box room, Grid const& grid, MainStem const& stem, std::vector<Section> const& sections,
+              double unit) {
+    double const wide = static_cast<double>(grid.width) * grid.cell_m;
+    double const tall = static_cast<double>(grid.height) * grid.cell_m;
+    Window window;
+    window.px_per_m = std::min(room.width / wide, room.height / tall);
+    window.frame = {room.x, room.y, wide * window.px_per_m, tall * window.px_per_m};
+    window.frame.x += 0.5 * (room.width - window.frame.width);
+    window.west = grid.west;
+    window.north = grid.north;
+    fill_box(sheet, window.frame, {0.96, 0.96, 0.95});
+    cairo_save(sheet);
+    cairo_rectangle(sheet, window.frame.x, window.frame.y, window.frame.width, window.frame.height);
+    cairo_clip(sheet);
+    if (!stem.line.empty()) {
+        std::vector<Vec2> line(stem.line.size());
+        std::transform(stem.line.begin(), stem.line.end(), line.begin(), [&](Vec2 p) { return window.at(p); });
+        trace_line(sheet, line, 0.0);
+        set_colour(sheet, water);
+        cairo_set_line_width(sheet, 0.13 * unit);
+        cairo_stroke(sheet);
+    }
+    cairo_restore(sheet);
+    frame_box(sheet, window.frame, 0.08 * unit, faint_ink);
+    TextStyle const letter{unit, ink, Weight::bold, 0.22 * unit};
+    std::vector<Vec2> taken;
+    auto const room_at = [&](Vec2 at) {
+        double least = 1e9;
+        for (Vec2 const other : taken) {
+            least = std::min(least, distance(at, other));
+        }
+        return least;
+    };
+    for (std::size_t k = 0; k < sections.size(); ++k) {
+        Vec2 const begin = window.at(sections[k].begin);
+        Vec2 const end = window.at(sections[k].end);
+        draw_line(sheet, begin, end, 0.11 * unit, ink);
+        double const length = std::max(1e-9, distance(begin, end));
+        Vec2 const off{(end.x - begin.x) / length * 0.8 * unit, (end.y - begin.y) / length * 0.8 * unit};
+        Vec2 const at_begin{begin.x - off.x, begin.y - off.y};
+        Vec2 const at_end{end.x + off.x, end.y + off.y};
+        bool const crowded = room_at(at_begin) < 1.4 * unit && room_at(at_end) > room_at(at_begin);
+        taken.push_back(crowded ? at_end : at_begin);
+        draw_text(sheet, {taken.back().x, taken.back().y + 0.36 * unit}, letter_of(k), letter, Anchor::middle);
+    }
+}
+
+void draw_scale_of_x(Cairo* sheet, Box box, Ticks const& ticks, double metres_a_unit, Scales const& scales,
+                     double unit) {
+    Plot const plot{box, scales.x_low / metres_a_unit, scales.x_high / metres_a_unit, 0.0, 1.0};
+    for (double const x : ticks.values) {
+        double const px = plot.at(x, 0.0).x;
+        draw_line(sheet, {px, box.bottom()}, {px, box.bottom() + 0.4 * unit}, 0.07 * unit, faint_ink);
+        draw_text(sheet, {px, box.bottom() + 1.6 * unit}, number(x, ticks.decimals), {unit, faint_ink}, Anchor::middle);
+    }
+}
+
+} // namespace
+
+Picture sections(Raster<float> const& dem, RaisedNetwork const* network, NetworkOrders const* orders,
+                 SectionsParams const& params) {
+    demand_pixels("draw.sections: width_px", params.width_px, 200, 8000);
+    if (params.count < 1 || params.count > 9) {
+        throw BadParameter(fmt::format("draw.sections: count is {}, must lie in [1, 9]", params.count));
+    }
+    if (network != nullptr && (orders == nullptr || orders->strahler.size() != boost::num_edges(network->plan))) {
+        throw BadInput(fmt::format("draw.sections: a network of {} arcs comes with {} orders; order this network",
+                                   boost::num_edges(network->plan), orders == nullptr ? 0 : orders->strahler.size()));
+    }
+    std::vector<Section> const cuts = cut_sections(dem, network, orders, params.count);
+    bool const across = cuts.front().kind == Section::Kind::river;
+    MainStem const stem = across ? main_stem(network->plan, *orders) : MainStem{};
+
+    double const width = params.width_px;
+    double const unit = 14.0 * std::max(0.45, width / 1000.0);
+    double const left = 6.5 * unit;
+    double const key_room = 0.24 * width;
+    double const top = 3.6 * unit;
+    double const below = 4.6 * unit;
+    auto const panels = static_cast<double>(cuts.size());
+    double const pitch = 12.8 * unit;
+    double const height = std::ceil(top + panels * pitch + below);
+    double const gap = 2.2 * unit; // above a panel: its name
+    Box const first{left, top + gap, width - left - key_room - 4.5 * unit, pitch - gap};
+    Scales const scales = scales_of(cuts, 4);
+    double const widest = std::max(std::fabs(scales.x_low), std::fabs(scales.x_high));
+    double const metres_a_unit = widest >= 2000.0 ? 1000.0 : 1.0;
+    double const px_per_m = first.width / std::max(scales.x_high - scales.x_low, 1e-300);
+    double const exaggeration = first.height / scales.span_m / px_per_m;
+
+    return paint(width, height, params.format, [&](Cairo* sheet) {
+        std::string const name = across ? "Cross-sections" : "Sections";
+        draw_text_within(sheet, {left, 2.2 * unit},
+                         params.title.empty() ? name : params.title + ": " + (across ? "cross-sections" : "sections"),
+                         {1.35 * unit, ink, Weight::bold}, width - left - 2.0 * unit);
+        Ticks const ticks = ticks_between(scales.x_low / metres_a_unit, scales.x_high / metres_a_unit,
+                                          std::clamp(static_cast<int>(first.width / (6.0 * unit)), 1, 8));
+        for (std::size_t k = 0; k < cuts.size(); ++k) {
+            Plot plot{first, scales.x_low, scales.x_high, scales.y_low[k], scales.y_low[k] + scales.span_m};
+            plot.box.y += static_cast<double>(k) * pitch;
+            for (double const x : ticks.values) {
+                double const px = plot.at(x * metres_a_unit, plot.y_low).x;
+                draw_line(sheet, {px, plot.box.y}, {px, plot.box.bottom()}, 0.07 * unit, grid_line);
+            }
+            draw_panel(sheet, plot, cuts[k], scales, k, unit);
+            if (k + 1 == cuts.size()) {
+                draw_scale_of_x(sheet, plot.box, ticks, metres_a_unit, scales, unit);
+            }
+        }
+        std::string const unit_name = metres_a_unit > 1.0 ? "[km]" : "[m]";
+        TextStyle const axis{1.05 * unit, ink};
+        draw_text_within(sheet, {first.x + 0.5 * first.width, height - below + 3.4 * unit},
+                         (across ? "distance from the river " : "distance ") + unit_name +
+                             (across ? ", looking downstream" : ""),
+                         axis, first.width, Anchor::middle);
+        draw_text(sheet, {1.6 * unit, top + 0.5 * (height - top - below)}, "height [m]", axis, Anchor::middle,
+                  Vec2{0.0, -1.0});
+        Box const key{width - key_room - 1.8 * unit, top + gap, key_room,
+                      std::min(1.2 * key_room, height - top - gap - 8.0 * unit)};
+        draw_key(sheet, key, dem.grid(), stem, cuts, unit);
+        double const key_high =
+            std::min(key.height, key.width * static_cast<double>(dem.height()) / static_cast<double>(dem.width()));
+        TextStyle const small{unit, faint_ink};
+        draw_text_within(sheet, {key.x, key.y + key_high + 3.2 * unit}, "all panels on the same scales,", small,
+                         key.width);
+        draw_text_within(sheet, {key.x, key.y + key_high + 4.7 * unit}, "heights ×" + two_figures(exaggeration), small,
+                         key.width);
+    });
+}
+
+} // namespace thalweg::draw

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "man_pages.hpp"
+
+#include "roff.hpp"
+
+#include <thalweg/pipeline/recipe.hpp>
+#include <thalweg/pipeline/report.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+namespace thalweg::tools {
+
+namespace {
+
+using Rows = std::vector<std::pair<char const*, char const*>>;
+
+Rows const exit_codes{
+    {"0", "Done."},
+    {"1", "Failed while running: no room on the disk, out of memory, a file that could not be written."},
+    {"2", "The command line, the recipe or an input is wrong. Nothing was written."},
+    {"3", "A check failed, or a file differs from what its recipe makes. What was made stays, to be looked at."},
+    {"130", "Interrupted by Ctrl-C (or SIGTERM). Nothing was written. A second Ctrl-C ends at once."},
+};
+
+Rows const environment{
+    {"NO_COLOR", "Where it is set to anything, nothing is coloured. Only a terminal gets colours in any case."},
+    {"TERM", "Where it is dumb or unset, there is neither colour nor progress bar."},
+};
+
+/// What make leaves.
+Rows const made{
+    {"dem.tif", "Heights: a cloud-optimised GeoTIFF of 32-bit floats with its CRS and no-data value."},
+    {"network.gpkg", "The layers arcs (lines with heights, drawn downstream) and nodes, and the table run."},
+    {"network_arcs.shp, network_nodes.shp", "The same as shapefiles."},
+    {"network.tif", "The cells in which rivers run."},
+    {"contours.gpkg", "Contour lines."},
+    {"map.png, profile.svg, curve.svg", "A map, the long profiles of the streams, the curve of the increments."},
+    {"wireframe.svg, sections.svg", "The land as a net of lines seen up the valley, and sections across it."},
+    {"report.html", "Terrain, rivers, diagrams and figures on one page for any browser; it needs no internet."},
+    {"report.json", "Figures, timings, checks and repairs."},
+    {"recipe.toml, inputs/", "The recipe with every default written out, and the files it names."},
+};
+
+std::string rows(Rows const& table) {
+    std::string out;
+    for (auto const& [name, meaning] : table) {
+        out += tagged(".B " + roff(name), meaning);
+    }
+    return out;
+}
+
+std::string heading(std::string const& name, char number, std::string const& manual) {
+    std::string capitals = name;
+    std::transform(capitals.begin(), capitals.end(), capitals.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return fmt::format(".TH {} {} \"\" \"thalweg {}\" \"{}\"\n.nh\n.ad l\n", roff(capitals), number,
+                       pipeline::version(), manual);
+}
+
+/// A sentence as NAME has it: "make a terrain".
+std::string clause(std::string text) {
+    if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])) != 0) {
+        text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+    }
+    if (!text.empty() && text.back() == '.') {
+        text.pop_back();
+    }
+    return text;
+}
+
+std::string paragraphs(std::string const& text) {
+    std::string out;
+    for (std::size_t begin = 0; begin < text.size();) {
+        std::size_t const end = std::min(text.find("\n\n", begin), text.size());
+        out += ".PP\n" + paragraph(text.substr(begin, end - begin));
+        begin = end + 2;
+    }
+    return out;
+}
+
+std::string tag(OptionHelp const& option) {
+    std::string out;
+    for (std::string const& name : option.names) {
+        out += fmt::format("{}\\fB{}\\fR", out.empty() ? "" : ", ", roff(name));
+    }
+    return out + (option.placeholder.empty() ? "" : fmt::format(" \\fI{}\\fR", roff(option.placeholder)));
+}
+
+std::string meaning(OptionHelp const& option) {
+    std::string out = option.meaning;
+    if (option.takes == Takes::word) {
+        out += fmt::format(" One of {}.", fmt::join(option.words, ", "));
+    }
+    return option.standard.empty() ? out : fmt::format("{} Default: {}.", out, option.standard);
+}
+
+std::string options(CommandHelp const& command) {
+    std::string out = section("OPTIONS");
+    for (OptionHelp const& p : command.positionals) {
+        out += tagged(".I " + roff(long_name(p)), meaning(p));
+    }
+    for (OptionHelp const& option : command.options) {
+        out += tagged(tag(option), meaning(option));
+    }
+    return out;
+}
+
+std::string examples(CommandHelp const& command) {
+    std::string lines;
+    for (std::string const& example : command.examples) {
+        lines += example.substr(std::min(example.find_first_not_of(' '), example.size())) + "\n";
+    }
+    return lines.empty() ? "" : section("EXAMPLES") + verbatim(lines);
+}
+
+std::string see_also(std::string const& self, CommandHelp const& program) {
+    std::vector<std::string> pages;
+    auto const add = [&](std::string const& name, char number) {
+        if (name + number != self) {
+            pages.push_back(fmt::format("\\fB{}\\fR({})", roff(name), number));
+        }
+    };
+    add("thalweg", '1');
+    for (CommandHelp const& command : program.commands) {
+        add("thalweg-" + command.name, '1');
+    }
+    add("thalweg-recipe", '5');
+    return section("SEE ALSO") + fmt::format("{}\n", fmt::join(pages, ",\n"));
+}
+
+std::string program_page(CommandHelp const& program) {
+    std::string out = heading("thalweg", '1', "User Commands");
+    out += section("NAME") + "thalweg \\- terrain from its valleys outward\n";
+    out += section("SYNOPSIS") + ".B thalweg\n.I COMMAND\n.RI [ OPTIONS ]\n";
+    out += section("DESCRIPTION") +
+           paragraph(
+               "thalweg starts where other generators of terrain end: with the rivers. A network of valleys is grown, "
+               "or taken from a file of lines; it is traced into arcs, pruned, ordered and given heights; and the "
+               "land is drawn around it. Out come a checked river network, a DEM through exactly those rivers, "
+               "contours and pictures.");
+    out += section("COMMANDS");
+    for (CommandHelp const& command : program.commands) {
+        out += tagged(fmt::format(".BR {} (1)", roff("thalweg-" + command.name)), command.summary);
+    }
+    out += options(program);
+    out += section("EXIT STATUS") + rows(exit_codes);
+    out += section("FILES") + roff("What make leaves in its folder:") + "\n" + rows(made);
+    out += section("ENVIRONMENT") + rows(environment);
+    return out + examples(program) + see_also("thalweg1", program);
+}
+
+std::string command_page(CommandHelp const& command, CommandHelp const& program) {
+    std::string const name = "thalweg-" + command.name;
+    std::string out = heading(name, '1', "User Commands");
+    out += section("NAME") + roff(name) + " \\- " + roff(clause(command.summary)) + "\n";
+    out += section("SYNOPSIS") + bold_line("thalweg " + command.name) + ".RI [ OPTIONS ]\n";
+    for (OptionHelp const& p : command.positionals) {
+        std::string const word = roff(long_name(p)) + (p.repeats ? "..." : "");
+        out += p.required ? ".I " + word + "\n" : ".RI [ " + word + " ]\n";
+    }
+    out += section("DESCRIPTION") + paragraph(command.summary) + paragraphs(command.text);
+    out += options(command);
+    out += section("EXIT STATUS") + rows(exit_codes);
+    if (command.name == "make") {
+        out += section("FILES") + roff("In the folder of --output:") + "\n" + rows(made);
+    }
+    out += section("ENVIRONMENT") + rows(environment);
+    return out + examples(command) + see_also(name + "1", program);
+}
+
+std::string key_text(pipeline::KeyHelp const& key) {
+    std::string const out = fmt::format("{}.\n{}: {}.", key.meaning, key.type, key.range);
+    return key.standard.empty() ? out : out + fmt::format("\nDefault: {}.", key.standard);
+}
+
+std::string recipe_page(CommandHelp const& program) {
+    std::string out = heading("thalweg-recipe", '5', "File Formats");
+    out += section("NAME") + roff("thalweg-recipe") + " \\- everything that decides a terrain, in one file\n";
+    out += section("DESCRIPTION") +
+           paragraph(
+               "A recipe is a TOML file. A key that is left out has its default; one that is unknown is an error. On "
+               "the command line of thalweg make, --set section.key=value sets a key over what the file says. File "
+               "names are relative to the recipe's folder. Without a section network nothing tells where rivers run; "
+               "without a section surface only the network is made.");
+    out += section("KEYS");
+    std::string at;
+    for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {
+        auto const dot = key.path.rfind('.');
+        std::string const name = dot == std::string::npos ? key.path : key.path.substr(dot + 1);
+        std::string const its_section = dot == std::string::npos ? "" : key.path.substr(0, dot);
+        if (its_section != at) {
+            at = its_section;
+            out += ".SS " + roff("[" + at + "]") + "\n";
+        }
+        out += tagged(fmt::format("\\fB{}\\fR{}", roff(name), key.unit.empty() ? "" : roff(" [" + key.unit + "]")),
+                      key_text(key));
+    }
+    out += section("EXAMPLES") + paragraph("The recipe that thalweg make uses without one:") + ".PP\n" +
+           verbatim(pipeline::write_recipe(pipeline::default_recipe()));
+    return out + see_also("thalweg-recipe5", program);
+}
+
+} // namespace
+
+std::vector<ManPage> man_pages(CommandHelp const& program) {
+    std::vector<ManPage> pages{{"thalweg", '1', program_page(program)}};
+    for (CommandHelp const& command : program.commands) {
+        pages.push_back({"thalweg-" + command.name, '1', command_page(command, program)});
+    }
+    pages.push_back({"thalweg-recipe", '5', recipe_page(program)});
+    return pages;
+}
+
+} // namespace thalweg::tools
