@@ -4,6 +4,7 @@
 
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/tin.hpp>
+#include <thalweg/geometry/side_of_line.hpp>
 
 #include <algorithm>
 #include <array>
@@ -56,7 +57,8 @@ inline bool is_lawful(Tin const& tin) {
     std::set<std::uint32_t> used;
     for (auto const& t : tin.triangles) {
         used.insert(t.begin(), t.end());
-        if (!(area2(tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]) > 0.0)) {
+        auto const plan = [&](std::size_t k) { return Vec2{tin.vertices[t[k]].x, tin.vertices[t[k]].y}; };
+        if (geometry::side_of_line(plan(0), plan(1), plan(2)) <= 0) {
             return false;
         }
     }

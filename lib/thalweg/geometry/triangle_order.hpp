@@ -2,16 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
+#include <thalweg/core/tin.hpp>
 
 namespace thalweg::geometry {
 
-/// Numbers triangles without a trace of how they were found: each begins with its lowest vertex, all are sorted.
-/// Takes: triangles of vertices [0, vertices). Gives: the same triangles, each still in its direction.
-std::vector<std::array<std::uint32_t, 3>> in_order(std::vector<std::array<std::uint32_t, 3>> const& triangles,
-                                                   std::size_t vertices);
+/// Numbers the triangles of a TIN without a trace of how they were found: each begins with its lowest vertex, and they
+/// follow a Z-shaped curve through the places of these (Morton), so that neighbours lie close in memory and in files.
+/// Takes: a TIN whose triangles have vertices that are there, finite. Gives: the same triangles, each in its direction.
+void put_in_order(Tin& tin);
 
 } // namespace thalweg::geometry

@@ -206,12 +206,11 @@ void number(Places const& places, std::vector<typename Mesh::Vertex_handle> cons
 }
 
 template <class Mesh> void take_triangles(Mesh const& mesh, Tin& tin) {
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    triangles.reserve(mesh.number_of_faces());
+    tin.triangles.reserve(mesh.number_of_faces());
     for (auto const face : mesh.finite_face_handles()) {
-        triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+        tin.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
     }
-    tin.triangles = in_order(triangles, tin.vertices.size());
+    put_in_order(tin);
 }
 
 bool is_between(Point const& a, Point const& b, Point const& p) {

@@ -41,11 +41,9 @@ struct Centres {
     std::vector<double> y;
 };
 
-// A whole number near v, within [low, high]; v may be anything.
+// A whole number near v, within [low, high]; v may be anything. (std::floor is a call where SSE4 is not asked for.)
 std::int64_t clamped(double v, std::int64_t low, std::int64_t high) {
-    return v >= static_cast<double>(high)  ? high
-           : v <= static_cast<double>(low) ? low
-                                           : static_cast<std::int64_t>(std::floor(v));
+    return v >= static_cast<double>(high) ? high : v <= static_cast<double>(low) ? low : static_cast<std::int64_t>(v);
 }
 
 // Bands of rows a triangle may touch: a row more than rounding could miss.
@@ -55,7 +53,8 @@ struct Bands {
 };
 
 Bands bands_of(double south, double north, Grid const& grid) {
-    auto const row = [&](double y) { return (grid.north - y) / grid.cell_m - 0.5; };
+    double const per_m = 1.0 / grid.cell_m;
+    auto const row = [&](double y) { return (grid.north - y) * per_m - 0.5; };
     double const top = row(north) - 1.0;
     double const bottom = row(south) + 1.0;
     if (!(bottom >= 0.0) || !(top < static_cast<double>(grid.height))) {
@@ -123,11 +122,10 @@ Binned bin(Tin const& tin, Grid const& grid, Run const& run) {
 
 // A side of a triangle from its lower to its upper end.
 struct Side {
-    Side(Vec3 const& low, Vec3 const& high)
-        : from(plan(low)), to(plan(high)), slope((high.x - low.x) / (high.y - low.y)) {}
     Vec2 from;
     Vec2 to;
-    double slope; // dx/dy
+    double column = 0.0; // of its lower end
+    double slope = 0.0;  // [columns/m] to the east as it goes north
 };
 
 struct Column {
@@ -140,25 +138,27 @@ class Band {
 public:
     Band(Tin const& tin, Centres const& centres, double reach_columns, std::int64_t first_row, std::int64_t end_row,
          Raster<float>& dem)
-        : tin_(tin), centres_(centres), reach_(reach_columns), first_row_(first_row), end_row_(end_row), dem_(dem) {}
+        : tin_(tin), centres_(centres), per_m_(1.0 / centres.grid.cell_m), reach_(reach_columns), first_row_(first_row),
+          end_row_(end_row), dem_(dem) {}
 
     void draw(std::uint32_t triangle) {
         auto const& t = tin_.triangles[triangle];
         Vec3 a = tin_.vertices[t[0]];
         Vec3 b = tin_.vertices[t[1]];
         Vec3 c = tin_.vertices[t[2]];
-        double const area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-        if (geometry::side_of_line(plan(a), plan(b), plan(c)) <= 0) {
+        double const forward = (b.x - a.x) * (c.y - a.y);
+        double const back = (c.x - a.x) * (b.y - a.y);
+        double const area = forward - back;
+        if (!(area > 1e-12 * (std::fabs(forward) + std::fabs(back))) &&
+            geometry::side_of_line(plan(a), plan(b), plan(c)) <= 0) {
             throw BadInput(fmt::format("surface.rasterise_tin: triangle {} at ({}, {}) does not run counterclockwise",
                                        triangle + 1, a.x, a.y));
         }
-        plane_ = {a, ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / area,
-                  ((b.x - a.x) * (c.z - a.z) - (c.x - a.x) * (b.z - a.z)) / area, std::min({a.z, b.z, c.z}),
+        // A sliver thinner than doubles tell has no slope that could be had from it.
+        double const by_area = area > 0.0 ? 1.0 / area : 0.0;
+        plane_ = {a, ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) * by_area,
+                  ((b.x - a.x) * (c.z - a.z) - (c.x - a.x) * (b.z - a.z)) * by_area, std::min({a.z, b.z, c.z}),
                   std::max({a.z, b.z, c.z})};
-        if (area == 0.0) { // a sliver thinner than doubles tell: no slope can be had from it
-            plane_.east = 0.0;
-            plane_.north = 0.0;
-        }
         // From south to north, b in the middle: west of the long side a-c after an odd number of swaps.
         bool b_is_west = false;
         auto const order = [&](Vec3& p, Vec3& q) {
@@ -177,15 +177,15 @@ public:
         if (row == end) {
             return;
         }
-        Side const whole(a, c);
+        Side const whole = side(a, c);
         if (b.y < c.y) {
-            Side const upper(b, c);
+            Side const upper = side(b, c);
             for (; row < end && centres_.y[static_cast<std::size_t>(row)] >= b.y; ++row) {
                 draw_row(row, b_is_west ? upper : whole, b_is_west ? whole : upper);
             }
         }
         if (row < end) {
-            Side const lower(a, b);
+            Side const lower = side(a, b);
             for (; row < end; ++row) {
                 draw_row(row, b_is_west ? lower : whole, b_is_west ? whole : lower);
             }
@@ -202,18 +202,23 @@ public:
     }
 
 private:
+    Side side(Vec3 const& low, Vec3 const& high) const {
+        return {plan(low), plan(high), (low.x - centres_.grid.west) * per_m_ - 0.5,
+                (high.x - low.x) / (high.y - low.y) * per_m_};
+    }
+
     // Rows of this band whose centres lie in [south, north).
     std::pair<std::int64_t, std::int64_t> rows(double south, double north) const {
         Grid const& grid = centres_.grid;
         auto const y = [&](std::int64_t r) { return centres_.y[static_cast<std::size_t>(r)]; };
-        std::int64_t first = clamped((grid.north - north) / grid.cell_m - 0.5, first_row_, end_row_);
+        std::int64_t first = clamped((grid.north - north) * per_m_ - 0.5, first_row_, end_row_);
         while (first > first_row_ && y(first - 1) < north) {
             --first;
         }
         while (first < end_row_ && y(first) >= north) {
             ++first;
         }
-        std::int64_t end = clamped((grid.north - south) / grid.cell_m + 0.5, first, end_row_);
+        std::int64_t end = clamped((grid.north - south) * per_m_ + 0.5, first, end_row_);
         while (end > first && y(end - 1) < south) {
             --end;
         }
@@ -224,31 +229,30 @@ private:
     }
 
     Column column(Side const& side, std::int64_t row) const {
-        Grid const& grid = centres_.grid;
         double const y = centres_.y[static_cast<std::size_t>(row)];
-        double const at = (side.from.x + (y - side.from.y) * side.slope - grid.west) / grid.cell_m - 0.5;
-        auto const width = static_cast<double>(grid.width);
-        if (!(at > -1.0 - reach_)) {
-            return {};
+        double const past_west = side.column + (y - side.from.y) * side.slope + 1.0; // columns from -1 on
+        std::int64_t const width = centres_.grid.width;
+        std::int64_t const c = clamped(past_west, 0, width);
+        double const past = past_west - static_cast<double>(c);
+        if ((past > reach_ && past < 1.0 - reach_) || past < -reach_ || past > 1.0 + reach_) {
+            return {c, false};
         }
-        if (at > width + reach_) {
-            return {grid.width, false};
-        }
-        std::int64_t c = clamped(at, -1, grid.width) + 1;
-        if (double const past = at - std::floor(at); past > reach_ && past < 1.0 - reach_) {
-            return {std::min(c, grid.width), false};
-        }
+        return exact_column(side, c, y);
+    }
+
+    // From a guess.
+    Column exact_column(Side const& side, std::int64_t c, double y) const {
+        std::int64_t const width = centres_.grid.width;
         auto const turn = [&](std::int64_t col) {
             return geometry::side_of_line(side.from, side.to, {centres_.x[static_cast<std::size_t>(col)], y});
         };
-        c = std::min(c, grid.width);
         while (c > 0 && turn(c - 1) <= 0) {
             --c;
         }
-        while (c < grid.width && turn(c) > 0) {
+        while (c < width && turn(c) > 0) {
             ++c;
         }
-        return {c, c < grid.width && turn(c) == 0};
+        return {c, c < width && turn(c) == 0};
     }
 
     float height(double x, double base) const {
@@ -294,6 +298,7 @@ private:
     };
     Tin const& tin_;
     Centres const& centres_;
+    double per_m_; // cells a metre
     double reach_;
     std::int64_t first_row_;
     std::int64_t end_row_;
