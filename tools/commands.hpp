@@ -30,5 +30,6 @@ Command add_check(CLI::App& app, Session& session);
 Command add_stats(CLI::App& app, Session& session);
 Command add_replay(CLI::App& app, Session& session);
 Command add_recipe(CLI::App& app, Session& session);
+Command add_tin(CLI::App& app, Session& session);
 
 } // namespace thalweg::tools

@@ -102,6 +102,7 @@ int main(int argc, char** argv) {
     add("stats", "statistics of a DEM", add_stats);
     add("replay", "runs a folder's recipe again and compares the bytes", add_replay);
     add("recipe", "every key of a recipe", add_recipe);
+    add("tin", "a TIN from a DEM, points or a network", add_tin);
 
     try {
         app.parse(argc, argv);
