@@ -52,7 +52,7 @@ std::string in_words(pipeline::MadeTin const& made) {
     if (made.left_out > 0) {
         words += fmt::format("; {} cells with data touch no others and are left out", made.left_out);
     }
-    if (made.merged > 0) {
+    if (made.merged > 0 && (made.source == "points" || made.merged_dz_m > 0.0)) { // arcs of a network meet anyway
         words += fmt::format("; {} points where one lay already, up to {:.3f} m apart in height: the first stands",
                              made.merged, made.merged_dz_m);
     }

@@ -203,6 +203,12 @@ std::vector<Vec3> take(OGRLayer& layer, std::string const& z_field, std::string 
     return points;
 }
 
+// A GeoPackage without CRS has one of this name.
+bool is_missing(OGRSpatialReference const* reference) {
+    return reference == nullptr || reference->IsEmpty() != 0 ||
+           (reference->GetName() != nullptr && std::string_view(reference->GetName()).starts_with("Undefined"));
+}
+
 // The UTM zone of the middle.
 std::string zone_of(std::vector<Vec3> const& points, OGRSpatialReference const& from, std::string const& name) {
     auto const [west, east] = std::ranges::minmax_element(points, {}, &Vec3::x);
@@ -250,7 +256,7 @@ FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name
         return read;
     }
     OGRSpatialReference const* const own = layer.GetSpatialRef();
-    if (own == nullptr || own->IsEmpty()) {
+    if (is_missing(own)) {
         if (params.crs.empty()) {
             refuse(fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
         }
