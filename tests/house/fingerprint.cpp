@@ -6,6 +6,9 @@
 
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/elementary.hpp>
+#include <thalweg/geometry/natural_neighbours.hpp>
+#include <thalweg/geometry/tin_of_dem.hpp>
+#include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/network/grow_dla.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/pick_branch.hpp>
@@ -16,6 +19,7 @@
 #include <thalweg/network/trace.hpp>
 #include <thalweg/pipeline/frame.hpp>
 #include <thalweg/surface/dilate.hpp>
+#include <thalweg/surface/rasterise_tin.hpp>
 #include <thalweg/surface/separable.hpp>
 
 #include <cstdio>
@@ -101,6 +105,34 @@ template <class T> Fnv hash_of(Raster<T> const& raster) {
     return fnv;
 }
 
+Fnv hash_of(Tin const& tin) {
+    Fnv fnv;
+    for (Vec3 const& v : tin.vertices) {
+        fnv.add(v.x);
+        fnv.add(v.y);
+        fnv.add(v.z);
+    }
+    for (auto const& t : tin.triangles) {
+        for (std::uint32_t const v : t) {
+            fnv.add(static_cast<std::uint64_t>(v));
+        }
+    }
+    return fnv;
+}
+
+/// Breaklines of a network.
+std::vector<std::vector<Vec3>> lines_of(RaisedNetwork const& network) {
+    std::vector<std::vector<Vec3>> lines;
+    for (std::size_t i = 0; ArcId const arc : boost::make_iterator_range(boost::edges(network.plan))) {
+        auto& line = lines.emplace_back();
+        for (std::size_t k = 0; Vec2 const& p : network.plan[arc].line) {
+            line.push_back({p.x, p.y, network.arc_z[i][k++]});
+        }
+        ++i;
+    }
+    return lines;
+}
+
 Fnv hash_of(surface::Expansion const& expansion) {
     Fnv fnv;
     fnv.add_all(expansion.level.values());
@@ -147,6 +179,19 @@ int main(int count, char** words) {
     print("expand", hash_of(surface::expand(valley, run)));
     print("expand, plain", hash_of(expand_plain(valley, run)));
     print("expand_frontier", hash_of(surface::expand_frontier(valley, Mask(skeleton.grid(), 1), run)));
+    auto const lines = lines_of(raised.network);
+    Tin const tin = geometry::triangulate({}, lines, run).tin;
+    Grid const& grid = skeleton.grid();
+    print("triangulate", hash_of(tin));
+    print("rasterise_tin",
+          hash_of(surface::rasterise_tin(tin, grid, {surface::RasteriseTinParams::Outside::nearest}, run)));
+    std::vector<Vec3> points;
+    for (auto const& line : lines) {
+        points.push_back(line.front());
+    }
+    print("natural_neighbours", hash_of(geometry::natural_neighbours(points, grid, {}, run)));
+    Raster<float> const land = surface::dilate(valley, {{"rise_fall"}, surface::Metric::euclid, 500.0}, run).dem;
+    print("tin_of_dem", hash_of(geometry::tin_of_dem(land, {20.0}, run).tin));
     for (char const* increment : {"uniform", "decreasing", "rise_fall", "2+sin(x/7)*exp(-x/50)+x^0.3"}) {
         for (auto const metric : {surface::Metric::cityblock, surface::Metric::euclid}) {
             surface::DilateParams const params{{increment}, metric, 500.0};

@@ -108,7 +108,9 @@ OGRLayer& create_layer(Target const& target, Table const& table) {
     CPLStringList options;
     OGRwkbGeometryType type = wkbNone;
     if (table.shape != Table::Shape::none) {
-        type = table.shape == Table::Shape::point ? wkbPoint25D : wkbLineString25D;
+        type = table.shape == Table::Shape::point  ? wkbPoint25D
+               : table.shape == Table::Shape::line ? wkbLineString25D
+                                                   : wkbPolygon25D;
     }
     if (target.format == Format::shapefile) {
         options.SetNameValue("ENCODING", "UTF-8");
@@ -164,12 +166,22 @@ void set_shape(OGRFeature& feature, Table const& table, std::int64_t row, Target
         target.require(feature.SetGeometry(&point) == OGRERR_NONE);
         return;
     }
-    OGRLineString line;
-    line.setNumPoints(static_cast<int>(positions.size()));
-    for (int i = 0; Vec3 const& p : positions) {
-        line.setPoint(i++, p.x, p.y, p.z);
+    auto const draw = [&](OGRSimpleCurve& line) {
+        line.setNumPoints(static_cast<int>(positions.size()));
+        for (int i = 0; Vec3 const& p : positions) {
+            line.setPoint(i++, p.x, p.y, p.z);
+        }
+    };
+    if (table.shape == Table::Shape::line) {
+        OGRLineString line;
+        draw(line);
+        target.require(feature.SetGeometry(&line) == OGRERR_NONE);
+        return;
     }
-    target.require(feature.SetGeometry(&line) == OGRERR_NONE);
+    OGRLinearRing ring;
+    draw(ring);
+    OGRPolygon polygon;
+    target.require(polygon.addRing(&ring) == OGRERR_NONE && feature.SetGeometry(&polygon) == OGRERR_NONE);
 }
 
 void write(Target const& target, Table const& table, Run const& run) {

@@ -25,13 +25,14 @@ struct Column {
 
 /// A layer of a vector file: its features are the rows [0, rows), numbered from 1.
 struct Table {
-    enum class Shape { none, point, line };
+    enum class Shape { none, point, line, polygon };
 
     std::string name;
     Shape shape = Shape::none;
     std::int64_t rows = 0;
     std::vector<Column> columns;
-    std::function<std::vector<Vec3>(std::int64_t row)> shape_at; ///< one position for a point
+    std::function<std::vector<Vec3>(std::int64_t row)>
+        shape_at; ///< one position for a point; a closed ring for a polygon
 };
 
 /// Writes tables as the layers of a new GeoPackage, those without shape as attribute tables.

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/geometry/natural_neighbours.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/natural_neighbor_coordinates_2.h>
+
+#include <thalweg/core/parallel.hpp>
+#include <thalweg/geometry/triangulate.hpp>
+
+namespace thalweg::geometry {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_2;
+using Vertices = CGAL::Triangulation_vertex_base_with_info_2<double, Kernel>;
+using Mesh = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertices>>;
+using Share = std::pair<Mesh::Vertex_handle, double>;
+
+struct Itself {
+    using argument_type = Share;
+    using result_type = Share;
+    Share operator()(Share const& share) const { return share; }
+};
+
+// triangulate() has judged the points and thrown out twins; its triangles are CGAL's once more.
+Mesh mesh_of(Tin const& tin) {
+    std::vector<std::pair<Point, double>> entries;
+    entries.reserve(tin.vertices.size());
+    for (Vec3 const& v : tin.vertices) {
+        entries.emplace_back(Point(v.x, v.y), v.z);
+    }
+    Mesh mesh;
+    mesh.insert(entries.begin(), entries.end());
+    return mesh;
+}
+
+} // namespace
+
+Raster<float> natural_neighbours(std::vector<Vec3> const& points, Grid const& grid,
+                                 NaturalNeighboursParams const& params, Run const& run) {
+    Mesh const mesh = mesh_of(triangulate(points, {}, run).tin);
+    bool const extend = params.outside == NaturalNeighboursParams::Outside::nearest;
+    Raster<float> dem(grid, std::numeric_limits<float>::quiet_NaN());
+    parallel_ranges(run, grid.height, 1, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<Share> shares;
+        for (std::int64_t row = begin; row < end; ++row) {
+            run.check();
+            // Each row begins its walk at the same face: where it stands must not depend on who drew the row before.
+            Mesh::Face_handle near = mesh.infinite_face();
+            for (std::int64_t col = 0; col < grid.width; ++col) {
+                Vec2 const at = grid.centre({col, row});
+                Point const p(at.x, at.y);
+                near = mesh.locate(p, near);
+                shares.clear();
+                auto const [out, sum, found] =
+                    CGAL::natural_neighbor_coordinates_2(mesh, p, std::back_inserter(shares), Itself{}, near);
+                if (!found || !(sum > 0.0)) {
+                    if (extend || found) {
+                        dem[Cell{col, row}] = static_cast<float>(mesh.nearest_vertex(p, near)->info());
+                    }
+                    continue;
+                }
+                double z = 0.0;
+                double lowest = std::numeric_limits<double>::infinity();
+                double highest = -lowest;
+                for (auto const& [vertex, area] : shares) {
+                    z += area / sum * vertex->info();
+                    lowest = std::min(lowest, vertex->info());
+                    highest = std::max(highest, vertex->info());
+                }
+                dem[Cell{col, row}] = static_cast<float>(std::clamp(z, lowest, highest));
+            }
+        }
+    });
+    return dem;
+}
+
+} // namespace thalweg::geometry

@@ -1,0 +1,309 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/read_points.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/io/dataset.hpp>
+#include <thalweg/io/driver.hpp>
+#include <thalweg/io/files.hpp>
+#include <thalweg/io/projection.hpp>
+#include <thalweg/io/spatial_reference.hpp>
+
+namespace thalweg::io {
+namespace {
+
+[[noreturn]] void refuse(std::string const& text) {
+    throw BadInput("io.read_points: " + text);
+}
+
+char lowered(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blank = " \t\r\"";
+    auto const first = text.find_first_not_of(blank);
+    return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+    char const mark = line.find(';') != std::string_view::npos   ? ';'
+                      : line.find(',') != std::string_view::npos ? ','
+                                                                 : ' ';
+    std::vector<std::string_view> fields;
+    while (!line.empty()) {
+        auto const end = mark == ' ' ? line.find_first_of(" \t") : line.find(mark);
+        auto const field = trimmed(line.substr(0, end));
+        if (mark != ' ' || !field.empty()) {
+            fields.push_back(field);
+        }
+        line = end == std::string_view::npos ? "" : line.substr(end + 1);
+    }
+    return fields;
+}
+
+std::optional<double> number(std::string_view text) {
+    text = text.starts_with('+') ? text.substr(1) : text;
+    double value = 0.0;
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    bool const whole = error == std::errc() && end == text.data() + text.size();
+    return whole ? std::optional(value) : std::nullopt;
+}
+
+// Where x, y and z stand in a first line of names; nothing when it is one of numbers.
+std::optional<std::array<std::size_t, 3>> columns_of(std::vector<std::string_view> const& names,
+                                                     std::string const& name) {
+    if (std::ranges::all_of(names, [](std::string_view f) { return number(f).has_value(); })) {
+        return std::nullopt;
+    }
+    std::array<std::size_t, 3> columns{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        auto const is_it = [&](std::string_view f) { return f.size() == 1 && lowered(f[0]) == "xyz"[k]; };
+        auto const at = std::ranges::find_if(names, is_it);
+        if (at == names.end()) {
+            refuse(fmt::format("{}, first line: no column '{}'; name them x, y and z, or begin with three numbers",
+                               name, "xyz"[k]));
+        }
+        columns[k] = static_cast<std::size_t>(at - names.begin());
+    }
+    return columns;
+}
+
+std::vector<Vec3> parse(std::string const& text, std::string const& name, Run const& run) {
+    std::vector<Vec3> points;
+    std::array<std::size_t, 3> columns{0, 1, 2};
+    std::string_view rest = text;
+    rest = rest.starts_with("\xEF\xBB\xBF") ? rest.substr(3) : rest;
+    bool is_first = true;
+    for (std::int64_t line = 1; !rest.empty(); ++line) {
+        if ((line & 0xffff) == 0) {
+            run.check();
+        }
+        auto const end = rest.find('\n');
+        auto const words = trimmed(rest.substr(0, end));
+        rest = end == std::string_view::npos ? "" : rest.substr(end + 1);
+        if (words.empty() || words.front() == '#') {
+            continue;
+        }
+        auto const fields = fields_of(words);
+        if (is_first) {
+            is_first = false;
+            if (auto const named = columns_of(fields, name)) {
+                columns = *named;
+                continue;
+            }
+        }
+        std::array<double, 3> values{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (columns[k] >= fields.size()) {
+                refuse(
+                    fmt::format("{}, line {}: {} of the columns, {} is missing", name, line, fields.size(), "xyz"[k]));
+            }
+            auto const value = number(fields[columns[k]]);
+            if (!value || !std::isfinite(*value)) {
+                refuse(fmt::format("{}, line {}: {} is '{}': a finite number is wanted", name, line, "xyz"[k],
+                                   fields[columns[k]]));
+            }
+            values[k] = *value;
+        }
+        points.push_back({values[0], values[1], values[2]});
+    }
+    return points;
+}
+
+bool may_hold_points(OGRwkbGeometryType type) {
+    auto const flat = wkbFlatten(type);
+    return flat == wkbUnknown || flat == wkbPoint || flat == wkbMultiPoint;
+}
+
+OGRLayer& choose_layer(GDALDataset& data, std::string const& wanted, std::string const& name) {
+    std::vector<OGRLayer*> found;
+    std::string names;
+    for (auto* const layer : data.GetLayers()) {
+        names += (names.empty() ? "" : ", ") + std::string(layer->GetName());
+        if (may_hold_points(layer->GetGeomType()) && (wanted.empty() || wanted == layer->GetName())) {
+            found.push_back(layer);
+        }
+    }
+    if (found.size() != 1) {
+        refuse(found.empty()
+                   ? fmt::format("{} has no layer of points{} ({})", name,
+                                 wanted.empty() ? "" : " named '" + wanted + "'", names)
+                   : fmt::format("{} has {} layers of points; name one of them ({})", name, found.size(), names));
+    }
+    return *found.front();
+}
+
+void add(OGRGeometry const& geometry, double field_z, std::int64_t feature, std::string const& name,
+         std::vector<Vec3>& points) {
+    auto const flat = wkbFlatten(geometry.getGeometryType());
+    if (flat == wkbMultiPoint) {
+        for (auto const* const part : *geometry.toMultiPoint()) {
+            add(*part, field_z, feature, name, points);
+        }
+        return;
+    }
+    if (flat != wkbPoint || geometry.IsEmpty() != 0) {
+        refuse(fmt::format("feature {} of {} is {}, not a point", feature, name,
+                           geometry.IsEmpty() != 0 ? "empty" : OGRGeometryTypeToName(flat)));
+    }
+    auto const& p = *geometry.toPoint();
+    double const z = p.Is3D() != 0 ? p.getZ() : field_z;
+    if (!std::isfinite(p.getX()) || !std::isfinite(p.getY()) || !std::isfinite(z)) {
+        refuse(fmt::format("feature {} of {} lies at ({}, {}, {}): finite coordinates and a height are wanted", feature,
+                           name, p.getX(), p.getY(), z));
+    }
+    points.push_back({p.getX(), p.getY(), z});
+}
+
+std::vector<Vec3> take(OGRLayer& layer, std::string const& z_field, std::string const& name, Run const& run) {
+    int const field = layer.GetLayerDefn()->GetFieldIndex(z_field.c_str());
+    std::vector<Vec3> points;
+    for (auto const& feature : layer) {
+        run.check();
+        auto const* const geometry = feature->GetGeometryRef();
+        if (geometry == nullptr) {
+            refuse(fmt::format("feature {} of {} has no point; remove it", feature->GetFID(), name));
+        }
+        bool const has_field = field >= 0 && feature->IsFieldSetAndNotNull(field) != 0;
+        if (!has_field && geometry->Is3D() == 0) {
+            refuse(fmt::format("feature {} of {} has no height: neither Z nor a field '{}'", feature->GetFID(), name,
+                               z_field));
+        }
+        std::optional<double> field_z = 0.0;
+        if (has_field) {
+            field_z = number(trimmed(feature->GetFieldAsString(field)));
+            if (layer.GetLayerDefn()->GetFieldDefn(field)->GetType() == OFTReal) {
+                field_z = feature->GetFieldAsDouble(field); // its text is rounded
+            }
+        }
+        if (!field_z) {
+            refuse(fmt::format("feature {} of {}: {} is '{}', no number", feature->GetFID(), name, z_field,
+                               feature->GetFieldAsString(field)));
+        }
+        add(*geometry, *field_z, feature->GetFID(), name, points);
+    }
+    return points;
+}
+
+// A GeoPackage without CRS has one of this name.
+bool is_missing(OGRSpatialReference const* reference) {
+    return reference == nullptr || reference->IsEmpty() != 0 ||
+           (reference->GetName() != nullptr && std::string_view(reference->GetName()).starts_with("Undefined"));
+}
+
+// The UTM zone of the middle.
+std::string zone_of(std::vector<Vec3> const& points, OGRSpatialReference const& from, std::string const& name) {
+    auto const [west, east] = std::ranges::minmax_element(points, {}, &Vec3::x);
+    auto const [south, north] = std::ranges::minmax_element(points, {}, &Vec3::y);
+    double x = 0.5 * (west->x + east->x);
+    double y = 0.5 * (south->y + north->y);
+    OGRSpatialReference const geographic = read_reference("EPSG:4326");
+    std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &geographic));
+    if (!turn || turn->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y)) {
+        refuse("the middle of " + name + " has no longitude and latitude; check its CRS");
+    }
+    return utm_zone(x, y);
+}
+
+void reproject(std::vector<Vec3>& points, OGRSpatialReference const& from, std::string const& crs,
+               std::string const& name, Driver const& driver) {
+    OGRSpatialReference const to = read_reference(crs);
+    std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &to));
+    if (!turn) {
+        refuse(fmt::format("{} cannot be brought into {}: {}", name, crs, driver.take()));
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        Vec3 p = points[i];
+        if (turn->Transform(1, &p.x, &p.y) == 0 || !std::isfinite(p.x) || !std::isfinite(p.y)) {
+            refuse(fmt::format("point {} of {}, ({}, {}), cannot be brought into {}: {}", i + 1, name, points[i].x,
+                               points[i].y, crs, driver.take()));
+        }
+        points[i] = p;
+    }
+}
+
+// PROJ's last bits differ between machines: a millionth of a metre does not.
+double rounded(double v) {
+    return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0;
+}
+
+FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name, Run const& run) {
+    Driver const driver;
+    Dataset const data = open_file(params.path, GDAL_OF_VECTOR, nullptr, "io.read_points: " + params.path);
+    OGRLayer& layer = choose_layer(*data, params.layer, name);
+    FeaturePoints read;
+    read.points = take(layer, params.z_field, name, run);
+    driver.check("io.read_points: " + params.path);
+    if (read.points.empty()) {
+        return read;
+    }
+    OGRSpatialReference const* const own = layer.GetSpatialRef();
+    if (is_missing(own)) {
+        if (params.crs.empty()) {
+            refuse(fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
+        }
+        read.crs = projected_crs(params.crs);
+        return read;
+    }
+    OGRSpatialReference from(*own);
+    double const height_unit_m = from.IsCompound() != 0 ? from.GetTargetLinearUnits("VERT_CS") : 1.0;
+    from.StripVertical();
+    from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    read.crs = !params.crs.empty()            ? projected_crs(params.crs)
+               : is_projected_in_metres(from) ? name_of(from)
+                                              : zone_of(read.points, from, name);
+    if (read.crs != name_of(from)) {
+        reproject(read.points, from, read.crs, name, driver);
+        for (Vec3& p : read.points) {
+            p = {rounded(p.x), rounded(p.y), p.z};
+        }
+    }
+    for (Vec3& p : read.points) {
+        p.z *= height_unit_m;
+    }
+    return read;
+}
+
+} // namespace
+
+bool is_text_of_points(std::string const& path) {
+    std::string ending = std::filesystem::path(path).extension().string();
+    std::ranges::transform(ending, ending.begin(), lowered);
+    return ending == ".csv" || ending == ".txt" || ending == ".xyz";
+}
+
+FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
+    auto const name = std::filesystem::path(params.path).filename().string();
+    FeaturePoints read;
+    if (is_text_of_points(params.path)) {
+        constexpr std::int64_t most_bytes = std::int64_t{1} << 34;
+        read.points = parse(read_text(params.path, most_bytes), name, run);
+        read.crs = params.crs.empty() ? "" : projected_crs(params.crs);
+    } else {
+        read = read_layer(params, name, run);
+    }
+    if (read.points.empty()) {
+        refuse(name + " holds no points");
+    }
+    return read;
+}
+
+} // namespace thalweg::io

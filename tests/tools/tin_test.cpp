@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <iterator>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Exit 2, the words in the message, nothing written.
+void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
+    auto const before = std::distance(fs::directory_iterator(place.path()), {});
+    Outcome const o = thalweg_run("tin " + arguments, place.path());
+    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
+    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
+    EXPECT_NE(("\n" + o.err).find("\nerror: "), std::string::npos) << o.err;
+    EXPECT_EQ(o.out, "") << arguments;
+    EXPECT_EQ(std::distance(fs::directory_iterator(place.path()), {}), before) << arguments;
+}
+
+/// A DEM of 5 x 4 cells with a hole in its corner and a peak.
+void write_dem(Workplace const& place) {
+    place.write("dem.asc", "ncols 5\nnrows 4\nxllcorner 500000\nyllcorner 4000000\ncellsize 10\nNODATA_value -9999\n"
+                           "-9999 0 0 0 0\n0 0 9 0 0\n0 0 0 0 0\n0 0 0 0 0\n");
+}
+
+std::string const points = "x,y,z\n0,0,1\n10,0,2\n10,10,3\n0,10,4\n5,5,9\n";
+
+} // namespace
+
+TEST(Tin, OfADemWithinAnError) {
+    Workplace const place;
+    write_dem(place);
+    Outcome const o = thalweg_run("tin dem.asc -o dem.2dm --error 0.5 --json", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    auto const json = nlohmann::json::parse(o.out);
+    EXPECT_EQ(json["source"], "dem");
+    EXPECT_LE(json["error_m"], 0.5);
+    EXPECT_EQ(json["left_out"], 0);
+    std::string const mesh = file_bytes(place / "dem.2dm");
+    EXPECT_EQ(mesh.rfind("MESH2D\n", 0), 0U);
+    EXPECT_NE(mesh.find(" 500025 4000025 9\n"), std::string::npos);
+}
+
+TEST(Tin, OfPointsInEveryFormat) {
+    Workplace const place;
+    place.write("p.csv", points);
+    for (std::string const name : {"a.2dm", "a.ply", "a.gpkg", "a.obj", "a.off", "a.xml", "a.las", "a.xyz"}) {
+        Outcome const o = thalweg_run("tin p.csv --crs EPSG:32631 -o " + name, place.path());
+        ASSERT_EQ(o.code, 0) << o.err;
+        EXPECT_EQ(o.out, name + "\n");
+        EXPECT_NE(o.err.find("5 vertices, 4 triangles"), std::string::npos) << o.err;
+        EXPECT_GE(fs::file_size(place / name), 34U);
+    }
+    EXPECT_EQ(thalweg_run("tin -q p.csv -o b.ply --format ply-points", place.path()).err, "");
+    EXPECT_EQ(file_bytes(place / "b.ply").find("element face"), std::string::npos);
+    EXPECT_EQ(std::distance(fs::directory_iterator(place.path()), {}), 10);
+}
+
+TEST(Tin, OfANetworkAndItsBreaklines) {
+    Workplace const place;
+    ASSERT_EQ(thalweg_run("make -q --set grid.width=64 --set grid.height=64 --set network.dla.particles=400 "
+                          "--set network.prune=4 -o land",
+                          place.path())
+                  .code,
+              0);
+    Outcome const folder = thalweg_run("tin land -o a.2dm --json", place.path());
+    ASSERT_EQ(folder.code, 0) << folder.err;
+    auto const json = nlohmann::json::parse(folder.out);
+    EXPECT_EQ(json["source"], "network");
+    EXPECT_EQ(json["crs"], "EPSG:32631");
+    EXPECT_EQ(json["merged_dz_m"], 0.0);
+    ASSERT_EQ(thalweg_run("tin land/network.gpkg -o b.2dm --threads 1", place.path()).code, 0);
+    EXPECT_EQ(file_bytes(place / "a.2dm"), file_bytes(place / "b.2dm"));
+    place.write("p.csv", "300000,100000,5\n900000,100000,5\n300000,900000,5\n");
+    Outcome const both = thalweg_run("tin p.csv --crs EPSG:32631 --breaklines land -o c.2dm --json", place.path());
+    ASSERT_EQ(both.code, 0) << both.err;
+    EXPECT_EQ(nlohmann::json::parse(both.out)["vertices"], json["vertices"].get<int>() + 3);
+}
+
+TEST(Tin, NothingIsOverwrittenUnasked) {
+    Workplace const place;
+    place.write("p.csv", points);
+    place.write("a.2dm", "mine");
+    refused(place, "p.csv -o a.2dm", "a.2dm already exists");
+    EXPECT_EQ(file_bytes(place / "a.2dm"), "mine");
+    EXPECT_EQ(thalweg_run("tin p.csv -o a.2dm --overwrite", place.path()).code, 0);
+    EXPECT_EQ(file_bytes(place / "a.2dm").rfind("MESH2D\n", 0), 0U);
+}
+
+TEST(Tin, BadInputIsRefused) {
+    Workplace const place;
+    write_dem(place);
+    place.write("p.csv", points);
+    place.write("line.csv", "0,0,1\n1,1,2\n2,2,3\n");
+    place.write("two.csv", "0,0,1\n1,1,2\n");
+    place.write("nan.csv", "0,0,1\n1,0,nan\n0,1,2\n");
+    place.write("word.csv", "0,0,1\n1,0,low\n0,1,2\n");
+    place.write("flat.geojson", R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},)"
+                                R"("geometry":{"type":"LineString","coordinates":[[1,1],[2,3]]}}]})");
+    refused(place, "", "SOURCE");
+    refused(place, "p.csv", "--output");
+    refused(place, "nowhere.tif -o a.2dm", "nowhere.tif does not exist");
+    refused(place, "p.csv -o a.dxf", "says no format; name one of 2dm, ply, gpkg");
+    refused(place, "p.csv -o a.2dm --format dxf", "'dxf' is no format");
+    refused(place, "p.csv -o none/a.2dm", "there is no folder none");
+    refused(place, "p.csv -o .", "");
+    refused(place, "line.csv -o a.2dm", "3 points lie on one line, from (0, 0) to (2, 2)");
+    refused(place, "two.csv -o a.2dm", "2 points in 2 different places");
+    refused(place, "nan.csv -o a.2dm", "nan.csv, line 2: z is 'nan'");
+    refused(place, "word.csv -o a.2dm", "word.csv, line 2: z is 'low'");
+    refused(place, "dem.asc -o a.2dm --error 0", "an error of 0 m");
+    refused(place, "dem.asc -o a.2dm --error -2", "an error of -2 m");
+    refused(place, "dem.asc -o a.2dm --error nan", "above 0");
+    refused(place, "dem.asc -o a.2dm --error much", "--error");
+    refused(place, "dem.asc -o a.2dm --breaklines flat.geojson", "not with a DEM");
+    refused(place, "p.csv -o a.2dm --error 3", "an error goes with a DEM");
+    refused(place, "p.csv -o a.2dm --breaklines dem.asc", "holds no lines");
+    refused(place, "p.csv -o a.2dm --breaklines flat.geojson", "have no heights");
+    refused(place, "flat.geojson -o a.2dm", "have no heights");
+    refused(place, "p.csv -o a.2dm --crs EPSG:4326", "4326");
+}
