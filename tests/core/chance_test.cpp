@@ -34,15 +34,6 @@ TEST(Chance, every_number_of_the_place_matters) {
     EXPECT_EQ(chance(1, 2, 3, 4, 5), chance_block(1, 2, 3, 4, 5)[0]);
 }
 
-TEST(Chance, blocks_in_a_row_are_the_blocks_of_their_places) {
-    std::vector<std::uint64_t> words(20);
-    thalweg::chance_blocks(1, 2, 3, 4, 5, words);
-    for (std::uint64_t block = 0; block < 5; ++block) {
-        auto const four = chance_block(1, 2, 3, 4, 5 + block);
-        EXPECT_TRUE(std::equal(four.begin(), four.end(), words.begin() + static_cast<std::ptrdiff_t>(4 * block)));
-    }
-}
-
 TEST(Chance, a_stream_belongs_to_its_place) {
     ChanceStream first(7, 3, 9);
     ChanceStream again(7, 3, 9);

@@ -23,16 +23,6 @@ std::array<std::uint64_t, 4> chance_block(std::uint64_t seed, std::uint64_t a, s
     return philox(seed, 0, a, b, c, d);
 }
 
-void chance_blocks(std::uint64_t seed, std::uint64_t a, std::uint64_t b, std::uint64_t c, std::uint64_t d,
-                   std::span<std::uint64_t> words) {
-    for (std::size_t i = 0; i + 4 <= words.size(); i += 4) {
-        auto const four = philox(seed, 0, a, b, c, d++);
-        for (std::size_t k = 0; k < 4; ++k) {
-            words[i + k] = four[k];
-        }
-    }
-}
-
 void ChanceStream::refill() {
     for (std::size_t i = 0; i < words_.size(); i += 4) {
         auto const four = philox(seed_, ~stage_, item_, block_++, 0, 0);

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 
 namespace thalweg {
 
@@ -13,10 +12,6 @@ namespace thalweg {
 /// Gives: four independent uniform 64-bit words.
 std::array<std::uint64_t, 4> chance_block(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0,
                                           std::uint64_t d = 0);
-
-/// The words of chance_block at the places d, d + 1, ... in a row; as many as the span holds, a multiple of four.
-void chance_blocks(std::uint64_t seed, std::uint64_t a, std::uint64_t b, std::uint64_t c, std::uint64_t d,
-                   std::span<std::uint64_t> words);
 
 /// First word of chance_block.
 inline std::uint64_t chance(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0,

@@ -87,6 +87,7 @@ Fractal fit(Sums const& sums, EstimateParams const& params) {
     std::array<double, lags> y{};
     std::size_t n = 0;
     for (std::size_t k = 0; k < lags; ++k) {
+        fractal.pairs += sums.along_rows[k].pairs + sums.along_cols[k].pairs;
         if (auto const value = log_difference(sums.along_rows[k], sums.along_cols[k], params.differences)) {
             x[n] = exact::log(static_cast<double>(k + 1));
             y[n++] = *value;

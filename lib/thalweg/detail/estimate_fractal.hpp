@@ -26,9 +26,10 @@ struct EstimateParams {
 
 /// A fractional Brownian surface, E (z(p) - z(q))^2 = sigma^2 |p - q|^(2H) with distances in cells.
 struct Fractal {
-    double hurst = 0.5; ///< [0.05, 0.95] H; the fractal dimension is 3 - H
-    double sigma = 0.0; ///< [m] root mean square difference of two heights one cell apart
-    int lags = 0;       ///< [0, 4] lags with differences other than 0
+    double hurst = 0.5;     ///< [0.05, 0.95] H; the fractal dimension is 3 - H
+    double sigma = 0.0;     ///< [m] root mean square difference of two heights one cell apart
+    int lags = 0;           ///< [0, 4] lags with differences other than 0
+    std::int64_t pairs = 0; ///< of cells compared, over all lags
 };
 
 /// Cells [col, col + width) x [row, row + height).

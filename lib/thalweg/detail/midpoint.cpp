@@ -120,7 +120,7 @@ std::int64_t adapt(Character& character, Raster<float> const& coarse, Run const&
                 double sigma = character.sigma;
                 bool const rougher = here.lags > 1 && std::fabs(here.hurst - hurst) > 0.1;
                 bool const higher = here.sigma > 1.5 * sigma || here.sigma < 0.67 * sigma;
-                if (rougher || higher) {
+                if (here.pairs > 0 && (rougher || higher)) {
                     hurst = here.lags > 1 ? here.hurst : hurst;
                     sigma = here.sigma;
                     ++adapted;

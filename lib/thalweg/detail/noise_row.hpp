@@ -28,12 +28,12 @@ struct NoisePlace {
 };
 
 /// A multiple of this many numbers of a row is made at a time.
-inline constexpr std::int64_t noise_batch = 16;
+inline constexpr std::int64_t noise_batch = 32;
 
 /// Numbers of mean 0 and variance 1, independent from place to place: a hash of seed, level, row and column.
 /// Takes: first: a multiple of noise_batch; out: as many numbers as wanted, a multiple of noise_batch and 4096 at most.
 /// Gives: out[i] for column 2 (first + i) + odd. The same bytes for any split of a row, and from any Lanes.
-/// Source: Box and Muller 1958 (normal); Philox4x64-10 (core/chance.hpp).
+/// Source: Philox4x32-10 (Salmon et al. 2011), of which vector registers hold eight; Box and Muller 1958 (normal).
 void noise_row(Noise noise, NoisePlace const& place, std::int64_t first, std::span<float> out, Lanes lanes);
 
 } // namespace thalweg::detail

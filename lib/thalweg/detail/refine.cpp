@@ -27,7 +27,6 @@ struct Points {
     float* out = nullptr;
     float const* others = nullptr; ///< in a woven row: what stands between the points
     std::int64_t odd = 0;          ///< in a woven row: 1 where the points have the odd columns
-    bool stream = false;           ///< whether the row is stored past the cache
 };
 
 namespace plain {
@@ -142,7 +141,6 @@ public:
         varies_ = refinement.character.varies();
         make_ = varies_ ? makers<true>(refinement.stencil, refinement.lanes)
                         : makers<false>(refinement.stencil, refinement.lanes);
-        stream_ = to.cols * to.rows >= least_streamed;
         reach_ = {weights.reach(refinement.character.hurst, false), weights.reach(refinement.character.hurst, true)};
         for (std::vector<float>& row : factors_) {
             row.resize(static_cast<std::size_t>(varies_ ? chunk : 1));
@@ -162,14 +160,10 @@ public:
                 make_odd_row(i);
             }
         }
-        if (stream_ && refinement_.lanes == Lanes::avx2) {
-            avx2::end_streams();
-        }
     }
 
 private:
     static constexpr std::int64_t chunk = 1024;
-    static constexpr std::int64_t least_streamed = std::int64_t{1} << 22; ///< [points] more than caches hold
 
     /// Points of one kind in a row of the finer lattice: columns 2 i + odd.
     struct Kind {
@@ -257,7 +251,6 @@ private:
             points.out = target.out + 2 * begin;
             points.others = target.others + begin;
             points.odd = odd;
-            points.stream = stream_;
             // The last point of an odd row has no other half: the same arithmetic, apart.
             std::int64_t const pairs = std::min(last, target.length / 2);
             make_.woven(points, first - begin, pairs - begin);
@@ -419,7 +412,6 @@ private:
     std::int64_t rim_ = 0; ///< rows and columns of points at each border that lack neighbours
     Makers make_{};
     bool varies_ = false;
-    bool stream_ = false;
     std::array<double, 2> reach_{}; ///< of centres and of edges, where H is the same everywhere
     std::unordered_map<std::uint32_t, StencilWeights> solved_;
 };
@@ -455,12 +447,12 @@ void refine(Refinement const& refinement, Raster<float>& dem, Floors& floors, Ru
         lattice.stride = cols;
         if (level > 0 && level < refinement.levels) {
             Floor& floor = level % 2 == 1 ? floors.odd : floors.even;
-            auto const points = static_cast<std::size_t>(cols * rows);
-            if (floor.size() < points) {
-                floor.resize(points);
-            }
-            lattice.z = floor.data();
+            floor.resize(std::max(floor.size(), static_cast<std::size_t>(cols * rows)));
         }
+    }
+    // Only now, since of a small result an upper level may be the larger one.
+    for (int level = 1; level < refinement.levels; ++level) {
+        lattices[static_cast<std::size_t>(level)].z = (level % 2 == 1 ? floors.odd : floors.even).data();
     }
     lattices.back().z = dem.values().data();
     lattices.front().z = const_cast<float*>(coarse.values().data()); // only read
