@@ -288,6 +288,19 @@ TEST(Midpoint, IsTheSameOnAnyThreadsAndInstructions) {
     }
 }
 
+TEST(Midpoint, IsTheSameWhereItIsStoredPastTheCache) {
+    Raster<float> const coarse = land::by_chance(40, 40, 8);
+    for (std::int64_t const width : {2304, 2303}) { // rows that begin at the vectors' bounds, and rows that do not
+        MidpointParams params = with(6, Stencil::sixteen, 0.5, 0.3);
+        params.width = width;
+        params.height = 1900;
+        Raster<float> const large = midpoint(coarse, params, on(2)).dem;
+        params.height = 700;
+        Raster<float> const small = midpoint(coarse, params, on(1)).dem;
+        EXPECT_TRUE(std::equal(small.values().begin(), small.values().end(), large.values().begin()));
+    }
+}
+
 TEST(Midpoint, TakesDegenerateLand) {
     for (Stencil const stencil : stencils) {
         Raster<float> const point(land::frame(1, 1), 7.0F);

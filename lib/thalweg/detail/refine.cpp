@@ -27,6 +27,7 @@ struct Points {
     float* out = nullptr;
     float const* others = nullptr; ///< in a woven row: what stands between the points
     std::int64_t odd = 0;          ///< in a woven row: 1 where the points have the odd columns
+    bool stream = false;           ///< in a woven row: whether it is stored past the cache
 };
 
 namespace plain {
@@ -145,6 +146,7 @@ public:
         for (std::vector<float>& row : factors_) {
             row.resize(static_cast<std::size_t>(varies_ ? chunk : 1));
         }
+        stream_ = level == refinement.levels && to.cols * to.rows >= least_streamed;
         rim_ = used_ == used_neighbours(Stencil::four) ? 0 : 1;
     }
 
@@ -160,10 +162,14 @@ public:
                 make_odd_row(i);
             }
         }
+#ifdef __x86_64__
+        __builtin_ia32_sfence(); // other threads shall see what was stored past the cache
+#endif
     }
 
 private:
     static constexpr std::int64_t chunk = 1024;
+    static constexpr std::int64_t least_streamed = std::int64_t{1} << 22; ///< [points] more than caches hold
 
     /// Points of one kind in a row of the finer lattice: columns 2 i + odd.
     struct Kind {
@@ -251,6 +257,7 @@ private:
             points.out = target.out + 2 * begin;
             points.others = target.others + begin;
             points.odd = odd;
+            points.stream = stream_;
             // The last point of an odd row has no other half: the same arithmetic, apart.
             std::int64_t const pairs = std::min(last, target.length / 2);
             make_.woven(points, first - begin, pairs - begin);
@@ -412,6 +419,7 @@ private:
     std::int64_t rim_ = 0; ///< rows and columns of points at each border that lack neighbours
     Makers make_{};
     bool varies_ = false;
+    bool stream_ = false;
     std::array<double, 2> reach_{}; ///< of centres and of edges, where H is the same everywhere
     std::unordered_map<std::uint32_t, StencilWeights> solved_;
 };

@@ -11,17 +11,28 @@
 namespace thalweg::detail {
 namespace {
 
-/// Square of a distance, the nearest neighbours being 1 away.
-double square(Offset const& a, Offset const& b) {
-    int const col = a.col - b.col;
-    int const row = a.row - b.row;
-    return 0.5 * static_cast<double>(col * col + row * row);
-}
+/// E (z(a) - z(b))^2 in units of sigma^2 r^(2H), the nearest neighbours being r away.
+class Variogram {
+public:
+    explicit Variogram(double hurst) {
+        for (int col = 0; col <= longest; ++col) {
+            for (int row = col % 2; row <= col;
+                 row += 2) { // of one parity: so the neighbours lie to one another and to the point
+                int const square = col * col + row * row;
+                of_square_[static_cast<std::size_t>(square)] = exact::pow(0.5 * static_cast<double>(square), hurst);
+            }
+        }
+    }
+    double operator()(Offset const& a, Offset const& b) const {
+        int const col = a.col - b.col;
+        int const row = a.row - b.row;
+        return of_square_[static_cast<std::size_t>(col * col + row * row)];
+    }
 
-/// E (z(a) - z(b))^2 in units of sigma^2 r^(2H).
-double variogram(Offset const& a, Offset const& b, double hurst) {
-    return exact::pow(square(a, b), hurst);
-}
+private:
+    static constexpr int longest = 6;
+    std::array<double, 2 * longest * longest + 1> of_square_{};
+};
 
 /// Solves the square system whose rows end in their right side, by elimination with the greatest pivots.
 std::vector<double> solve(std::vector<std::vector<double>> rows) {
@@ -50,14 +61,14 @@ std::vector<double> solve(std::vector<std::vector<double>> rows) {
     return x;
 }
 
-std::vector<double> kriged(std::vector<Offset> const& points, double hurst) {
+std::vector<double> kriged(std::vector<Offset> const& points, Variogram const& variogram) {
     std::size_t const n = points.size();
     std::vector<std::vector<double>> rows(n + 1, std::vector<double>(n + 2, 1.0));
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t k = 0; k < n; ++k) {
-            rows[i][k] = variogram(points[i], points[k], hurst);
+            rows[i][k] = variogram(points[i], points[k]);
         }
-        rows[i][n + 1] = variogram(points[i], {}, hurst);
+        rows[i][n + 1] = variogram(points[i], {});
     }
     rows[n][n] = 0.0;
     std::vector<double> weights = solve(std::move(rows));
@@ -66,14 +77,15 @@ std::vector<double> kriged(std::vector<Offset> const& points, double hurst) {
 }
 
 /// Conditional deviation of the new point under any weights whose sum is 1.
-double exact_deviation(std::vector<Offset> const& points, std::vector<double> const& weights, double hurst) {
+double exact_deviation(std::vector<Offset> const& points, std::vector<double> const& weights,
+                       Variogram const& variogram) {
     double variance = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         double inner = 0.0;
         for (std::size_t k = 0; k < points.size(); ++k) {
-            inner += weights[k] * variogram(points[i], points[k], hurst);
+            inner += weights[k] * variogram(points[i], points[k]);
         }
-        variance += weights[i] * (variogram(points[i], {}, hurst) - 0.5 * inner);
+        variance += weights[i] * (variogram(points[i], {}) - 0.5 * inner);
     }
     return std::sqrt(variance > 0.0 ? variance : 0.0);
 }
@@ -102,9 +114,11 @@ StencilWeights stencil_weights(Stencil stencil, std::uint32_t known, double hurs
             places.push_back(i);
         }
     }
+    Variogram const variogram(hurst);
     bool const means = stencil == Stencil::four || stencil == Stencil::four_exact;
     std::vector<double> const weights =
-        means ? std::vector<double>(points.size(), 1.0 / static_cast<double>(points.size())) : kriged(points, hurst);
+        means ? std::vector<double>(points.size(), 1.0 / static_cast<double>(points.size()))
+              : kriged(points, variogram);
     StencilWeights out;
     for (std::size_t i = 0; i < places.size(); ++i) {
         out.weight[places[i]] = weights[i];
@@ -113,7 +127,7 @@ StencilWeights stencil_weights(Stencil stencil, std::uint32_t known, double hurs
         even_out(out.weight);
     }
     out.deviation = stencil == Stencil::four ? std::sqrt(1.0 - exact::pow(2.0, 2.0 * hurst - 2.0))
-                                             : exact_deviation(points, weights, hurst);
+                                             : exact_deviation(points, weights, variogram);
     return out;
 }
 
