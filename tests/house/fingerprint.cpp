@@ -6,6 +6,9 @@
 
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/elementary.hpp>
+#include <thalweg/detail/estimate_fractal.hpp>
+#include <thalweg/detail/midpoint.hpp>
+#include <thalweg/detail/refine.hpp>
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
@@ -24,6 +27,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 
 using namespace thalweg;
 
@@ -149,6 +153,63 @@ surface::Expansion expand_plain(Valley const& valley, Run const& run) {
     return expansion;
 }
 
+Fnv hash_of(detail::Fractal const& fractal) {
+    Fnv fnv;
+    fnv.add(fractal.hurst);
+    fnv.add(fractal.sigma);
+    return fnv;
+}
+
+/// Coarse land with a hole, by chance.
+Raster<float> coarse_land() {
+    Raster<float> z(Grid{23, 19, 16.0, 0.0, 0.0, ""});
+    for (std::int64_t i = 0; i < z.cells(); ++i) {
+        z[i] = static_cast<float>(100.0 * unit(chance(5, static_cast<std::uint64_t>(i))));
+    }
+    z[{11, 7}] = std::numeric_limits<float>::quiet_NaN();
+    return z;
+}
+
+/// Midpoint displacement without the vector instructions of this processor.
+Raster<float> midpoint_plain(Raster<float> const& coarse, detail::MidpointParams const& params, Run const& run) {
+    detail::Refinement refinement;
+    refinement.coarse = &coarse;
+    refinement.holes = true;
+    refinement.levels = params.levels;
+    refinement.stencil = params.stencil;
+    refinement.noise = params.noise;
+    refinement.seed = params.seed;
+    refinement.character.hurst = *params.hurst;
+    refinement.character.sigma = *params.sigma;
+    Raster<float> dem(Grid{params.width, params.height, 1.0, 0.0, 0.0, ""});
+    detail::Floors floors;
+    detail::refine(refinement, dem, floors, run);
+    return dem;
+}
+
+void print_detail(Run const& run) {
+    Raster<float> const coarse = coarse_land();
+    detail::MidpointParams params;
+    params.width = 339;
+    params.height = 287;
+    params.hurst = 0.6;
+    params.sigma = 20.0;
+    Raster<float> const dem = detail::midpoint(coarse, params, run).dem;
+    print("midpoint 16", hash_of(dem));
+    print("estimate_fractal", hash_of(detail::estimate_fractal(dem, {}, run)));
+    print("estimate_fractal, absolute",
+          hash_of(detail::estimate_fractal(dem, {detail::Differences::absolute, {}}, run)));
+    print("midpoint 16, plain", hash_of(midpoint_plain(coarse, params, run)));
+    params.noise = detail::Noise::uniform;
+    params.stencil = detail::Stencil::four;
+    print("midpoint 4, uniform", hash_of(detail::midpoint(coarse, params, run).dem));
+    print("midpoint 4, uniform, plain", hash_of(midpoint_plain(coarse, params, run)));
+    params = {};
+    params.stencil = detail::Stencil::twelve;
+    params.adaptation = detail::Adaptation::local;
+    print("midpoint 12, local", hash_of(detail::midpoint(coarse, params, run).dem));
+}
+
 } // namespace
 
 int main(int count, char** words) {
@@ -198,4 +259,5 @@ int main(int count, char** words) {
             print(increment, hash_of(surface::dilate(valley, params, run).dem));
         }
     }
+    print_detail(run);
 }

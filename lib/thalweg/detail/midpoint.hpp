@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run.hpp>
+#include <thalweg/detail/noise_row.hpp>
+#include <thalweg/detail/stencil_weights.hpp>
+
+namespace thalweg::detail {
+
+enum class Adaptation : std::uint8_t {
+    global, ///< one H and one sigma
+    local   ///< those of 7 x 7 coarse cells where they are others: |H - global| > 0.1 or sigma / global outside
+            ///< [0.67, 1.5]
+};
+
+struct MidpointParams {
+    int levels = 4;              ///< [0, 30] times each cell is halved
+    std::int64_t width = 0;      ///< [cells] of the result; 0: all the coarse raster covers
+    std::int64_t height = 0;     ///< [cells] the same
+    std::optional<double> hurst; ///< [0.05, 0.95] H; empty: estimated from the coarse raster
+    std::optional<double> sigma; ///< [m] root mean square difference one coarse cell apart; empty: estimated at that H
+    Stencil stencil = Stencil::sixteen;
+    Noise noise = Noise::normal;
+    Adaptation adaptation = Adaptation::global;
+    std::uint64_t seed = 1;
+};
+
+struct Displaced {
+    Raster<float> dem;        ///< [m] NaN in holes
+    double hurst = 0.5;       ///< as used
+    double sigma = 0.0;       ///< [m] as used
+    std::int64_t adapted = 0; ///< coarse cells with an H and sigma of their own
+};
+
+/// Fractal detail between the cells of a coarse raster, by midpoint displacement on a lattice 2^levels finer.
+/// Takes: coarse: its cells' centres become points of the lattice, the north-western one its first. NaN: a hole.
+/// Gives: cell (c 2^levels, r 2^levels) has the bits of coarse cell (c, r). Every other height is, level by level,
+/// centres of squares first and then the middles of sides, the stencil's mean of the lattice neighbours there are, plus
+/// sigma r^H times the stencil's deviation times noise; r is the distance of the nearest neighbours in coarse cells.
+/// NaN exactly where all the nearest coarse cells (one, two or four) are holes. A smaller result is the north-western
+/// part of a larger one, and one of fewer levels every second cell of one with more, bit for bit (global). Land that
+/// is level stays so with sigma 0. With Adaptation::local, H and sigma are bilinear between coarse cells, H in steps of
+/// 1/256. The same bytes for any number of threads.
+/// Throws: BadInput: no cell, a height beyond 1e30 m; BadParameter: a value out of its range, a coarse raster that does
+/// not cover the result (the message says how many columns and rows would); Cancelled.
+/// Source: paper 001, equation 14 (Stencil::four); Fournier, Fussell and Carpenter 1982; specification 1.6.
+Displaced midpoint(Raster<float> const& coarse, MidpointParams const& params = {}, Run const& run = {});
+
+} // namespace thalweg::detail
