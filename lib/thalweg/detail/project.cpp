@@ -33,8 +33,12 @@ using solver::FieldStatistics;
 using solver::Quantity;
 
 constexpr std::int64_t grain_cells = 32768;
-// So close to singular a system may be: below it two statistics, or two fixed heights, cannot be told apart.
-constexpr double ridge = 1e-10;
+// So close to singular a matrix may be: below it two statistics, or two fixed heights, cannot be told apart.
+constexpr double least_ridge = 1e-10;
+constexpr double most_ridge = 1e-2;
+// A step that leaves more missing than that many times the least so far is taken back, and the next is half as long.
+constexpr double worse = 1.5;
+constexpr double least_reach = 1.0 / 64.0;
 
 /// One statistic on its way to its target.
 struct Goal {
@@ -97,6 +101,17 @@ struct Land {
     Raster<float> dem;
 };
 
+/// Factor with the least ridge that makes the matrix positive definite.
+solver::Cholesky factor_safely(std::vector<double> const& matrix, std::size_t size, Run const& run) {
+    for (double ridge = least_ridge; ridge < most_ridge; ridge *= 100.0) {
+        try {
+            return solver::factor(matrix, size, ridge, run);
+        } catch (NotConverged const&) {
+        }
+    }
+    return solver::factor(matrix, size, most_ridge, run);
+}
+
 /// The prior's covariance, and that part of it which the fixed heights leave.
 class Prior {
 public:
@@ -158,7 +173,7 @@ private:
                 }
             }
         }
-        return solver::factor(std::move(matrix), n, ridge, run);
+        return factor_safely(matrix, n, run);
     }
 
     Grid grid_;
@@ -223,8 +238,9 @@ std::vector<Raster<double>> derivatives(Land const& land, FieldStatistics const&
 }
 
 /// The step of least energy that makes up for what is missing, to first order: free heights move by C' g c, C' the
-/// prior's covariance conditioned on the fixed heights, g the derivatives, and c such that g' C' g c = missing.
-void step(Land& land, FieldStatistics const& is, std::vector<Goal> const& goals, Limiter const& limiter,
+/// prior's covariance conditioned on the fixed heights, g the derivatives, and c such that g' C' g c = missing, as far
+/// as reach times the longest steps.
+void step(Land& land, FieldStatistics const& is, std::vector<Goal> const& goals, double reach, Limiter const& limiter,
           std::vector<FixedHeight> const& kept, Prior const& prior, Run const& run) {
     std::size_t const n = goals.size();
     std::vector<Raster<double>> fields = derivatives(land, is, goals, limiter, kept, run);
@@ -261,14 +277,15 @@ void step(Land& land, FieldStatistics const& is, std::vector<Goal> const& goals,
     std::vector<double> wanted(n);
     for (std::size_t i = 0; i < n; ++i) {
         scale[i] = 1.0 / std::sqrt(system[i * n + i]);
-        wanted[i] = scale[i] * std::clamp(missing(goals[i], is), -goals[i].longest_step, goals[i].longest_step);
+        wanted[i] =
+            scale[i] * std::clamp(missing(goals[i], is), -reach * goals[i].longest_step, reach * goals[i].longest_step);
     }
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
             system[i * n + j] *= scale[i] * scale[j];
         }
     }
-    std::vector<double> const c = solver::solve(solver::factor(std::move(system), n, ridge), std::move(wanted));
+    std::vector<double> const c = solver::solve(factor_safely(system, n, run), std::move(wanted));
     std::vector<double> pull(kept.size(), 0.0);
     for (std::size_t i = 0; i < n; ++i) {
         add_to(land.free, c[i] * scale[i], fields[i], run);
@@ -351,12 +368,26 @@ Projection project(Raster<float> const& dem, Targets const& targets, std::vector
         }
         return largest;
     };
+    auto const longest_way = [&] {
+        double longest = 0.0;
+        for (Goal const& goal : goals) {
+            double const steps = std::fabs(missing(goal, is)) / goal.longest_step;
+            longest = std::isfinite(steps) ? std::max(longest, steps) : std::numeric_limits<double>::infinity();
+        }
+        return longest;
+    };
     Projection best;
     FieldStatistics best_is;
+    Raster<double> best_free;
+    double best_way = std::numeric_limits<double>::infinity();
+    double reach = 1.0;
     best.largest_error = std::numeric_limits<double>::infinity();
     for (int iteration = 0;; ++iteration) {
+        double const way = longest_way();
         double const error = largest_error();
-        if (iteration == 0 || error < best.largest_error) {
+        if (iteration == 0 || error <= params.tolerance || way < best_way) {
+            best_way = way;
+            best_free = land.free;
             best.dem = land.dem;
             best.largest_error = error;
             best.limited_cells = std::count_if(land.free.values().begin(), land.free.values().end(),
@@ -368,6 +399,17 @@ Projection project(Raster<float> const& dem, Targets const& targets, std::vector
             break;
         }
         run.at(static_cast<double>(iteration) / params.iterations, "project");
+        if (way > worse * best_way) {
+            land.free = best_free;
+            shape(land, limiter, kept, run);
+            is = best_is;
+            reach *= 0.5;
+        } else {
+            reach = std::min(1.0, 2.0 * reach);
+        }
+        if (reach < least_reach) {
+            break;
+        }
         // What the heights do not tell cannot be derived; the others may bring it back.
         std::vector<Goal> known;
         std::copy_if(goals.begin(), goals.end(), std::back_inserter(known),
@@ -375,7 +417,7 @@ Projection project(Raster<float> const& dem, Targets const& targets, std::vector
         if (known.empty()) {
             break;
         }
-        step(land, is, known, limiter, kept, prior, run);
+        step(land, is, known, reach, limiter, kept, prior, run);
         shape(land, limiter, kept, run);
         is = solver::field_statistics(land.dem, run);
     }

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
-#include <thalweg/core/parallel.hpp>
+#include <thalweg/skeleton/field_params.hpp>
 #include <thalweg/solver/circulant.hpp>
 #include <thalweg/solver/fft.hpp>
 
@@ -26,15 +26,14 @@ std::int64_t side(std::int64_t cells, double length_cells, int embedding) {
 }
 
 solver::Circulant embed(Grid const& grid, GrfParams const& params, Run const& run) {
-    FieldParams const& field = params.field;
-    solver::StableCovariance const covariance{field.lx_cells, field.ly_cells, params.dimension};
-    std::int64_t const width = side(grid.width, field.lx_cells, params.embedding);
-    std::int64_t const height = side(grid.height, field.ly_cells, params.embedding);
+    solver::StableCovariance const& covariance = params.covariance;
+    std::int64_t const width = side(grid.width, covariance.lx_cells, params.embedding);
+    std::int64_t const height = side(grid.height, covariance.ly_cells, params.embedding);
     if (width > most_cells / height) {
-        throw BadParameter(
-            fmt::format("skeleton.grf: a grid of {} x {} cells with correlation lengths of {} and {} cells "
-                        "needs a torus of {} x {}; shorten the lengths or lessen the embedding of {}",
-                        grid.width, grid.height, field.lx_cells, field.ly_cells, width, height, params.embedding));
+        throw BadParameter(fmt::format(
+            "skeleton.grf: a grid of {} x {} cells with correlation lengths of {} and {} cells "
+            "needs a torus of {} x {}; shorten the lengths or lessen the embedding of {}",
+            grid.width, grid.height, covariance.lx_cells, covariance.ly_cells, width, height, params.embedding));
     }
     solver::Circulant torus = solver::circulant(covariance, width, height, run);
     if (torus.negative_share > negligible && width <= most_cells / height / 4) {
@@ -46,8 +45,8 @@ solver::Circulant embed(Grid const& grid, GrfParams const& params, Run const& ru
 } // namespace
 
 RandomField grf(Grid const& grid, GrfParams const& params, Run const& run) {
-    check(params.field, "skeleton.grf");
-    check(solver::StableCovariance{params.field.lx_cells, params.field.ly_cells, params.dimension}, "skeleton.grf");
+    check(FieldParams{.mean = params.mean, .std = params.std}, "skeleton.grf");
+    check(params.covariance, "skeleton.grf");
     if (params.embedding < 1 || params.embedding > 64) {
         throw BadParameter(fmt::format("skeleton.grf: an embedding of {}; it lies between 1 and 64", params.embedding));
     }
@@ -59,9 +58,9 @@ RandomField grf(Grid const& grid, GrfParams const& params, Run const& run) {
     result.torus_width = torus.width;
     result.torus_height = torus.height;
     result.negative_share = torus.negative_share;
-    Raster<double> const normal = solver::sample(torus, grid, params.field.seed, grf_stage, run);
+    Raster<double> const normal = solver::sample(torus, grid, params.seed, grf_stage, run);
     for (std::int64_t i = 0; i < normal.cells(); ++i) {
-        result.dem[i] = static_cast<float>(params.field.mean + params.field.std * normal[i]);
+        result.dem[i] = static_cast<float>(params.mean + params.std * normal[i]);
     }
     return result;
 }

@@ -6,13 +6,15 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run.hpp>
-#include <thalweg/skeleton/field_params.hpp>
+#include <thalweg/solver/stable_covariance.hpp>
 
 namespace thalweg::skeleton {
 
 struct GrfParams {
-    FieldParams field{};
-    double dimension = 2.4; ///< fractal dimension in (2, 3)
+    double mean = 0.0; ///< [m]
+    double std = 1.0;  ///< [m] >= 0
+    solver::StableCovariance covariance{};
+    std::uint64_t seed = 0;
     int embedding =
         4; ///< [1, 64] the torus is at least so many times max(N, 5 L) wide; less memory, more negative_share
 };
