@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -16,6 +17,14 @@
 namespace thalweg::tools {
 
 namespace {
+
+std::string known(double figure, int digits) {
+    return std::isnan(figure) ? "unknown" : fmt::format("{:.{}f}", figure, digits);
+}
+
+std::string length(solver::CorrelationLength const& l) {
+    return known(l.cells, 2) + (l.extrapolated ? " (extrapolated)" : "");
+}
 
 int stats(std::string const& path, Session const& session) {
     Raster<float> const dem = io::read_dem(path, session.run);
@@ -31,6 +40,12 @@ int stats(std::string const& path, Session const& session) {
     fmt::print("max        {:.3f} m at column {}, row {}\n", s.max.z, s.max.cell.col, s.max.cell.row);
     fmt::print("slope      {:.4f} rad in metres per cell, {:.2f} degrees on the ground\n", s.slope_rad,
                s.slope_true_deg);
+    fmt::print("shape      skew {}, kurtosis {} (both 0 for a normal distribution)\n", known(s.skew, 3),
+               known(s.kurtosis, 3));
+    fmt::print("roughness  {} m between neighbours\n", known(s.roughness_m, 3));
+    fmt::print("length     {} cells along rows, {} along columns\n", length(s.lx), length(s.ly));
+    fmt::print("dimension  {} from lags 1 to 5, {} from lags 1 to 32\n", known(s.dimension, 3),
+               known(s.dimension_dyadic, 3));
     return Exit::done;
 }
 

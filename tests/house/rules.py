@@ -17,7 +17,7 @@ ROOMS.update({stage: BELOW for stage in STAGES})
 FOREIGN = {
     "core": ["oneapi/tbb/", "Random123/"],
     "geometry": ["CGAL/", "boost/iterator/"],
-    "solver": ["Eigen/", "CL/", "petsc", "mpi.h"],
+    "solver": ["Eigen/", "unsupported/Eigen/", "CL/", "petsc", "mpi.h"],
     "skeleton": ["noise/", "libnoise/"],
     "surface": ["muParser"],
     "draw": ["cairo"],

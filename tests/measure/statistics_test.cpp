@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -18,6 +20,98 @@ using measure::statistics;
 using measure::Statistics;
 
 namespace {
+
+/// Sums over every pair of cells at a distance.
+struct Pairs {
+    double products = 0.0;
+    double squares = 0.0;
+    double rises = 0.0;
+    double count = 0.0;
+};
+
+Pairs pairs_at(Raster<float> const& dem, double mean, std::int64_t dc, std::int64_t dr) {
+    Pairs sums;
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        Cell const here = dem.grid().at(i);
+        Cell const there{here.col + dc, here.row + dr};
+        if (dem.grid().contains(there) && !std::isnan(dem[here]) && !std::isnan(dem[there])) {
+            double const rise = static_cast<double>(dem[there]) - dem[here];
+            sums.products += (dem[here] - mean) * (dem[there] - mean);
+            sums.squares += rise * rise;
+            sums.rises += std::fabs(rise);
+            sums.count += 1.0;
+        }
+    }
+    return sums;
+}
+
+/// Slope of the least-squares line.
+double slope_of(std::vector<double> const& x, std::vector<double> const& y) {
+    auto const n = static_cast<double>(x.size());
+    double const mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
+    double products = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        products += (x[i] - mean_x) * y[i];
+        squares += (x[i] - mean_x) * (x[i] - mean_x);
+    }
+    return products / squares;
+}
+
+solver::CorrelationLength length(Raster<float> const& dem, Statistics const& s, std::int64_t dc, std::int64_t dr) {
+    std::int64_t const lags = (dc * dem.width() + dr * dem.height()) / 2;
+    double before = 1.0;
+    std::vector<double> x;
+    std::vector<double> u;
+    for (std::int64_t k = 1; k <= lags && s.std > 0.0; ++k) {
+        Pairs const pairs = pairs_at(dem, s.mean, k * dc, k * dr);
+        double const r = pairs.products / pairs.count / (s.std * s.std);
+        if (r <= std::exp(-1.0)) {
+            return {static_cast<double>(k - 1) + (before - std::exp(-1.0)) / (before - r), false};
+        }
+        before = r;
+        if (r > 0.0 && r < 1.0) {
+            x.push_back(std::log(static_cast<double>(k)));
+            u.push_back(std::log(-std::log(r)));
+        }
+    }
+    if (x.size() < 2 || slope_of(x, u) <= 0.0) {
+        return {};
+    }
+    auto const n = static_cast<double>(x.size());
+    double const mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
+    double const mean_u = std::accumulate(u.begin(), u.end(), 0.0) / n;
+    return {std::exp(mean_x - mean_u / slope_of(x, u)), true};
+}
+
+double dimension(Raster<float> const& dem, std::vector<std::int64_t> const& lags) {
+    std::vector<double> x;
+    std::vector<double> y;
+    for (std::int64_t const lag : lags) {
+        double mean = 0.0;
+        double axes = 0.0;
+        for (auto const& pairs : {pairs_at(dem, 0.0, lag, 0), pairs_at(dem, 0.0, 0, lag)}) {
+            if (pairs.count > 0.0) {
+                mean += pairs.squares / pairs.count;
+                axes += 1.0;
+            }
+        }
+        if (axes > 0.0) {
+            x.push_back(std::log(static_cast<double>(lag)));
+            y.push_back(0.5 * std::log(mean / axes));
+            if (!(mean > 0.0)) {
+                return std::nan("");
+            }
+        }
+    }
+    return x.size() < 2 ? std::nan("") : 3.0 - slope_of(x, y);
+}
+
+/// The same number to a tolerance, or none in both.
+bool alike(double a, double b, double tolerance) {
+    return std::isnan(a) || std::isnan(b) ? std::isnan(a) == std::isnan(b)
+                                          : std::fabs(a - b) <= tolerance * (1.0 + std::fabs(b));
+}
 
 /// The definition, in the order of the formula and with libm.
 Statistics oracle(Raster<float> const& dem) {
@@ -66,6 +160,28 @@ Statistics oracle(Raster<float> const& dem) {
         }
     }
     s.std = static_cast<double>(std::sqrt(squares / n));
+    auto const moment = [&](int power) {
+        long double moments = 0.0L;
+        for (float const z : dem.values()) {
+            moments += std::isnan(z) ? 0.0L : std::pow((z - sum / n) / std::sqrt(squares / n), power);
+        }
+        return static_cast<double>(moments / n);
+    };
+    s.skew = moment(3);
+    s.kurtosis = moment(4) - 3.0;
+    s.lx = length(dem, s, 1, 0);
+    s.ly = length(dem, s, 0, 1);
+    s.dimension = dimension(dem, {1, 2, 3, 4, 5});
+    s.dimension_dyadic = dimension(dem, {1, 2, 4, 8, 16, 32});
+    double axes = 0.0;
+    s.roughness_m = 0.0;
+    for (auto const& pairs : {pairs_at(dem, 0.0, 1, 0), pairs_at(dem, 0.0, 0, 1)}) {
+        if (pairs.count > 0.0) {
+            s.roughness_m += pairs.rises / pairs.count;
+            axes += 1.0;
+        }
+    }
+    s.roughness_m /= axes;
     return s;
 }
 
@@ -154,7 +270,51 @@ TEST(Statistics, FollowTheDefinition) {
         RC_ASSERT(std::fabs(s.std - o.std) <= 1e-12);
         RC_ASSERT(std::fabs(s.slope_rad - o.slope_rad) <= 1e-14);
         RC_ASSERT(std::fabs(s.slope_true_deg - o.slope_true_deg) <= 1e-12);
+        RC_ASSERT(alike(s.roughness_m, o.roughness_m, 1e-12));
+        RC_ASSERT(alike(s.dimension, o.dimension, 1e-9));
+        RC_ASSERT(alike(s.dimension_dyadic, o.dimension_dyadic, 1e-9));
+        if (o.std > 0.0) {
+            RC_ASSERT(alike(s.skew, o.skew, 1e-10));
+            RC_ASSERT(alike(s.kurtosis, o.kurtosis, 1e-10));
+        }
+        // A lag at which r is all but 1/e, 0 or 1 may fall to either side.
+        bool const by_fit = s.lx.extrapolated || s.ly.extrapolated || o.lx.extrapolated || o.ly.extrapolated;
+        if (!by_fit) {
+            RC_ASSERT(alike(s.lx.cells, o.lx.cells, 1e-9));
+            RC_ASSERT(alike(s.ly.cells, o.ly.cells, 1e-9));
+        }
     }));
+}
+
+TEST(Statistics, LengthsFollowTheDefinitionAlsoWhereTheyAreExtrapolated) {
+    for (int const holes : {0, 1}) {
+        Raster<float> dem(frame(60, 24));
+        for (std::int64_t i = 0; i < dem.cells(); ++i) {
+            auto const c = static_cast<double>(i % 60);
+            auto const r = static_cast<double>(i / 60);
+            dem[i] = static_cast<float>(500.0 + 100.0 * std::sin(c / 9.0) + 90.0 * std::sin(r / 20.0) +
+                                        9.0 * std::sin(c * r));
+            if (holes == 1 && (i * 7919) % 11 < 3) {
+                dem[i] = hole;
+            }
+        }
+        Statistics const s = statistics(dem);
+        Statistics const o = oracle(dem);
+        EXPECT_FALSE(s.lx.extrapolated);
+        EXPECT_TRUE(s.ly.extrapolated);
+        EXPECT_TRUE(o.ly.extrapolated);
+        EXPECT_NEAR(s.lx.cells, o.lx.cells, 1e-9);
+        EXPECT_NEAR(s.ly.cells, o.ly.cells, 1e-9);
+    }
+}
+
+TEST(Statistics, WhatAPlainDoesNotTellIsNotANumber) {
+    Statistics const s = statistics(Raster<float>(frame(9, 9), 3.0F));
+    for (double const figure : {s.skew, s.kurtosis, s.lx.cells, s.ly.cells, s.dimension, s.dimension_dyadic}) {
+        EXPECT_TRUE(std::isnan(figure));
+    }
+    EXPECT_EQ(s.roughness_m, 0.0);
+    EXPECT_TRUE(std::isnan(statistics(dem_of(1, {3.0F})).roughness_m));
 }
 
 TEST(Statistics, SameBitsForAnyNumberOfThreads) {
@@ -171,6 +331,12 @@ TEST(Statistics, SameBitsForAnyNumberOfThreads) {
         EXPECT_EQ(a.slope_rad, b.slope_rad);
         EXPECT_EQ(a.slope_true_deg, b.slope_true_deg);
         EXPECT_EQ(a.max.cell, b.max.cell);
+        EXPECT_EQ(a.skew, b.skew);
+        EXPECT_EQ(a.kurtosis, b.kurtosis);
+        EXPECT_EQ(a.roughness_m, b.roughness_m);
+        EXPECT_EQ(a.lx.cells, b.lx.cells);
+        EXPECT_EQ(a.ly.cells, b.ly.cells);
+        EXPECT_EQ(a.dimension, b.dimension);
     }
 }
 

@@ -13,6 +13,8 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/parallel.hpp>
 #include <thalweg/measure/compensated_sum.hpp>
+#include <thalweg/solver/central_difference.hpp>
+#include <thalweg/solver/fractal_dimension.hpp>
 
 namespace thalweg::measure {
 
@@ -29,16 +31,13 @@ struct RowSums {
     CompensatedSum squares;
     CompensatedSum slope_cells;
     CompensatedSum slope_metres;
+    CompensatedSum cubes;
+    CompensatedSum fourths;
+    CompensatedSum rises_along_row;
+    CompensatedSum rises_along_column;
+    std::int64_t pairs_along_row = 0;
+    std::int64_t pairs_along_column = 0;
 };
-
-/// Height difference a cell along one axis: central, one-sided beside a hole, 0 between two.
-double difference(float before, float here, float after) {
-    double const z = here;
-    if (std::isnan(before)) {
-        return std::isnan(after) ? 0.0 : after - z;
-    }
-    return std::isnan(after) ? z - before : (static_cast<double>(after) - before) / 2.0;
-}
 
 void add_heights(Raster<float> const& dem, std::int64_t row, double datum, RowSums& sums) {
     auto const here = dem.row(row);
@@ -68,20 +67,54 @@ void add_slopes(Raster<float> const& dem, std::int64_t row, RowSums& sums) {
         if (std::isnan(here[c])) {
             continue;
         }
-        double const dx = difference(c > 0 ? here[c - 1] : hole, here[c], c + 1 < here.size() ? here[c + 1] : hole);
-        double const dy = difference(north.empty() ? hole : north[c], here[c], south.empty() ? hole : south[c]);
+        double const dx =
+            solver::central_difference(c > 0 ? here[c - 1] : hole, here[c], c + 1 < here.size() ? here[c + 1] : hole);
+        double const dy =
+            solver::central_difference(north.empty() ? hole : north[c], here[c], south.empty() ? hole : south[c]);
         double const gradient = std::sqrt(dx * dx + dy * dy);
         sums.slope_cells.add(exact::atan2(gradient, 1.0));
         sums.slope_metres.add(exact::atan2(gradient, dem.grid().cell_m));
     }
 }
 
-void add_squares(Raster<float> const& dem, std::int64_t row, double mean, RowSums& sums) {
-    for (float const z : dem.row(row)) {
-        if (!std::isnan(z)) {
-            sums.squares.add((z - mean) * (z - mean));
+void add_rises(Raster<float> const& dem, std::int64_t row, RowSums& sums) {
+    auto const here = dem.row(row);
+    auto const north = row > 0 ? dem.row(row - 1) : std::span<float const>{};
+    auto const add = [](float a, float b, CompensatedSum& rises, std::int64_t& pairs) {
+        if (!std::isnan(a) && !std::isnan(b)) {
+            rises.add(std::fabs(static_cast<double>(b) - a));
+            ++pairs;
+        }
+    };
+    for (std::size_t c = 0; c < here.size(); ++c) {
+        if (c > 0) {
+            add(here[c - 1], here[c], sums.rises_along_row, sums.pairs_along_row);
+        }
+        if (!north.empty()) {
+            add(north[c], here[c], sums.rises_along_column, sums.pairs_along_column);
         }
     }
+}
+
+void add_powers(Raster<float> const& dem, std::int64_t row, double mean, RowSums& sums) {
+    for (float const z : dem.row(row)) {
+        if (!std::isnan(z)) {
+            double const above = z - mean;
+            sums.squares.add(above * above);
+            sums.cubes.add(above * above * above);
+            sums.fourths.add(above * above * above * above);
+        }
+    }
+}
+
+/// The mean of two axes' means, or that of the one which has pairs.
+double mean_of_axes(double row_sum, std::int64_t row_pairs, double column_sum, std::int64_t column_pairs) {
+    double const along_row = row_sum / static_cast<double>(row_pairs);
+    double const along_column = column_sum / static_cast<double>(column_pairs);
+    if (row_pairs == 0) {
+        return along_column;
+    }
+    return column_pairs == 0 ? along_row : (along_row + along_column) / 2.0;
 }
 
 /// First cell with a height, having seen that all heights are numbers.
@@ -133,9 +166,14 @@ Statistics statistics(Raster<float> const& dem, Run const& run) {
     for_rows([&](std::int64_t r, RowSums& sums) {
         add_heights(dem, r, datum, sums);
         add_slopes(dem, r, sums);
+        add_rises(dem, r, sums);
     });
     Statistics result;
+    std::int64_t row_pairs = 0;
+    std::int64_t column_pairs = 0;
     for (RowSums const& row : rows) {
+        row_pairs += row.pairs_along_row;
+        column_pairs += row.pairs_along_column;
         if (row.cells > 0) {
             result.min = result.cells == 0 || row.min.z < result.min.z ? row.min : result.min;
             result.max = result.cells == 0 || row.max.z > result.max.z ? row.max : result.max;
@@ -148,8 +186,19 @@ Statistics statistics(Raster<float> const& dem, Run const& run) {
     result.slope_rad = total(&RowSums::slope_cells) / n;
     result.slope_true_deg = total(&RowSums::slope_metres) / n * (180.0 / exact::pi);
 
-    for_rows([&](std::int64_t r, RowSums& sums) { add_squares(dem, r, result.mean, sums); });
+    result.roughness_m =
+        mean_of_axes(total(&RowSums::rises_along_row), row_pairs, total(&RowSums::rises_along_column), column_pairs);
+
+    for_rows([&](std::int64_t r, RowSums& sums) { add_powers(dem, r, result.mean, sums); });
     result.std = std::sqrt(total(&RowSums::squares) / n);
+    double const variance = result.std * result.std;
+    result.skew = total(&RowSums::cubes) / n / (variance * result.std);
+    result.kurtosis = total(&RowSums::fourths) / n / (variance * variance) - 3.0;
+    using solver::Axis;
+    result.lx = solver::correlation_length(solver::correlogram(dem, result.mean, result.std, Axis::rows, run));
+    result.ly = solver::correlation_length(solver::correlogram(dem, result.mean, result.std, Axis::columns, run));
+    result.dimension = solver::fractal_dimension(solver::differences(dem, solver::near_lags, run));
+    result.dimension_dyadic = solver::fractal_dimension(solver::differences(dem, solver::dyadic_lags, run));
     return result;
 }
 

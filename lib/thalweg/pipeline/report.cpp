@@ -21,11 +21,25 @@ ordered_json extreme(measure::Extreme const& e) {
     return {{"z", e.z}, {"col", e.cell.col}, {"row", e.cell.row}};
 }
 
+/// A figure that the heights do not tell is NaN, which JSON writes as null.
 ordered_json dem(measure::Statistics const& s) {
-    return {{"cells", s.cells},         {"nodata", s.nodata},
-            {"mean", s.mean},           {"std", s.std},
-            {"min", extreme(s.min)},    {"max", extreme(s.max)},
-            {"slope_rad", s.slope_rad}, {"slope_true_deg", s.slope_true_deg}};
+    return {{"cells", s.cells},
+            {"nodata", s.nodata},
+            {"mean", s.mean},
+            {"std", s.std},
+            {"min", extreme(s.min)},
+            {"max", extreme(s.max)},
+            {"slope_rad", s.slope_rad},
+            {"slope_true_deg", s.slope_true_deg},
+            {"skew", s.skew},
+            {"kurtosis", s.kurtosis},
+            {"roughness_m", s.roughness_m},
+            {"lx_cells", s.lx.cells},
+            {"lx_extrapolated", s.lx.extrapolated},
+            {"ly_cells", s.ly.cells},
+            {"ly_extrapolated", s.ly.extrapolated},
+            {"dimension", s.dimension},
+            {"dimension_dyadic", s.dimension_dyadic}};
 }
 
 ordered_json checks_array(std::vector<Check> const& checks) {

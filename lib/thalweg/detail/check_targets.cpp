@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/detail/check_targets.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/elementary.hpp>
+#include <thalweg/core/error.hpp>
+
+namespace thalweg::detail {
+
+namespace {
+
+void check_range(char const* what, std::optional<double> const& value, double above, double below) {
+    if (value && !(*value > above && *value < below)) {
+        throw BadParameter(
+            fmt::format("detail.project: a {} of {}; it must lie between {} and {}", what, *value, above, below));
+    }
+}
+
+void check_extreme(Raster<float> const& dem, char const* what, std::optional<FixedHeight> const& extreme) {
+    if (!extreme) {
+        return;
+    }
+    Cell const cell = extreme->cell;
+    if (!dem.grid().contains(cell)) {
+        throw BadParameter(
+            fmt::format("detail.project: the {} at column {}, row {} lies off the grid of {} x {} cells; columns "
+                        "and rows count from 0",
+                        what, cell.col, cell.row, dem.width(), dem.height()));
+    }
+    if (std::isnan(dem[cell])) {
+        throw BadParameter(
+            fmt::format("detail.project: the {} at column {}, row {} lies in a hole; give a cell with data", what,
+                        cell.col, cell.row));
+    }
+    check_range(what, extreme->z, -1e9, 1e9);
+}
+
+} // namespace
+
+void check_targets(Raster<float> const& dem, Targets const& targets) {
+    check_extreme(dem, "highest point", targets.max);
+    check_extreme(dem, "lowest point", targets.min);
+    check_range("mean [m]", targets.mean, -1e9, 1e9);
+    check_range("deviation [m]", targets.std, 0.0, 1e9);
+    check_range("correlation length lx [cells]", targets.lx_cells, 0.0, 1e9);
+    check_range("correlation length ly [cells]", targets.ly_cells, 0.0, 1e9);
+    check_range("slope [rad]", targets.slope_rad, 0.0, exact::pi / 2.0);
+    check_range("fractal dimension", targets.dimension, 2.0, 3.0);
+    double const infinity = std::numeric_limits<double>::infinity();
+    double const max = targets.max ? targets.max->z : infinity;
+    double const min = targets.min ? targets.min->z : -infinity;
+    if (targets.max && targets.min && targets.max->cell == targets.min->cell) {
+        throw BadParameter(fmt::format("detail.project: the highest and the lowest point are both at column {}, row {}",
+                                       targets.max->cell.col, targets.max->cell.row));
+    }
+    if (!(min < max)) {
+        throw BadParameter(
+            fmt::format("detail.project: the lowest point of {} m is not below the highest of {} m", min, max));
+    }
+    if (targets.mean && !(min < *targets.mean && *targets.mean < max)) {
+        throw BadParameter(
+            fmt::format("detail.project: a mean of {} m is not between the lowest point of {} m and the highest "
+                        "of {} m",
+                        *targets.mean, min, max));
+    }
+    if (!targets.max || !targets.min) {
+        return;
+    }
+    double const mean = targets.mean.value_or((max + min) / 2.0); // where the bound is widest
+    double const most = std::sqrt((max - mean) * (mean - min));
+    if (targets.std && *targets.std > most) {
+        throw BadParameter(
+            fmt::format("detail.project: heights between {} m and {} m{} cannot have a deviation of {} m; the most "
+                        "is {:.3f} m (Bhatia and Davis)",
+                        min, max, targets.mean ? fmt::format(" with a mean of {} m", mean) : "", *targets.std, most));
+    }
+}
+
+std::vector<FixedHeight> kept_heights(Raster<float> const& dem, Targets const& targets,
+                                      std::vector<FixedHeight> const& fixed) {
+    std::vector<FixedHeight> kept;
+    std::map<std::int64_t, double> seen;
+    auto const keep = [&](FixedHeight const& one) {
+        Cell const cell = one.cell;
+        if (!dem.grid().contains(cell) || std::isnan(dem[cell]) || !std::isfinite(one.z)) {
+            throw BadInput(fmt::format(
+                "detail.project: the fixed height of {} m at column {}, row {} is no height or lies off the "
+                "grid or in a hole; leave it out",
+                one.z, cell.col, cell.row));
+        }
+        auto const [at, fresh] = seen.emplace(dem.grid().index(cell), one.z);
+        if (fresh) {
+            kept.push_back(one);
+        } else if (at->second != one.z) {
+            throw BadInput(fmt::format(
+                "detail.project: the cell at column {}, row {} shall have heights of {} m and of {} m; give "
+                "one",
+                cell.col, cell.row, at->second, one.z));
+        }
+    };
+    for (auto const& extreme : {targets.max, targets.min}) {
+        if (extreme) {
+            keep(*extreme);
+        }
+    }
+    std::for_each(fixed.begin(), fixed.end(), keep);
+    if (kept.size() > most_fixed) {
+        throw BadInput(fmt::format("detail.project: {} heights are fixed; at most {} can be kept, so thin them out",
+                                   kept.size(), most_fixed));
+    }
+    return kept;
+}
+
+} // namespace thalweg::detail

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/skeleton/attract.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/elementary.hpp>
+#include <thalweg/core/error.hpp>
+
+namespace thalweg::skeleton {
+
+Raster<float> attract(Raster<float> dem, Attraction const& attraction) {
+    Cell const centre = attraction.centre;
+    if (!dem.grid().contains(centre)) {
+        throw BadParameter(fmt::format("skeleton.attract: column {}, row {} is off the grid of {} x {} cells",
+                                       centre.col, centre.row, dem.width(), dem.height()));
+    }
+    if (!(attraction.radius_cells > 0.0) || !std::isfinite(attraction.z)) {
+        throw BadParameter(
+            fmt::format("skeleton.attract: a radius of {} cells about a height of {} m; the radius must be "
+                        "greater than 0 and the height a number",
+                        attraction.radius_cells, attraction.z));
+    }
+    double const square = attraction.radius_cells * attraction.radius_cells;
+    double const at_radius = attraction.falloff == Falloff::literal ? 0.0 : exact::exp(-1.0);
+    auto const reach = static_cast<std::int64_t>(std::min(attraction.radius_cells, 1e9));
+    for (std::int64_t r = std::max<std::int64_t>(0, centre.row - reach);
+         r <= std::min(dem.height() - 1, centre.row + reach); ++r) {
+        for (std::int64_t c = std::max<std::int64_t>(0, centre.col - reach);
+             c <= std::min(dem.width() - 1, centre.col + reach); ++c) {
+            auto const dx = static_cast<double>(c - centre.col);
+            auto const dy = static_cast<double>(r - centre.row);
+            double const distance = dx * dx + dy * dy;
+            if (distance <= square) {
+                double const h = dem[Cell{c, r}];
+                double const pull = (exact::exp(-distance / square) - at_radius) / (1.0 - at_radius);
+                dem[Cell{c, r}] = static_cast<float>(h + pull * (attraction.z - h));
+            }
+        }
+    }
+    if (!std::isnan(dem[centre])) {
+        dem[centre] = static_cast<float>(attraction.z);
+    }
+    return dem;
+}
+
+} // namespace thalweg::skeleton

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run.hpp>
+#include <thalweg/solver/stable_covariance.hpp>
+
+namespace thalweg::skeleton {
+
+struct GrfParams {
+    double mean = 0.0; ///< [m]
+    double std = 1.0;  ///< [m] >= 0
+    solver::StableCovariance covariance{};
+    std::uint64_t seed = 0;
+    int embedding =
+        4; ///< [1, 64] the torus is at least so many times max(N, 5 L) wide; less memory, more negative_share
+};
+
+struct RandomField {
+    Raster<float> dem;
+    std::int64_t torus_width = 0;  ///< [cells]
+    std::int64_t torus_height = 0; ///< [cells]
+    double negative_share =
+        0.0; ///< of the torus' eigenvalues that were set to 0: how far the covariance is from the one asked for
+};
+
+/// A stationary Gaussian land with correlation lengths and fractal dimension.
+/// Takes: a grid; params.
+/// Gives: normal heights whose correlation at (dx, dy) cells is exp(-((dx/lx)^2 + (dy/ly)^2)^(3 - dimension)), exact
+/// but for negative_share; where that is above 1e-6 the torus is doubled once. The same bits for any number of threads.
+/// Holds about 8 bytes a cell of half the torus (embedding 4: 64 bytes a cell of a grid much wider than L).
+/// Throws: BadParameter, also for a torus of more than 2^32 cells; Cancelled.
+/// Source: paper 001, section 2; circulant embedding by Dietrich and Newsam 1997.
+RandomField grf(Grid const& grid, GrfParams const& params = {}, Run const& run = {});
+
+} // namespace thalweg::skeleton

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/skeleton/shift_mean.hpp>
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/error.hpp>
+
+namespace thalweg::skeleton {
+
+Raster<float> shift_mean(Raster<float> dem, double mean) {
+    if (!std::isfinite(mean)) {
+        throw BadParameter(fmt::format("skeleton.shift_mean: a mean height of {} m; it must be a number", mean));
+    }
+    double above = 0.0;
+    std::int64_t cells = 0;
+    for (float const z : dem.values()) {
+        if (!std::isnan(z)) {
+            above += z - mean;
+            ++cells;
+        }
+    }
+    double const shift = cells > 0 ? -above / static_cast<double>(cells) : 0.0;
+    for (float& z : dem.values()) {
+        z = static_cast<float>(z + shift);
+    }
+    return dem;
+}
+
+} // namespace thalweg::skeleton
