@@ -110,6 +110,7 @@ void hold_to_contract(fs::path const& folder) {
                              "contours.gpkg", "recipe.toml", "network_nodes.shp"}) {
         EXPECT_TRUE(fs::exists(folder / name)) << name;
     }
+    EXPECT_LT(fs::file_size(folder / "wireframe.svg"), 2'000'000U);
 }
 
 void same_bytes(fs::path const& a, fs::path const& b) {
