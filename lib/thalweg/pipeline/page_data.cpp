@@ -190,18 +190,34 @@ private:
     ordered_json rows_ = ordered_json::array();
 };
 
+/// What [statistics] asks for under the name a residual has.
+std::optional<double> asked_for(Terrain const& t, char const* name) {
+    if (t.projection) {
+        for (detail::Residual const& r : t.projection->residuals) {
+            if (r.name == name) {
+                return r.asked;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 void add_land(Terrain const& t, Figures& figures) {
     measure::Statistics const& s = *t.statistics;
-    double const relief = t.recipe.surface ? t.recipe.surface->dilate.relief_m : 0.0;
-    figures.add("mean height", rounded(s.mean), "m");
-    figures.add("standard deviation", rounded(s.std), "m");
-    figures.add("lowest height", rounded(s.min.z), "m");
-    figures.add("highest height", rounded(s.max.z), "m");
+    figures.add("mean height", asked_for(t, "mean"), rounded(s.mean), "m");
+    figures.add("standard deviation", asked_for(t, "std"), rounded(s.std), "m");
+    figures.add("lowest height", asked_for(t, "min"), rounded(s.min.z), "m");
+    figures.add("highest height", asked_for(t, "max"), rounded(s.max.z), "m");
     figures.add("relief, highest less lowest", rounded(s.max.z - s.min.z), "m");
-    if (t.recipe.surface) {
+    if (!t.surface->increments.empty() && t.recipe.surface) {
+        double const relief = t.recipe.surface->dilate.relief_m;
         figures.add("greatest rise above the valley", relief > 0.0 ? std::optional(relief) : std::nullopt,
                     rounded(t.surface->rise_m), "m");
     }
+    figures.add("correlation length along rows", asked_for(t, "lx_cells"), s.LX, "cells");
+    figures.add("correlation length along columns", asked_for(t, "ly_cells"), s.LY, "cells");
+    figures.add("fractal dimension", asked_for(t, "dimension"), s.DIM, "");
+    figures.add("mean slope on unit cells", asked_for(t, "slope_rad"), s.slope_rad, "rad");
     figures.add("mean slope", s.slope_true_deg, "degrees");
     figures.add("hypsometric integral", t.hypsometry->integral, "");
     figures.add("cells in pits", t.pits, "");

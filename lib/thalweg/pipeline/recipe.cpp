@@ -66,6 +66,14 @@ std::optional<Value> value_of(toml::node const& node) {
             return Pair{*x, *y};
         }
     }
+    if (auto const* a = node.as_array(); a != nullptr && a->size() == 3) {
+        auto const x = (*a)[0].value<double>();
+        auto const y = (*a)[1].value<double>();
+        auto const z = (*a)[2].value<double>();
+        if (x && y && z) {
+            return Triple{*x, *y, *z};
+        }
+    }
     return std::nullopt;
 }
 
@@ -74,6 +82,21 @@ bool is_section(std::string const& path) {
         std::string const s = k.section();
         return s == path || s.substr(0, path.size() + 1) == path + ".";
     });
+}
+
+/// A section that is named is a stage that runs, empty or not.
+void begin_section(Recipe& recipe, std::string const& path) {
+    std::string const section = path.substr(0, path.find('.'));
+    auto const begin = [&](char const* name, auto& part) {
+        if (section == name && !part) {
+            part.emplace();
+        }
+    };
+    begin("network", recipe.network);
+    begin("skeleton", recipe.skeleton);
+    begin("surface", recipe.surface);
+    begin("statistics", recipe.statistics);
+    begin("detail", recipe.detail);
 }
 
 constexpr std::size_t most_faults = 20;
@@ -90,11 +113,7 @@ void read_table(toml::table const& table, std::string const& prefix, Recipe& rec
                 faults.push_back(fmt::format("line {}: {}", line, unknown_key(path)));
                 continue;
             }
-            if (path.substr(0, 7) == "network" && !recipe.network) {
-                recipe.network.emplace();
-            } else if (path.substr(0, 7) == "surface" && !recipe.surface) {
-                recipe.surface.emplace();
-            }
+            begin_section(recipe, path);
             read_table(*inner, path + ".", recipe, faults);
             continue;
         }
@@ -232,24 +251,76 @@ std::string title_of(Recipe const& recipe) {
     return recipe.output.title.empty() ? fmt::format("thalweg, seed {}", recipe.seed) : recipe.output.title;
 }
 
+namespace {
+
+void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
+    NetworkRecipe const& n = *recipe.network;
+    if (n.source == Source::lines && n.lines.path.empty()) {
+        faults.emplace_back("network.lines.path is missing: source = \"lines\" needs a file");
+    }
+    if (n.source == Source::dla && !n.lines.path.empty()) {
+        faults.emplace_back("network.lines.path is given but source = \"dla\": set source = \"lines\"");
+    }
+    if (n.source == Source::dla && n.heights == Heights::file) {
+        faults.emplace_back("network.heights = \"file\" needs source = \"lines\"");
+    }
+    if (recipe.statistics) {
+        faults.emplace_back("[statistics] and [network] do not go together: statistics would move the rivers");
+    }
+    if (recipe.skeleton && recipe.skeleton->scatter > 0) {
+        faults.emplace_back("skeleton.scatter draws heights by [statistics]: with [network] give skeleton.points");
+    }
+    if (recipe.detail && recipe.detail->method == DetailMethod::midpoint && !recipe.detail->midpoint.sigma) {
+        faults.emplace_back("detail.sigma is missing: with rivers it cannot be told from the land");
+    }
+    if (recipe.detail && !recipe.surface) {
+        faults.emplace_back("[detail] needs [surface]");
+    }
+    if (recipe.surface && recipe.surface->method == Method::regress) {
+        faults.emplace_back("surface.method = \"regress\" does not keep rivers: use tin or dilate");
+    }
+}
+
+void check_land(Recipe const& recipe, bool has_points, std::vector<std::string>& faults) {
+    Method const method = recipe.surface ? recipe.surface->method : Method::tin;
+    if (recipe.statistics && recipe.statistics->skeleton == Prior::points && !has_points) {
+        faults.emplace_back("statistics.skeleton = \"points\" needs skeleton.points or skeleton.scatter");
+    }
+    if (recipe.statistics && recipe.statistics->skeleton != Prior::points && has_points) {
+        faults.emplace_back("[skeleton] gives points: set statistics.skeleton = \"points\"");
+    }
+    if (!recipe.statistics && !has_points) {
+        faults.emplace_back("nothing tells what the land is like: give [network], [statistics], skeleton.points or "
+                            "skeleton.scatter");
+    }
+    if (method == Method::dilate && recipe.surface) {
+        faults.emplace_back("surface.method = \"dilate\" needs [network]: use tin or regress");
+    }
+}
+
+} // namespace
+
 void check_recipe(Recipe const& recipe) {
     std::vector<std::string> faults;
-    if (!recipe.network) {
-        faults.emplace_back("[network] is missing: nothing tells where the valleys run");
+    bool const has_points = recipe.skeleton && (!recipe.skeleton->points.empty() || recipe.skeleton->scatter > 0);
+    if (recipe.network) {
+        check_network(recipe, faults);
     } else {
-        NetworkRecipe const& n = *recipe.network;
-        if (n.source == Source::lines && n.lines.path.empty()) {
-            faults.emplace_back("network.lines.path is missing: source = \"lines\" needs a file");
-        }
-        if (n.source == Source::dla && !n.lines.path.empty()) {
-            faults.emplace_back("network.lines.path is given but source = \"dla\": set source = \"lines\"");
-        }
-        if (n.source == Source::dla && n.heights == Heights::file) {
-            faults.emplace_back("network.heights = \"file\" needs source = \"lines\"");
-        }
+        check_land(recipe, has_points, faults);
+    }
+    if (recipe.skeleton && !recipe.skeleton->points.empty() && recipe.skeleton->scatter > 0) {
+        faults.emplace_back("skeleton.points and skeleton.scatter do not go together: points come from a file or are "
+                            "drawn at random");
+    }
+    if (recipe.surface && recipe.surface->base == Base::tin && recipe.surface->method != Method::dilate) {
+        faults.emplace_back("surface.base = \"tin\" goes with surface.method = \"dilate\"");
     }
     if ((recipe.grid.width > 0) != (recipe.grid.height > 0)) {
         faults.emplace_back("grid.width and grid.height go together: give both or neither");
+    }
+    bool const framed = recipe.network || (recipe.skeleton && !recipe.skeleton->points.empty());
+    if (recipe.grid.width == 0 && !framed) {
+        faults.emplace_back("grid.width and grid.height are missing: nothing else tells how large the land is");
     }
     if (!faults.empty()) {
         throw BadParameter(fmt::format("recipe: {}", fmt::join(faults, "\nrecipe: ")));

@@ -8,10 +8,14 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/detail/midpoint.hpp>
 #include <thalweg/network/adopt.hpp>
 #include <thalweg/network/grow_dla.hpp>
 #include <thalweg/network/pick_branch.hpp>
 #include <thalweg/network/set_heights.hpp>
+#include <thalweg/skeleton/attract.hpp>
+#include <thalweg/skeleton/regress.hpp>
+#include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/surface/dilate.hpp>
 
 namespace thalweg::pipeline {
@@ -48,14 +52,50 @@ struct NetworkRecipe {
     LinesRecipe lines;
 };
 
-enum class Method : std::uint8_t { dilate };
-enum class Base : std::uint8_t { paper };
+/// What else the surface must honour.
+struct SkeletonRecipe {
+    std::string points;         ///< file of points with heights; "" for none
+    std::int64_t scatter = 0;   ///< points at random; 0 for none
+    double spacing_cells = 0.0; ///< [cells] least distance of points at random
+    skeleton::HeightLaw law = skeleton::HeightLaw::uniform;
+    bool tin = false; ///< write the skeleton's TIN
+};
+
+enum class Method : std::uint8_t { dilate, tin, regress };
+enum class Base : std::uint8_t { paper, tin };
+enum class Interpolation : std::uint8_t { linear, natural };
 
 struct SurfaceRecipe {
     Method method = Method::dilate;
     Base base = Base::paper;
     surface::DilateParams dilate;
     std::string mask; ///< raster on the grid: cells with 0 or no data are left out; "" for none
+    Interpolation interpolation = Interpolation::linear; ///< of a TIN
+    skeleton::RegressParams regress;
+};
+
+/// The land that the statistics are brought to.
+enum class Prior : std::uint8_t { grf, separable, markov3, points };
+
+/// What the land as a whole shall be; what is not named is left as it comes.
+struct StatisticsRecipe {
+    std::optional<double> mean;                  ///< [m]
+    std::optional<double> std;                   ///< [m] > 0
+    std::optional<std::array<double, 3>> max;    ///< height [m], column, row
+    std::optional<std::array<double, 3>> min;    ///< likewise
+    std::optional<std::array<double, 2>> length; ///< [cells] > 0, along rows and along columns
+    std::optional<double> slope;                 ///< [rad] (0, pi/2) arctan of metres a cell
+    std::optional<double> dimension;             ///< (2, 3)
+    Prior skeleton = Prior::grf;
+    double reach_cells = 6.0; ///< [cells] >= 0, R of equations 4 and 10; 0 pulls nothing
+    skeleton::Falloff falloff = skeleton::Falloff::continuous;
+};
+
+enum class DetailMethod : std::uint8_t { none, midpoint };
+
+struct DetailRecipe {
+    DetailMethod method = DetailMethod::midpoint;
+    detail::MidpointParams midpoint;
 };
 
 struct OutputRecipe {
@@ -68,7 +108,10 @@ struct Recipe {
     std::uint64_t seed = 7;
     GridRecipe grid;
     std::optional<NetworkRecipe> network;
+    std::optional<SkeletonRecipe> skeleton;
     std::optional<SurfaceRecipe> surface;
+    std::optional<StatisticsRecipe> statistics;
+    std::optional<DetailRecipe> detail;
     OutputRecipe output;
     std::string folder; ///< file names are relative to it; "" is the working folder
 };

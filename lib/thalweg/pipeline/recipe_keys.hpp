@@ -16,7 +16,8 @@
 namespace thalweg::pipeline {
 
 using Pair = std::array<double, 2>;
-using Value = std::variant<bool, std::int64_t, double, std::string, Pair>;
+using Triple = std::array<double, 3>;
+using Value = std::variant<bool, std::int64_t, double, std::string, Pair, Triple>;
 
 /// A key, bound to its field. put throws BadParameter with the reason alone; take gives nothing where the value is
 /// unset.

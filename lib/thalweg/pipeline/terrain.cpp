@@ -15,12 +15,13 @@
 #include <thalweg/network/rasterise.hpp>
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
+#include <thalweg/pipeline/diary.hpp>
 #include <thalweg/pipeline/frame.hpp>
+#include <thalweg/pipeline/land.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -28,30 +29,6 @@
 namespace thalweg::pipeline {
 
 namespace {
-
-/// Times the stages and says a line for each.
-class Diary {
-public:
-    Diary(Run const& run, Terrain& terrain) : run_(run), terrain_(terrain) {}
-
-    template <class Stage> auto stage(char const* name, Stage&& work) {
-        run_.at(0.0, name);
-        auto const begin = std::chrono::steady_clock::now();
-        auto result = work();
-        std::chrono::duration<double> const taken = std::chrono::steady_clock::now() - begin;
-        terrain_.timings_s.emplace_back(name, taken.count());
-        run_.at(1.0, name);
-        return result;
-    }
-    void say(std::string const& words) const {
-        auto const& [name, seconds] = terrain_.timings_s.back();
-        run_.say(fmt::format("{:<7}{:<60}{:6.1f} s", name, words, seconds));
-    }
-
-private:
-    Run const& run_;
-    Terrain& terrain_;
-};
 
 /// A network in plan on its grid, with the file's heights where lines carry them.
 struct Planned {
@@ -184,26 +161,21 @@ Check none_of(char const* name, std::int64_t count) {
     return {name, static_cast<double>(count), 0.0, count == 0};
 }
 
-} // namespace
-
-bool Terrain::passed() const {
-    return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
+void frame(Terrain& terrain, Grid const& grid) {
+    terrain.grid = grid;
+    terrain.recipe.grid.width = grid.width;
+    terrain.recipe.grid.height = grid.height;
+    terrain.recipe.grid.origin = {grid.west, grid.north};
 }
 
-Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
-    check_recipe(wanted);
-    Terrain terrain;
-    terrain.recipe = wanted;
+/// Where the rivers run, and how high.
+void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     Recipe& recipe = terrain.recipe;
     NetworkRecipe& rivers = *recipe.network;
-    Diary diary(run, terrain);
-
     Planned planned =
         rivers.source == Source::dla ? grow(recipe, terrain, diary, run) : adopt(recipe, terrain, diary, run);
-    Grid const& grid = terrain.grid = planned.grid;
-    recipe.grid.width = grid.width;
-    recipe.grid.height = grid.height;
-    recipe.grid.origin = {grid.west, grid.north};
+    frame(terrain, planned.grid);
+    Grid const& grid = terrain.grid;
     if (rivers.heights == Heights::automatic) {
         rivers.heights = Heights::straight_repaired;
     }
@@ -228,36 +200,91 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
     terrain.valley = std::move(rasterised.valley);
     terrain.story.lowered_cells = rasterised.lowered_cells;
     terrain.story.max_lowered_m = rasterised.max_lowered_m;
-    if (keep) {
-        keep("valley", terrain.valley.z);
-    }
+}
 
-    if (recipe.surface) {
-        terrain.surface = diary.stage("fill", [&] { return draw_surface(recipe, terrain.valley, run); });
-        Raster<float> const& dem = terrain.surface->dem;
-        diary.say(fmt::format("{}x{}, {}, {} levels", grid.width, grid.height,
-                              recipe.surface->dilate.increment.increment, terrain.surface->levels));
-        if (keep) {
-            keep("surface", dem);
+/// The land around the rivers.
+void draw_land(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
+    Recipe const& recipe = terrain.recipe;
+    SurfaceRecipe const& wanted = *recipe.surface;
+    bool const over_tin = wanted.method == Method::tin || wanted.base == Base::tin;
+    if (over_tin || (recipe.skeleton && recipe.skeleton->tin)) {
+        surface::Dilated drawn = draw_over_tin(terrain, points, diary, run);
+        if (over_tin) {
+            terrain.surface = std::move(drawn);
         }
-        terrain.statistics = measure::statistics(dem, run);
-        terrain.hypsometry = measure::hypsometry(dem, run);
-        run.at(0.0, fmt::format("drain {} cells", grid.cells()).c_str());
-        measure::Drainage const drainage = diary.stage("drain", [&] { return measure::drain(dem, run); });
-        terrain.pits = drainage.pits;
-        terrain.pit_volume_m3 = drainage.pit_volume_m3;
+    }
+    if (!terrain.surface) {
+        terrain.surface = diary.stage("fill", [&] { return draw_surface(recipe, terrain.valley, run); });
+        diary.say(fmt::format("{}x{}, {}, {} levels", terrain.grid.width, terrain.grid.height,
+                              wanted.dilate.increment.increment, terrain.surface->levels));
+    }
+    add_detail(terrain, terrain.surface->dem, run);
+}
+
+void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
+    if (!terrain.surface) {
+        terrain.areas = measure::areas_nearest(terrain.network.plan, terrain.grid, run);
+        return;
+    }
+    Raster<float> const& dem = terrain.surface->dem;
+    terrain.statistics = diary.stage("measure", [&] { return measure::statistics(dem, run); });
+    terrain.hypsometry = measure::hypsometry(dem, run);
+    run.at(0.0, fmt::format("drain {} cells", terrain.grid.cells()).c_str());
+    measure::Drainage const drainage = diary.stage("drain", [&] { return measure::drain(dem, run); });
+    terrain.pits = drainage.pits;
+    terrain.pit_volume_m3 = drainage.pit_volume_m3;
+    if (terrain.recipe.network) {
         terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
         terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
-    } else {
-        terrain.areas = measure::areas_nearest(terrain.network.plan, grid, run);
     }
-    terrain.laws = measure::horton(terrain.network.plan, terrain.orders, terrain.areas.ds_area_m2);
+}
 
+void check_rivers(Terrain& terrain, Diary& diary, Run const& run) {
+    terrain.laws = measure::horton(terrain.network.plan, terrain.orders, terrain.areas.ds_area_m2);
     measure::TopologyReport topology = diary.stage(
         "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), run); });
     terrain.checks.insert(terrain.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
     terrain.checks.insert(terrain.checks.end(), topology.checks.begin(), topology.checks.end());
     terrain.findings = std::move(topology.findings);
+}
+
+} // namespace
+
+bool Terrain::passed() const {
+    return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
+}
+
+Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
+    check_recipe(wanted);
+    Terrain terrain;
+    terrain.recipe = wanted;
+    Diary diary(run, terrain);
+    FeaturePoints points;
+    if (wanted.network) {
+        make_rivers(terrain, diary, run);
+        if (wanted.skeleton) {
+            points = given_points(terrain.recipe, run);
+        }
+    } else {
+        points = given_points(terrain.recipe, run);
+        frame(terrain, frame_land(points, terrain.recipe.grid));
+    }
+    if (keep && wanted.network) {
+        keep("valley", terrain.valley.z);
+    }
+
+    if (!wanted.network) {
+        make_land(terrain, points, diary, run);
+    } else if (wanted.surface) {
+        draw_land(terrain, points, diary, run);
+    }
+    if (keep && terrain.surface) {
+        keep("surface", terrain.surface->dem);
+    }
+    measure_land(terrain, diary, run);
+    if (wanted.network) {
+        check_rivers(terrain, diary, run);
+    }
     return terrain;
 }
 

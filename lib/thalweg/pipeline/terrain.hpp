@@ -13,7 +13,9 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/core/tin.hpp>
 #include <thalweg/core/valley.hpp>
+#include <thalweg/detail/project.hpp>
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/measure/horton.hpp>
 #include <thalweg/measure/hypsometry.hpp>
@@ -45,6 +47,8 @@ struct Terrain {
     measure::HortonLaws laws;
     Valley valley;
     std::optional<surface::Dilated> surface;
+    std::optional<Tin> tin;                         ///< of rivers and points, where the land is drawn over one
+    std::optional<detail::Projection> projection;   ///< how the statistics came out; its dem is that of surface
     std::optional<measure::Statistics> statistics; ///< of the surface
     std::optional<measure::Hypsometry> hypsometry; ///< likewise
     std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
@@ -59,7 +63,7 @@ struct Terrain {
 /// Called with intermediates: "valley", "surface".
 using Keep = std::function<void(std::string_view, Raster<float> const&)>;
 
-/// From a recipe to a terrain: rivers first, then the land around them.
+/// From a recipe to a terrain: rivers first, then the land around them; or land from numbers and points alone.
 /// Gives: the same terrain for the same recipe, whatever the Run. Throws: BadParameter, BadInput, IoError, Cancelled.
 Terrain make_terrain(Recipe const& recipe, Run const& run = {}, Keep const& keep = {});
 

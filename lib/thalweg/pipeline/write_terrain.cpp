@@ -10,6 +10,7 @@
 #include <thalweg/io/dataset_files.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/io/write_network.hpp>
+#include <thalweg/io/write_tin.hpp>
 #include <thalweg/pipeline/page.hpp>
 #include <thalweg/pipeline/pictures.hpp>
 #include <thalweg/pipeline/report.hpp>
@@ -62,11 +63,14 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
 
 Recipe keep_inputs(Terrain const& terrain, io::OutputFolder const& out) {
     Recipe recipe = terrain.recipe;
-    if (recipe.network->source == Source::lines) {
+    if (recipe.network && recipe.network->source == Source::lines) {
         recipe.network->lines.path = keep_input(out, recipe.folder, recipe.network->lines.path, "inputs/");
     }
     if (recipe.surface && !recipe.surface->mask.empty()) {
         recipe.surface->mask = keep_input(out, recipe.folder, recipe.surface->mask, "inputs/mask/");
+    }
+    if (recipe.skeleton && !recipe.skeleton->points.empty()) {
+        recipe.skeleton->points = keep_input(out, recipe.folder, recipe.skeleton->points, "inputs/points/");
     }
     recipe.folder.clear();
     return recipe;
@@ -93,7 +97,10 @@ void write_surface(Terrain const& t, std::string const& title, io::OutputFolder 
     io::write_dem(dem, out.path("dem.tif"), run);
     io::write_contours(contours, interval, t.grid.crs, out.path("contours.gpkg"), run);
 
-    draw::MapSheet sheet{dem, io::hillshade(dem), &t.network, &t.orders, {}};
+    bool const rivers = t.recipe.network.has_value();
+    RaisedNetwork const* const network = rivers ? &t.network : nullptr;
+    NetworkOrders const* const orders = rivers ? &t.orders : nullptr;
+    draw::MapSheet sheet{dem, io::hillshade(dem), network, orders, {}};
     for (auto const& [z, line] : contours) {
         sheet.contours.emplace_back(z, line);
     }
@@ -101,16 +108,18 @@ void write_surface(Terrain const& t, std::string const& title, io::OutputFolder 
     map.title = title;
     map.contour_interval_m = interval;
     io::write_text(out.path("map.png"), draw::map(sheet, map).bytes);
-    io::write_text(out.path("curve.svg"),
-                   draw::curve(t.surface->increments, {t.recipe.surface->dilate.increment.increment}).bytes);
-    draw::WireframeScene const land{dem, &t.network, &t.orders};
+    if (!t.surface->increments.empty()) {
+        io::write_text(out.path("curve.svg"),
+                       draw::curve(t.surface->increments, {t.recipe.surface->dilate.increment.increment}).bytes);
+    }
+    draw::WireframeScene const land{dem, network, orders};
     draw::WireframeParams wireframe;
     wireframe.title = title;
     wireframe.azimuth_deg = draw::azimuth_up_valley(land);
     io::write_text(out.path("wireframe.svg"), draw::wireframe(land, wireframe).bytes);
     draw::SectionsParams sections;
     sections.title = title;
-    io::write_text(out.path("sections.svg"), draw::sections(dem, &t.network, &t.orders, sections).bytes);
+    io::write_text(out.path("sections.svg"), draw::sections(dem, network, orders, sections).bytes);
 }
 
 } // namespace
@@ -124,15 +133,23 @@ std::vector<std::string> write_terrain(Terrain const& terrain, std::string const
     io::OutputFolder out(folder, existing, files_left_in(folder));
     run.at(0.0, "write");
     Recipe const recipe = keep_inputs(terrain, out);
-    write_network(terrain, out, run);
+    if (terrain.recipe.network) {
+        write_network(terrain, out, run);
+    }
+    if (terrain.tin) {
+        io::write_tin(*terrain.tin, terrain.grid.crs, out.path("tin.2dm"), io::TinFormat::mesh_2dm, run);
+        io::write_tin(*terrain.tin, terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, run);
+    }
     run.at(0.3, "write");
     std::string const title = title_of(terrain.recipe);
     if (terrain.surface) {
         write_surface(terrain, title, out, run);
     }
-    draw::ProfileParams profile;
-    profile.title = title;
-    io::write_text(out.path("profile.svg"), draw::profile(terrain.network, terrain.orders, profile).bytes);
+    if (terrain.recipe.network) {
+        draw::ProfileParams profile;
+        profile.title = title;
+        io::write_text(out.path("profile.svg"), draw::profile(terrain.network, terrain.orders, profile).bytes);
+    }
     std::string const recipe_toml = write_recipe(recipe);
     io::write_text(out.path("recipe.toml"), recipe_toml);
     PageParams params;

@@ -1,0 +1,365 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/land.hpp>
+
+#include <thalweg/core/elementary.hpp>
+#include <thalweg/core/error.hpp>
+#include <thalweg/geometry/natural_neighbours.hpp>
+#include <thalweg/geometry/triangulate.hpp>
+#include <thalweg/io/projection.hpp>
+#include <thalweg/io/read_points.hpp>
+#include <thalweg/pipeline/frame.hpp>
+#include <thalweg/skeleton/grf.hpp>
+#include <thalweg/skeleton/markov3.hpp>
+#include <thalweg/skeleton/separable_ar.hpp>
+#include <thalweg/skeleton/shift_mean.hpp>
+#include <thalweg/surface/expand.hpp>
+#include <thalweg/surface/extend_tin.hpp>
+#include <thalweg/surface/rasterise_tin.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+constexpr double default_length_cells = 20.0;
+constexpr double default_dimension = 2.4;
+constexpr double default_std_m = 100.0;
+constexpr double default_west = 500000.0;
+constexpr double default_north = 5000000.0;
+constexpr double allowed_error = 0.01;
+constexpr double allowed_dimension_error = 0.02;
+
+StatisticsRecipe const nothing_asked;
+
+StatisticsRecipe const& asked(Recipe const& recipe) {
+    return recipe.statistics ? *recipe.statistics : nothing_asked;
+}
+
+double mean_of(StatisticsRecipe const& s) {
+    if (s.mean) {
+        return *s.mean;
+    }
+    return s.max && s.min ? 0.5 * ((*s.max)[0] + (*s.min)[0]) : 0.0;
+}
+
+/// The coarse cells that detail starts from: every 2^levels-th of the grid, as many as cover it.
+Grid coarse_grid(Grid const& grid, int levels) {
+    std::int64_t const step = std::int64_t{1} << levels;
+    Grid coarse = grid;
+    coarse.width = (grid.width - 1 + step - 1) / step + 1;
+    coarse.height = (grid.height - 1 + step - 1) / step + 1;
+    coarse.cell_m = grid.cell_m * static_cast<double>(step);
+    double const shift = 0.5 * (coarse.cell_m - grid.cell_m);
+    coarse.west = grid.west - shift;
+    coarse.north = grid.north + shift;
+    return coarse;
+}
+
+int levels_of(Recipe const& recipe) {
+    return recipe.detail && recipe.detail->method == DetailMethod::midpoint ? recipe.detail->midpoint.levels : 0;
+}
+
+Raster<float> drawn_to_extremes(Raster<float> land, StatisticsRecipe const& s, int levels) {
+    double const step = static_cast<double>(std::int64_t{1} << levels);
+    for (auto const& extreme : {s.max, s.min}) {
+        if (!extreme || s.reach_cells <= 0.0) {
+            continue;
+        }
+        auto const nearest = [&](double fine, std::int64_t side) {
+            return std::min(side - 1, static_cast<std::int64_t>(std::floor(fine / step + 0.5)));
+        };
+        Cell const centre{nearest((*extreme)[1], land.width()), nearest((*extreme)[2], land.height())};
+        land = skeleton::attract(std::move(land), {centre, (*extreme)[0], std::max(1.0, s.reach_cells / step), s.falloff});
+    }
+    return s.mean ? skeleton::shift_mean(std::move(land), *s.mean) : land;
+}
+
+Raster<float> random_land(Recipe const& recipe, Grid const& coarse, int levels, Run const& run) {
+    StatisticsRecipe const& s = asked(recipe);
+    double const step = static_cast<double>(std::int64_t{1} << levels);
+    double const lx = (s.length ? (*s.length)[0] : default_length_cells) / step;
+    double const ly = (s.length ? (*s.length)[1] : default_length_cells) / step;
+    double const std = s.std.value_or(default_std_m);
+    skeleton::FieldParams const field{mean_of(s), std, lx, ly, recipe.seed};
+    switch (s.skeleton) {
+    case Prior::separable: return drawn_to_extremes(skeleton::separable_ar(coarse, field, run), s, levels);
+    case Prior::markov3: return drawn_to_extremes(skeleton::markov3(coarse, field, run), s, levels);
+    default: break;
+    }
+    skeleton::GrfParams params;
+    params.mean = mean_of(s);
+    params.std = std;
+    params.covariance = {.lx_cells = lx, .ly_cells = ly, .dimension = s.dimension.value_or(default_dimension)};
+    params.seed = recipe.seed;
+    return skeleton::grf(coarse, params, run).dem;
+}
+
+/// The points that the land goes through: those of the file, or drawn at random with the extremes among them.
+FeaturePoints points_of(Recipe const& recipe, FeaturePoints const& given, Grid const& grid, Run const& run) {
+    if (!recipe.skeleton || recipe.skeleton->scatter == 0) {
+        return given;
+    }
+    StatisticsRecipe const& s = asked(recipe);
+    skeleton::ScatterParams params;
+    params.seed = recipe.seed;
+    params.count = recipe.skeleton->scatter;
+    params.spacing_cells = recipe.skeleton->spacing_cells;
+    params.law = recipe.skeleton->law;
+    params.mean_m = mean_of(s);
+    params.std_m = s.std.value_or(default_std_m);
+    params.reach_cells = s.reach_cells;
+    auto const place = [&](std::optional<std::array<double, 3>> const& e) -> std::optional<Vec3> {
+        if (!e) {
+            return std::nullopt;
+        }
+        Vec2 const at = grid.centre({static_cast<std::int64_t>((*e)[1]), static_cast<std::int64_t>((*e)[2])});
+        return Vec3{at.x, at.y, (*e)[0]};
+    };
+    params.highest = place(s.max);
+    params.lowest = place(s.min);
+    skeleton::Scattered scattered = skeleton::scatter(grid, params, run);
+    if (scattered.missing > 0) {
+        run.say(fmt::format("warning: {} of {} points found no room", scattered.missing, params.count));
+    }
+    return std::move(scattered.points);
+}
+
+Raster<float> land_of_points(Terrain& terrain, FeaturePoints const& points, Grid const& grid, Run const& run) {
+    SurfaceRecipe const wanted = terrain.recipe.surface.value_or(SurfaceRecipe{.method = Method::tin});
+    StatisticsRecipe const& s = asked(terrain.recipe);
+    if (wanted.method == Method::regress) {
+        skeleton::RegressParams params = wanted.regress;
+        double const step = grid.cell_m / terrain.grid.cell_m;
+        params.length_x = (s.length ? (*s.length)[0] : default_length_cells) / step;
+        params.length_y = (s.length ? (*s.length)[1] : default_length_cells) / step;
+        params.slope_rad = s.slope.value_or(0.0);
+        skeleton::Regression regression = skeleton::regress(points, grid, params, run);
+        if (regression.rank < regression.terms) {
+            run.say(fmt::format("warning: the points tell {} of {} terms of the regression", regression.rank,
+                                regression.terms));
+        }
+        return std::move(regression.surface);
+    }
+    terrain.tin = geometry::triangulate(points.points, {}, run).tin;
+    if (wanted.interpolation == Interpolation::natural) {
+        return geometry::natural_neighbours(points.points, grid,
+                                            {geometry::NaturalNeighboursParams::Outside::nearest}, run);
+    }
+    return surface::rasterise_tin(*terrain.tin, grid, {surface::RasteriseTinParams::Outside::nearest}, run);
+}
+
+Raster<float> with_detail(Recipe const& recipe, Raster<float> coarse, Grid const& grid, Run const& run) {
+    int const levels = levels_of(recipe);
+    if (levels == 0) {
+        return coarse;
+    }
+    detail::MidpointParams params = recipe.detail->midpoint;
+    params.width = grid.width;
+    params.height = grid.height;
+    params.seed = recipe.seed;
+    detail::Displaced displaced = detail::midpoint(coarse, params, run);
+    Raster<float> land(grid); // the very frame, not one reckoned back from the coarse cells
+    std::copy(displaced.dem.values().begin(), displaced.dem.values().end(), land.values().begin());
+    return land;
+}
+
+detail::Targets targets_of(StatisticsRecipe const& s) {
+    detail::Targets targets;
+    targets.mean = s.mean;
+    targets.std = s.std;
+    auto const fixed = [](std::array<double, 3> const& e) {
+        return detail::FixedHeight{{static_cast<std::int64_t>(e[1]), static_cast<std::int64_t>(e[2])}, e[0]};
+    };
+    if (s.max) {
+        targets.max = fixed(*s.max);
+    }
+    if (s.min) {
+        targets.min = fixed(*s.min);
+    }
+    if (s.length) {
+        targets.lx_cells = (*s.length)[0];
+        targets.ly_cells = (*s.length)[1];
+    }
+    targets.slope_rad = s.slope;
+    targets.dimension = s.dimension;
+    return targets;
+}
+
+/// Heights of given points that the projection must keep: the first of each cell, none where an extreme lies.
+std::vector<detail::FixedHeight> heights_to_keep(Recipe const& recipe, FeaturePoints const& given, Grid const& grid) {
+    std::vector<detail::FixedHeight> kept;
+    if (recipe.statistics->skeleton != Prior::points) {
+        return kept;
+    }
+    std::set<std::int64_t> taken;
+    for (auto const& e : {recipe.statistics->max, recipe.statistics->min}) {
+        if (e) {
+            taken.insert(grid.index({static_cast<std::int64_t>((*e)[1]), static_cast<std::int64_t>((*e)[2])}));
+        }
+    }
+    for (Vec3 const& p : given.points) {
+        Cell const cell = grid.cell_of({p.x, p.y});
+        if (grid.contains(cell) && taken.insert(grid.index(cell)).second) {
+            kept.push_back({cell, p.z});
+        }
+    }
+    return kept;
+}
+
+void check_residuals(Terrain& terrain) {
+    for (detail::Residual const& r : terrain.projection->residuals) {
+        bool const dimension = r.name == "dimension";
+        double const error = dimension ? std::fabs(r.got - r.asked) : std::fabs(r.error);
+        double const limit = dimension ? allowed_dimension_error : allowed_error;
+        terrain.checks.push_back({"statistics_" + r.name, error, limit, error <= limit});
+    }
+}
+
+} // namespace
+
+FeaturePoints given_points(Recipe& recipe, Run const& run) {
+    FeaturePoints points;
+    std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
+    if (recipe.skeleton && !recipe.skeleton->points.empty()) {
+        std::string const& name = recipe.skeleton->points;
+        std::string const path = recipe.folder.empty() || name.front() == '/' ? name : recipe.folder + "/" + name;
+        points = io::read_points({.path = path, .crs = crs}, run);
+    }
+    recipe.grid.crs = !points.crs.empty() ? points.crs : io::projected_crs(crs.empty() ? "EPSG:32631" : crs);
+    return points;
+}
+
+Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted) {
+    double const cell = wanted.cell_m;
+    Grid grid{wanted.width, wanted.height, cell, default_west, default_north, wanted.crs};
+    if (!points.points.empty()) {
+        double west = std::numeric_limits<double>::infinity();
+        double south = west;
+        double east = -west;
+        double north = -west;
+        for (Vec3 const& p : points.points) {
+            west = std::min(west, p.x);
+            east = std::max(east, p.x);
+            south = std::min(south, p.y);
+            north = std::max(north, p.y);
+        }
+        double const margin = wanted.width > 0 ? 0.0 : 0.05 * std::max(east - west, north - south);
+        grid.west = std::floor((west - margin) / cell) * cell;
+        grid.north = std::ceil((north + margin) / cell) * cell;
+        if (wanted.width == 0) {
+            double const columns = std::ceil((east + margin - grid.west) / cell);
+            double const rows = std::ceil((grid.north - south + margin) / cell);
+            if (!(columns < 1e6) || !(rows < 1e6)) {
+                throw BadInput(fmt::format("grid: the points span {:.0f} x {:.0f} m, {:.3g} x {:.3g} cells of {} m: "
+                                           "give a larger grid.cell or a grid",
+                                           east - west, north - south, columns, rows, cell));
+            }
+            grid.width = std::max<std::int64_t>(1, static_cast<std::int64_t>(columns));
+            grid.height = std::max<std::int64_t>(1, static_cast<std::int64_t>(rows));
+        }
+    }
+    if (wanted.origin) {
+        grid.west = (*wanted.origin)[0];
+        grid.north = (*wanted.origin)[1];
+    }
+    check_memory(grid.width, grid.height);
+    return grid;
+}
+
+void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run const& run) {
+    Recipe const& recipe = terrain.recipe;
+    Grid const& grid = terrain.grid;
+    int const levels = levels_of(recipe);
+    Grid const coarse = coarse_grid(grid, levels);
+    bool const from_points = !recipe.statistics || recipe.statistics->skeleton == Prior::points;
+    FeaturePoints const points = from_points ? points_of(recipe, given, grid, run) : FeaturePoints{};
+    Raster<float> land = diary.stage("land", [&] {
+        return from_points ? land_of_points(terrain, points, coarse, run) : random_land(recipe, coarse, levels, run);
+    });
+    diary.say(from_points ? fmt::format("{} points", points.points.size())
+                          : fmt::format("random, {}x{} cells of {} m", coarse.width, coarse.height, coarse.cell_m));
+    if (levels > 0) {
+        land = diary.stage("detail", [&] { return with_detail(recipe, std::move(land), grid, run); });
+        diary.say(fmt::format("midpoint displacement, {} levels", levels));
+    }
+    if (recipe.statistics) {
+        StatisticsRecipe const& s = *recipe.statistics;
+        detail::ProjectParams params;
+        params.prior.lx_cells = s.length ? (*s.length)[0] : default_length_cells;
+        params.prior.ly_cells = s.length ? (*s.length)[1] : default_length_cells;
+        params.prior.dimension = s.dimension.value_or(default_dimension);
+        terrain.projection = diary.stage("project", [&] {
+            return detail::project(land, targets_of(s), heights_to_keep(recipe, given, grid), params, run);
+        });
+        diary.say(fmt::format("{} statistics within {:.2g} %, {} steps", terrain.projection->residuals.size(),
+                              100.0 * terrain.projection->largest_error, terrain.projection->iterations));
+        land = std::move(terrain.projection->dem);
+        terrain.projection->dem = Raster<float>();
+        check_residuals(terrain);
+    }
+    terrain.surface.emplace();
+    terrain.surface->dem = std::move(land);
+}
+
+surface::Dilated draw_over_tin(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
+    SurfaceRecipe const& wanted = *terrain.recipe.surface;
+    std::vector<std::vector<Vec3>> breaklines;
+    std::size_t number = 0;
+    for (auto const& arc : boost::make_iterator_range(boost::edges(terrain.network.plan))) {
+        std::vector<Vec2> const& line = terrain.network.plan[arc].line;
+        std::vector<double> const& z = terrain.network.arc_z[number++];
+        std::vector<Vec3> breakline;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            breakline.push_back({line[i].x, line[i].y, z[i]});
+        }
+        breaklines.push_back(std::move(breakline));
+    }
+    terrain.tin = diary.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
+    diary.say(fmt::format("{} triangles of {} vertices", terrain.tin->triangles.size(), terrain.tin->vertices.size()));
+    surface::Dilated drawn;
+    if (wanted.method == Method::dilate) {
+        Valley level = terrain.valley;
+        for (float& z : level.z.values()) {
+            z = std::isnan(z) ? z : 0.0F;
+        }
+        drawn = surface::dilate(level, wanted.dilate, run);
+    }
+    Raster<float> base =
+        surface::rasterise_tin(*terrain.tin, terrain.grid, {surface::RasteriseTinParams::Outside::nearest}, run);
+    for (std::int64_t i = 0; i < base.cells(); ++i) {
+        if (!std::isnan(terrain.valley.z[i])) {
+            base[i] = terrain.valley.z[i];
+        } else if (wanted.method == Method::dilate) {
+            base[i] += drawn.dem[i];
+        }
+    }
+    drawn.dem = std::move(base);
+    return drawn;
+}
+
+void add_detail(Terrain const& terrain, Raster<float>& dem, Run const& run) {
+    constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
+    Recipe recipe = terrain.recipe;
+    int const levels = levels_of(recipe);
+    if (levels == 0) {
+        return;
+    }
+    recipe.detail->midpoint.hurst = recipe.detail->midpoint.hurst.value_or(3.0 - default_dimension);
+    Raster<float> const noise =
+        with_detail(recipe, Raster<float>(coarse_grid(terrain.grid, levels), 0.0F), terrain.grid, run);
+    surface::Expansion const expansion = surface::expand(terrain.valley, run);
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        double const share = 1.0 - exact::exp(-static_cast<double>(expansion.level[i]) / near_cells);
+        dem[i] = static_cast<float>(static_cast<double>(dem[i]) + share * static_cast<double>(noise[i]));
+    }
+}
+
+} // namespace thalweg::pipeline
