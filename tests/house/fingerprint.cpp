@@ -8,10 +8,12 @@
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/detail/estimate_fractal.hpp>
 #include <thalweg/detail/midpoint.hpp>
+#include <thalweg/detail/project.hpp>
 #include <thalweg/detail/refine.hpp>
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
+#include <thalweg/measure/statistics.hpp>
 #include <thalweg/network/grow_dla.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/pick_branch.hpp>
@@ -21,6 +23,13 @@
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
 #include <thalweg/pipeline/frame.hpp>
+#include <thalweg/skeleton/attract.hpp>
+#include <thalweg/skeleton/grf.hpp>
+#include <thalweg/skeleton/markov3.hpp>
+#include <thalweg/skeleton/separable_ar.hpp>
+#include <thalweg/skeleton/shift_mean.hpp>
+#include <thalweg/solver/expected_slope.hpp>
+#include <thalweg/solver/fft.hpp>
 #include <thalweg/surface/dilate.hpp>
 #include <thalweg/surface/rasterise_tin.hpp>
 #include <thalweg/surface/separable.hpp>
@@ -144,6 +153,61 @@ Fnv hash_of(surface::Expansion const& expansion) {
     return fnv;
 }
 
+Fnv hash_of(Raster<solver::Complex> const& raster) {
+    Fnv fnv;
+    for (solver::Complex const& value : raster.values()) {
+        fnv.add(value.real());
+        fnv.add(value.imag());
+    }
+    return fnv;
+}
+
+Fnv hash_of(measure::Statistics const& s) {
+    Fnv fnv;
+    for (double const figure : {s.mean, s.std, s.skew, s.kurtosis, s.roughness_m, s.slope_rad, s.lx.cells, s.ly.cells,
+                                s.dimension, s.dimension_dyadic}) {
+        fnv.add(figure);
+    }
+    return fnv;
+}
+
+/// Lengths with the factors 2, 3, 5 and 7, for which the transform has code of its own or a general one.
+Raster<solver::Complex> transformed(Run const& run) {
+    Raster<solver::Complex> values(Grid{180, 98, 1.0, 0.0, 0.0, ""});
+    for (std::int64_t i = 0; i < values.cells(); ++i) {
+        auto const words = chance_block(9, static_cast<std::uint64_t>(i));
+        values[i] = {unit(words[0]) - 0.5, unit(words[1]) - 0.5};
+    }
+    return solver::fft(std::move(values), solver::Direction::forward, run);
+}
+
+void print_lands_of_statistics(Run const& run) {
+    print("fft", hash_of(transformed(run)));
+    Grid const grid{130, 40, 300.0, 0.0, 0.0, ""};
+    skeleton::FieldParams const field{536.0, 131.6, 20.68, 39.74, 3};
+    print("separable_ar", hash_of(skeleton::separable_ar(grid, field, run)));
+    Raster<float> const literal = skeleton::markov3(grid, field, run);
+    print("markov3", hash_of(literal));
+    print("attract", hash_of(skeleton::attract(literal, {{91, 1}, 1038.0, 20.0})));
+    print("shift_mean", hash_of(skeleton::shift_mean(literal, 600.0)));
+    solver::StableCovariance const prior = solver::with_slope({20.68, 39.74, 2.39}, 131.6, 1.51);
+    Raster<float> const land =
+        skeleton::grf(grid, {.mean = 536.0, .std = 131.6, .covariance = prior, .seed = 3}, run).dem;
+    print("grf", hash_of(land));
+    detail::Targets targets;
+    targets.mean = 536.0;
+    targets.std = 131.6;
+    targets.max = detail::FixedHeight{{91, 1}, 1038.0};
+    targets.min = detail::FixedHeight{{129, 26}, 276.0};
+    targets.lx_cells = 20.68;
+    targets.ly_cells = 39.74;
+    targets.slope_rad = 1.499;
+    targets.dimension = 2.39;
+    auto const projected = detail::project(land, targets, {{{20, 20}, 500.0}}, {.prior = prior}, run);
+    print("project", hash_of(projected.dem));
+    print("statistics", hash_of(measure::statistics(projected.dem, run)));
+}
+
 /// The expansion without the vector instructions of this processor, which the C library's masks do not hide.
 surface::Expansion expand_plain(Valley const& valley, Run const& run) {
     using namespace surface::separable;
@@ -260,4 +324,5 @@ int main(int count, char** words) {
         }
     }
     print_detail(run);
+    print_lands_of_statistics(run);
 }

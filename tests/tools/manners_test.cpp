@@ -79,7 +79,15 @@ TEST(Manners, JsonIsExactlyOneObject) {
     auto const check = nlohmann::json::parse(thalweg_run("check out --json", place.path()).out);
     EXPECT_EQ(check["ok"], true);
     auto const stats = nlohmann::json::parse(thalweg_run("stats out/dem.tif --json", place.path()).out);
-    EXPECT_EQ(stats["mean"], report["dem"]["mean"]);
+    for (auto const& [key, value] : stats.items()) {
+        EXPECT_EQ(value, report["dem"][key]) << key;
+    }
+    EXPECT_GT(stats["lx_cells"], 0.0);
+    EXPECT_GT(stats["dimension"], 2.0);
+    std::string const text = thalweg_run("stats out/dem.tif", place.path()).out;
+    for (char const* word : {"shape ", "roughness ", "length ", "dimension "}) {
+        EXPECT_NE(text.find(word), std::string::npos) << text;
+    }
 }
 
 TEST(Manners, OverwriteReplacesOnlyItsOwn) {

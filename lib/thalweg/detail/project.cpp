@@ -39,6 +39,8 @@ constexpr double most_ridge = 1e-2;
 // A step that leaves more missing than that many times the least so far is taken back, and the next is half as long.
 constexpr double worse = 1.5;
 constexpr double least_reach = 1.0 / 64.0;
+constexpr double least_fine_share = 0.3;
+constexpr double longest_fine_cells = 12.0;
 
 /// One statistic on its way to its target.
 struct Goal {
@@ -182,6 +184,17 @@ private:
     solver::Cholesky kept_covariance_;
 };
 
+/// The covariance that steps are taken in: the prior's with a good part of fine forms. In a smooth prior alone slope
+/// and dimension answer to little but changes of the whole land, which throw the lengths over.
+solver::StableCovariance of_steps(solver::StableCovariance covariance) {
+    if (covariance.fine_share == 0.0) {
+        covariance.fine_cells =
+            std::min(longest_fine_cells, std::sqrt(covariance.lx_cells * covariance.ly_cells) / 4.0);
+    }
+    covariance.fine_share = std::max(covariance.fine_share, least_fine_share);
+    return covariance;
+}
+
 void add_to(Raster<double>& field, double times, Raster<double> const& other, Run const& run) {
     parallel_ranges(run, field.cells(), grain_cells, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
@@ -272,22 +285,29 @@ void step(Land& land, FieldStatistics const& is, std::vector<Goal> const& goals,
             }
         }
     }
-    // Metres, cells and radians: every statistic by its own deviation.
-    std::vector<double> scale(n);
-    std::vector<double> wanted(n);
+    // Metres, cells and radians: every statistic by its own deviation. One that answers to no height, or whose answer
+    // is not known, as on a plain, is left out.
+    std::vector<double> scale(n, 0.0);
+    std::vector<double> wanted(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
-        scale[i] = 1.0 / std::sqrt(system[i * n + i]);
-        wanted[i] =
-            scale[i] * std::clamp(missing(goals[i], is), -reach * goals[i].longest_step, reach * goals[i].longest_step);
+        if (system[i * n + i] > 0.0) {
+            scale[i] = 1.0 / std::sqrt(system[i * n + i]);
+            wanted[i] = scale[i] * std::clamp(missing(goals[i], is), -reach * goals[i].longest_step,
+                                              reach * goals[i].longest_step);
+        }
     }
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
-            system[i * n + j] *= scale[i] * scale[j];
+            bool const both = scale[i] > 0.0 && scale[j] > 0.0;
+            system[i * n + j] = both ? system[i * n + j] * scale[i] * scale[j] : i == j ? 1.0 : 0.0;
         }
     }
     std::vector<double> const c = solver::solve(factor_safely(system, n, run), std::move(wanted));
     std::vector<double> pull(kept.size(), 0.0);
     for (std::size_t i = 0; i < n; ++i) {
+        if (scale[i] == 0.0) {
+            continue;
+        }
         add_to(land.free, c[i] * scale[i], fields[i], run);
         for (std::size_t p = 0; p < kept.size(); ++p) {
             pull[p] -= c[i] * scale[i] * weights[i][p];
@@ -345,19 +365,22 @@ Projection project(Raster<float> const& dem, Targets const& targets, std::vector
     check_targets(dem, targets);
     std::vector<FixedHeight> const kept = kept_heights(dem, targets, fixed);
     Limiter const limiter(targets, params.gap_m);
-    Prior const prior(dem.grid(), kept, params.prior, run);
 
     Land land{Raster<double>(dem.grid()), dem};
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         land.free[i] = std::isnan(dem[i]) ? 0.0 : dem[i];
     }
-    std::vector<double> off;
-    for (FixedHeight const& one : kept) {
-        off.push_back(one.z - land.free[one.cell]);
+    if (!kept.empty()) {
+        Prior const prior(dem.grid(), kept, params.prior, run);
+        std::vector<double> off;
+        for (FixedHeight const& one : kept) {
+            off.push_back(one.z - land.free[one.cell]);
+        }
+        add_to(land.free, 1.0, prior.spread(prior.solve_kept(std::move(off)), run), run);
     }
-    add_to(land.free, 1.0, prior.spread(prior.solve_kept(std::move(off)), run), run);
     shape(land, limiter, kept, run);
 
+    Prior const prior(dem.grid(), kept, of_steps(params.prior), run);
     FieldStatistics is = solver::field_statistics(land.dem, run);
     double const deviation = targets.std.value_or(is.std > 0.0 ? is.std : 1.0);
     std::vector<Goal> const goals = goals_of(targets, deviation);
@@ -404,7 +427,7 @@ Projection project(Raster<float> const& dem, Targets const& targets, std::vector
             shape(land, limiter, kept, run);
             is = best_is;
             reach *= 0.5;
-        } else {
+        } else if (way == best_way) {
             reach = std::min(1.0, 2.0 * reach);
         }
         if (reach < least_reach) {

@@ -13,8 +13,7 @@
 #include <thalweg/skeleton/markov3.hpp>
 #include <thalweg/skeleton/separable_ar.hpp>
 #include <thalweg/skeleton/shift_mean.hpp>
-#include <thalweg/surface/expand.hpp>
-#include <thalweg/surface/extend_tin.hpp>
+#include <thalweg/solver/expected_slope.hpp>
 #include <thalweg/surface/rasterise_tin.hpp>
 
 #include <fmt/format.h>
@@ -50,6 +49,17 @@ double mean_of(StatisticsRecipe const& s) {
     return s.max && s.min ? 0.5 * ((*s.max)[0] + (*s.min)[0]) : 0.0;
 }
 
+/// How heights go together in a land of these statistics, on cells so many times larger.
+solver::StableCovariance covariance_of(StatisticsRecipe const& s, double step) {
+    solver::StableCovariance covariance;
+    covariance.lx_cells = (s.length ? (*s.length)[0] : default_length_cells) / step;
+    covariance.ly_cells = (s.length ? (*s.length)[1] : default_length_cells) / step;
+    covariance.dimension = s.dimension.value_or(default_dimension);
+    // Slopes are counted between neighbours: they say nothing of coarser cells.
+    return s.slope && step == 1.0 ? solver::with_slope(covariance, s.std.value_or(default_std_m), *s.slope)
+                                  : covariance;
+}
+
 /// The coarse cells that detail starts from: every 2^levels-th of the grid, as many as cover it.
 Grid coarse_grid(Grid const& grid, int levels) {
     std::int64_t const step = std::int64_t{1} << levels;
@@ -77,7 +87,8 @@ Raster<float> drawn_to_extremes(Raster<float> land, StatisticsRecipe const& s, i
             return std::min(side - 1, static_cast<std::int64_t>(std::floor(fine / step + 0.5)));
         };
         Cell const centre{nearest((*extreme)[1], land.width()), nearest((*extreme)[2], land.height())};
-        land = skeleton::attract(std::move(land), {centre, (*extreme)[0], std::max(1.0, s.reach_cells / step), s.falloff});
+        land =
+            skeleton::attract(std::move(land), {centre, (*extreme)[0], std::max(1.0, s.reach_cells / step), s.falloff});
     }
     return s.mean ? skeleton::shift_mean(std::move(land), *s.mean) : land;
 }
@@ -97,7 +108,7 @@ Raster<float> random_land(Recipe const& recipe, Grid const& coarse, int levels, 
     skeleton::GrfParams params;
     params.mean = mean_of(s);
     params.std = std;
-    params.covariance = {.lx_cells = lx, .ly_cells = ly, .dimension = s.dimension.value_or(default_dimension)};
+    params.covariance = covariance_of(s, step);
     params.seed = recipe.seed;
     return skeleton::grf(coarse, params, run).dem;
 }
@@ -150,8 +161,8 @@ Raster<float> land_of_points(Terrain& terrain, FeaturePoints const& points, Grid
     }
     terrain.tin = geometry::triangulate(points.points, {}, run).tin;
     if (wanted.interpolation == Interpolation::natural) {
-        return geometry::natural_neighbours(points.points, grid,
-                                            {geometry::NaturalNeighboursParams::Outside::nearest}, run);
+        return geometry::natural_neighbours(points.points, grid, {geometry::NaturalNeighboursParams::Outside::nearest},
+                                            run);
     }
     return surface::rasterise_tin(*terrain.tin, grid, {surface::RasteriseTinParams::Outside::nearest}, run);
 }
@@ -293,9 +304,7 @@ void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run c
     if (recipe.statistics) {
         StatisticsRecipe const& s = *recipe.statistics;
         detail::ProjectParams params;
-        params.prior.lx_cells = s.length ? (*s.length)[0] : default_length_cells;
-        params.prior.ly_cells = s.length ? (*s.length)[1] : default_length_cells;
-        params.prior.dimension = s.dimension.value_or(default_dimension);
+        params.prior = covariance_of(s, 1.0);
         terrain.projection = diary.stage("project", [&] {
             return detail::project(land, targets_of(s), heights_to_keep(recipe, given, grid), params, run);
         });

@@ -214,9 +214,9 @@ void add_land(Terrain const& t, Figures& figures) {
         figures.add("greatest rise above the valley", relief > 0.0 ? std::optional(relief) : std::nullopt,
                     rounded(t.surface->rise_m), "m");
     }
-    figures.add("correlation length along rows", asked_for(t, "lx_cells"), s.LX, "cells");
-    figures.add("correlation length along columns", asked_for(t, "ly_cells"), s.LY, "cells");
-    figures.add("fractal dimension", asked_for(t, "dimension"), s.DIM, "");
+    figures.add("correlation length along rows", asked_for(t, "lx_cells"), s.lx.cells, "cells");
+    figures.add("correlation length along columns", asked_for(t, "ly_cells"), s.ly.cells, "cells");
+    figures.add("fractal dimension", asked_for(t, "dimension"), s.dimension, "");
     figures.add("mean slope on unit cells", asked_for(t, "slope_rad"), s.slope_rad, "rad");
     figures.add("mean slope", s.slope_true_deg, "degrees");
     figures.add("hypsometric integral", t.hypsometry->integral, "");

@@ -352,8 +352,13 @@ void add_detail_keys(std::vector<Key>& keys) {
                          in_detail<MaybeNumber>([](DetailRecipe& d) -> MaybeNumber& { return d.midpoint.sigma; })));
     {
         Key key;
-        key.help = {"detail.stencil", "integer", "4 | 12 | 16", "", "",
-                    "neighbours a height is made of; 4 with the printed variance", {"4", "12", "16"}};
+        key.help = {"detail.stencil",
+                    "integer",
+                    "4 | 12 | 16",
+                    "",
+                    "",
+                    "neighbours a height is made of; 4 with the printed variance",
+                    {"4", "12", "16"}};
         key.put = [](Recipe& r, Value const& v) {
             std::int64_t const n = as_integer(v);
             if (n != 4 && n != 12 && n != 16) {

@@ -47,8 +47,8 @@ struct Terrain {
     measure::HortonLaws laws;
     Valley valley;
     std::optional<surface::Dilated> surface;
-    std::optional<Tin> tin;                         ///< of rivers and points, where the land is drawn over one
-    std::optional<detail::Projection> projection;   ///< how the statistics came out; its dem is that of surface
+    std::optional<Tin> tin;                        ///< of rivers and points, where the land is drawn over one
+    std::optional<detail::Projection> projection;  ///< how the statistics came out; its dem is that of surface
     std::optional<measure::Statistics> statistics; ///< of the surface
     std::optional<measure::Hypsometry> hypsometry; ///< likewise
     std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
