@@ -60,10 +60,14 @@ int make(Options const& options, Session const& session) {
         }
     }
     if (terrain.passed()) {
-        std::size_t const outlets = NetworkIndex(terrain.network.plan).outlets.size();
-        std::string const words =
-            fmt::format("{} checks, {} outlet{}{}", terrain.checks.size(), outlets, outlets == 1 ? "" : "s",
-                        terrain.surface ? fmt::format(", {} cells in pits", terrain.pits) : "");
+        std::string words = fmt::format("{} checks", terrain.checks.size());
+        if (terrain.recipe.network) {
+            std::size_t const outlets = NetworkIndex(terrain.network.plan).outlets.size();
+            words += fmt::format(", {} outlet{}", outlets, outlets == 1 ? "" : "s");
+        }
+        if (terrain.surface) {
+            words += fmt::format(", {} cells in pits", terrain.pits);
+        }
         session.run.say(fmt::format("check  {:<60}      {}", words, toned(Tone::good, "ok", stderr)));
     }
     session.run.say(

@@ -143,8 +143,15 @@ FeaturePoints points_of(Recipe const& recipe, FeaturePoints const& given, Grid c
     return std::move(scattered.points);
 }
 
+/// What points without [surface] are drawn by.
+SurfaceRecipe over_triangles() {
+    SurfaceRecipe surface;
+    surface.method = Method::tin;
+    return surface;
+}
+
 Raster<float> land_of_points(Terrain& terrain, FeaturePoints const& points, Grid const& grid, Run const& run) {
-    SurfaceRecipe const wanted = terrain.recipe.surface.value_or(SurfaceRecipe{.method = Method::tin});
+    SurfaceRecipe const wanted = terrain.recipe.surface.value_or(over_triangles());
     StatisticsRecipe const& s = asked(terrain.recipe);
     if (wanted.method == Method::regress) {
         skeleton::RegressParams params = wanted.regress;

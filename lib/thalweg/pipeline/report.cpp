@@ -124,6 +124,17 @@ ordered_json network_object(Terrain const& t) {
             {"horton", horton(t.laws)}};
 }
 
+ordered_json statistics_object(detail::Projection const& p) {
+    ordered_json residuals = ordered_json::array();
+    for (detail::Residual const& r : p.residuals) {
+        residuals.push_back({{"name", r.name}, {"asked", r.asked}, {"got", r.got}, {"error", r.error}});
+    }
+    return {{"converged", p.converged},
+            {"iterations", p.iterations},
+            {"limited_cells", p.limited_cells},
+            {"residuals", residuals}};
+}
+
 /// From the increments as the recipe names them to those used.
 double metres_per_unit(Terrain const& t) {
     std::vector<double> const& used = t.surface->increments;
@@ -150,16 +161,26 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
     ordered_json report{{"version", version()},
                         {"recipe", recipe_object(t.recipe)},
                         {"timings_s", timings},
-                        {"peak_rss_mb", static_cast<double>(peak_memory_bytes()) / 1e6},
-                        {"network", network_object(t)}};
+                        {"peak_rss_mb", static_cast<double>(peak_memory_bytes()) / 1e6}};
+    if (t.recipe.network) {
+        report["network"] = network_object(t);
+    }
     if (t.statistics) {
         report["dem"] = dem(*t.statistics);
         report["dem"]["hypsometric_integral"] = t.hypsometry->integral;
-        report["dem"]["flat_share"] = t.surface->flat_share;
-        report["dem"]["levels"] = t.surface->levels;
-        report["dem"]["metres_per_unit"] = metres_per_unit(t);
+        if (!t.surface->increments.empty()) {
+            report["dem"]["flat_share"] = t.surface->flat_share;
+            report["dem"]["levels"] = t.surface->levels;
+            report["dem"]["metres_per_unit"] = metres_per_unit(t);
+        }
         report["dem"]["pit_cells"] = t.pits;
         report["dem"]["pit_volume_m3"] = t.pit_volume_m3;
+    }
+    if (t.tin) {
+        report["tin"] = {{"vertices", t.tin->vertices.size()}, {"triangles", t.tin->triangles.size()}};
+    }
+    if (t.projection) {
+        report["statistics"] = statistics_object(*t.projection);
     }
     report["checks"] = checks_array(t.checks);
     report["findings"] = findings_array(t.findings);
