@@ -325,8 +325,7 @@ void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run c
     terrain.surface->dem = std::move(land);
 }
 
-surface::Dilated draw_over_tin(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
-    SurfaceRecipe const& wanted = *terrain.recipe.surface;
+void make_skeleton_tin(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
     std::vector<std::vector<Vec3>> breaklines;
     std::size_t number = 0;
     for (auto const& arc : boost::make_iterator_range(boost::edges(terrain.network.plan))) {
@@ -340,6 +339,10 @@ surface::Dilated draw_over_tin(Terrain& terrain, FeaturePoints const& points, Di
     }
     terrain.tin = diary.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
     diary.say(fmt::format("{} triangles of {} vertices", terrain.tin->triangles.size(), terrain.tin->vertices.size()));
+}
+
+surface::Dilated draw_over_tin(Terrain const& terrain, Run const& run) {
+    SurfaceRecipe const& wanted = *terrain.recipe.surface;
     surface::Dilated drawn;
     if (wanted.method == Method::dilate) {
         Valley level = terrain.valley;

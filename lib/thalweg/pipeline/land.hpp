@@ -19,9 +19,11 @@ Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted);
 /// Fills in what of the terrain tells about it: surface, tin, projection, checks.
 void make_land(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run);
 
-/// Land over the triangles of rivers and points: as it is, or as the base that slopes rise from. Valley cells keep
-/// their heights.
-surface::Dilated draw_over_tin(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run);
+/// The triangles of points and rivers, whose arcs are breaklines.
+void make_skeleton_tin(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run);
+
+/// Land over the skeleton's triangles: as it is, or as the base that slopes rise from. Valley cells keep their heights.
+surface::Dilated draw_over_tin(Terrain const& terrain, Run const& run);
 
 /// Adds fractal detail to land with rivers: none in the valleys, all of it some cells away.
 void add_detail(Terrain const& terrain, Raster<float>& dem, Run const& run);

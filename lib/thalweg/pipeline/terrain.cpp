@@ -208,16 +208,15 @@ void draw_land(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run 
     SurfaceRecipe const& wanted = *recipe.surface;
     bool const over_tin = wanted.method == Method::tin || wanted.base == Base::tin;
     if (over_tin || (recipe.skeleton && recipe.skeleton->tin)) {
-        surface::Dilated drawn = draw_over_tin(terrain, points, diary, run);
-        if (over_tin) {
-            terrain.surface = std::move(drawn);
-        }
+        make_skeleton_tin(terrain, points, diary, run);
     }
-    if (!terrain.surface) {
-        terrain.surface = diary.stage("fill", [&] { return draw_surface(recipe, terrain.valley, run); });
-        diary.say(fmt::format("{}x{}, {}, {} levels", terrain.grid.width, terrain.grid.height,
-                              wanted.dilate.increment.increment, terrain.surface->levels));
-    }
+    terrain.surface = diary.stage(
+        "fill", [&] { return over_tin ? draw_over_tin(terrain, run) : draw_surface(recipe, terrain.valley, run); });
+    bool const dilated = wanted.method == Method::dilate;
+    diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height,
+                          dilated
+                              ? fmt::format("{}, {} levels", wanted.dilate.increment.increment, terrain.surface->levels)
+                              : std::string("over triangles")));
     add_detail(terrain, terrain.surface->dem, run);
 }
 
