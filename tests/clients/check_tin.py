@@ -43,9 +43,9 @@ def by_2dm(path):
 
 
 def by_ogr(path):
-    layer = ogr.Open(str(path)).GetLayer("faces")
+    data = ogr.Open(str(path))  # kept alive: its layers die with it
     points, triangles = {}, []
-    for feature in layer:
+    for feature in data.GetLayer("faces"):
         ring = feature.GetGeometryRef().GetGeometryRef(0)
         corners = [ring.GetPoint(i) for i in range(4)]
         if ring.GetPointCount() != 4 or corners[0] != corners[3]:
