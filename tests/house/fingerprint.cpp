@@ -26,6 +26,8 @@
 #include <thalweg/skeleton/attract.hpp>
 #include <thalweg/skeleton/grf.hpp>
 #include <thalweg/skeleton/markov3.hpp>
+#include <thalweg/skeleton/regress.hpp>
+#include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/skeleton/separable_ar.hpp>
 #include <thalweg/skeleton/shift_mean.hpp>
 #include <thalweg/solver/expected_slope.hpp>
@@ -208,6 +210,35 @@ void print_lands_of_statistics(Run const& run) {
     print("statistics", hash_of(measure::statistics(projected.dem, run)));
 }
 
+void print_points(Run const& run) {
+    Grid const grid{130, 40, 300.0, 0.0, 0.0, ""};
+    skeleton::ScatterParams params;
+    params.count = 200;
+    params.mean_m = 536.0;
+    params.std_m = 131.6;
+    params.highest = Vec3{27450.0, -450.0, 1038.0};
+    params.reach_cells = 8.0;
+    params.spacing_cells = 3.0;
+    FeaturePoints const darts = skeleton::scatter(grid, params, run).points;
+    params.spacing_cells = 4.2;
+    params.law = skeleton::HeightLaw::normal;
+    FeaturePoints const spread = skeleton::scatter(grid, params, run).points;
+    Fnv fnv;
+    for (FeaturePoints const* points : {&darts, &spread}) {
+        for (Vec3 const& p : points->points) {
+            fnv.add(p.x);
+            fnv.add(p.y);
+            fnv.add(p.z);
+        }
+    }
+    print("scatter", fnv);
+    print("regress", hash_of(skeleton::regress(darts, grid, {}, run).surface));
+    skeleton::RegressParams steep;
+    steep.slope = skeleton::SlopeMode::mean;
+    steep.slope_rad = 1.4;
+    print("regress, mean slope", hash_of(skeleton::regress(darts, grid, steep, run).surface));
+}
+
 /// The expansion without the vector instructions of this processor, which the C library's masks do not hide.
 surface::Expansion expand_plain(Valley const& valley, Run const& run) {
     using namespace surface::separable;
@@ -325,4 +356,5 @@ int main(int count, char** words) {
     }
     print_detail(run);
     print_lands_of_statistics(run);
+    print_points(run);
 }
