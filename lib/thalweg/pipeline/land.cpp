@@ -4,6 +4,7 @@
 
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/detail/fine_forms.hpp>
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/projection.hpp>
@@ -33,6 +34,7 @@ constexpr double default_dimension = 2.4;
 constexpr double default_std_m = 100.0;
 constexpr double default_west = 500000.0;
 constexpr double default_north = 5000000.0;
+constexpr double most_fine_cells = 8.0;
 constexpr double allowed_error = 0.01;
 constexpr double allowed_dimension_error = 0.02;
 
@@ -211,6 +213,17 @@ detail::Targets targets_of(StatisticsRecipe const& s) {
     return targets;
 }
 
+/// The land moved and stretched to the mean and deviation asked for, so that the projection begins near by.
+Raster<float> standardised(Raster<float> land, StatisticsRecipe const& s, Run const& run) {
+    measure::Statistics const now = measure::statistics(land, run);
+    double const stretch = s.std && now.std > 0.0 ? *s.std / now.std : 1.0;
+    double const mean = s.mean.value_or(now.mean);
+    for (float& z : land.values()) {
+        z = static_cast<float>(mean + (static_cast<double>(z) - now.mean) * stretch);
+    }
+    return land;
+}
+
 /// Heights of given points that the projection must keep: the first of each cell, none where an extreme lies.
 std::vector<detail::FixedHeight> heights_to_keep(Recipe const& recipe, FeaturePoints const& given, Grid const& grid) {
     std::vector<detail::FixedHeight> kept;
@@ -230,6 +243,35 @@ std::vector<detail::FixedHeight> heights_to_keep(Recipe const& recipe, FeaturePo
         }
     }
     return kept;
+}
+
+/// Projects a land on the statistics. One from which they cannot be reached, smoother or more jagged between neighbours
+/// than they ask for, takes its fine forms from a Gaussian land: as few of them as will do.
+Raster<float> brought_to_statistics(Terrain& terrain, Raster<float> land, std::vector<detail::FixedHeight> const& kept,
+                                    Run const& run) {
+    Recipe const& recipe = terrain.recipe;
+    StatisticsRecipe const& s = *recipe.statistics;
+    detail::ProjectParams params;
+    params.prior = covariance_of(s, 1.0);
+    terrain.projection = detail::project(land, targets_of(s), kept, params, run);
+    if (!terrain.projection->converged && s.skeleton != Prior::grf) {
+        land = standardised(std::move(land), s, run);
+        Recipe other = recipe;
+        other.statistics->skeleton = Prior::grf;
+        Raster<float> const gaussian = standardised(random_land(other, terrain.grid, 0, run), s, run);
+        for (double cells = 1.0; cells <= most_fine_cells; cells *= 2.0) {
+            detail::Projection again =
+                detail::project(detail::with_fine_forms(land, gaussian, cells, run), targets_of(s), kept, params, run);
+            if (again.converged) {
+                terrain.fine_forms_cells = cells;
+                terrain.projection = std::move(again);
+                break;
+            }
+        }
+    }
+    Raster<float> dem = std::move(terrain.projection->dem);
+    terrain.projection->dem = Raster<float>();
+    return dem;
 }
 
 void check_residuals(Terrain& terrain) {
@@ -309,16 +351,12 @@ void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run c
         diary.say(fmt::format("midpoint displacement, {} levels", levels));
     }
     if (recipe.statistics) {
-        StatisticsRecipe const& s = *recipe.statistics;
-        detail::ProjectParams params;
-        params.prior = covariance_of(s, 1.0);
-        terrain.projection = diary.stage("project", [&] {
-            return detail::project(land, targets_of(s), heights_to_keep(recipe, given, grid), params, run);
+        land = diary.stage("project", [&] {
+            return brought_to_statistics(terrain, std::move(land), heights_to_keep(recipe, given, grid), run);
         });
-        diary.say(fmt::format("{} statistics within {:.2g} %, {} steps", terrain.projection->residuals.size(),
-                              100.0 * terrain.projection->largest_error, terrain.projection->iterations));
-        land = std::move(terrain.projection->dem);
-        terrain.projection->dem = Raster<float>();
+        diary.say(fmt::format("{} statistics within {:.2g} %, {} steps{}", terrain.projection->residuals.size(),
+                              100.0 * terrain.projection->largest_error, terrain.projection->iterations,
+                              terrain.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian land" : ""));
         check_residuals(terrain);
     }
     terrain.surface.emplace();

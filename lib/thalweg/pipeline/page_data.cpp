@@ -273,6 +273,12 @@ ordered_json notes_array(Terrain const& t, std::optional<PageHeights> const& hei
     if (!t.surface) {
         out.push_back("the recipe asks for no surface: the page shows the rivers alone");
     }
+    if (t.fine_forms_cells > 0.0) {
+        out.push_back(
+            fmt::format("the statistics cannot be reached from this skeleton alone: forms finer than about {} "
+                        "cells come from a Gaussian land",
+                        t.fine_forms_cells));
+    }
     if (heights && heights->cells > 1) {
         out.push_back(fmt::format("heights are shown as means of {0}x{0} cells", heights->cells));
     }

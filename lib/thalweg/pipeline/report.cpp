@@ -181,6 +181,7 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
     }
     if (t.projection) {
         report["statistics"] = statistics_object(*t.projection);
+        report["statistics"]["fine_forms_cells"] = t.fine_forms_cells;
     }
     report["checks"] = checks_array(t.checks);
     report["findings"] = findings_array(t.findings);

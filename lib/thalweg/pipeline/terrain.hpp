@@ -47,8 +47,9 @@ struct Terrain {
     measure::HortonLaws laws;
     Valley valley;
     std::optional<surface::Dilated> surface;
-    std::optional<Tin> tin;                        ///< of rivers and points, where the land is drawn over one
-    std::optional<detail::Projection> projection;  ///< how the statistics came out; its dem is that of surface
+    std::optional<Tin> tin;                       ///< of rivers and points, where the land is drawn over one
+    std::optional<detail::Projection> projection; ///< how the statistics came out; its dem is moved to surface
+    double fine_forms_cells = 0.0; ///< [cells] below which forms had to come from a Gaussian land to meet them; 0: none
     std::optional<measure::Statistics> statistics; ///< of the surface
     std::optional<measure::Hypsometry> hypsometry; ///< likewise
     std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
