@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
 
+#include <thalweg/core/error.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/measure/statistics.hpp>
+#include <thalweg/pipeline/recipe_of_dem.hpp>
 #include <thalweg/pipeline/report.hpp>
 
 #include <CLI/CLI.hpp>
@@ -26,9 +28,28 @@ std::string length(solver::CorrelationLength const& l) {
     return known(l.cells, 2) + (l.extrapolated ? " (extrapolated)" : "");
 }
 
-int stats(std::string const& path, Session const& session) {
-    Raster<float> const dem = io::read_dem(path, session.run);
+struct Options {
+    std::string path;
+    bool recipe = false;
+};
+
+void print_recipe(pipeline::DemRecipe const& made) {
+    for (std::string const& note : made.notes) {
+        fmt::print("# {}\n", note);
+    }
+    fmt::print("{}", pipeline::write_recipe(made.recipe));
+}
+
+int stats(Options const& options, Session const& session) {
+    if (options.recipe && session.json) {
+        throw BadParameter("thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
+    }
+    Raster<float> const dem = io::read_dem(options.path, session.run);
     measure::Statistics const s = measure::statistics(dem, session.run);
+    if (options.recipe) {
+        print_recipe(pipeline::recipe_of_dem(dem, s, options.path));
+        return Exit::done;
+    }
     if (session.json) {
         fmt::print("{}", pipeline::statistics_json(s));
         return Exit::done;
@@ -52,14 +73,16 @@ int stats(std::string const& path, Session const& session) {
 } // namespace
 
 Command add_stats(CLI::App& app, Session& session) {
-    auto const path = std::make_shared<std::string>();
-    app.add_option("DEM", *path, "Any raster of heights that GDAL reads.")->type_name("FILE")->required();
+    auto const options = std::make_shared<Options>();
+    app.add_option("DEM", options->path, "Any raster of heights that GDAL reads.")->type_name("FILE")->required();
     app.add_flag("--json", session.json, "Print one JSON object.");
-    app.footer("Count, mean, standard deviation, lowest and highest cell, and mean slope. Cells without data are left "
-               "out.\n\n"
+    app.add_flag("--recipe", options->recipe, "Print a recipe of other land with the same statistics, for make.");
+    app.footer("Count, mean, standard deviation, lowest and highest cell, mean slope, shape, roughness, correlation "
+               "lengths and fractal dimension. Cells without data are left out.\n\n"
                "Examples:\n"
-               "  thalweg stats valley/dem.tif\n");
-    return [path, &session] { return stats(*path, session); };
+               "  thalweg stats valley/dem.tif\n"
+               "  thalweg stats samples/jacksboro_srtm3.tif --recipe > alike.toml\n");
+    return [options, &session] { return stats(*options, session); };
 }
 
 } // namespace thalweg::tools

@@ -4,6 +4,7 @@
 
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/detail/check_targets.hpp>
 #include <thalweg/detail/fine_forms.hpp>
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/triangulate.hpp>
@@ -274,6 +275,23 @@ Raster<float> brought_to_statistics(Terrain& terrain, Raster<float> land, std::v
     return dem;
 }
 
+/// Says which lengths only a fit can tell: correlation is measured over lags of up to half an axis.
+void warn_of_lengths(StatisticsRecipe const& s, Grid const& grid, Run const& run) {
+    if (!s.length) {
+        return;
+    }
+    auto const warn = [&](char const* name, double length, char const* axis, std::int64_t cells) {
+        if (length > 0.5 * static_cast<double>(cells)) {
+            run.say(
+                fmt::format("warning: statistics.length: {} of {} cells is more than half of the {} {}: the grid is "
+                            "too small to show it, and a fit stands for it",
+                            name, length, cells, axis));
+        }
+    };
+    warn("Lx", (*s.length)[0], "columns", grid.width);
+    warn("Ly", (*s.length)[1], "rows", grid.height);
+}
+
 void check_residuals(Terrain& terrain) {
     for (detail::Residual const& r : terrain.projection->residuals) {
         bool const dimension = r.name == "dimension";
@@ -339,6 +357,10 @@ void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run c
     Grid const& grid = terrain.grid;
     int const levels = levels_of(recipe);
     Grid const coarse = coarse_grid(grid, levels);
+    if (recipe.statistics) { // before any work
+        detail::check_targets(Raster<float>(grid), targets_of(*recipe.statistics));
+        warn_of_lengths(*recipe.statistics, grid, run);
+    }
     bool const from_points = !recipe.statistics || recipe.statistics->skeleton == Prior::points;
     FeaturePoints const points = from_points ? points_of(recipe, given, grid, run) : FeaturePoints{};
     Raster<float> land = diary.stage("land", [&] {
