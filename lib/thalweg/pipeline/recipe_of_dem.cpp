@@ -51,9 +51,9 @@ void put_grid(DemRecipe& made, Grid const& grid) {
         break;
     case io::GridUnit::degrees:
         made.notes.push_back(
-            fmt::format("Its coordinates are geographic, its cells {:.6g} units of angle: the cells here "
-                        "are squares as large as those in its middle row, in the default place.",
-                        grid.cell_m));
+            fmt::format("Its coordinates are geographic: the cells here are squares of {:.2f} m, as large "
+                        "as those in its middle row, in the default place.",
+                        cell.side_m));
         break;
     case io::GridUnit::other:
         made.notes.emplace_back(
