@@ -9,6 +9,7 @@
 #include <thalweg/draw/wireframe.hpp>
 #include <thalweg/io/dataset_files.hpp>
 #include <thalweg/io/raster_files.hpp>
+#include <thalweg/io/read_points.hpp>
 #include <thalweg/io/write_network.hpp>
 #include <thalweg/io/write_tin.hpp>
 #include <thalweg/pipeline/page.hpp>
@@ -47,7 +48,9 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
                        std::string const& into) {
     fs::path const given(name);
     fs::path const path = folder.empty() || given.is_absolute() ? given : fs::path(folder) / given;
-    std::vector<std::string> const files = io::dataset_files(path.string());
+    std::vector<std::string> const files = io::is_text_of_points(path.string())
+                                               ? std::vector<std::string>{path.string()}
+                                               : io::dataset_files(path.string());
     if (files.empty()) {
         return name;
     }
@@ -136,7 +139,7 @@ std::vector<std::string> write_terrain(Terrain const& terrain, std::string const
     if (terrain.recipe.network) {
         write_network(terrain, out, run);
     }
-    if (terrain.tin) {
+    if (terrain.tin && terrain.recipe.skeleton && terrain.recipe.skeleton->tin) {
         io::write_tin(*terrain.tin, terrain.grid.crs, out.path("tin.2dm"), io::TinFormat::mesh_2dm, run);
         io::write_tin(*terrain.tin, terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, run);
     }
