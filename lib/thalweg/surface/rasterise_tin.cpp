@@ -87,6 +87,15 @@ void require_sound(Tin const& tin, Run const& run) {
     });
 }
 
+// Vertices may lie anywhere in memory: to ask for them some triangles ahead hides most of the wait.
+constexpr std::size_t ahead = 12;
+
+void fetch(Tin const& tin, std::size_t triangle) {
+    for (std::uint32_t const v : tin.triangles[triangle]) {
+        __builtin_prefetch(&tin.vertices[v]);
+    }
+}
+
 // The triangles of each band, by number.
 struct Binned {
     std::vector<std::size_t> begin; // by band, and the end
@@ -98,6 +107,7 @@ Binned bin(Tin const& tin, Grid const& grid, Run const& run) {
     std::vector<Bands> bands(tin.triangles.size());
     parallel_ranges(run, count, 1 << 14, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+            fetch(tin, std::min(i + ahead, bands.size() - 1));
             auto const& t = tin.triangles[i];
             auto const [south, north] = std::minmax({tin.vertices[t[0]].y, tin.vertices[t[1]].y, tin.vertices[t[2]].y});
             bands[i] = bands_of(south, north, grid);
@@ -346,8 +356,9 @@ Raster<float> rasterise_tin(Tin const& tin, Grid const& grid, RasteriseTinParams
         for (std::int64_t k = b; k < e; ++k) {
             run.check();
             Band band(tin, centres, reach, k * band_rows, std::min((k + 1) * band_rows, grid.height), dem);
-            for (std::size_t i = binned.begin[static_cast<std::size_t>(k)];
-                 i < binned.begin[static_cast<std::size_t>(k) + 1]; ++i) {
+            std::size_t const end = binned.begin[static_cast<std::size_t>(k) + 1];
+            for (std::size_t i = binned.begin[static_cast<std::size_t>(k)]; i < end; ++i) {
+                fetch(tin, binned.triangles[std::min(i + ahead, end - 1)]);
                 band.draw(binned.triangles[i]);
             }
             band.settle();
