@@ -13,6 +13,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/geometry/height_on_plane.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 #include <tins.hpp>
 
@@ -208,4 +209,13 @@ TEST(SideOfLine, IsExact) {
     EXPECT_EQ(side_of_line({1e200, 0}, {0, 1e200}, {0, 0}), 1);
     EXPECT_EQ(side_of_line({134217729.0, 134217728.0}, {134217730.0, 134217729.0}, {1, 0}), 0);
     EXPECT_EQ(side_of_line({134217729.5, 134217728.5}, {402653190.5, 402653189.5}, {0x1p-26, 0}), 1);
+}
+
+TEST(HeightOnPlane, IsExactInSlivers) {
+    using geometry::height_on_plane;
+    EXPECT_EQ(height_on_plane({0, 0, 1}, {4, 0, 5}, {0, 4, 9}, {1, 1}), 4.0);
+    double const least = 0x1p-52;
+    // A hair off the line from (0, 0) to (2, 2): all of the way across it lies within the last bit.
+    EXPECT_EQ(height_on_plane({0, 0, 0}, {2, 2, 0}, {1, 1 + least, 8}, {1, 1}), 0.0);
+    EXPECT_EQ(height_on_plane({0, 0, 0}, {2, 2, 0}, {1, 1 + 2 * least, 8}, {1, 1 + least}), 4.0);
 }

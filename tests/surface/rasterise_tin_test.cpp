@@ -11,6 +11,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/geometry/height_on_plane.hpp>
 #include <thalweg/geometry/segments_near.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 #include <thalweg/geometry/triangulate.hpp>
@@ -44,12 +45,7 @@ Vec2 plan(Vec3 const& p) {
 }
 
 double height_in(Tin const& tin, std::array<std::uint32_t, 3> const& t, Vec2 p) {
-    Vec3 const a = tin.vertices[t[0]];
-    Vec3 const b = tin.vertices[t[1]];
-    Vec3 const c = tin.vertices[t[2]];
-    Vec3 const at{p.x, p.y, 0.0};
-    return (test::area2(b, c, at) * a.z + test::area2(c, a, at) * b.z + test::area2(a, b, at) * c.z) /
-           test::area2(a, b, c);
+    return geometry::height_on_plane(tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]], p);
 }
 
 bool holds(Tin const& tin, std::array<std::uint32_t, 3> const& t, Vec2 p) {

@@ -3,8 +3,10 @@
 #include <thalweg/surface/rasterise_tin.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -13,6 +15,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/parallel.hpp>
+#include <thalweg/geometry/height_on_plane.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 #include <thalweg/surface/extend_tin.hpp>
 
@@ -84,6 +87,15 @@ void require_sound(Tin const& tin, Run const& run) {
     });
 }
 
+// Vertices may lie anywhere in memory: to ask for them some triangles ahead hides most of the wait.
+constexpr std::size_t ahead = 12;
+
+void fetch(Tin const& tin, std::size_t triangle) {
+    for (std::uint32_t const v : tin.triangles[triangle]) {
+        __builtin_prefetch(&tin.vertices[v]);
+    }
+}
+
 // The triangles of each band, by number.
 struct Binned {
     std::vector<std::size_t> begin; // by band, and the end
@@ -95,6 +107,7 @@ Binned bin(Tin const& tin, Grid const& grid, Run const& run) {
     std::vector<Bands> bands(tin.triangles.size());
     parallel_ranges(run, count, 1 << 14, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+            fetch(tin, std::min(i + ahead, bands.size() - 1));
             auto const& t = tin.triangles[i];
             auto const [south, north] = std::minmax({tin.vertices[t[0]].y, tin.vertices[t[1]].y, tin.vertices[t[2]].y});
             bands[i] = bands_of(south, north, grid);
@@ -149,13 +162,14 @@ public:
         double const forward = (b.x - a.x) * (c.y - a.y);
         double const back = (c.x - a.x) * (b.y - a.y);
         double const area = forward - back;
-        if (!(area > 1e-12 * (std::fabs(forward) + std::fabs(back))) &&
-            geometry::side_of_line(plan(a), plan(b), plan(c)) <= 0) {
+        // Where so little is left of the products, rounding has its share in it.
+        bool const is_sliver = !(area > 1e-9 * (std::fabs(forward) + std::fabs(back)));
+        if (is_sliver && geometry::side_of_line(plan(a), plan(b), plan(c)) <= 0) {
             throw BadInput(fmt::format("surface.rasterise_tin: triangle {} at ({}, {}) does not run counterclockwise",
                                        triangle + 1, a.x, a.y));
         }
-        // A sliver thinner than doubles tell has no slope that could be had from it.
-        double const by_area = area > 0.0 ? 1.0 / area : 0.0;
+        sliver_ = is_sliver ? &t : nullptr;
+        double const by_area = is_sliver ? 0.0 : 1.0 / area;
         plane_ = {a, ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) * by_area,
                   ((b.x - a.x) * (c.z - a.z) - (c.x - a.x) * (b.z - a.z)) * by_area, std::min({a.z, b.z, c.z}),
                   std::max({a.z, b.z, c.z})};
@@ -263,6 +277,13 @@ private:
         return plane_.at.z + plane_.north * (centres_.y[static_cast<std::size_t>(row)] - plane_.at.y);
     }
 
+    float height_in_sliver(std::int64_t row, std::int64_t col) const {
+        auto const& t = *sliver_;
+        return static_cast<float>(geometry::height_on_plane(
+            tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]],
+            {centres_.x[static_cast<std::size_t>(col)], centres_.y[static_cast<std::size_t>(row)]}));
+    }
+
     void draw_row(std::int64_t row, Side const& west, Side const& east) {
         Column const begin = column(west, row);
         Column const end = column(east, row);
@@ -270,7 +291,7 @@ private:
         float* const cells = dem_.row(row).data();
         double const* const x = centres_.x.data();
         for (std::int64_t c = begin.first; c < end.first; ++c) {
-            cells[c] = height(x[c], at_a);
+            cells[c] = sliver_ == nullptr ? height(x[c], at_a) : height_in_sliver(row, c);
         }
         if (end.is_on) {
             claim(row, end.first);
@@ -279,7 +300,8 @@ private:
 
     void claim(std::int64_t row, std::int64_t col) {
         claims_.emplace_back(dem_.grid().index({col, row}),
-                             height(centres_.x[static_cast<std::size_t>(col)], base(row)));
+                             sliver_ == nullptr ? height(centres_.x[static_cast<std::size_t>(col)], base(row))
+                                                : height_in_sliver(row, col));
     }
 
     void claim_top(std::int64_t row, double west, double east) {
@@ -304,6 +326,7 @@ private:
     std::int64_t end_row_;
     Raster<float>& dem_;
     Plane plane_;
+    std::array<std::uint32_t, 3> const* sliver_ = nullptr; // the triangle in hand, where it is one
     std::vector<std::pair<std::int64_t, float>> claims_;
 };
 
@@ -333,8 +356,9 @@ Raster<float> rasterise_tin(Tin const& tin, Grid const& grid, RasteriseTinParams
         for (std::int64_t k = b; k < e; ++k) {
             run.check();
             Band band(tin, centres, reach, k * band_rows, std::min((k + 1) * band_rows, grid.height), dem);
-            for (std::size_t i = binned.begin[static_cast<std::size_t>(k)];
-                 i < binned.begin[static_cast<std::size_t>(k) + 1]; ++i) {
+            std::size_t const end = binned.begin[static_cast<std::size_t>(k) + 1];
+            for (std::size_t i = binned.begin[static_cast<std::size_t>(k)]; i < end; ++i) {
+                fetch(tin, binned.triangles[std::min(i + ahead, end - 1)]);
                 band.draw(binned.triangles[i]);
             }
             band.settle();
