@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Land from numbers and from points, as the command line makes it.
+#include "command.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string const samples = THALWEG_SOURCE_DIR "/samples/";
+std::string const table4 = "make " + samples + "statistics.toml -o out -q ";
+
+void refused(std::string const& arguments, std::string const& words) {
+    Workplace const place;
+    place.write("nan.csv", "x,y,z\n1,2,3\n4,5,nan\n");
+    place.write("two.csv", "x,y,z\n1,2,3\n400,5,6\n");
+    place.write("line.csv", "x,y,z\n0,0,1\n100,100,2\n200,200,3\n");
+    place.write("same.csv", "x,y,z\n5,5,1\n5,5,2\n5,5,3\n");
+    for (std::string const name : {"nan", "two", "line", "same", "none"}) {
+        place.write(name + ".toml", "[skeleton]\npoints = \"" + name + ".csv\"\n");
+    }
+    place.write("empty.toml", "[statistics]\nmean = 5\n");
+    Outcome const o = thalweg_run(arguments, place.path());
+    EXPECT_EQ(o.code, 2) << arguments << o.err;
+    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
+    EXPECT_FALSE(fs::exists(place / "out"));
+}
+
+} // namespace
+
+TEST(Land, EverySampleIsMadeAgainWithAnyNumberOfThreads) {
+    for (std::string const name : {"statistics", "points", "scattered", "tin"}) {
+        Workplace const place;
+        Outcome const o = thalweg_run("make " + samples + name + ".toml -o out -q --threads 1 --json", place.path());
+        ASSERT_EQ(o.code, 0) << name << o.err;
+        auto const report = nlohmann::json::parse(o.out);
+        for (auto const& check : report["checks"]) {
+            EXPECT_TRUE(check["ok"].get<bool>()) << name << check;
+        }
+        EXPECT_EQ(report.contains("statistics"), name != "tin");
+        EXPECT_EQ(fs::exists(place / "out/tin.2dm"), name == "scattered" || name == "tin");
+        EXPECT_EQ(fs::exists(place / "out/network.gpkg"), name == "tin");
+        EXPECT_TRUE(fs::exists(place / "out/report.html"));
+        EXPECT_EQ(thalweg_run("replay out --threads 2", place.path()).code, 0) << name;
+    }
+}
+
+TEST(Land, RealReliefGivesARecipeThatHasItsStatistics) {
+    Workplace const place;
+    Outcome const recipe = thalweg_run("stats " + samples + "jacksboro_srtm3.tif --recipe", place.path());
+    ASSERT_EQ(recipe.code, 0) << recipe.err;
+    place.write("real.toml", recipe.out);
+    Outcome const o = thalweg_run("make real.toml -o out -q --json", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    auto const report = nlohmann::json::parse(o.out);
+    Outcome const real = thalweg_run("stats " + samples + "jacksboro_srtm3.tif --json", place.path());
+    auto const wanted = nlohmann::json::parse(real.out);
+    EXPECT_EQ(report["statistics"]["residuals"].size(), 8U);
+    for (char const* name : {"mean", "std", "slope_rad", "lx_cells", "ly_cells"}) {
+        double const asked = wanted[name].get<double>();
+        EXPECT_NEAR(report["dem"][name].get<double>(), asked, 0.01 * asked) << name;
+    }
+    EXPECT_NEAR(report["dem"]["dimension"].get<double>(), wanted["dimension"].get<double>(), 0.02);
+    EXPECT_EQ(report["dem"]["max"], wanted["max"]);
+    EXPECT_EQ(report["dem"]["min"], wanted["min"]);
+    EXPECT_EQ(thalweg_run("stats " + samples + "jacksboro_srtm3.tif --recipe --json", place.path()).code, 2);
+}
+
+TEST(Land, WhatCannotBeIsRefusedWithItsNumbers) {
+    refused(table4 + "--set statistics.mean=2000", "not between the lowest point of 276 m and the highest of 1038 m");
+    refused(table4 + "--set statistics.std=9999", "the most is 361.276 m");
+    refused(table4 + "--set 'statistics.max=[1038,129,26]'", "both at column 129, row 26");
+    refused(table4 + "--set 'statistics.max=[1038,500,1]'", "lies off the grid of 130 x 40 cells");
+    refused(table4 + "--set 'statistics.length=[0,5]'", "[Lx, Ly] above 0 is wanted");
+    refused(table4 + "--set statistics.dimension=3.5", "outside its range");
+    refused(table4 + "--set statistics.skeleton=points", "needs skeleton.points or skeleton.scatter");
+    refused(table4 + "--set statistics.skeleton=points --set skeleton.scatter=5000 --set skeleton.spacing=3",
+            "a density of 8.654");
+    refused(table4 + "--set network.prune=4", "[statistics] and [network] do not go together");
+    refused(table4 + "--set surface.method=dilate", "needs [network]");
+    refused("make empty.toml -o out", "grid.width and grid.height are missing");
+    refused("make nan.toml -o out", "nan.csv, line 3: z is 'nan'");
+    refused("make two.toml -o out", "2 points in 2 different places");
+    refused("make line.toml -o out", "3 points lie on one line");
+    refused("make same.toml -o out", "3 points in 1 different places");
+    refused("make none.toml -o out", "none.csv");
+    refused("make -o out --set skeleton.scatter=9", "with [network] give skeleton.points");
+    refused("make -o out --set detail.levels=2", "detail.sigma is missing");
+    refused("make -o out --set detail.stencil=5", "none of 4, 12, 16");
+}
+
+TEST(Land, LengthsTheGridCannotShowAreWarnedOf) {
+    Workplace const place;
+    Outcome const o =
+        thalweg_run("make " + samples + "statistics.toml -o out --set 'statistics.length=[20,39]'", place.path());
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.err.find("warning: statistics.length: Ly of 39 cells is more than half of the 40 rows"),
+              std::string::npos)
+        << o.err;
+}
+
+TEST(Land, PointsThatContradictTheStatisticsLeaveResidualsAndFiles) {
+    Workplace const place;
+    std::string points = "x,y,z\n";
+    for (int i = 0; i < 900; ++i) { // half of all cells, all but level
+        points += std::to_string(500015 + 30 * (i % 60)) + "," + std::to_string(4999985 - 60 * (i / 60)) + "," +
+                  std::to_string(100 + i % 2) + "\n";
+    }
+    place.write("points.csv", points);
+    place.write("r.toml",
+                "[grid]\nwidth = 60\nheight = 30\norigin = [500000, 5000000]\n[skeleton]\npoints = \"points.csv\"\n"
+                "[statistics]\nskeleton = \"points\"\nstd = 400\nlength = [20, 10]\nslope = 0.05\n");
+    Outcome const o = thalweg_run("make r.toml -o out -q --json", place.path());
+    EXPECT_EQ(o.code, 3) << o.err;
+    auto const report = nlohmann::json::parse(o.out);
+    EXPECT_FALSE(report["statistics"]["converged"].get<bool>());
+    EXPECT_EQ(report["statistics"]["residuals"].size(), 4U);
+    EXPECT_TRUE(fs::exists(place / "out/dem.tif"));
+}
