@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 namespace fs = std::filesystem;
@@ -70,6 +71,24 @@ TEST(Land, RealReliefGivesARecipeThatHasItsStatistics) {
     EXPECT_EQ(report["dem"]["max"], wanted["max"]);
     EXPECT_EQ(report["dem"]["min"], wanted["min"]);
     EXPECT_EQ(thalweg_run("stats " + samples + "jacksboro_srtm3.tif --recipe --json", place.path()).code, 2);
+}
+
+TEST(Land, ARecipeOfLandThatIsHardlyLand) {
+    Workplace const place;
+    std::string const in = "cd '" + place.path().string() + "' && ";
+    ASSERT_EQ(
+        std::system((in + "gdal_translate -q -srcwin 20 30 200 1 " + samples + "jacksboro_srtm3.tif row.tif && " +
+                     "gdal_create -q -outsize 20 10 -bands 1 -burn 5 -a_srs EPSG:32631 -a_ullr 0 300 600 0 flat.tif")
+                        .c_str()),
+        0);
+    Outcome const row = thalweg_run("stats row.tif --recipe", place.path());
+    EXPECT_EQ(row.code, 0) << row.err;
+    EXPECT_NE(row.out.find("# statistics.length is left out: the heights tell none along columns"), std::string::npos);
+    place.write("row.toml", row.out);
+    EXPECT_EQ(thalweg_run("make row.toml -o out -q", place.path()).code, 0);
+    Outcome const flat = thalweg_run("stats flat.tif --recipe", place.path());
+    EXPECT_EQ(flat.code, 2);
+    EXPECT_NE(flat.err.find("every height of flat.tif is 5 m"), std::string::npos) << flat.err;
 }
 
 TEST(Land, WhatCannotBeIsRefusedWithItsNumbers) {
