@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <stop_token>
 #include <string_view>
 
 namespace thalweg {
+
+/// Where large systems are solved.
+enum class Device : std::uint8_t { cpu, opencl };
 
 /// How a stage runs, never what it makes: no field changes a result.
 struct Run {
@@ -15,7 +19,8 @@ struct Run {
     /// of a known amount, it is said once before it: "grow 100000 particles".
     using Progress = int (*)(double, char const*, void*);
 
-    int threads = 0; ///< [1, ...] workers; 0 takes every core
+    int threads = 0;             ///< [1, ...] workers; 0 takes every core
+    Device device = Device::cpu; ///< what solver does on it agrees with the CPU within the tolerance its header states
     Progress progress = nullptr;
     void* progress_arg = nullptr;
     std::function<void(std::string_view)> log; ///< one finished line, without its newline
