@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/key_kinds.hpp>
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/core/suggest.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <sstream>
+#include <string_view>
+
+namespace thalweg::pipeline {
+
+std::string toml_text(Value const& value) {
+    toml::table one;
+    std::visit(
+        [&](auto const& v) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(v)>, Pair>) {
+                one.insert("v", toml::array{v[0], v[1]});
+            } else if constexpr (std::is_same_v<std::decay_t<decltype(v)>, Triple>) {
+                one.insert("v", toml::array{v[0], v[1], v[2]});
+            } else {
+                one.insert("v", v);
+            }
+        },
+        value);
+    std::ostringstream out;
+    out << one;
+    return out.str().substr(std::string_view("v = ").size());
+}
+
+std::string Range::text() const {
+    if (most >= endless) {
+        return fmt::format("{} {}", open ? ">" : ">=", least);
+    }
+    return fmt::format("{}{}, {}]", open ? "(" : "[", least, most);
+}
+
+void Range::require(double v) const {
+    if (!holds(v)) {
+        throw BadParameter(fmt::format("{} is outside its range {}", v, text()));
+    }
+}
+
+void refuse(char const* wanted, Value const& v) {
+    throw BadParameter(fmt::format("{} is wanted, not {}", wanted, toml_text(v)));
+}
+
+void refuse_word(std::string const& word, std::vector<std::string> const& words) {
+    throw BadParameter(
+        fmt::format("'{}' is none of its values.{} ({})", word, did_you_mean(word, words), fmt::join(words, ", ")));
+}
+
+std::string alternatives(std::vector<std::string> const& words) {
+    return fmt::format("{}", fmt::join(words, " | "));
+}
+
+double as_number(Value const& v) {
+    if (auto const* i = std::get_if<std::int64_t>(&v)) {
+        return static_cast<double>(*i);
+    }
+    if (auto const* d = std::get_if<double>(&v)) {
+        return *d;
+    }
+    refuse("a number", v);
+}
+
+std::int64_t as_integer(Value const& v) {
+    if (auto const* i = std::get_if<std::int64_t>(&v)) {
+        return *i;
+    }
+    refuse("an integer", v);
+}
+
+std::string const& as_text(Value const& v) {
+    if (auto const* s = std::get_if<std::string>(&v)) {
+        return *s;
+    }
+    refuse("a text in quotes", v);
+}
+
+Key number(char const* path, char const* unit, Range range, char const* meaning, Field<double> field) {
+    Key key;
+    key.help = {path, "number", range.text(), unit, "", meaning};
+    key.put = [range, field](Recipe& r, Value const& v) {
+        double const x = as_number(v);
+        range.require(x);
+        field.make(r) = x;
+    };
+    key.take = taker<double>(field, [](double const& x) { return std::optional<Value>(x); });
+    return key;
+}
+
+Key maybe(char const* path, char const* unit, Range range, char const* meaning, Field<std::optional<double>> field) {
+    Key key;
+    key.help = {path, "number", range.text(), unit, "", meaning};
+    key.put = [range, field](Recipe& r, Value const& v) {
+        double const x = as_number(v);
+        range.require(x);
+        field.make(r) = x;
+    };
+    key.take = taker<std::optional<double>>(
+        field, [](std::optional<double> const& x) { return x ? std::optional<Value>(*x) : std::nullopt; });
+    return key;
+}
+
+Key side(char const* path, char const* meaning, Field<std::int64_t> field) {
+    Key key = integer<std::int64_t>(path, "cells", {1, 1e6}, meaning, field);
+    key.take = taker<std::int64_t>(
+        field, [](std::int64_t const& x) { return x > 0 ? std::optional<Value>(x) : std::nullopt; });
+    return key;
+}
+
+Key text(char const* path, char const* range, char const* meaning, Field<std::string> field) {
+    Key key;
+    key.help = {path, "text", range, "", "", meaning};
+    key.put = [field](Recipe& r, Value const& v) {
+        std::string const& s = as_text(v);
+        if (s.size() > 4096 || s.find('\0') != std::string::npos) {
+            throw BadParameter("the text is too long or holds a null byte");
+        }
+        field.make(r) = s;
+    };
+    key.take = taker<std::string>(field, [](std::string const& s) { return std::optional<Value>(s); });
+    return key;
+}
+
+Key yes_no(char const* path, char const* meaning, Field<bool> field) {
+    Key key;
+    key.help = {path, "yes/no", "true | false", "", "", meaning, {"true", "false"}};
+    key.put = [field](Recipe& r, Value const& v) {
+        auto const* b = std::get_if<bool>(&v);
+        if (b == nullptr) {
+            refuse("true or false", v);
+        }
+        field.make(r) = *b;
+    };
+    key.take = taker<bool>(field, [](bool const& b) { return std::optional<Value>(b); });
+    return key;
+}
+
+} // namespace thalweg::pipeline

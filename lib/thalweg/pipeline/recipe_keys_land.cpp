@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/key_kinds.hpp>
+#include <thalweg/pipeline/recipe_sections.hpp>
+
+#include <thalweg/core/error.hpp>
+
+#include <fmt/format.h>
+
+namespace thalweg::pipeline {
+
+void add_skeleton_keys(std::vector<Key>& keys) {
+    keys.push_back(text("skeleton.points", "file name", "points with heights: CSV, XYZ, or any OGR source of points",
+                        in_skeleton<std::string>([](SkeletonRecipe& s) -> std::string& { return s.points; })));
+    keys.push_back(integer<std::int64_t>(
+        "skeleton.scatter", "", {0, 1e7}, "so many points at random, the extremes of [statistics] among them",
+        in_skeleton<std::int64_t>([](SkeletonRecipe& s) -> std::int64_t& { return s.scatter; })));
+    keys.push_back(number("skeleton.spacing", "cells", {0, 1e5}, "r: least distance of points at random",
+                          in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.spacing_cells; })));
+    keys.push_back(choice<skeleton::HeightLaw>(
+        "skeleton.law", {{"uniform", skeleton::HeightLaw::uniform}, {"normal", skeleton::HeightLaw::normal}},
+        "how heights of points at random are distributed",
+        in_skeleton<skeleton::HeightLaw>([](SkeletonRecipe& s) -> skeleton::HeightLaw& { return s.law; })));
+    keys.push_back(yes_no("skeleton.tin", "write the triangles of rivers and points: tin.2dm, tin.ply",
+                          in_skeleton<bool>([](SkeletonRecipe& s) -> bool& { return s.tin; })));
+}
+
+void add_surface_keys(std::vector<Key>& keys) {
+    using skeleton::EighthTerm;
+    using skeleton::SlopeMode;
+    keys.push_back(choice<Method>("surface.method",
+                                  {{"dilate", Method::dilate}, {"tin", Method::tin}, {"regress", Method::regress}},
+                                  "how the land is drawn: outward from its valleys, over the triangles of rivers and "
+                                  "points, or as twelve terms through points",
+                                  in_surface<Method>([](SurfaceRecipe& s) -> Method& { return s.method; })));
+    keys.push_back(choice<Base>("surface.base", {{"paper", Base::paper}, {"tin", Base::tin}},
+                                "height a slope rises from: that of its valley cell, or of the triangles below it",
+                                in_surface<Base>([](SurfaceRecipe& s) -> Base& { return s.base; })));
+    {
+        Key key = text(
+            "surface.increment", "uniform | decreasing | rise_fall | an expression in x", "dh of the x-th dilation",
+            in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.dilate.increment.increment; }));
+        key.help.choices = {"uniform", "decreasing", "rise_fall"};
+        auto const put = key.put;
+        key.put = [put](Recipe& r, Value const& v) {
+            surface::increments(1, {as_text(v)}); // says what is wrong with it
+            put(r, v);
+        };
+        keys.push_back(std::move(key));
+    }
+    keys.push_back(choice<surface::Metric>(
+        "surface.metric", {{"cityblock", surface::Metric::cityblock}, {"euclid", surface::Metric::euclid}},
+        "distance to the valley: the paper's 4 neighbours, or straight",
+        in_surface<surface::Metric>([](SurfaceRecipe& s) -> surface::Metric& { return s.dilate.metric; })));
+    keys.push_back(
+        number("surface.relief", "m", {0, 1e5},
+               "scales the increments so that their greatest sum is this; 0: the paper's units times the cell",
+               in_surface<double>([](SurfaceRecipe& s) -> double& { return s.dilate.relief_m; })));
+    keys.push_back(
+        yes_no("surface.allow_negative", "let increments below zero stand",
+               in_surface<bool>([](SurfaceRecipe& s) -> bool& { return s.dilate.increment.allow_negative; })));
+    keys.push_back(text("surface.mask", "file name", "raster on the grid: cells with 0 or no data are left out",
+                        in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.mask; })));
+    keys.push_back(choice<Interpolation>(
+        "surface.interpolation", {{"linear", Interpolation::linear}, {"natural", Interpolation::natural}},
+        "tin: flat triangles, or natural neighbours of points",
+        in_surface<Interpolation>([](SurfaceRecipe& s) -> Interpolation& { return s.interpolation; })));
+    keys.push_back(number("surface.frequency_x", "cycles", {0, 1e4}, "regress: f_x over the grid's width",
+                          in_surface<double>([](SurfaceRecipe& s) -> double& { return s.regress.frequency_x; })));
+    keys.push_back(number("surface.frequency_y", "cycles", {0, 1e4}, "regress: f_y over the grid's height",
+                          in_surface<double>([](SurfaceRecipe& s) -> double& { return s.regress.frequency_y; })));
+    keys.push_back(choice<SlopeMode>(
+        "surface.slope_mode", {{"none", SlopeMode::none}, {"centre", SlopeMode::centre}, {"mean", SlopeMode::mean}},
+        "regress: the slope statistics.slope holds for nothing here, the middle of the grid, or its mean square",
+        in_surface<SlopeMode>([](SurfaceRecipe& s) -> SlopeMode& { return s.regress.slope; })));
+    keys.push_back(
+        choice<EighthTerm>("surface.eighth_term", {{"x2y2", EighthTerm::x2y2}, {"x3y", EighthTerm::x3y}},
+                           "regress: the term whose exponents the paper lost",
+                           in_surface<EighthTerm>([](SurfaceRecipe& s) -> EighthTerm& { return s.regress.eighth; })));
+}
+
+void add_statistics_keys(std::vector<Key>& keys) {
+    using skeleton::Falloff;
+    using MaybeNumber = std::optional<double>;
+    using MaybeTriple = std::optional<Triple>;
+    auto const is_place = [](Triple const& t) {
+        return std::fabs(t[0]) <= 1e6 && t[1] >= 0.0 && t[2] >= 0.0 && t[1] < 1e6 && t[2] < 1e6 &&
+               t[1] == std::floor(t[1]) && t[2] == std::floor(t[2]);
+    };
+    keys.push_back(maybe("statistics.mean", "m", {-1e6, 1e6}, "mean height",
+                         in_statistics<MaybeNumber>([](StatisticsRecipe& s) -> MaybeNumber& { return s.mean; })));
+    keys.push_back(maybe("statistics.std", "m", {0, 1e6, true}, "standard deviation of the heights",
+                         in_statistics<MaybeNumber>([](StatisticsRecipe& s) -> MaybeNumber& { return s.std; })));
+    keys.push_back(numbers<Triple>(
+        "statistics.max", "three numbers", "[z, column, row], columns and rows from 0 in the north-west", "m",
+        "the highest cell", in_statistics<MaybeTriple>([](StatisticsRecipe& s) -> MaybeTriple& { return s.max; }),
+        is_place));
+    keys.push_back(numbers<Triple>(
+        "statistics.min", "three numbers", "[z, column, row], columns and rows from 0 in the north-west", "m",
+        "the lowest cell", in_statistics<MaybeTriple>([](StatisticsRecipe& s) -> MaybeTriple& { return s.min; }),
+        is_place));
+    keys.push_back(numbers<Pair>(
+        "statistics.length", "two numbers", "[Lx, Ly] above 0", "cells",
+        "correlation lengths: where the autocorrelation falls to 1/e",
+        in_statistics<std::optional<Pair>>([](StatisticsRecipe& s) -> std::optional<Pair>& { return s.length; }),
+        [](Pair const& p) { return p[0] > 0.0 && p[1] > 0.0 && p[0] <= 1e6 && p[1] <= 1e6; }));
+    keys.push_back(maybe("statistics.slope", "rad", {0, 1.5707, true}, "mean arctan of the slope in metres a cell",
+                         in_statistics<MaybeNumber>([](StatisticsRecipe& s) -> MaybeNumber& { return s.slope; })));
+    keys.push_back(maybe("statistics.dimension", "", {2.01, 2.99}, "fractal dimension",
+                         in_statistics<MaybeNumber>([](StatisticsRecipe& s) -> MaybeNumber& { return s.dimension; })));
+    keys.push_back(choice<Prior>(
+        "statistics.skeleton",
+        {{"grf", Prior::grf}, {"separable", Prior::separable}, {"markov3", Prior::markov3}, {"points", Prior::points}},
+        "the land that is brought to the statistics: a random one, or that of [skeleton]",
+        in_statistics<Prior>([](StatisticsRecipe& s) -> Prior& { return s.skeleton; })));
+    keys.push_back(number("statistics.reach", "cells", {0, 1e5},
+                          "R: within it separable, markov3 and points are drawn to the extremes",
+                          in_statistics<double>([](StatisticsRecipe& s) -> double& { return s.reach_cells; })));
+    keys.push_back(choice<Falloff>("statistics.falloff",
+                                   {{"continuous", Falloff::continuous}, {"literal", Falloff::literal}},
+                                   "how the pull ends at R: at nothing, or by a step as printed",
+                                   in_statistics<Falloff>([](StatisticsRecipe& s) -> Falloff& { return s.falloff; })));
+}
+
+void add_detail_keys(std::vector<Key>& keys) {
+    using detail::Adaptation;
+    using detail::Noise;
+    using detail::Stencil;
+    using MaybeNumber = std::optional<double>;
+    keys.push_back(
+        choice<DetailMethod>("detail.method", {{"midpoint", DetailMethod::midpoint}, {"none", DetailMethod::none}},
+                             "fractal detail between every 2^levels-th cell",
+                             in_detail<DetailMethod>([](DetailRecipe& d) -> DetailMethod& { return d.method; })));
+    keys.push_back(integer<int>("detail.levels", "", {1, 12}, "times the cells are halved",
+                                in_detail<int>([](DetailRecipe& d) -> int& { return d.midpoint.levels; })));
+    keys.push_back(maybe("detail.hurst", "", {0.05, 0.95}, "H, 3 less the dimension; left out: estimated",
+                         in_detail<MaybeNumber>([](DetailRecipe& d) -> MaybeNumber& { return d.midpoint.hurst; })));
+    keys.push_back(maybe("detail.sigma", "m", {0, 1e6},
+                         "root mean square difference of heights 2^levels cells apart; left out: estimated",
+                         in_detail<MaybeNumber>([](DetailRecipe& d) -> MaybeNumber& { return d.midpoint.sigma; })));
+    {
+        Key key;
+        key.help = {"detail.stencil",
+                    "integer",
+                    "4 | 12 | 16",
+                    "",
+                    "",
+                    "neighbours a height is made of; 4 with the printed variance",
+                    {"4", "12", "16"}};
+        key.put = [](Recipe& r, Value const& v) {
+            std::int64_t const n = as_integer(v);
+            if (n != 4 && n != 12 && n != 16) {
+                throw BadParameter(fmt::format("{} is none of 4, 12, 16", n));
+            }
+            if (!r.detail) {
+                r.detail.emplace();
+            }
+            r.detail->midpoint.stencil = n == 4 ? Stencil::four : n == 12 ? Stencil::twelve : Stencil::sixteen;
+        };
+        key.take = [](Recipe const& r) -> std::optional<Value> {
+            if (!r.detail) {
+                return std::nullopt;
+            }
+            Stencil const s = r.detail->midpoint.stencil;
+            return std::int64_t{s == Stencil::four ? 4 : s == Stencil::twelve ? 12 : 16};
+        };
+        keys.push_back(std::move(key));
+    }
+    keys.push_back(choice<Noise>("detail.noise", {{"normal", Noise::normal}, {"uniform", Noise::uniform}},
+                                 "distribution of the displacements",
+                                 in_detail<Noise>([](DetailRecipe& d) -> Noise& { return d.midpoint.noise; })));
+    keys.push_back(choice<Adaptation>(
+        "detail.adaptation", {{"global", Adaptation::global}, {"local", Adaptation::local}},
+        "one H and sigma, or those of the surroundings where they differ",
+        in_detail<Adaptation>([](DetailRecipe& d) -> Adaptation& { return d.midpoint.adaptation; })));
+}
+
+} // namespace thalweg::pipeline
