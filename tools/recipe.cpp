@@ -22,7 +22,10 @@ int print_keys() {
         std::string const its_section = dot == std::string::npos ? "" : key.path.substr(0, dot);
         if (its_section != section) {
             section = its_section;
-            fmt::print("{}{}", section.empty() ? "" : "\n", section.empty() ? "" : "[" + section + "]\n");
+            fmt::print("{}{}", section.empty() ? "" : "\n",
+                       section.empty()      ? ""
+                       : section == "patch" ? "[[patch]]\n"
+                                            : "[" + section + "]\n");
         }
         fmt::print("{:<18}{}{}\n{:<18}{}; {}{}\n", key.path.substr(dot == std::string::npos ? 0 : dot + 1), key.meaning,
                    key.unit.empty() ? "" : " [" + key.unit + "]", "", key.type, key.range,

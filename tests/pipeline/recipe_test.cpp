@@ -148,6 +148,35 @@ TEST(Recipe, SetTakesBareWordsAndNumbers) {
     }
 }
 
+TEST(Recipe, PatchesAreReadInTheirOrderAndWrittenBack) {
+    Recipe const recipe = read_recipe("[network]\n[surface]\n[[patch]]\nsource = \"a.tif\"\nwindow = [0, 1, 20, 30]\n"
+                                      "[[patch]]\nsource = \"b.tif\"\nrotate = 30\nat = [1, 2]\n",
+                                      "r.toml");
+    ASSERT_EQ(recipe.patches.size(), 2U);
+    EXPECT_EQ(recipe.patches[0].source, "a.tif");
+    EXPECT_EQ((*recipe.patches[0].window)[3], 30.0);
+    EXPECT_EQ(recipe.patches[1].rotate_deg, 30.0);
+    std::string const text = write_recipe(recipe);
+    EXPECT_EQ(write_recipe(read_recipe(text, "again")), text);
+    EXPECT_EQ(read_recipe(text, "again").patches.size(), 2U);
+}
+
+TEST(Recipe, PatchesAreSetByNumber) {
+    Recipe recipe = default_recipe();
+    set_key(recipe, "patch.source=a.tif");
+    recipe.patches.push_back({.source = "b.tif"});
+    set_key(recipe, "patch.1.rotate=45");
+    set_key(recipe, "patch.2.scale=2");
+    EXPECT_EQ(recipe.patches[0].rotate_deg, 45.0);
+    EXPECT_EQ(recipe.patches[1].scale, 2.0);
+    for (char const* bad : {"patch.3.scale=2", "patch.0.scale=2", "patch.x.scale=2", "patch.2.scale=0", "patch=3",
+                            "patch.window=[1,2,3]", "patch.window=[0,0,0,1]"}) {
+        EXPECT_THROW(set_key(recipe, bad), BadParameter) << bad;
+    }
+    EXPECT_TRUE(has(fault_of("[network]\n[surface]\n[[patch]]\nrotate = 1\n"), "patch 1: source is missing"));
+    EXPECT_TRUE(has(fault_of("[network]\n[surface]\n[[patch]]\nsorce = \"a\"\n"), "Did you mean 'patch.source'?"));
+}
+
 TEST(Recipe, EveryKeyHasAMeaning) {
     for (KeyHelp const& key : recipe_keys()) {
         EXPECT_FALSE(key.meaning.empty()) << key.path;

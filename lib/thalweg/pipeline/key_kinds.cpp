@@ -18,10 +18,13 @@ std::string toml_text(Value const& value) {
     toml::table one;
     std::visit(
         [&](auto const& v) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(v)>, Pair>) {
-                one.insert("v", toml::array{v[0], v[1]});
-            } else if constexpr (std::is_same_v<std::decay_t<decltype(v)>, Triple>) {
-                one.insert("v", toml::array{v[0], v[1], v[2]});
+            using T = std::decay_t<decltype(v)>;
+            if constexpr (std::is_same_v<T, Pair> || std::is_same_v<T, Triple> || std::is_same_v<T, Quad>) {
+                toml::array list;
+                for (double const x : v) {
+                    list.push_back(x);
+                }
+                one.insert("v", std::move(list));
             } else {
                 one.insert("v", v);
             }

@@ -73,6 +73,19 @@ template <class T, class F> Field<T> in_detail(F f) {
     return in_part<T>(&Recipe::detail, f);
 }
 
+/// A field of the last patch.
+template <class T, class F> Field<T> in_patch(F f) {
+    return {[f](Recipe& r) -> T& {
+                if (r.patches.empty()) {
+                    r.patches.emplace_back();
+                }
+                return f(r.patches.back());
+            },
+            [f](Recipe const& r) -> T const* {
+                return r.patches.empty() ? nullptr : &f(const_cast<PatchRecipe&>(r.patches.back()));
+            }};
+}
+
 template <class T>
 std::function<std::optional<Value>(Recipe const&)> taker(Field<T> field,
                                                          std::function<std::optional<Value>(T const&)> as) {

@@ -11,6 +11,8 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <string_view>
 
 namespace thalweg::pipeline {
@@ -59,19 +61,21 @@ std::optional<Value> value_of(toml::node const& node) {
     if (auto const* s = node.as_string()) {
         return s->get();
     }
-    if (auto const* a = node.as_array(); a != nullptr && a->size() == 2) {
-        auto const x = (*a)[0].value<double>();
-        auto const y = (*a)[1].value<double>();
-        if (x && y) {
-            return Pair{*x, *y};
+    if (auto const* a = node.as_array()) {
+        std::vector<double> list;
+        for (toml::node const& one : *a) {
+            if (auto const x = one.value<double>()) {
+                list.push_back(*x);
+            }
         }
-    }
-    if (auto const* a = node.as_array(); a != nullptr && a->size() == 3) {
-        auto const x = (*a)[0].value<double>();
-        auto const y = (*a)[1].value<double>();
-        auto const z = (*a)[2].value<double>();
-        if (x && y && z) {
-            return Triple{*x, *y, *z};
+        if (list.size() == a->size() && list.size() == 2) {
+            return Pair{list[0], list[1]};
+        }
+        if (list.size() == a->size() && list.size() == 3) {
+            return Triple{list[0], list[1], list[2]};
+        }
+        if (list.size() == a->size() && list.size() == 4) {
+            return Quad{list[0], list[1], list[2], list[3]};
         }
     }
     return std::nullopt;
@@ -97,6 +101,9 @@ void begin_section(Recipe& recipe, std::string const& path) {
     begin("surface", recipe.surface);
     begin("statistics", recipe.statistics);
     begin("detail", recipe.detail);
+    if (section == "patch") {
+        recipe.patches.emplace_back();
+    }
 }
 
 constexpr std::size_t most_faults = 20;
@@ -115,6 +122,14 @@ void read_table(toml::table const& table, std::string const& prefix, Recipe& rec
             }
             begin_section(recipe, path);
             read_table(*inner, path + ".", recipe, faults);
+            continue;
+        }
+        if (auto const* list = node.as_array();
+            path == "patch" && list != nullptr && list->is_homogeneous<toml::table>()) {
+            for (toml::node const& one : *list) {
+                begin_section(recipe, path);
+                read_table(*one.as_table(), path + ".", recipe, faults);
+            }
             continue;
         }
         Key const* const key = find_key(path);
@@ -193,12 +208,30 @@ Recipe read_recipe(std::string const& toml, std::string const& name) {
     return recipe;
 }
 
+namespace {
+
+/// "patch.2.rotate" as "patch.rotate" and 2; anything else as it is, and 0.
+std::pair<std::string, std::size_t> without_number(std::string const& path) {
+    constexpr std::string_view begin = "patch.";
+    std::size_t const dot = path.find('.', begin.size());
+    std::size_t number = 0;
+    if (dot != std::string::npos && dot < begin.size() + 4 && path.compare(0, begin.size(), begin) == 0) {
+        auto const [end, error] = std::from_chars(path.data() + begin.size(), path.data() + dot, number);
+        if (error == std::errc() && end == path.data() + dot && number > 0) {
+            return {std::string(begin) + path.substr(dot + 1), number};
+        }
+    }
+    return {path, 0};
+}
+
+} // namespace
+
 void set_key(Recipe& recipe, std::string const& assignment) {
     auto const equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0) {
         throw BadParameter(fmt::format("--set {}: section.key=value is wanted", cut(assignment)));
     }
-    std::string const path = assignment.substr(0, equals);
+    auto const [path, patch] = without_number(assignment.substr(0, equals));
     std::string const text = assignment.substr(equals + 1);
     Key const* const key = find_key(path);
     if (key == nullptr) {
@@ -217,28 +250,61 @@ void set_key(Recipe& recipe, std::string const& assignment) {
                 value = text; // not TOML: put says what is wanted instead
             }
         }
-        key->put(recipe, value);
+        if (patch == 0) {
+            key->put(recipe, value);
+        } else if (patch > recipe.patches.size()) {
+            throw BadParameter(fmt::format("the recipe has {} patches", recipe.patches.size()));
+        } else {
+            Recipe one;
+            one.patches.push_back(recipe.patches[patch - 1]);
+            key->put(one, value);
+            recipe.patches[patch - 1] = one.patches.front();
+        }
     } catch (BadParameter const& fault) {
         throw BadParameter(fmt::format("--set {}: {}", cut(assignment), fault.what()));
     }
 }
 
+namespace {
+
+std::string keys_of_patch(PatchRecipe const& patch) {
+    Recipe one;
+    one.patches.push_back(patch);
+    std::string out;
+    for (Key const& key : all_keys()) {
+        if (auto const value = key.section() == "patch" ? key.take(one) : std::nullopt) {
+            out += fmt::format("{} = {}\n", key.help.path.substr(std::string_view("patch.").size()), toml_text(*value));
+        }
+    }
+    return out;
+}
+
+/// Keys of a source of rivers that is not used would only confuse.
+bool of_unused_source(Recipe const& recipe, std::string const& section) {
+    static std::map<Source, std::string> const sections = {{Source::dla, "network.dla"},
+                                                           {Source::lines, "network.lines"}};
+    return recipe.network && section.substr(0, 8) == "network." && section != sections.at(recipe.network->source);
+}
+
+} // namespace
+
 std::string write_recipe(Recipe const& recipe) {
     std::string out;
     std::string section;
     for (Key const& key : all_keys()) {
-        if (recipe.network) { // keys of the source that is not used would only confuse
-            bool const lines = recipe.network->source == Source::lines;
-            if ((lines && key.section() == "network.dla") || (!lines && key.section() == "network.lines")) {
-                continue;
-            }
-        }
         auto const value = key.take(recipe);
-        if (!value) {
+        if (!value || of_unused_source(recipe, key.section())) {
             continue;
         }
-        if (key.section() != section) {
-            section = key.section();
+        bool const first = key.section() != section;
+        section = key.section();
+        if (section == "patch") {
+            for (PatchRecipe const& patch : first ? recipe.patches : std::vector<PatchRecipe>{}) {
+                out += "\n[[patch]]\n" + keys_of_patch(patch);
+            }
+            continue;
+        }
+        if (first) {
             out += fmt::format("{}[{}]\n", out.empty() ? "" : "\n", section);
         }
         out +=
@@ -314,6 +380,14 @@ void check_recipe(Recipe const& recipe) {
     }
     if (recipe.surface && recipe.surface->base == Base::tin && recipe.surface->method != Method::dilate) {
         faults.emplace_back("surface.base = \"tin\" goes with surface.method = \"dilate\"");
+    }
+    for (std::size_t i = 0; i < recipe.patches.size(); ++i) {
+        if (recipe.patches[i].source.empty()) {
+            faults.push_back(fmt::format("patch {}: source is missing: which relief shall be pasted?", i + 1));
+        }
+    }
+    if (!recipe.patches.empty() && recipe.network && !recipe.surface) {
+        faults.emplace_back("[[patch]] needs [surface]: there is no land to paste into");
     }
     if ((recipe.grid.width > 0) != (recipe.grid.height > 0)) {
         faults.emplace_back("grid.width and grid.height go together: give both or neither");

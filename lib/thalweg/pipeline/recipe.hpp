@@ -98,6 +98,23 @@ struct DetailRecipe {
     detail::MidpointParams midpoint;
 };
 
+/// What becomes of rivers under a patch.
+enum class PatchRivers : std::uint8_t { keep, replace };
+
+/// Real relief pasted into the land.
+struct PatchRecipe {
+    std::string source = {}; ///< DEM
+    std::optional<std::array<double, 2>> at =
+        {}; ///< [m] where its centre comes to lie; none: where it is, or the middle
+    std::optional<std::array<double, 4>> window = {}; ///< [cells] of the source: column, row, width, height
+    std::string mask = {};      ///< polygons, or a raster on the grid: what is pasted; "": all that is covered
+    double rotate_deg = 0.0;    ///< [degrees] counterclockwise
+    double scale = 1.0;         ///< > 0, in plan
+    double gain = 1.0;          ///< of its heights
+    double feather_cells = 0.0; ///< [cells] over which its slopes take over from the land's
+    PatchRivers rivers = PatchRivers::keep;
+};
+
 struct OutputRecipe {
     std::string title;               ///< of the pictures and the page; "" names the seed
     double contour_interval_m = 0.0; ///< [m] 0 chooses a round number
@@ -112,6 +129,7 @@ struct Recipe {
     std::optional<SurfaceRecipe> surface;
     std::optional<StatisticsRecipe> statistics;
     std::optional<DetailRecipe> detail;
+    std::vector<PatchRecipe> patches; ///< in their order
     OutputRecipe output;
     std::string folder; ///< file names are relative to it; "" is the working folder
 };
@@ -137,7 +155,7 @@ std::vector<KeyHelp> recipe_keys();
 /// mean), wrong types, values out of range. name: for messages.
 Recipe read_recipe(std::string const& toml, std::string const& name);
 
-/// Sets one key from "section.key=value". Throws BadParameter.
+/// Sets one key from "section.key=value"; "patch.2.key=value" of the second patch. Throws BadParameter.
 void set_key(Recipe& recipe, std::string const& assignment);
 
 /// The recipe as TOML, every default written out, sections without a stage left out. read_recipe gives it back.

@@ -53,6 +53,7 @@ std::vector<Key> make_keys() {
     add_surface_keys(keys);
     add_statistics_keys(keys);
     add_detail_keys(keys);
+    add_patch_keys(keys);
 
     keys.push_back(text("output.title", "text", "of the pictures",
                         in_recipe<std::string>([](Recipe& r) -> std::string& { return r.output.title; })));
@@ -65,6 +66,7 @@ std::vector<Key> make_keys() {
     standard.surface.emplace();
     standard.statistics.emplace();
     standard.detail.emplace();
+    standard.patches.emplace_back();
     for (Key& key : keys) {
         if (auto const value = key.take(standard)) {
             auto const* const number = std::get_if<double>(&*value); // for a reader: 0.087, not its 17 digits

@@ -17,7 +17,8 @@ namespace thalweg::pipeline {
 
 using Pair = std::array<double, 2>;
 using Triple = std::array<double, 3>;
-using Value = std::variant<bool, std::int64_t, double, std::string, Pair, Triple>;
+using Quad = std::array<double, 4>;
+using Value = std::variant<bool, std::int64_t, double, std::string, Pair, Triple, Quad>;
 
 /// A key, bound to its field. put throws BadParameter with the reason alone; take gives nothing where the value is
 /// unset.
@@ -34,7 +35,7 @@ struct Key {
 /// A value as TOML writes it.
 std::string toml_text(Value const& value);
 
-/// Every key in the order of recipe files.
+/// Every key in the order of recipe files. Those of [[patch]] read and write the last patch.
 std::vector<Key> const& all_keys();
 
 } // namespace thalweg::pipeline

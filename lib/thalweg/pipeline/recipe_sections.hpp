@@ -14,5 +14,6 @@ void add_skeleton_keys(std::vector<Key>& keys);
 void add_surface_keys(std::vector<Key>& keys);
 void add_statistics_keys(std::vector<Key>& keys);
 void add_detail_keys(std::vector<Key>& keys);
+void add_patch_keys(std::vector<Key>& keys);
 
 } // namespace thalweg::pipeline
