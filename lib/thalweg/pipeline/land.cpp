@@ -11,6 +11,7 @@
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/read_points.hpp>
 #include <thalweg/pipeline/frame.hpp>
+#include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/skeleton/grf.hpp>
 #include <thalweg/skeleton/markov3.hpp>
 #include <thalweg/skeleton/separable_ar.hpp>
@@ -27,6 +28,10 @@
 #include <utility>
 
 namespace thalweg::pipeline {
+
+int levels_of(Recipe const& recipe) {
+    return recipe.detail && recipe.detail->method == DetailMethod::midpoint ? recipe.detail->midpoint.levels : 0;
+}
 
 namespace {
 
@@ -74,10 +79,6 @@ Grid coarse_grid(Grid const& grid, int levels) {
     coarse.west = grid.west - shift;
     coarse.north = grid.north + shift;
     return coarse;
-}
-
-int levels_of(Recipe const& recipe) {
-    return recipe.detail && recipe.detail->method == DetailMethod::midpoint ? recipe.detail->midpoint.levels : 0;
 }
 
 Raster<float> drawn_to_extremes(Raster<float> land, StatisticsRecipe const& s, int levels) {
@@ -308,7 +309,7 @@ FeaturePoints given_points(Recipe& recipe, Run const& run) {
     std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
     if (recipe.skeleton && !recipe.skeleton->points.empty()) {
         std::string const& name = recipe.skeleton->points;
-        std::string const path = recipe.folder.empty() || name.front() == '/' ? name : recipe.folder + "/" + name;
+        std::string const path = file_in(recipe, name);
         points = io::read_points({.path = path, .crs = crs}, run);
     }
     recipe.grid.crs = !points.crs.empty() ? points.crs : io::projected_crs(crs.empty() ? "EPSG:32631" : crs);
@@ -385,60 +386,10 @@ void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run c
     terrain.surface->dem = std::move(land);
 }
 
-void make_skeleton_tin(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
-    std::vector<std::vector<Vec3>> breaklines;
-    std::size_t number = 0;
-    for (auto const& arc : boost::make_iterator_range(boost::edges(terrain.network.plan))) {
-        std::vector<Vec2> const& line = terrain.network.plan[arc].line;
-        std::vector<double> const& z = terrain.network.arc_z[number++];
-        std::vector<Vec3> breakline;
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            breakline.push_back({line[i].x, line[i].y, z[i]});
-        }
-        breaklines.push_back(std::move(breakline));
-    }
-    terrain.tin = diary.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
-    diary.say(fmt::format("{} triangles of {} vertices", terrain.tin->triangles.size(), terrain.tin->vertices.size()));
-}
-
-surface::Dilated draw_over_tin(Terrain const& terrain, Run const& run) {
-    SurfaceRecipe const& wanted = *terrain.recipe.surface;
-    surface::Dilated drawn;
-    if (wanted.method == Method::dilate) {
-        Valley level = terrain.valley;
-        for (float& z : level.z.values()) {
-            z = std::isnan(z) ? z : 0.0F;
-        }
-        drawn = surface::dilate(level, wanted.dilate, run);
-    }
-    Raster<float> base =
-        surface::rasterise_tin(*terrain.tin, terrain.grid, {surface::RasteriseTinParams::Outside::nearest}, run);
-    for (std::int64_t i = 0; i < base.cells(); ++i) {
-        if (!std::isnan(terrain.valley.z[i])) {
-            base[i] = terrain.valley.z[i];
-        } else if (wanted.method == Method::dilate) {
-            base[i] += drawn.dem[i];
-        }
-    }
-    drawn.dem = std::move(base);
-    return drawn;
-}
-
-void add_detail(Terrain const& terrain, Raster<float>& dem, Run const& run) {
-    constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
-    Recipe recipe = terrain.recipe;
-    int const levels = levels_of(recipe);
-    if (levels == 0) {
-        return;
-    }
-    recipe.detail->midpoint.hurst = recipe.detail->midpoint.hurst.value_or(3.0 - default_dimension);
-    Raster<float> const noise =
-        with_detail(recipe, Raster<float>(coarse_grid(terrain.grid, levels), 0.0F), terrain.grid, run);
-    surface::Expansion const expansion = surface::expand(terrain.valley, run);
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        double const share = 1.0 - exact::exp(-static_cast<double>(expansion.level[i]) / near_cells);
-        dem[i] = static_cast<float>(static_cast<double>(dem[i]) + share * static_cast<double>(noise[i]));
-    }
+Raster<float> detail_alone(Recipe const& recipe, Grid const& grid, Run const& run) {
+    Recipe with_hurst = recipe;
+    with_hurst.detail->midpoint.hurst = recipe.detail->midpoint.hurst.value_or(3.0 - default_dimension);
+    return with_detail(with_hurst, Raster<float>(coarse_grid(grid, levels_of(recipe)), 0.0F), grid, run);
 }
 
 } // namespace thalweg::pipeline

@@ -6,7 +6,7 @@
 #include <thalweg/pipeline/diary.hpp>
 #include <thalweg/pipeline/terrain.hpp>
 
-/// Land from numbers and from points (paper 001), and over the triangles of rivers. Private to this room.
+/// Land from numbers and from points (paper 001). Private to this room.
 namespace thalweg::pipeline {
 
 /// The points of [skeleton]: of a file, or none. Names the grid's CRS where the recipe leaves it out.
@@ -19,13 +19,10 @@ Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted);
 /// Fills in what of the terrain tells about it: surface, tin, projection, checks.
 void make_land(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run);
 
-/// The triangles of points and rivers, whose arcs are breaklines.
-void make_skeleton_tin(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run);
+/// How many times detail halves the cells; 0 without it.
+int levels_of(Recipe const& recipe);
 
-/// Land over the skeleton's triangles: as it is, or as the base that slopes rise from. Valley cells keep their heights.
-surface::Dilated draw_over_tin(Terrain const& terrain, Run const& run);
-
-/// Adds fractal detail to land with rivers: none in the valleys, all of it some cells away.
-void add_detail(Terrain const& terrain, Raster<float>& dem, Run const& run);
+/// Relief of this fractal detail alone, on ground that is flat.
+Raster<float> detail_alone(Recipe const& recipe, Grid const& grid, Run const& run);
 
 } // namespace thalweg::pipeline

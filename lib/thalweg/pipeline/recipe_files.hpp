@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/pipeline/recipe.hpp>
+#include <thalweg/pipeline/terrain.hpp>
+
+/// What a recipe names. Private to this room.
+namespace thalweg::pipeline {
+
+/// A file the recipe names, found from the recipe's folder.
+std::string file_in(Recipe const& recipe, std::string const& name);
+
+/// The terrain lies on this grid, and its recipe says so.
+void take_frame(Terrain& terrain, Grid const& grid);
+
+} // namespace thalweg::pipeline
