@@ -13,13 +13,17 @@
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
+#include <thalweg/measure/drainage.hpp>
 #include <thalweg/measure/statistics.hpp>
+#include <thalweg/network/assign_types.hpp>
 #include <thalweg/network/grow_dla.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/pick_branch.hpp>
 #include <thalweg/network/prune.hpp>
 #include <thalweg/network/rasterise.hpp>
 #include <thalweg/network/set_heights.hpp>
+#include <thalweg/network/set_heights_by_type.hpp>
+#include <thalweg/network/set_heights_graded.hpp>
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
 #include <thalweg/pipeline/frame.hpp>
@@ -100,6 +104,15 @@ Fnv hash_of(NetworkOrders const& orders) {
     fnv.add_all(orders.hack);
     fnv.add_all(orders.topological);
     fnv.add_all(orders.node_dist_out_m);
+    return fnv;
+}
+
+Fnv hash_of(network::RiverTypes const& types) {
+    Fnv fnv;
+    for (network::Rosgen const type : types.type) {
+        fnv.add(static_cast<int>(type));
+    }
+    fnv.add_all(types.braided);
     return fnv;
 }
 
@@ -305,6 +318,19 @@ void print_detail(Run const& run) {
     print("midpoint 12, local", hash_of(detail::midpoint(coarse, params, run).dem));
 }
 
+/// Types of rivers, and the heights that follow from them or from areas.
+void print_rivers(StreamNetwork const& network, Grid const& grid, Run const& run) {
+    network::RiverTypes const types =
+        network::assign_types(network, network::order(network), {.coast_m = 20.0 * grid.cell_m}, run);
+    print("assign_types", hash_of(types));
+    print("set_heights_by_type",
+          hash_of(network::set_heights_by_type(network, types, {.draw = network::SlopeDraw::uniform, .seed = 3}, run)));
+    measure::ContributingAreas const areas = measure::areas_nearest(network, grid, run);
+    network::Graded const graded = network::set_heights_graded(network, areas.us_area_m2, areas.ds_area_m2,
+                                                               {.least_area_m2 = grid.cell_m * grid.cell_m}, run);
+    print("set_heights_graded", hash_of(graded.network));
+}
+
 } // namespace
 
 int main(int count, char** words) {
@@ -330,6 +356,7 @@ int main(int count, char** words) {
     print("order", hash_of(network::order(pruned)));
     network::Raised const raised = network::set_heights(pruned, {}, run);
     print("set_heights", hash_of(raised.network));
+    print_rivers(pruned, skeleton.grid(), run);
     Valley const valley = network::rasterise(raised.network, skeleton.grid()).valley;
     print("rasterise", hash_of(valley.z));
     print("expand", hash_of(surface::expand(valley, run)));

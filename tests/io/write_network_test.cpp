@@ -68,7 +68,7 @@ private:
 
 std::string const arc_fields = "arc_id:i from_node:i to_node:i ds_arc:i n_up:i basin_id:i topo_ord:i strahler:i "
                                "shreve:i hack:i length:r length_3d:r straight:r z_up:r z_down:r dist_out:r slope:r "
-                               "us_area:r ds_area:r survives:r feature:l type:s ";
+                               "us_area:r ds_area:r survives:r feature:l type:s braided:i ";
 std::string const node_fields = "node_id:i kind:s deg_in:i deg_out:i basin_id:i strahler:i z:r area:r dist_out:r ";
 
 std::string fields_of(OGRLayer& layer) {
@@ -250,6 +250,7 @@ TEST(WriteNetwork, ValuesAreTheNetworksInBothFormats) {
                 EXPECT_EQ(whole("shreve"), sample.orders.shreve[a]);
                 EXPECT_EQ(whole("hack"), sample.orders.hack[a]);
                 EXPECT_EQ(whole("feature"), arc.feature);
+                EXPECT_EQ(whole("braided"), 0);
                 EXPECT_EQ(feature->GetFieldAsString("type"), arc.type.empty() ? "none" : arc.type);
                 EXPECT_NEAR(real("length"), index.length_m[a], 1e-9);
                 EXPECT_NEAR(real("straight"), distance(sample.network.plan[from].at, sample.network.plan[to].at), 1e-9);
@@ -300,6 +301,27 @@ TEST(WriteNetwork, ValuesAreTheNetworksInBothFormats) {
             EXPECT_EQ(n, boost::num_vertices(sample.network.plan));
         }
     }
+}
+
+TEST(WriteNetwork, BraidedArcsAreMarkedInBothFormats) {
+    SampleNetwork const sample = y_shape();
+    std::vector<std::uint8_t> const braided{0, 1, 0};
+    io::NetworkTables tables = sample.tables();
+    tables.braided = &braided;
+    ScratchFolder const folder;
+    io::write_geopackage(tables, folder / "net.gpkg");
+    io::write_shapefiles(tables, folder / "net");
+    for (std::string const name : {"net.gpkg", "net_arcs.shp"}) {
+        auto const dataset = open(folder / name);
+        std::vector<std::uint8_t> found;
+        for (auto const& feature : Written::layer(*dataset, "arcs")) {
+            found.push_back(static_cast<std::uint8_t>(feature->GetFieldAsInteger("braided")));
+        }
+        EXPECT_EQ(found, braided) << name;
+    }
+    std::vector<std::uint8_t> const of_another{1};
+    tables.braided = &of_another;
+    EXPECT_THROW(io::write_geopackage(tables, folder / "other.gpkg"), BadInput);
 }
 
 TEST(WriteNetwork, DistanceToTheOutletCountsFromTheDownstreamEnd) {

@@ -90,6 +90,7 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index) {
         {"feature", Kind::wide_integer, 0, [arc](std::int64_t row) { return arc(row).feature; }},
         // A shapefile reads an empty text back as NULL.
         text("type", [arc](auto row) { return arc(row).type.empty() ? "none" : arc(row).type; }),
+        integer("braided", [of = tables.braided](auto row) { return of != nullptr && (*of)[at(row)] != 0 ? 1 : 0; }),
     };
     return table;
 }

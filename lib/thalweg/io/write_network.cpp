@@ -25,13 +25,15 @@ void require_whole(NetworkTables const& tables, NetworkIndex const& index, std::
     bool const by_arc = arc_z.size() == arcs && orders.strahler.size() == arcs && orders.shreve.size() == arcs &&
                         orders.hack.size() == arcs && orders.topological.size() == arcs &&
                         orders.arc_basin.size() == arcs && tables.us_area_m2.size() == arcs &&
-                        tables.ds_area_m2.size() == arcs;
+                        tables.ds_area_m2.size() == arcs &&
+                        (tables.braided == nullptr || tables.braided->size() == arcs);
     bool const by_node = node_z.size() == nodes && orders.node_basin.size() == nodes &&
                          orders.node_strahler.size() == nodes && orders.node_dist_out_m.size() == nodes &&
                          tables.node_area_m2.size() == nodes;
     if (!by_arc || !by_node) {
         throw BadInput(fmt::format(
-            "{}: heights, orders and areas do not have one value for each of {} arcs and {} nodes", what, arcs, nodes));
+            "{}: heights, orders, areas and what is braided do not have one value for each of {} arcs and {} nodes",
+            what, arcs, nodes));
     }
     for (std::size_t i = 0; i < arcs; ++i) {
         auto const& line = plan[index.arcs[i]].line;

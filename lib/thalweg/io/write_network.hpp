@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,16 +21,17 @@ struct NetworkTables {
     std::vector<double> const& ds_area_m2; ///< by arc
     std::vector<double> const& node_area_m2;
     std::string crs;
-    std::map<std::string, std::string> run; ///< rows of the GeoPackage's run table
+    std::map<std::string, std::string> run;             ///< rows of the GeoPackage's run table
+    std::vector<std::uint8_t> const* braided = nullptr; ///< by arc, 1 or 0; without it all are 0
 };
 
 /// Writes PATH (.gpkg is added where it is missing): layers arcs (LineStringZ) and nodes (PointZ), table run, with the
-/// fields of the network schema and three more by arc: survives (real [cells]; -1 for infinity), feature (integer) and
-/// type (text; none where there is none). dist_out of an arc counts from its downstream end, as NHDPlus (Pathlength)
-/// and HydroRIVERS (DIST_DN_KM) have it. arc_id is the arc's number + 1, node_id the node's + 1.
-/// Gives: the same bytes for the same network, on any day. Throws: BadInput naming the arc or node when the values do
-/// not belong to the network, an arc's end is not its node, a node reaches no outlet, a number is not finite or, in a
-/// shapefile, has more digits than its field; IoError, also when the file exists.
+/// fields of the network schema and four more by arc: survives (real [cells]; -1 for infinity), feature (integer), type
+/// (text; none where there is none) and braided (integer, 1 or 0). dist_out of an arc counts from its downstream end,
+/// as NHDPlus (Pathlength) and HydroRIVERS (DIST_DN_KM) have it. arc_id is the arc's number + 1, node_id the node's
+/// + 1. Gives: the same bytes for the same network, on any day. Throws: BadInput naming the arc or node when the values
+/// do not belong to the network, an arc's end is not its node, a node reaches no outlet, a number is not finite or, in
+/// a shapefile, has more digits than its field; IoError, also when the file exists.
 void write_geopackage(NetworkTables const& tables, std::string const& path, Run const& run = {});
 
 /// Writes the shapefiles PATH_arcs.* and PATH_nodes.* with the same fields, UTF-8: reals of 24 characters (9 decimals
