@@ -281,8 +281,8 @@ std::string keys_of_patch(PatchRecipe const& patch) {
 
 /// Keys of a source of rivers that is not used would only confuse.
 bool of_unused_source(Recipe const& recipe, std::string const& section) {
-    static std::map<Source, std::string> const sections = {{Source::dla, "network.dla"},
-                                                           {Source::lines, "network.lines"}};
+    static std::map<Source, std::string> const sections = {
+        {Source::dla, "network.dla"}, {Source::tokunaga, "network.tokunaga"}, {Source::lines, "network.lines"}};
     return recipe.network && section.substr(0, 8) == "network." && section != sections.at(recipe.network->source);
 }
 
@@ -324,10 +324,16 @@ void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
     if (n.source == Source::lines && n.lines.path.empty()) {
         faults.emplace_back("network.lines.path is missing: source = \"lines\" needs a file");
     }
-    if (n.source == Source::dla && !n.lines.path.empty()) {
-        faults.emplace_back("network.lines.path is given but source = \"dla\": set source = \"lines\"");
+    if (n.source != Source::lines && !n.lines.path.empty()) {
+        faults.emplace_back("network.lines.path is given but source is not \"lines\"");
     }
-    if (n.source == Source::dla && n.heights == Heights::file) {
+    if (n.source != Source::tokunaga && !(n.tokunaga.strokes.empty() && n.tokunaga.region.empty())) {
+        faults.emplace_back("network.tokunaga names a file but source is not \"tokunaga\"");
+    }
+    if (!n.tokunaga.strokes.empty() && !n.tokunaga.region.empty()) {
+        faults.emplace_back("network.tokunaga.strokes and region do not go together: strokes fill the grid");
+    }
+    if (n.source != Source::lines && n.heights == Heights::file) {
         faults.emplace_back("network.heights = \"file\" needs source = \"lines\"");
     }
     if (recipe.statistics) {

@@ -11,8 +11,11 @@
 #include <thalweg/detail/midpoint.hpp>
 #include <thalweg/network/adopt.hpp>
 #include <thalweg/network/grow_dla.hpp>
+#include <thalweg/network/grow_tokunaga.hpp>
 #include <thalweg/network/pick_branch.hpp>
+#include <thalweg/network/rosgen.hpp>
 #include <thalweg/network/set_heights.hpp>
+#include <thalweg/network/set_heights_by_type.hpp>
 #include <thalweg/skeleton/attract.hpp>
 #include <thalweg/skeleton/regress.hpp>
 #include <thalweg/skeleton/scatter.hpp>
@@ -30,8 +33,9 @@ struct GridRecipe {
     bool clip = false;                           ///< cut rivers at the grid's edge instead of refusing them
 };
 
-enum class Source : std::uint8_t { dla, lines };
-enum class Heights : std::uint8_t { automatic, straight, straight_repaired, along_stream, file };
+enum class Source : std::uint8_t { dla, tokunaga, lines };
+enum class Heights : std::uint8_t { automatic, straight, straight_repaired, along_stream, rosgen, graded, file };
+enum class Side : std::uint8_t { north, east, south, west };
 
 struct LinesRecipe {
     std::string path;
@@ -42,14 +46,30 @@ struct LinesRecipe {
     network::Orientation orientation = network::Orientation::automatic;
 };
 
+struct TokunagaRecipe {
+    int generator = 2; ///< [1, 50] lambda, also of strokes without their own
+    int order = 6;     ///< [1, 12] Strahler order at the mouth; strokes: MaxDepth, that of one as long as the grid
+    network::SideRule rule = network::SideRule::tokunaga;
+    Side mouth = Side::south;   ///< of the grid, in the middle of which the river leaves
+    std::string region;         ///< polygon the network fills; "": the grid
+    std::string strokes;        ///< directed lines, each of which grows a network; "" grows one in the region
+    std::string layer;          ///< of the strokes' file; "" takes the only line layer
+    double spacing_cells = 3.0; ///< [cells] >= 0: links closer than this to others are left out
+};
+
 struct NetworkRecipe {
     Source source = Source::dla;
     std::optional<double> prune_cells; ///< [cells] default 20 for dla, 0 for lines
     Heights heights = Heights::automatic;
-    double slope = 0.087; ///< [m/m] > 0
+    double slope = 0.087;                  ///< [m/m] > 0
+    double concavity = 0.45;               ///< [0, 1] theta of graded heights
+    std::optional<network::Rosgen> rosgen; ///< type of arcs without one; none: by Strahler order
+    network::SlopeDraw rosgen_slope = network::SlopeDraw::middle;
+    double coast_m = 0.0; ///< [m] >= 0: nearer to the outlet along the stream rivers are braided
     network::DlaParams dla;
     network::BranchChoice branch = network::BranchChoice::largest;
     LinesRecipe lines;
+    TokunagaRecipe tokunaga;
 };
 
 /// What else the surface must honour.

@@ -5,13 +5,67 @@
 
 namespace thalweg::pipeline {
 
+namespace {
+
+void add_rosgen_keys(std::vector<Key>& keys) {
+    using MaybeType = std::optional<network::Rosgen>;
+    Choices<MaybeType> types{{"by_order", std::nullopt}};
+    for (network::Rosgen const type : network::rosgen_types) {
+        types.emplace_back(network::name_of(type), type);
+    }
+    keys.push_back(choice<MaybeType>("network.rosgen", types,
+                                     "type of rivers that bring none: by Strahler order, or one for all",
+                                     in_network<MaybeType>([](NetworkRecipe& n) -> MaybeType& { return n.rosgen; })));
+    keys.push_back(choice<network::SlopeDraw>(
+        "network.rosgen_slope", {{"middle", network::SlopeDraw::middle}, {"uniform", network::SlopeDraw::uniform}},
+        "slope of a river within its type's range: the usual one, or by chance",
+        in_network<network::SlopeDraw>([](NetworkRecipe& n) -> network::SlopeDraw& { return n.rosgen_slope; })));
+    keys.push_back(number("network.coast", "m", {0, 1e9},
+                          "rivers nearer to their mouth than this, along the stream, are marked as braided",
+                          in_network<double>([](NetworkRecipe& n) -> double& { return n.coast_m; })));
+}
+
+void add_tokunaga_keys(std::vector<Key>& keys) {
+    using network::SideRule;
+    keys.push_back(integer<int>("network.tokunaga.generator", "", {1, 50},
+                                "lambda: 1 has no side branches, 2 is dendritic, more are feathered; of strokes too "
+                                "that bring none",
+                                in_network<int>([](NetworkRecipe& n) -> int& { return n.tokunaga.generator; })));
+    keys.push_back(integer<int>("network.tokunaga.order", "", {1, 12},
+                                "Strahler order at the mouth; with strokes that of one as long as the grid is wide",
+                                in_network<int>([](NetworkRecipe& n) -> int& { return n.tokunaga.order; })));
+    keys.push_back(choice<SideRule>(
+        "network.tokunaga.rule",
+        {{"tokunaga", SideRule::tokunaga}, {"constant", SideRule::constant}, {"plane", SideRule::plane}},
+        "side branches of a link: by its order, as printed, or so that the dimension is 2",
+        in_network<SideRule>([](NetworkRecipe& n) -> SideRule& { return n.tokunaga.rule; })));
+    keys.push_back(
+        choice<Side>("network.tokunaga.mouth",
+                     {{"north", Side::north}, {"east", Side::east}, {"south", Side::south}, {"west", Side::west}},
+                     "side of the grid where the river leaves",
+                     in_network<Side>([](NetworkRecipe& n) -> Side& { return n.tokunaga.mouth; })));
+    keys.push_back(text("network.tokunaga.region", "file name", "polygon the network fills; \"\": the grid",
+                        in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.tokunaga.region; })));
+    keys.push_back(text("network.tokunaga.strokes", "file name",
+                        "directed lines, from mouth to source, each of which grows a network; \"\": one in the region",
+                        in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.tokunaga.strokes; })));
+    keys.push_back(text("network.tokunaga.layer", "name", "of the strokes; \"\" takes the only line layer",
+                        in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.tokunaga.layer; })));
+    keys.push_back(number("network.tokunaga.spacing", "cells", {0, 1e6},
+                          "links nearer to others than this are left out",
+                          in_network<double>([](NetworkRecipe& n) -> double& { return n.tokunaga.spacing_cells; })));
+}
+
+} // namespace
+
 void add_network_keys(std::vector<Key>& keys) {
     using network::BranchChoice;
     using network::Orientation;
     using network::VisitRule;
-    keys.push_back(choice<Source>("network.source", {{"dla", Source::dla}, {"lines", Source::lines}},
-                                  "where the rivers come from: grown, or a file's lines",
-                                  in_network<Source>([](NetworkRecipe& n) -> Source& { return n.source; })));
+    keys.push_back(choice<Source>(
+        "network.source", {{"dla", Source::dla}, {"tokunaga", Source::tokunaga}, {"lines", Source::lines}},
+        "where the rivers come from: grown as a cluster or by branching rules, or a file's lines",
+        in_network<Source>([](NetworkRecipe& n) -> Source& { return n.source; })));
     {
         Key key = number("network.prune", "cells", {0, 1e7}, "L: no leaf arc shorter than this is left",
                          in_network<double>([](NetworkRecipe& n) -> double& {
@@ -30,11 +84,16 @@ void add_network_keys(std::vector<Key>& keys) {
                                     {"straight", Heights::straight},
                                     {"straight_repaired", Heights::straight_repaired},
                                     {"along_stream", Heights::along_stream},
+                                    {"rosgen", Heights::rosgen},
+                                    {"graded", Heights::graded},
                                     {"file", Heights::file}},
                                    "heights of the rivers; auto: file where lines carry Z, else straight_repaired",
                                    in_network<Heights>([](NetworkRecipe& n) -> Heights& { return n.heights; })));
-    keys.push_back(number("network.slope", "m/m", {0, 10, true}, "s: fall of the valleys",
+    keys.push_back(number("network.slope", "m/m", {0, 10, true}, "s: fall of the valleys; graded: of the main stem",
                           in_network<double>([](NetworkRecipe& n) -> double& { return n.slope; })));
+    keys.push_back(number("network.concavity", "", {0, 1}, "theta of graded heights: slope ~ area^-theta",
+                          in_network<double>([](NetworkRecipe& n) -> double& { return n.concavity; })));
+    add_rosgen_keys(keys);
 
     keys.push_back(integer<std::int64_t>(
         "network.dla.particles", "", {1, 1e9}, "size of the cluster",
@@ -58,6 +117,8 @@ void add_network_keys(std::vector<Key>& keys) {
                               {"all", BranchChoice::all}},
                              "which arm of the cluster becomes the valley",
                              in_network<BranchChoice>([](NetworkRecipe& n) -> BranchChoice& { return n.branch; })));
+
+    add_tokunaga_keys(keys);
 
     keys.push_back(text("network.lines.path", "file name", "any OGR source of lines",
                         in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.lines.path; })));

@@ -5,12 +5,14 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/read_rivers.hpp>
+#include <thalweg/measure/drainage.hpp>
 #include <thalweg/network/carry_outlets.hpp>
 #include <thalweg/network/clip_lines.hpp>
 #include <thalweg/network/keep_heights.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/prune.hpp>
 #include <thalweg/network/rasterise.hpp>
+#include <thalweg/network/set_heights_graded.hpp>
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
 #include <thalweg/pipeline/frame.hpp>
@@ -97,15 +99,44 @@ Planned adopt(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     return planned;
 }
 
-RaisedNetwork raise(Planned const& planned, NetworkRecipe const& wanted, NetworkStory& story, Run const& run) {
+/// Types of rivers, where heights follow from them or they are asked for, written to the arcs.
+void assign_types(Planned& planned, Terrain& terrain, Run const& run) {
+    NetworkRecipe const& wanted = *terrain.recipe.network;
+    if (wanted.heights != Heights::rosgen && !(wanted.coast_m > 0.0)) {
+        return;
+    }
+    network::AssignTypesParams params;
+    params.choice = wanted.rosgen ? network::TypeChoice::one : network::TypeChoice::by_order;
+    params.one = wanted.rosgen.value_or(params.one);
+    params.coast_m = wanted.coast_m;
+    terrain.types = network::assign_types(planned.plan, network::order(planned.plan), params, run);
+    NetworkIndex const index(planned.plan);
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        planned.plan[index.arcs[a]].type = network::name_of(terrain.types.type[a]);
+    }
+}
+
+RaisedNetwork raise(Planned const& planned, Terrain& terrain, Run const& run) {
+    NetworkRecipe const& wanted = *terrain.recipe.network;
     if (planned.file_heights) {
         return network::keep_heights(planned.plan, *planned.file_heights, wanted.slope);
+    }
+    if (wanted.heights == Heights::rosgen) {
+        return network::set_heights_by_type(planned.plan, terrain.types, {wanted.rosgen_slope, terrain.recipe.seed},
+                                            run);
+    }
+    if (wanted.heights == Heights::graded) {
+        measure::ContributingAreas const areas = measure::areas_nearest(planned.plan, terrain.grid, run);
+        double const cell = terrain.grid.cell_m * terrain.grid.cell_m;
+        return network::set_heights_graded(planned.plan, areas.us_area_m2, areas.ds_area_m2,
+                                           {wanted.slope, wanted.concavity, cell}, run)
+            .network;
     }
     network::HeightMode const mode = wanted.heights == Heights::straight       ? network::HeightMode::straight
                                      : wanted.heights == Heights::along_stream ? network::HeightMode::along_stream
                                                                                : network::HeightMode::straight_repaired;
     network::Raised raised = network::set_heights(planned.plan, {mode, wanted.slope}, run);
-    story.heights = raised.report;
+    terrain.story.heights = raised.report;
     return std::move(raised.network);
 }
 
@@ -136,7 +167,8 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.story.repairs.insert(terrain.story.repairs.end(), carried.notes.begin(), carried.notes.end());
     planned.plan = std::move(carried.network);
 
-    terrain.network = diary.stage("raise", [&] { return raise(planned, rivers, terrain.story, run); });
+    assign_types(planned, terrain, run);
+    terrain.network = diary.stage("raise", [&] { return raise(planned, terrain, run); });
     terrain.orders = network::order(terrain.network.plan);
     network::Rasterised rasterised = network::rasterise(terrain.network, grid);
     terrain.valley = std::move(rasterised.valley);

@@ -20,6 +20,7 @@
 #include <thalweg/measure/horton.hpp>
 #include <thalweg/measure/hypsometry.hpp>
 #include <thalweg/measure/statistics.hpp>
+#include <thalweg/network/assign_types.hpp>
 #include <thalweg/pipeline/recipe.hpp>
 
 namespace thalweg::pipeline {
@@ -43,6 +44,7 @@ struct Terrain {
     Grid grid;
     RaisedNetwork network;
     NetworkOrders orders;
+    network::RiverTypes types; ///< by arc, where rivers have types; else empty
     measure::ContributingAreas areas;
     measure::HortonLaws laws;
     Valley valley;

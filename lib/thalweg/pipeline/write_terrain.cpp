@@ -82,8 +82,14 @@ Recipe keep_inputs(Terrain const& terrain, io::OutputFolder const& out) {
 void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run) {
     std::map<std::string, std::string> const about = {
         {"version", version()}, {"seed", fmt::format("{}", t.recipe.seed)}, {"area_from", t.areas.source}};
-    io::NetworkTables const tables{t.network,  t.orders, t.areas.us_area_m2, t.areas.ds_area_m2, t.areas.node_m2,
-                                   t.grid.crs, about};
+    io::NetworkTables const tables{t.network,
+                                   t.orders,
+                                   t.areas.us_area_m2,
+                                   t.areas.ds_area_m2,
+                                   t.areas.node_m2,
+                                   t.grid.crs,
+                                   about,
+                                   t.types.braided.empty() ? nullptr : &t.types.braided};
     io::write_geopackage(tables, out.path("network"), run);
     io::write_shapefiles(tables, out.path("network"), run);
     Mask cells(t.grid);
