@@ -6,8 +6,15 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/raster_files.hpp>
+#include <thalweg/network/streams.hpp>
 #include <thalweg/pipeline/land.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
+#include <thalweg/skeleton/draw_skeleton.hpp>
+#include <thalweg/skeleton/midpoint_inverse.hpp>
+#include <thalweg/skeleton/ridges.hpp>
+#include <thalweg/surface/diffuse.hpp>
+#include <thalweg/surface/dilate_over.hpp>
+#include <thalweg/surface/harmonic.hpp>
 #include <thalweg/surface/rasterise_tin.hpp>
 
 #include <fmt/format.h>
@@ -19,48 +26,47 @@ namespace thalweg::pipeline {
 
 namespace {
 
-/// The triangles of points and rivers, whose arcs are breaklines.
+std::vector<Vec3> in_space(std::vector<Vec2> const& line, std::vector<double> const& z) {
+    std::vector<Vec3> out;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        out.push_back({line[i].x, line[i].y, z[i]});
+    }
+    return out;
+}
+
+/// Ridges between streams, where the recipe asks for them.
+void make_ridges(Terrain& terrain, Diary& diary, Run const& run) {
+    SkeletonRecipe const& wanted = *terrain.recipe.skeleton;
+    skeleton::RidgesParams params;
+    params.method = wanted.ridges == Ridges::voronoi ? skeleton::RidgesParams::Method::voronoi
+                                                     : skeleton::RidgesParams::Method::segments;
+    params.gain = wanted.ridge_gain;
+    terrain.ridges = diary.stage("ridge", [&] {
+        return skeleton::ridges(terrain.network, network::streams(terrain.network.plan, terrain.orders), terrain.grid,
+                                params, run);
+    });
+    diary.say(fmt::format("{} ridges", terrain.ridges.lines.size()));
+}
+
+/// The triangles of points, rivers and ridges, whose lines are breaklines.
 void make_skeleton_tin(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
     std::vector<std::vector<Vec3>> breaklines;
     std::size_t number = 0;
     for (auto const& arc : boost::make_iterator_range(boost::edges(terrain.network.plan))) {
-        std::vector<Vec2> const& line = terrain.network.plan[arc].line;
-        std::vector<double> const& z = terrain.network.arc_z[number++];
-        std::vector<Vec3> breakline;
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            breakline.push_back({line[i].x, line[i].y, z[i]});
-        }
-        breaklines.push_back(std::move(breakline));
+        breaklines.push_back(in_space(terrain.network.plan[arc].line, terrain.network.arc_z[number++]));
+    }
+    for (RidgeLine const& ridge : terrain.ridges.lines) {
+        breaklines.push_back(ridge.line);
     }
     terrain.tin = diary.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
     diary.say(fmt::format("{} triangles of {} vertices", terrain.tin->triangles.size(), terrain.tin->vertices.size()));
 }
 
-/// Land over the skeleton's triangles: as it is, or as the base that slopes rise from. Valley cells keep their heights.
-surface::Dilated draw_over_tin(Terrain const& terrain, Run const& run) {
-    SurfaceRecipe const& wanted = *terrain.recipe.surface;
-    surface::Dilated drawn;
-    if (wanted.method == Method::dilate) {
-        Valley level = terrain.valley;
-        for (float& z : level.z.values()) {
-            z = std::isnan(z) ? z : 0.0F;
-        }
-        drawn = surface::dilate(level, wanted.dilate, run);
+/// The cells the land has: those of the recipe's mask, or all.
+Mask inside_of(Recipe const& recipe, Valley const& valley) {
+    if (recipe.surface->mask.empty()) {
+        return Mask(valley.z.grid(), 1);
     }
-    Raster<float> base =
-        surface::rasterise_tin(*terrain.tin, terrain.grid, {surface::RasteriseTinParams::Outside::nearest}, run);
-    for (std::int64_t i = 0; i < base.cells(); ++i) {
-        if (!std::isnan(terrain.valley.z[i])) {
-            base[i] = terrain.valley.z[i];
-        } else if (wanted.method == Method::dilate) {
-            base[i] += drawn.dem[i];
-        }
-    }
-    drawn.dem = std::move(base);
-    return drawn;
-}
-
-Mask read_inside(Recipe const& recipe, Valley const& valley) {
     Raster<float> const given = io::read_dem(file_in(recipe, recipe.surface->mask));
     Grid const& grid = valley.z.grid();
     if (given.width() != grid.width || given.height() != grid.height) {
@@ -79,10 +85,50 @@ Mask read_inside(Recipe const& recipe, Valley const& valley) {
     return inside;
 }
 
-surface::Dilated draw_surface(Recipe const& recipe, Valley const& valley, Run const& run) {
-    surface::DilateParams const& params = recipe.surface->dilate;
-    return recipe.surface->mask.empty() ? surface::dilate(valley, params, run)
-                                        : surface::dilate(valley, read_inside(recipe, valley), params, run);
+/// Land over the skeleton's triangles. Valley cells keep their heights.
+Raster<float> over_triangles(Terrain const& terrain, Run const& run) {
+    Raster<float> land =
+        surface::rasterise_tin(*terrain.tin, terrain.grid, {surface::RasteriseTinParams::Outside::nearest}, run);
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        land[i] = std::isnan(terrain.valley.z[i]) ? land[i] : terrain.valley.z[i];
+    }
+    return land;
+}
+
+surface::Dilated dilated(Terrain const& terrain, Mask const& inside, Run const& run) {
+    SurfaceRecipe const& wanted = *terrain.recipe.surface;
+    bool const whole = wanted.mask.empty();
+    if (wanted.base == Base::paper) { // without a mask by the closed form
+        return whole ? surface::dilate(terrain.valley, wanted.dilate, run)
+                     : surface::dilate(terrain.valley, inside, wanted.dilate, run);
+    }
+    Raster<float> const base =
+        wanted.base == Base::tin ? over_triangles(terrain, run) : surface::harmonic(terrain.valley, inside, run);
+    return whole ? surface::dilate_over(terrain.valley, base, wanted.dilate, run)
+                 : surface::dilate_over(terrain.valley, base, inside, wanted.dilate, run);
+}
+
+/// What a land is diffused from: rivers, ridges, points, and what follows from them beside them.
+Skeleton gathered(Terrain const& terrain, FeaturePoints const& points, Run const& run) {
+    SkeletonRecipe const wanted = terrain.recipe.skeleton.value_or(SkeletonRecipe{});
+    skeleton::DrawSkeletonParams params;
+    params.noise.amplitude_m = wanted.ridge_noise_m;
+    params.noise.wavelength_m = wanted.ridge_wavelength_m;
+    params.noise.seed = terrain.recipe.seed;
+    Skeleton drawn = skeleton::draw_skeleton(terrain.valley, terrain.ridges, points, params, run).skeleton;
+    if (wanted.midpoint_inverse_cells > 0.0) {
+        drawn = skeleton::midpoint_inverse(drawn, {wanted.midpoint_inverse_cells}, run);
+    }
+    return drawn;
+}
+
+surface::Dilated diffused(Terrain& terrain, FeaturePoints const& points, Mask const& inside, Run const& run) {
+    surface::Diffused land =
+        surface::diffuse(gathered(terrain, points, run), inside, terrain.recipe.surface->diffuse, run);
+    terrain.diffusion = {land.iterations, land.residual};
+    surface::Dilated drawn;
+    drawn.dem = std::move(land.dem);
+    return drawn;
 }
 
 /// Adds fractal detail to land with rivers: none in the valleys, all of it some cells away.
@@ -99,22 +145,43 @@ void add_detail(Terrain const& terrain, Raster<float>& dem, Run const& run) {
     }
 }
 
+surface::Dilated draw(Terrain& terrain, FeaturePoints const& points, Run const& run) {
+    SurfaceRecipe const& wanted = *terrain.recipe.surface;
+    if (wanted.method == Method::tin) {
+        surface::Dilated drawn;
+        drawn.dem = over_triangles(terrain, run);
+        return drawn;
+    }
+    Mask const inside = inside_of(terrain.recipe, terrain.valley);
+    return wanted.method == Method::diffuse ? diffused(terrain, points, inside, run) : dilated(terrain, inside, run);
+}
+
+std::string about(Terrain const& terrain) {
+    SurfaceRecipe const& wanted = *terrain.recipe.surface;
+    switch (wanted.method) {
+    case Method::dilate:
+        return fmt::format("{}, {} levels", wanted.dilate.increment.increment, terrain.surface->levels);
+    case Method::diffuse: return fmt::format("diffused, {} iterations", terrain.diffusion->iterations);
+    case Method::tin:
+    case Method::regress: break;
+    }
+    return "over triangles";
+}
+
 } // namespace
 
 void draw_around_rivers(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
     Recipe const& recipe = terrain.recipe;
     SurfaceRecipe const& wanted = *recipe.surface;
-    bool const over_tin = wanted.method == Method::tin || wanted.base == Base::tin;
+    if (recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
+        make_ridges(terrain, diary, run);
+    }
+    bool const over_tin = wanted.method == Method::tin || (wanted.method == Method::dilate && wanted.base == Base::tin);
     if (over_tin || (recipe.skeleton && recipe.skeleton->tin)) {
         make_skeleton_tin(terrain, points, diary, run);
     }
-    terrain.surface = diary.stage(
-        "fill", [&] { return over_tin ? draw_over_tin(terrain, run) : draw_surface(recipe, terrain.valley, run); });
-    bool const dilated = wanted.method == Method::dilate;
-    diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height,
-                          dilated
-                              ? fmt::format("{}, {} levels", wanted.dilate.increment.increment, terrain.surface->levels)
-                              : std::string("over triangles")));
+    terrain.surface = diary.stage("fill", [&] { return draw(terrain, points, run); });
+    diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height, about(terrain)));
     add_detail(terrain, terrain.surface->dem, run);
 }
 

@@ -27,17 +27,83 @@ struct Box {
     double north = -std::numeric_limits<double>::infinity();
 };
 
+void enlarge(Box& box, double x, double y) {
+    box.west = std::min(box.west, x);
+    box.east = std::max(box.east, x);
+    box.south = std::min(box.south, y);
+    box.north = std::max(box.north, y);
+}
+
 Box box_of(RiverLines const& lines) {
     Box box;
     for (RiverLine const& line : lines.lines) {
         for (Vec3 const& p : line.vertices) {
-            box.west = std::min(box.west, p.x);
-            box.east = std::max(box.east, p.x);
-            box.south = std::min(box.south, p.y);
-            box.north = std::max(box.north, p.y);
+            enlarge(box, p.x, p.y);
         }
     }
     return box;
+}
+
+Box box_of(Polygons const& polygons) {
+    Box box;
+    for (Polygon const& polygon : polygons.polygons) {
+        for (auto const& ring : polygon.rings) {
+            for (Vec2 const p : ring) {
+                enlarge(box, p.x, p.y);
+            }
+        }
+    }
+    return box;
+}
+
+/// The grid asked for, or a box and 5 % around it on multiples of the cell. what: "the rivers of walker.gpkg".
+Grid frame_box(Box const& box, GridRecipe const& wanted, std::string const& what) {
+    double const cell = wanted.cell_m;
+    auto const snapped_down = [cell](double v) { return std::floor(v / cell) * cell; };
+    double const margin = std::max(0.05 * std::max(box.east - box.west, box.north - box.south), 2.0 * cell);
+
+    Grid grid;
+    grid.cell_m = cell;
+    grid.crs = wanted.crs;
+    if (wanted.width > 0) {
+        grid.width = wanted.width;
+        grid.height = wanted.height;
+        grid.west = snapped_down((box.west + box.east - static_cast<double>(grid.width) * cell) / 2.0 + cell / 2.0);
+        grid.north = snapped_down((box.south + box.north + static_cast<double>(grid.height) * cell) / 2.0 + cell / 2.0);
+    } else {
+        grid.west = snapped_down(box.west - margin);
+        grid.north = snapped_down(box.north + margin) + cell;
+    }
+    if (wanted.origin) {
+        grid.west = (*wanted.origin)[0];
+        grid.north = (*wanted.origin)[1];
+    }
+    if (wanted.width == 0) {
+        double const width = std::ceil((box.east + margin - grid.west) / cell);
+        double const height = std::ceil((grid.north - (box.south - margin)) / cell);
+        if (!(width >= 1.0 && height >= 1.0)) {
+            throw BadInput(fmt::format("grid.origin: [{}, {}] lies beyond {} (west {:.0f}, north {:.0f})", grid.west,
+                                       grid.north, what, box.west, box.north));
+        }
+        if (width > 1e6 || height > 1e6) {
+            throw BadInput(fmt::format("grid: {} span {:.0f} x {:.0f} cells of {} m: give a larger grid.cell", what,
+                                       width, height, cell));
+        }
+        grid.width = static_cast<std::int64_t>(width);
+        grid.height = static_cast<std::int64_t>(height);
+    }
+    check_memory(grid.width, grid.height);
+    return grid;
+}
+
+/// Throws BadInput where a place lies outside the grid. what: "river 7 in walker.gpkg".
+void require_inside(Grid const& grid, double x, double y, std::string const& what) {
+    if (!(x >= grid.west && x < grid.east() && y > grid.south() && y <= grid.north)) {
+        throw BadInput(
+            fmt::format("grid: {} runs outside the grid at ({:.1f}, {:.1f}): the grid spans {:.1f} to {:.1f} east and "
+                        "{:.1f} to {:.1f} north. Enlarge it, leave width and height out, or set grid.clip = true.",
+                        what, x, y, grid.west, grid.east(), grid.south(), grid.north));
+    }
 }
 
 /// Throws BadInput where that much memory is not free.
@@ -102,56 +168,43 @@ FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wante
 }
 
 Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted) {
-    Box const box = box_of(lines);
-    double const cell = wanted.cell_m;
-    auto const snapped_down = [cell](double v) { return std::floor(v / cell) * cell; };
-    double const margin = std::max(0.05 * std::max(box.east - box.west, box.north - box.south), 2.0 * cell);
-
-    Grid grid;
-    grid.cell_m = cell;
-    grid.crs = lines.crs;
-    if (wanted.width > 0) {
-        grid.width = wanted.width;
-        grid.height = wanted.height;
-        grid.west = snapped_down((box.west + box.east - static_cast<double>(grid.width) * cell) / 2.0 + cell / 2.0);
-        grid.north = snapped_down((box.south + box.north + static_cast<double>(grid.height) * cell) / 2.0 + cell / 2.0);
-    } else {
-        grid.west = snapped_down(box.west - margin);
-        grid.north = snapped_down(box.north + margin) + cell;
-    }
-    if (wanted.origin) {
-        grid.west = (*wanted.origin)[0];
-        grid.north = (*wanted.origin)[1];
-    }
-    if (wanted.width == 0) {
-        double const width = std::ceil((box.east + margin - grid.west) / cell);
-        double const height = std::ceil((grid.north - (box.south - margin)) / cell);
-        if (!(width >= 1.0 && height >= 1.0)) {
-            throw BadInput(fmt::format("grid.origin: [{}, {}] lies beyond the rivers of {} (west {:.0f}, north {:.0f})",
-                                       grid.west, grid.north, lines.name, box.west, box.north));
-        }
-        if (width > 1e6 || height > 1e6) {
-            throw BadInput(
-                fmt::format("grid: the rivers of {} span {:.0f} x {:.0f} cells of {} m: give a larger grid.cell",
-                            lines.name, width, height, cell));
-        }
-        grid.width = static_cast<std::int64_t>(width);
-        grid.height = static_cast<std::int64_t>(height);
-    }
-    check_memory(grid.width, grid.height);
+    GridRecipe here = wanted;
+    here.crs = lines.crs;
+    Grid const grid = frame_box(box_of(lines), here, "the rivers of " + lines.name);
     if (!wanted.clip) {
         for (RiverLine const& line : lines.lines) {
             for (Vec3 const& p : line.vertices) {
-                if (!(p.x >= grid.west && p.x < grid.east() && p.y > grid.south() && p.y <= grid.north)) {
-                    throw BadInput(fmt::format(
-                        "grid: river {} in {} runs outside the grid at ({:.1f}, {:.1f}): the grid "
-                        "spans {:.1f} to {:.1f} east and {:.1f} to {:.1f} north. Enlarge it, leave "
-                        "width and height out, or set grid.clip = true.",
-                        line.feature, lines.name, p.x, p.y, grid.west, grid.east(), grid.south(), grid.north));
-                }
+                require_inside(grid, p.x, p.y, fmt::format("river {} in {}", line.feature, lines.name));
             }
         }
     }
+    return grid;
+}
+
+Grid frame_polygons(Polygons const& polygons, GridRecipe const& wanted) {
+    Grid const grid = frame_box(box_of(polygons), wanted, "the polygons of " + polygons.name);
+    for (Polygon const& polygon : polygons.polygons) {
+        for (auto const& ring : polygon.rings) {
+            for (Vec2 const p : ring) {
+                require_inside(grid, p.x, p.y, fmt::format("polygon {} in {}", polygon.feature, polygons.name));
+            }
+        }
+    }
+    return grid;
+}
+
+Grid frame_tree(std::int64_t links, GridRecipe const& wanted) {
+    constexpr double link_cells = 12.0;
+    constexpr double share = 0.9; // of the grid's side that the network fills
+    auto const side = static_cast<std::int64_t>(std::ceil(link_cells * std::sqrt(static_cast<double>(links)) / share));
+    Grid grid;
+    grid.width = wanted.width > 0 ? wanted.width : side;
+    grid.height = wanted.height > 0 ? wanted.height : side;
+    grid.cell_m = wanted.cell_m;
+    grid.west = wanted.origin ? (*wanted.origin)[0] : default_west;
+    grid.north = wanted.origin ? (*wanted.origin)[1] : default_north;
+    grid.crs = wanted.crs;
+    check_memory(grid.width, grid.height);
     return grid;
 }
 

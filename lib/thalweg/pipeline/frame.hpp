@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include <thalweg/core/polygons.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_lines.hpp>
 #include <thalweg/network/pick_branch.hpp>
@@ -27,6 +28,13 @@ FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wante
 /// The grid asked for, or the lines' box and 5 % around it on multiples of the cell.
 /// Throws: BadInput naming the first line outside an asked grid, unless clip is set.
 Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted);
+
+/// The grid asked for, or a square one in which so many links of a tree lie some twelve cells apart.
+Grid frame_tree(std::int64_t links, GridRecipe const& wanted);
+
+/// The grid asked for, or the polygons' box and 5 % around it on multiples of the cell.
+/// Throws: BadInput naming the first polygon that leaves an asked grid.
+Grid frame_polygons(Polygons const& polygons, GridRecipe const& wanted);
 
 /// Throws BadInput when a terrain on this grid needs more memory than is free.
 void check_memory(std::int64_t width, std::int64_t height);

@@ -366,7 +366,10 @@ void check_land(Recipe const& recipe, bool has_points, std::vector<std::string>&
                             "skeleton.scatter");
     }
     if (method == Method::dilate && recipe.surface) {
-        faults.emplace_back("surface.method = \"dilate\" needs [network]: use tin or regress");
+        faults.emplace_back("surface.method = \"dilate\" needs [network]: use diffuse, tin or regress");
+    }
+    if (recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
+        faults.emplace_back("skeleton.ridges lie between rivers: they need [network]");
     }
 }
 

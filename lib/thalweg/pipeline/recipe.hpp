@@ -19,6 +19,7 @@
 #include <thalweg/skeleton/attract.hpp>
 #include <thalweg/skeleton/regress.hpp>
 #include <thalweg/skeleton/scatter.hpp>
+#include <thalweg/surface/diffuse.hpp>
 #include <thalweg/surface/dilate.hpp>
 
 namespace thalweg::pipeline {
@@ -72,23 +73,32 @@ struct NetworkRecipe {
     TokunagaRecipe tokunaga;
 };
 
+/// What ridges lie midway between: points along the rivers, or the rivers themselves.
+enum class Ridges : std::uint8_t { none, voronoi, segments };
+
 /// What else the surface must honour.
 struct SkeletonRecipe {
-    std::string points;         ///< file of points with heights; "" for none
-    std::int64_t scatter = 0;   ///< points at random; 0 for none
-    double spacing_cells = 0.0; ///< [cells] least distance of points at random
+    Ridges ridges = Ridges::none;
+    double ridge_gain = 0.3;             ///< [m/m] >= 0, lambda: rise above the rivers by distance from them
+    double ridge_noise_m = 0.0;          ///< [m] >= 0, amplitude of noise along them
+    double ridge_wavelength_m = 1000.0;  ///< [m] > 0, of its longest waves
+    double midpoint_inverse_cells = 0.0; ///< [cells] >= 0, L: cells beside the skeleton that follow from it; 0: none
+    std::string points;                  ///< file of points with heights; "" for none
+    std::int64_t scatter = 0;            ///< points at random; 0 for none
+    double spacing_cells = 0.0;          ///< [cells] least distance of points at random
     skeleton::HeightLaw law = skeleton::HeightLaw::uniform;
     bool tin = false; ///< write the skeleton's TIN
 };
 
-enum class Method : std::uint8_t { dilate, tin, regress };
-enum class Base : std::uint8_t { paper, tin };
+enum class Method : std::uint8_t { dilate, diffuse, tin, regress };
+enum class Base : std::uint8_t { harmonic, paper, tin };
 enum class Interpolation : std::uint8_t { linear, natural };
 
 struct SurfaceRecipe {
     Method method = Method::dilate;
-    Base base = Base::paper;
+    Base base = Base::harmonic;
     surface::DilateParams dilate;
+    surface::DiffuseParams diffuse;
     std::string mask; ///< raster on the grid: cells with 0 or no data are left out; "" for none
     Interpolation interpolation = Interpolation::linear; ///< of a TIN
     skeleton::RegressParams regress;

@@ -10,6 +10,21 @@
 namespace thalweg::pipeline {
 
 void add_skeleton_keys(std::vector<Key>& keys) {
+    keys.push_back(choice<Ridges>(
+        "skeleton.ridges", {{"none", Ridges::none}, {"voronoi", Ridges::voronoi}, {"segments", Ridges::segments}},
+        "ridges midway between streams: edges of the Voronoi diagram of points along them, or the exact medial lines",
+        in_skeleton<Ridges>([](SkeletonRecipe& s) -> Ridges& { return s.ridges; })));
+    keys.push_back(number("skeleton.ridge_gain", "m/m", {0, 100},
+                          "lambda: rise of a ridge above its rivers by distance",
+                          in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.ridge_gain; })));
+    keys.push_back(number("skeleton.ridge_noise", "m", {0, 1e5}, "amplitude of noise along ridges, none at their ends",
+                          in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.ridge_noise_m; })));
+    keys.push_back(number("skeleton.ridge_wavelength", "m", {0, 1e7, true}, "of the longest waves of that noise",
+                          in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.ridge_wavelength_m; })));
+    keys.push_back(
+        number("skeleton.midpoint_inverse", "cells", {0, 1e6},
+               "L: cells between those of the skeleton follow from them by midpoint displacement inverted; 0: none",
+               in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.midpoint_inverse_cells; })));
     keys.push_back(text("skeleton.points", "file name", "points with heights: CSV, XYZ, or any OGR source of points",
                         in_skeleton<std::string>([](SkeletonRecipe& s) -> std::string& { return s.points; })));
     keys.push_back(integer<std::int64_t>(
@@ -25,16 +40,41 @@ void add_skeleton_keys(std::vector<Key>& keys) {
                           in_skeleton<bool>([](SkeletonRecipe& s) -> bool& { return s.tin; })));
 }
 
+namespace {
+
+void add_diffusion_keys(std::vector<Key>& keys) {
+    using surface::DiffuseMode;
+    keys.push_back(choice<DiffuseMode>(
+        "surface.diffusion", {{"steady", DiffuseMode::steady}, {"explicit", DiffuseMode::explicit_}},
+        "diffuse: to its end, or so many sweeps as in the paper",
+        in_surface<DiffuseMode>([](SurfaceRecipe& s) -> DiffuseMode& { return s.diffuse.mode; })));
+    keys.push_back(integer<std::int64_t>(
+        "surface.sweeps", "", {1, 1e9}, "diffuse, explicit: how many",
+        in_surface<std::int64_t>([](SurfaceRecipe& s) -> std::int64_t& { return s.diffuse.iterations; })));
+    keys.push_back(number("surface.alpha", "", {0, 0.25, true}, "diffuse, explicit: D dt / h^2",
+                          in_surface<double>([](SurfaceRecipe& s) -> double& { return s.diffuse.alpha; })));
+    keys.push_back(number("surface.smoothing", "cells", {0, 1000},
+                          "diffuse: sigma of the smoothing off the skeleton; 0: none",
+                          in_surface<double>([](SurfaceRecipe& s) -> double& { return s.diffuse.sigma_cells; })));
+    keys.push_back(number("surface.noise", "m", {0, 1e5}, "diffuse: amplitude of noise far from the skeleton",
+                          in_surface<double>([](SurfaceRecipe& s) -> double& { return s.diffuse.noise_m; })));
+}
+
+} // namespace
+
 void add_surface_keys(std::vector<Key>& keys) {
     using skeleton::EighthTerm;
     using skeleton::SlopeMode;
-    keys.push_back(choice<Method>("surface.method",
-                                  {{"dilate", Method::dilate}, {"tin", Method::tin}, {"regress", Method::regress}},
-                                  "how the land is drawn: outward from its valleys, over the triangles of rivers and "
-                                  "points, or as twelve terms through points",
-                                  in_surface<Method>([](SurfaceRecipe& s) -> Method& { return s.method; })));
-    keys.push_back(choice<Base>("surface.base", {{"paper", Base::paper}, {"tin", Base::tin}},
-                                "height a slope rises from: that of its valley cell, or of the triangles below it",
+    keys.push_back(choice<Method>(
+        "surface.method",
+        {{"dilate", Method::dilate}, {"diffuse", Method::diffuse}, {"tin", Method::tin}, {"regress", Method::regress}},
+        "how the land is drawn: outward from its valleys, smoothly between rivers, ridges "
+        "and points, over their triangles, or as twelve terms through points",
+        in_surface<Method>([](SurfaceRecipe& s) -> Method& { return s.method; })));
+    keys.push_back(choice<Base>("surface.base",
+                                {{"harmonic", Base::harmonic}, {"paper", Base::paper}, {"tin", Base::tin}},
+                                "dilate: height a slope rises from: that of the valleys around, of its valley cell as "
+                                "printed, or of the triangles below it",
                                 in_surface<Base>([](SurfaceRecipe& s) -> Base& { return s.base; })));
     {
         Key key = text(
@@ -61,6 +101,7 @@ void add_surface_keys(std::vector<Key>& keys) {
                in_surface<bool>([](SurfaceRecipe& s) -> bool& { return s.dilate.increment.allow_negative; })));
     keys.push_back(text("surface.mask", "file name", "raster on the grid: cells with 0 or no data are left out",
                         in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.mask; })));
+    add_diffusion_keys(keys);
     keys.push_back(choice<Interpolation>(
         "surface.interpolation", {{"linear", Interpolation::linear}, {"natural", Interpolation::natural}},
         "tin: flat triangles, or natural neighbours of points",

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
+#include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/tin.hpp>
@@ -21,14 +22,23 @@
 #include <thalweg/measure/hypsometry.hpp>
 #include <thalweg/measure/statistics.hpp>
 #include <thalweg/network/assign_types.hpp>
+#include <thalweg/network/count_streams.hpp>
 #include <thalweg/pipeline/recipe.hpp>
 
 namespace thalweg::pipeline {
 
+/// What became of a network grown by Tokunaga's law.
+struct TokunagaStory {
+    network::StreamCounts tree; ///< of the tree as it was grown; empty for strokes
+    std::int64_t placed = 0;    ///< links that found room
+    std::int64_t dropped = 0;
+};
+
 /// What the network went through, for the report.
 struct NetworkStory {
-    std::int64_t particles = 0;     ///< of the cluster (dla)
-    std::int64_t walkers = 0;       ///< released for it
+    std::int64_t particles = 0; ///< of the cluster (dla)
+    std::int64_t walkers = 0;   ///< released for it
+    std::optional<TokunagaStory> tokunaga;
     bool cut = false;               ///< the branch reached the grid's margin before the last particle
     std::int64_t arcs_traced = 0;   ///< before pruning
     std::int64_t arcs_kept = 0;     ///< by pruning; merged ones count once
@@ -36,6 +46,12 @@ struct NetworkStory {
     std::int64_t lowered_cells = 0; ///< shared valley cells lowered to keep every path falling
     double max_lowered_m = 0.0;
     std::vector<Finding> repairs; ///< of adopted lines, and outlets carried to the border
+};
+
+/// How a solver came to its end.
+struct Diffusion {
+    std::int64_t iterations = 0;
+    double residual = 0.0; ///< relative
 };
 
 /// A terrain with all that led to it.
@@ -48,7 +64,9 @@ struct Terrain {
     measure::ContributingAreas areas;
     measure::HortonLaws laws;
     Valley valley;
+    RidgeLines ridges; ///< between streams, where they are asked for
     std::optional<surface::Dilated> surface;
+    std::optional<Diffusion> diffusion;           ///< how the surface was solved for, where it was diffused
     std::optional<Tin> tin;                       ///< of rivers and points, where the land is drawn over one
     std::optional<detail::Projection> projection; ///< how the statistics came out; its dem is moved to surface
     double fine_forms_cells = 0.0; ///< [cells] below which forms had to come from a Gaussian land to meet them; 0: none

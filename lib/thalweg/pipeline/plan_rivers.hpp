@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/pipeline/diary.hpp>
+#include <thalweg/pipeline/terrain.hpp>
+
+/// Where rivers run. Private to this room.
+namespace thalweg::pipeline {
+
+/// A network in plan on its grid, with the file's heights where lines carry them.
+struct Planned {
+    StreamNetwork plan;
+    Grid grid;
+    std::optional<RaisedNetwork> file_heights;
+};
+
+/// One arm of a cluster that grew by diffusion-limited aggregation, thinned and traced.
+Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run);
+
+/// Networks that branch by Tokunaga's law: one that fills the grid or a region, or one along each stroke of a file.
+Planned plan_tokunaga(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run);
+
+/// The lines of a file. Decides heights that were left to the file.
+Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run);
+
+} // namespace thalweg::pipeline
