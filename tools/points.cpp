@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -46,13 +48,24 @@ Command add_points(CLI::App& app, Session& session) {
     for (auto const& f : io::point_formats()) {
         formats += (formats.empty() ? "" : ", ") + std::string(f.name);
     }
-    app.add_option("SOURCE", options->source.path, "a DEM, or a folder that make wrote")->required();
-    app.add_option("-o,--output", options->file, "the file to be written")->required();
-    app.add_option("--every", options->source.write.every, "of so many rows and columns take one; 1 without it");
-    app.add_flag("--skeleton", options->skeleton, "only the cells of the rivers, from a folder that make wrote");
-    app.add_option("--format", options->format, formats + "; without it, by the name's ending");
-    app.add_flag("--json", session.json, "one JSON object on stdout");
-    app.add_flag("--overwrite", options->overwrite, "replace an existing file");
+    app.add_option("SOURCE", options->source.path, "A folder that make left, or any raster of heights that GDAL reads.")
+        ->type_name("FILE")
+        ->required();
+    app.add_option("-o,--output", options->file, "Write this file.")->type_name("FILE(las,ply,xyz)")->required();
+    app.add_option("--every", options->source.write.every,
+                   "Take one of so many rows and columns. Without it, every cell.")
+        ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()));
+    app.add_flag("--skeleton", options->skeleton, "Take only the cells of the rivers, of a folder that make left.");
+    app.add_option("--format", options->format,
+                   "Write this format: " + formats + ". Without it, by the name's ending.");
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
+    app.footer("One point a cell, at its centre; cells without data are left out. LAS is version 1.2, point format 0: "
+               "land is ground (class 2), rivers are water (9).\n\n"
+               "Examples:\n"
+               "  thalweg points out -o land.las\n"
+               "  thalweg points out -o rivers.ply --skeleton\n"
+               "  thalweg points dem.tif -o coarse.xyz --every 10\n");
     return [options, &session] { return points(*options, session); };
 }
 
