@@ -132,5 +132,5 @@ TEST(Points, BadInputIsRefused) {
     refused(place, "dem.asc -o a.las --every some", "--every");
     refused(place, "dem.asc -o a.las --skeleton", "a skeleton is that of a folder");
     refused(place, "empty.asc -o a.las", "empty.asc");
-    refused(place, "degrees.asc -o a.las", "geographic");
+    refused(place, "degrees.asc -o a.las", "the coordinates of degrees.asc are geographic: bring it into");
 }

@@ -12,7 +12,7 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/skeleton.hpp>
-#include <thalweg/io/projection.hpp>
+#include <thalweg/io/ground_cell.hpp>
 #include <thalweg/io/raster_files.hpp>
 
 namespace thalweg::pipeline {
@@ -25,6 +25,16 @@ struct Rivers {
     Skeleton skeleton;
     Mask cells;
 };
+
+// Nobody's viewer draws degrees beside metres.
+void require_metres(Grid const& grid, std::string const& path) {
+    io::GridUnit const unit = io::ground_cell(grid).unit;
+    if (unit == io::GridUnit::degrees || unit == io::GridUnit::other) {
+        throw BadInput(fmt::format("pipeline.make_points: the coordinates of {} are {}: bring it into a projected CRS "
+                                   "in metres first (gdalwarp -t_srs)",
+                                   path, unit == io::GridUnit::degrees ? "geographic" : "not in metres"));
+    }
+}
 
 // The land is taken over: a large one need not be there twice.
 Rivers rivers_of(Raster<float> land, std::string const& path, Run const& run) {
@@ -58,10 +68,8 @@ MadePoints make_points(MakePointsParams const& params, std::string const& output
     }
     fs::path const folder(params.path);
     Raster<float> land = io::read_dem(is_folder ? (folder / "dem.tif").string() : params.path, run);
+    require_metres(land.grid(), params.path);
     MadePoints made{0, land.grid().crs};
-    if (!made.crs.empty()) {
-        io::projected_crs(made.crs); // of degrees a cloud of points is of no use
-    }
     if (params.of == PointsOf::skeleton) {
         Rivers const rivers = rivers_of(std::move(land), (folder / "network.tif").string(), run);
         made.count = io::write_points(rivers.skeleton, rivers.cells, output, params.write, run);
