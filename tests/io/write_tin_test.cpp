@@ -6,9 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
-#include <limits>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -24,11 +22,13 @@
 #include <tins.hpp>
 
 #include "full_disk.hpp"
+#include "point_files.hpp"
 #include "scratch_folder.hpp"
 
 using namespace thalweg;
 using io::TinFormat;
 using io::write_tin;
+using point_files::number_at;
 
 namespace {
 
@@ -65,13 +65,6 @@ std::string refusal(Tin const& tin, TinFormat format) {
 
 bool says(std::string const& text, std::string const& part) {
     return text.find(part) != std::string::npos;
-}
-
-/// A number of a little-endian file.
-template <class T> T number_at(std::string const& bytes, std::size_t at) {
-    T value{};
-    std::memcpy(&value, bytes.data() + at, sizeof value);
-    return value;
 }
 
 Tin read_2dm(std::string const& text) {
@@ -332,46 +325,14 @@ TEST(WriteTin, GeoPackageHoldsFaces) {
 TEST(WriteTin, Las) {
     ScratchFolder const folder;
     Tin const tin = awkward();
-    std::string const las = written(folder, tin, TinFormat::las);
-    EXPECT_EQ(las.substr(0, 4), "LASF");
-    EXPECT_EQ(las[24], 1);
-    EXPECT_EQ(las[25], 2);
-    EXPECT_EQ(number_at<std::uint16_t>(las, 94), 227);
-    auto const begin = number_at<std::uint32_t>(las, 96);
-    EXPECT_EQ(number_at<std::uint32_t>(las, 100), 1U);
-    EXPECT_EQ(las[104], 0);
-    EXPECT_EQ(number_at<std::uint16_t>(las, 105), 20);
-    auto const count = number_at<std::uint32_t>(las, 107);
-    ASSERT_EQ(count, tin.vertices.size());
-    EXPECT_EQ(number_at<std::uint32_t>(las, 111), count);
-    ASSERT_EQ(las.size(), begin + 20U * count);
-    EXPECT_EQ(las.substr(227 + 2, 15), "LASF_Projection");
-    EXPECT_EQ(number_at<std::uint16_t>(las, 227 + 18), 34735);
-    auto const keys = number_at<std::uint16_t>(las, 227 + 20);
-    EXPECT_EQ(begin, 227U + 54U + keys);
-    EXPECT_EQ(number_at<std::uint16_t>(las, 227 + 54 + 16), 3072);
-    EXPECT_EQ(number_at<std::uint16_t>(las, 227 + 54 + 22), 32631);
-    std::array<double, 3> low{};
-    std::array<double, 3> high{};
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < count; ++i) {
-        std::size_t const at = begin + 20 * i;
-        std::array<double, 3> const wanted{tin.vertices[i].x, tin.vertices[i].y, tin.vertices[i].z};
-        for (std::size_t k = 0; k < 3; ++k) {
-            auto const scale = number_at<double>(las, 131 + 8 * k);
-            auto const offset = number_at<double>(las, 155 + 8 * k);
-            double const v = static_cast<double>(number_at<std::int32_t>(las, at + 4 * k)) * scale + offset;
-            EXPECT_NEAR(v, wanted[k], 0.0005 + 1e-9);
-            low[k] = std::min(low[k], v);
-            high[k] = std::max(high[k], v);
-        }
-        EXPECT_EQ(las[at + 14], 9); // return 1 of 1
-        EXPECT_EQ(las[at + 15], 2); // ground
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_EQ(number_at<double>(las, 179 + 16 * k), high[k]);
-        EXPECT_EQ(number_at<double>(las, 187 + 16 * k), low[k]);
+    auto const las = point_files::read_las(written(folder, tin, TinFormat::las));
+    EXPECT_EQ(las.epsg, 32631);
+    ASSERT_EQ(las.points.size(), tin.vertices.size());
+    for (std::size_t i = 0; i < las.points.size(); ++i) {
+        EXPECT_NEAR(las.points[i].x, tin.vertices[i].x, 0.0005 + 1e-9);
+        EXPECT_NEAR(las.points[i].y, tin.vertices[i].y, 0.0005 + 1e-9);
+        EXPECT_NEAR(las.points[i].z, tin.vertices[i].z, 0.0005 + 1e-9);
+        EXPECT_EQ(las.classes[i], 2); // ground
     }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -217,4 +218,14 @@ TEST(SetHeightsGraded, ALongChain) {
     auto const graded = set_heights_graded(test::chain(200000), areas, areas, {.slope = 0.5, .theta = 0.5});
     EXPECT_NEAR(graded.network.node_z.back(), 1e5, 1e-6);
     EXPECT_NEAR(graded.steepness, 1.0, 1e-12);
+}
+
+TEST(SetHeightsGraded, HeightsBeyondDoublesAreRefusedWithTheirPlace) {
+    StreamNetwork const net = test::network_of({{0, 0}, {1e154, 0}}, {{1, 0}});
+    try {
+        set_heights_graded(net, {1.0}, {1.0}, {.slope = 1e200});
+        ADD_FAILURE();
+    } catch (BadInput const& e) {
+        EXPECT_NE(std::string(e.what()).find("the node at (1e+154, 0)"), std::string::npos) << e.what();
+    }
 }

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/new_file.hpp>
 
 namespace thalweg::io {
 
@@ -276,18 +277,9 @@ std::string read_text(std::string const& path, std::int64_t max_bytes) {
 }
 
 void write_text(std::string const& path, std::string const& text) {
-    std::string const what = "io.write_text: " + path;
-    File file(std::fopen(path.c_str(), "wbx"));
-    if (file == nullptr) {
-        fail(what, last_error());
-    }
-    bool const written = std::fwrite(text.data(), 1, text.size(), file.get()) == text.size();
-    if (!written) {
-        fail(what, last_error());
-    }
-    if (std::fclose(file.release()) != 0) {
-        fail(what, last_error());
-    }
+    NewFile file(path, "io.write_text: " + path);
+    file.append(text);
+    file.close();
 }
 
 void copy_file(std::string const& from, std::string const& to) {

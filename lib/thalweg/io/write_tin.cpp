@@ -3,20 +3,22 @@
 #include <thalweg/io/write_tin.hpp>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <iterator>
 #include <limits>
-#include <string_view>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/crs_text.hpp>
 #include <thalweg/io/files.hpp>
+#include <thalweg/io/format_of.hpp>
+#include <thalweg/io/las.hpp>
+#include <thalweg/io/little_endian.hpp>
+#include <thalweg/io/ply.hpp>
 #include <thalweg/io/table.hpp>
 
 namespace thalweg::io {
@@ -28,20 +30,7 @@ public:
     template <class... Values> void text(fmt::format_string<Values...> words, Values&&... values) {
         fmt::format_to(std::back_inserter(bytes_), words, std::forward<Values>(values)...);
     }
-    // Little-endian.
-    template <class T> void number(T value) {
-        std::array<char, sizeof(T)> raw{};
-        std::memcpy(raw.data(), &value, sizeof(T));
-        if constexpr (std::endian::native == std::endian::big) {
-            std::reverse(raw.begin(), raw.end());
-        }
-        bytes_.append(raw.data(), raw.size());
-    }
-    // A field of so many bytes, filled with zeros.
-    void field(std::string_view words, std::size_t size) {
-        bytes_.append(words.substr(0, size));
-        bytes_.append(size - std::min(size, words.size()), '\0');
-    }
+    std::string& bytes() { return bytes_; }
     std::string const& str() const { return bytes_; }
 
 private:
@@ -72,29 +61,6 @@ void require_whole(Tin const& tin, std::string const& what) {
     }
 }
 
-// The code of "EPSG:n", 0 for any other CRS.
-int epsg_code(std::string const& crs) {
-    constexpr std::string_view prefix = "EPSG:";
-    if (!crs.starts_with(prefix) || crs.size() > prefix.size() + 6) {
-        return 0;
-    }
-    int code = 0;
-    for (char const digit : crs.substr(prefix.size())) {
-        if (digit < '0' || digit > '9') {
-            return 0;
-        }
-        code = 10 * code + (digit - '0');
-    }
-    return code;
-}
-
-// A comment must end where its line does.
-std::string one_line(std::string text) {
-    std::ranges::replace_if(
-        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    return text;
-}
-
 void write_2dm(Bytes& out, Tin const& tin) {
     out.text("MESH2D\nMESHNAME \"tin\"\n");
     for (std::size_t i = 0; auto const& t : tin.triangles) {
@@ -106,25 +72,16 @@ void write_2dm(Bytes& out, Tin const& tin) {
 }
 
 void write_ply(Bytes& out, Tin const& tin, std::string const& crs, bool faces) {
-    out.text("ply\nformat binary_little_endian 1.0\ncomment thalweg\n");
-    if (!crs.empty()) {
-        out.text("comment crs {}\n", one_line(crs));
-    }
-    out.text("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n", tin.vertices.size());
-    if (faces) {
-        out.text("element face {}\nproperty list uchar int vertex_indices\n", tin.triangles.size());
-    }
-    out.text("end_header\n");
-    for (auto const& v : tin.vertices) {
-        out.number(v.x);
-        out.number(v.y);
-        out.number(v.z);
+    put_ply_header(out.bytes(), crs, tin.vertices.size(),
+                   faces ? std::optional<std::uint64_t>(tin.triangles.size()) : std::nullopt);
+    for (Vec3 const& v : tin.vertices) {
+        put_ply_vertex(out.bytes(), v);
     }
     if (faces) {
         for (auto const& t : tin.triangles) {
-            out.number(std::uint8_t{3});
+            put_number(out.bytes(), std::uint8_t{3});
             for (std::uint32_t const v : t) {
-                out.number(static_cast<std::int32_t>(v));
+                put_number(out.bytes(), static_cast<std::int32_t>(v));
             }
         }
     }
@@ -199,93 +156,16 @@ void write_xyz(Bytes& out, Tin const& tin) {
     }
 }
 
-// One axis of a LAS file: whole multiples of scale above offset.
-struct Axis {
-    double scale = 0.001;
-    double offset = 0.0;
-    double lowest = std::numeric_limits<double>::infinity(); // of what the file says, not of what was handed in
-    double highest = -std::numeric_limits<double>::infinity();
-
-    Axis(std::vector<Vec3> const& points, double Vec3::*part) {
-        auto const [low, high] = std::ranges::minmax_element(points, {}, part);
-        double const middle = 0.5 * ((*low).*part) + 0.5 * ((*high).*part);
-        offset = std::floor(middle);
-        constexpr double most = 2147483000.0;
-        while (std::max((*high).*part - offset, offset - (*low).*part) / scale > most) {
-            scale *= 10.0;
-        }
-        for (Vec3 const& p : points) {
-            double const there = read(of(p.*part));
-            lowest = std::min(lowest, there);
-            highest = std::max(highest, there);
-        }
-    }
-    std::int32_t of(double v) const { return static_cast<std::int32_t>(std::floor((v - offset) / scale + 0.5)); }
-    double read(std::int32_t whole) const { return static_cast<double>(whole) * scale + offset; }
-};
-
 void write_las(Bytes& out, Tin const& tin, std::string const& crs) {
-    constexpr std::uint16_t header_size = 227;
-    constexpr std::uint32_t record_header_size = 54;
-    constexpr std::uint16_t keys_size = 4 * 4 * 2; // a header and three keys of four shorts
-    int const code = epsg_code(crs);
-    bool const has_keys = code > 0 && code <= 32767;
-    auto const count = static_cast<std::uint32_t>(tin.vertices.size());
-    Axis const x(tin.vertices, &Vec3::x);
-    Axis const y(tin.vertices, &Vec3::y);
-    Axis const z(tin.vertices, &Vec3::z);
-    out.field("LASF", 4);
-    out.number(std::uint16_t{0}); // file source
-    out.number(std::uint16_t{0}); // global encoding
-    out.field("", 16);            // project
-    out.number(std::uint8_t{1});
-    out.number(std::uint8_t{2});
-    out.field("EXTRACTION", 32);
-    out.field("thalweg", 32);
-    out.number(std::uint16_t{1}); // day and year: fixed, so that the bytes are
-    out.number(std::uint16_t{2000});
-    out.number(header_size);
-    out.number(header_size + (has_keys ? record_header_size + keys_size : 0U));
-    out.number(std::uint32_t{has_keys ? 1U : 0U});
-    out.number(std::uint8_t{0}); // point format
-    out.number(std::uint16_t{20});
-    out.number(count);
-    out.number(count); // by return: all are first
-    for (int i = 0; i < 4; ++i) {
-        out.number(std::uint32_t{0});
-    }
-    for (double const v : {x.scale, y.scale, z.scale, x.offset, y.offset, z.offset, x.highest, x.lowest, y.highest,
-                           y.lowest, z.highest, z.lowest}) {
-        out.number(v);
-    }
-    if (has_keys) {
-        out.number(std::uint16_t{0});
-        out.field("LASF_Projection", 16);
-        out.number(std::uint16_t{34735}); // GeoKeyDirectoryTag
-        out.number(keys_size);
-        out.field("GeoTIFF keys", 32);
-        constexpr std::uint16_t model_type = 1024;
-        constexpr std::uint16_t projected_crs = 3072;
-        constexpr std::uint16_t linear_units = 3076;
-        constexpr std::uint16_t metre = 9001;
-        for (std::uint16_t const key :
-             {std::uint16_t{1}, std::uint16_t{1}, std::uint16_t{0}, std::uint16_t{3}, //
-              model_type, std::uint16_t{0}, std::uint16_t{1}, std::uint16_t{1},       //
-              projected_crs, std::uint16_t{0}, std::uint16_t{1}, static_cast<std::uint16_t>(code), linear_units,
-              std::uint16_t{0}, std::uint16_t{1}, metre}) {
-            out.number(key);
-        }
-    }
+    PointExtent extent;
     for (Vec3 const& p : tin.vertices) {
-        out.number(x.of(p.x));
-        out.number(y.of(p.y));
-        out.number(z.of(p.z));
-        out.number(std::uint16_t{0});   // intensity
-        out.number(std::uint8_t{0x09}); // return 1 of 1
-        out.number(std::uint8_t{2});    // ground
-        out.number(std::uint8_t{0});    // scan angle
-        out.number(std::uint8_t{0});    // user data
-        out.number(std::uint16_t{0});   // source
+        extent.add(p);
+    }
+    LasFrame const frame = las_frame(extent, static_cast<std::uint32_t>(tin.vertices.size()), 1.0);
+    constexpr std::uint8_t ground = 2;
+    put_las_header(out.bytes(), frame, crs);
+    for (Vec3 const& p : tin.vertices) {
+        put_las_point(out.bytes(), frame, p, ground);
     }
 }
 
@@ -324,12 +204,6 @@ Table faces_table(Tin const& tin) {
             }};
 }
 
-std::string lowered(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return text;
-}
-
 } // namespace
 
 std::vector<TinFormatName> const& tin_formats() {
@@ -344,17 +218,7 @@ std::vector<TinFormatName> const& tin_formats() {
 }
 
 TinFormat tin_format(std::string const& name, std::string const& path) {
-    std::string known;
-    for (TinFormatName const& f : tin_formats()) {
-        bool const fits = name.empty() ? *f.ending != '\0' && lowered(path).ends_with(f.ending) : name == f.name;
-        if (fits) {
-            return f.format;
-        }
-        known += (known.empty() ? "" : ", ") + std::string(f.name);
-    }
-    throw BadParameter(name.empty()
-                           ? fmt::format("io.write_tin: the name of {} says no format; name one of {}", path, known)
-                           : fmt::format("io.write_tin: '{}' is no format; there are {}", name, known));
+    return format_of(tin_formats(), name, path, "io.write_tin");
 }
 
 void write_tin(Tin const& tin, std::string const& crs, std::string const& path, TinFormat format, Run const& run) {

@@ -7,14 +7,13 @@
 
 #include <thalweg/core/stream_network.hpp>
 
+/// What the stages that set heights share: from the heights of nodes to those of vertices. Private to this room.
 namespace thalweg::network {
-
-/// What the stages that set heights share: from the heights of the nodes to those of the vertices.
 
 /// Makes sure that heights can be set. Takes: as require_trees. Throws: BadInput like it, and for an arc of no length.
 void require_raisable(StreamNetwork const& network, NetworkIndex const& index, std::string_view who);
 
-/// The least height of a node above one of another height that is still above it in a double; 0 above 0.
+/// A height just above another one, as far as doubles tell them apart; 0 above 0.
 inline double next_above(double below) {
     return below * (1.0 + 0x1p-52);
 }
@@ -26,12 +25,12 @@ std::vector<double> way_along(std::vector<Vec2> const& line);
 /// Gives: the ends bit for bit; no vertex above the one before where z_up > z_down.
 std::vector<double> between(std::vector<double> const& way, double z_up, double z_down);
 
+/// Throws: BadInput, naming the node, where a height is no number (lengths or slopes beyond the range of doubles).
+void require_heights(StreamNetwork const& network, std::vector<double> const& node_z, std::string_view who);
+
 /// A network with heights of its nodes and vertices linear by length along the arcs.
-/// Throws: BadInput, naming the node, where a height is no number (lengths beyond the range of doubles).
+/// Throws: like require_heights.
 RaisedNetwork raise_linearly(StreamNetwork const& network, NetworkIndex const& index, std::vector<double> node_z,
                              std::string_view who);
-
-/// Throws BadInput as above.
-void require_heights(StreamNetwork const& network, std::vector<double> const& node_z, std::string_view who);
 
 } // namespace thalweg::network

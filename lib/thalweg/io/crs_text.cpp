@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/crs_text.hpp>
+
+#include <algorithm>
+#include <string_view>
+
+namespace thalweg::io {
+
+int epsg_code(std::string const& crs) {
+    constexpr std::string_view prefix = "EPSG:";
+    if (!crs.starts_with(prefix) || crs.size() > prefix.size() + 6) {
+        return 0;
+    }
+    int code = 0;
+    for (char const digit : crs.substr(prefix.size())) {
+        if (digit < '0' || digit > '9') {
+            return 0;
+        }
+        code = 10 * code + (digit - '0');
+    }
+    return code;
+}
+
+std::string one_line(std::string text) {
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return text;
+}
+
+} // namespace thalweg::io

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <thalweg/core/vec.hpp>
+
+/// The parts of a LAS 1.2 file with points of format 0. Private to this room.
+/// Source: ASPRS, LAS specification version 1.2.
+namespace thalweg::io {
+
+/// The smallest box around points.
+struct PointExtent {
+    Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+             std::numeric_limits<double>::infinity()};
+    Vec3 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+              -std::numeric_limits<double>::infinity()};
+
+    void add(Vec3 p) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+};
+
+/// One axis: whole multiples of scale above offset.
+struct LasAxis {
+    double scale = 0.001;
+    double offset = 0.0;
+
+    std::int32_t whole(double v) const;
+    double read(std::int32_t whole) const { return static_cast<double>(whole) * scale + offset; }
+};
+
+/// What a file says of all its points.
+struct LasFrame {
+    LasAxis x;
+    LasAxis y;
+    LasAxis z;
+    PointExtent extent; ///< of the coordinates as the file has them
+    std::uint32_t count = 0;
+};
+
+/// Takes: the box around the points and their number; what counts as a short way between them [m] > 0.
+/// Gives: scales of 0.001, or the power of ten below a thousandth of that way, or the least one that fits the box.
+LasFrame las_frame(PointExtent const& extent, std::uint32_t count, double short_way);
+
+/// Appends the header, with GeoTIFF keys where crs is "EPSG:n", projected in metres. The date is always 1 January 2000.
+void put_las_header(std::string& bytes, LasFrame const& frame, std::string const& crs);
+
+/// Appends a point within the frame's box, the only return of its pulse.
+void put_las_point(std::string& bytes, LasFrame const& frame, Vec3 point, std::uint8_t classification);
+
+} // namespace thalweg::io
