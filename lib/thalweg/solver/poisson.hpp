@@ -19,7 +19,7 @@ enum class CellKind : std::uint8_t {
 /// Poisson's equation on the cells of a grid.
 struct GridProblem {
     Raster<std::uint8_t> kind; ///< CellKind
-    Raster<double> value;      ///< fixed cells: their value; free cells: a first guess; outside: anything
+    Raster<double> value;      ///< fixed cells: their value; free cells: a first guess, or 0 or NaN; outside: anything
     Raster<double> source;     ///< b of free cells; empty for Laplace's equation
 };
 
