@@ -20,15 +20,20 @@ std::int64_t rows_a_range(Board const& board) {
     return std::max<std::int64_t>(32, 65536 / board.half());
 }
 
-/// Sum over the rows, added in their order, of what term(row) gives. scratch: one for each range, as long as a row.
-template <class Number, class Term> double sum_over_rows(Board const& board, Run const& run, Term const& term) {
-    std::vector<double> parts(static_cast<std::size_t>(board.height));
+/// What term(row) gives for each row.
+template <class Part = double, class Term>
+std::vector<Part> each_row(Board const& board, Run const& run, Term const& term) {
+    std::vector<Part> parts(static_cast<std::size_t>(board.height));
     parallel_ranges(run, board.height, rows_a_range(board), [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Number> scratch(static_cast<std::size_t>(board.stride()));
         for (std::int64_t y = begin; y < end; ++y) {
-            parts[static_cast<std::size_t>(y)] = term(y, scratch.data());
+            parts[static_cast<std::size_t>(y)] = term(y);
         }
     });
+    return parts;
+}
+
+/// Added in the order of the rows.
+double sum_of(std::vector<double> const& parts) {
     double sum = 0.0;
     for (double const part : parts) {
         sum += part;
@@ -36,17 +41,32 @@ template <class Number, class Term> double sum_over_rows(Board const& board, Run
     return sum;
 }
 
-/// Residual of a row of one colour. b: scratch, zeros where the problem has no right-hand side.
-void residual_row(ColouredProblem const& problem, std::int64_t y, int colour, float* r, double* b,
-                  GridRows const& rows) {
+/// Greatest absolute value of all cells.
+template <class T> double greatest(TwoColours<T> const& of, Board const& board, Run const& run) {
+    auto const parts = each_row(board, run, [&](std::int64_t y) {
+        T most = 0;
+        for (auto const& plane : of.of) {
+            T const* const row = plane.row(y);
+            for (std::int64_t k = 0; k < board.half(); ++k) {
+                most = std::max(most, std::fabs(row[k]));
+            }
+        }
+        return static_cast<double>(most);
+    });
+    return *std::max_element(parts.begin(), parts.end());
+}
+
+/// Residual of a row of one colour.
+void residual_row(ColouredProblem const& problem, std::int64_t y, int colour, float* r, GridRows const& rows) {
     Board const& board = problem.levels.board;
+    std::vector<double> b(static_cast<std::size_t>(board.half()));
     if (problem.b != nullptr) {
         auto const given = problem.b->row(y);
         for (std::int64_t x = Board::first(y, colour); x < board.width; x += 2) {
-            b[x / 2] = given[static_cast<std::size_t>(x)];
+            b[static_cast<std::size_t>(x / 2)] = given[static_cast<std::size_t>(x)];
         }
     }
-    rows.residual(r, b, problem.x.of[colour].row(y), problem.levels.degree.of[colour].row(y),
+    rows.residual(r, b.data(), problem.x.of[colour].row(y), {problem.levels.degree.of[colour].row(y)},
                   around(problem.x.of[1 - colour], y, colour), problem.scale, board.half());
 }
 
@@ -58,23 +78,26 @@ public:
 
     /// Counts r from x. Gives its norm.
     double renew() {
-        double const sum = sum_over_rows<double>(board_, run_, [&](std::int64_t y, double* b) {
+        return std::sqrt(sum_of(each_row(board_, run_, [&](std::int64_t y) {
             double squares = 0.0;
             for (int colour : {0, 1}) {
                 float* const r = r_.of[colour].row(y);
-                residual_row(problem_, y, colour, r, b, rows_);
+                residual_row(problem_, y, colour, r, rows_);
                 squares += rows_.dot(r, r, n_);
             }
             return squares;
-        });
-        return std::sqrt(sum);
+        })));
     }
 
-    /// One step of conjugate gradients. Gives the norm of r as it follows from the step before.
+    /// Makes z, what a cycle would add to x.
+    void precondition() { rz_ = v_cycle(problem_.levels, r_, z_, rows_, run_); }
+
+    double greatest_correction() const { return greatest(z_, board_, run_); }
+
+    /// Steps on along the direction that z gives. Gives the norm of r as it follows from the one before.
     double advance() {
-        double const rz = v_cycle(problem_.levels, r_, z_, rows_, run_);
-        auto const conjugate = static_cast<float>(rz_ > 0.0 ? rz / rz_ : 0.0);
-        rz_ = rz;
+        auto const conjugate = static_cast<float>(rz_before_ > 0.0 ? rz_ / rz_before_ : 0.0);
+        rz_before_ = rz_;
         parallel_ranges(run_, board_.height, rows_a_range(board_), [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t y = begin; y < end; ++y) {
                 for (int colour : {0, 1}) {
@@ -82,96 +105,115 @@ public:
                 }
             }
         });
-        double const pap = sum_over_rows<float>(board_, run_, [&](std::int64_t y, float* ap) {
-            double sum = 0.0;
-            for (int colour : {0, 1}) {
-                apply(y, colour, ap);
-                sum += rows_.dot(p_.of[colour].row(y), ap, n_);
-            }
-            return sum;
-        });
-        if (!(pap > 0.0)) { // nothing is left that a float could tell from 0
-            rz_ = 0.0;
+        // z has served: A p takes its place. r p is r z but for what floats have lost; with it each step is downhill.
+        struct Products {
+            double pap = 0.0;
+            double rp = 0.0;
+        };
+        Products all;
+        for (Products const& row : each_row<Products>(board_, run_, [&](std::int64_t y) {
+                 Products sum;
+                 for (int colour : {0, 1}) {
+                     float const* const p = p_.of[colour].row(y);
+                     float* const ap = z_.of[colour].row(y);
+                     rows_.apply(ap, p, {problem_.levels.degree.of[colour].row(y)},
+                                 around(p_.of[1 - colour], y, colour), n_);
+                     sum.pap += rows_.dot(p, ap, n_);
+                     sum.rp += rows_.dot(p, r_.of[colour].row(y), n_);
+                 }
+                 return sum;
+             })) {
+            all.pap += row.pap;
+            all.rp += row.rp;
+        }
+        if (!(all.pap > 0.0)) { // nothing is left that a float could tell from 0
+            rz_before_ = 0.0;
             return 0.0;
         }
-        double const step = rz / pap;
-        double const sum = sum_over_rows<float>(board_, run_, [&](std::int64_t y, float* ap) {
+        double const step = all.rp / all.pap;
+        return std::sqrt(sum_of(each_row(board_, run_, [&](std::int64_t y) {
             double squares = 0.0;
             for (int colour : {0, 1}) {
-                apply(y, colour, ap);
                 float* const r = r_.of[colour].row(y);
-                rows_.step(problem_.x.of[colour].row(y), r, p_.of[colour].row(y), ap, step / problem_.scale,
-                           static_cast<float>(step), n_);
+                rows_.step(problem_.x.of[colour].row(y), r, p_.of[colour].row(y), z_.of[colour].row(y),
+                           step / problem_.scale, static_cast<float>(step), n_);
                 squares += rows_.dot(r, r, n_);
             }
             return squares;
-        });
-        return std::sqrt(sum);
+        })));
     }
 
 private:
-    void apply(std::int64_t y, int colour, float* ap) const {
-        rows_.apply(ap, p_.of[colour].row(y), problem_.levels.degree.of[colour].row(y),
-                    around(p_.of[1 - colour], y, colour), n_);
-    }
-
     ColouredProblem& problem_;
     GridRows const& rows_;
     Run const& run_;
     Board board_;
     std::int64_t n_;
     TwoColours<float> r_, z_, p_; ///< residual, preconditioned residual, direction; 0 where no cell is free
-    double rz_ = 0.0;             ///< of the step before
+    double rz_ = 0.0;             ///< sum of r z
+    double rz_before_ = 0.0;
 };
 
 } // namespace
 
 double residual_norm(ColouredProblem const& problem, GridRows const& rows, Run const& run) {
     Board const& board = problem.levels.board;
-    double const sum = sum_over_rows<double>(board, run, [&](std::int64_t y, double* b) {
+    return std::sqrt(sum_of(each_row(board, run, [&](std::int64_t y) {
         std::vector<float> r(static_cast<std::size_t>(board.stride()));
         double squares = 0.0;
         for (int colour : {0, 1}) {
-            residual_row(problem, y, colour, r.data(), b, rows);
+            residual_row(problem, y, colour, r.data(), rows);
             squares += rows.dot(r.data(), r.data(), board.half());
         }
         return squares;
-    });
-    return std::sqrt(sum);
+    })));
 }
 
-Convergence conjugate_gradients(ColouredProblem& problem, double zero, double goal, int most_iterations,
-                                GridRows const& rows, Run const& run) {
+Convergence conjugate_gradients(ColouredProblem& problem, double zero, Goal const& goal, GridRows const& rows,
+                                Run const& run) {
     constexpr double lasting = 1e-3; // digits a float keeps without doubt
+    constexpr double unseen = 2.0;   // what a cycle may leave of an error beside what it takes
+    double const wanted = goal.tolerance * zero;
+    Board const& board = problem.levels.board;
     Iteration iteration(problem, rows, run);
     double norm = iteration.renew();
     double counted = norm; // the last one that was counted from x
     double share = 0.0;
-    int done = 0;
-    for (; norm > goal; ++done) {
-        if (done == most_iterations) {
+    for (int done = 0;; ++done) {
+        iteration.precondition();
+        if (norm <= wanted && unseen * iteration.greatest_correction() <=
+                                  goal.tolerance * problem.scale * greatest(problem.x, board, run)) {
+            norm = iteration.renew();
+            if (norm <= wanted) {
+                run.at(1.0, "solve");
+                return {done, norm};
+            }
+            counted = norm;
+            iteration.precondition();
+        }
+        if (done == goal.most_iterations) {
             throw NotConverged(fmt::format("solver.solve_poisson: after {} iterations the residual is {:.3g} of what "
                                            "it was instead of {:.3g}; ask for less or allow more of them",
-                                           done, norm / zero, goal / zero));
+                                           done, norm / zero, goal.tolerance));
         }
         if (norm < zero) {
-            share = std::max(share, exact::log(norm / zero) / exact::log(goal / zero));
+            share = std::clamp(exact::log(norm / zero) / exact::log(goal.tolerance), share, 1.0);
         }
         run.at(share, "solve");
         norm = iteration.advance();
-        if (norm <= goal || norm < lasting * counted) {
-            double const told = norm;
+        if (norm < lasting * counted) {
             norm = iteration.renew();
-            if (norm > 10.0 * std::max(told, goal) && norm > 0.5 * counted) {
+            if (norm > 0.5 * counted) { // double has no more digits
+                if (norm <= wanted) {
+                    return {done + 1, norm};
+                }
                 throw NotConverged(fmt::format("solver.solve_poisson: the residual stays at {:.3g} of what it was, "
                                                "where double has no more digits; a tolerance of {:.3g} is out of reach",
-                                               norm / zero, goal / zero));
+                                               norm / zero, goal.tolerance));
             }
             counted = norm;
         }
     }
-    run.at(1.0, "solve");
-    return {done, norm};
 }
 
 } // namespace thalweg::solver

@@ -6,7 +6,8 @@
 
 #include <thalweg/solver/two_colours.hpp>
 
-/// The inner loops of v_cycle and conjugate_gradients: one colour of one row. n: cells of that colour in the row.
+/// The inner loops of v_cycle and conjugate_gradients: one colour of one row. n: cells of that colour in the row; those
+/// up to the next multiple of Board::lanes are written too, as 0.
 namespace thalweg::solver {
 
 /// Instructions the loops are compiled for: the same bytes from each.
@@ -51,12 +52,12 @@ struct GridRows {
     /// p = z + times * p
     void (*direct)(float* p, float const* z, float times, std::int64_t n);
     /// ap = degree * p - sum of the neighbours; 0 where the cell is not free
-    void (*apply)(float* ap, float const* p, std::uint8_t const* degree, Around<float> const& others, std::int64_t n);
+    void (*apply)(float* ap, float const* p, TopRow const& row, Around<float> const& others, std::int64_t n);
     /// x += x_step * p, r -= r_step * ap
     void (*step)(double* x, float* r, float const* p, float const* ap, double x_step, float r_step, std::int64_t n);
     /// r = scale * (b + sum of the neighbours - degree * x); 0 where the cell is not free
-    void (*residual)(float* r, double const* b, double const* x, std::uint8_t const* degree,
-                     Around<double> const& others, double scale, std::int64_t n);
+    void (*residual)(float* r, double const* b, double const* x, TopRow const& row, Around<double> const& others,
+                     double scale, std::int64_t n);
 };
 
 GridRows const& grid_rows(GridLanes lanes);

@@ -172,7 +172,7 @@ GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run
             bool const guess = all.guesses > 0 && all.unknown == 0;
             spread(problem, guess, all.sum / static_cast<double>(all.fixed), coloured.x, run);
             Convergence const reached =
-                conjugate_gradients(coloured, zero, params.tolerance * zero, params.most_iterations, rows, run);
+                conjugate_gradients(coloured, zero, {params.tolerance, params.most_iterations}, rows, run);
             solution.iterations = reached.iterations;
             solution.residual = reached.residual / zero;
         }

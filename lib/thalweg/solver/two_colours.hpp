@@ -20,8 +20,11 @@ struct Board {
     static constexpr std::int64_t rows_above = 2;
     static constexpr std::int64_t rows_below = 3;
 
+    static constexpr std::int64_t lanes = 8; ///< cells of one colour that are computed side by side
+
     std::int64_t half() const { return (width + 1) / 2; } ///< cells of one colour in a row, the last one maybe beyond
-    std::int64_t stride() const { return (half() + 16) / 16 * 16; } ///< at least one zero between rows
+    /// From row to row: whole lanes, and at least one zero behind them.
+    std::int64_t stride() const { return ((half() + lanes - 1) / lanes * lanes + 16) / 16 * 16; }
     Board coarser() const { return {half(), (height + 1) / 2}; }
     /// Column of the first cell of a colour in a row.
     static std::int64_t first(std::int64_t row, std::int64_t colour) { return (row + colour) & 1; }

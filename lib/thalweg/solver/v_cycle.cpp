@@ -67,7 +67,7 @@ void down(Level const& level, TwoColours<float> const& r, CoarseLevel& coarse, G
         Window e_red(level.board);
         Window e_black(level.board);
         std::array<std::vector<float>, 2> rest;
-        rest.fill(std::vector<float>(static_cast<std::size_t>(2 * coarse.board.half())));
+        rest.fill(std::vector<float>(static_cast<std::size_t>(level.board.stride())));
         for (std::int64_t y = 2 * begin - 2; y < 2 * end + 2; ++y) {
             loop.first(e_red.row(y), r.of[red].row(y), equations(level, y, red), n);
             if (std::int64_t const b = y - 1; b >= 2 * begin - 1) {
@@ -97,7 +97,7 @@ double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, 
     parallel_ranges(run, coarse.board.height, rows_a_range(coarse.board), [&](std::int64_t begin, std::int64_t end) {
         Window e_red(level.board);
         Window e_black(level.board);
-        std::vector<float> correction(static_cast<std::size_t>(2 * coarse.board.half()));
+        std::vector<float> correction(static_cast<std::size_t>(level.board.stride()));
         for (std::int64_t y = 2 * begin - 2; y < 2 * end + 2; ++y) {
             if ((y & 1) == 0) {
                 std::int64_t const row = y / 2;
