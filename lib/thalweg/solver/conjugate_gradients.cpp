@@ -171,6 +171,7 @@ double residual_norm(ColouredProblem const& problem, GridRows const& rows, Run c
 
 Convergence conjugate_gradients(ColouredProblem& problem, double zero, Goal const& goal, GridRows const& rows,
                                 Run const& run) {
+    constexpr int patience = 60;     // iterations without a smaller residual
     constexpr double lasting = 1e-3; // digits a float keeps without doubt
     constexpr double unseen = 2.0;   // what a cycle may leave of an error beside what it takes
     double const wanted = goal.tolerance * zero;
@@ -178,18 +179,23 @@ Convergence conjugate_gradients(ColouredProblem& problem, double zero, Goal cons
     Iteration iteration(problem, rows, run);
     double norm = iteration.renew();
     double counted = norm; // the last one that was counted from x
+    double least = norm;
+    int least_at = 0;
+    double size = -1.0; // of x, once it has settled
     double share = 0.0;
     for (int done = 0;; ++done) {
         iteration.precondition();
-        if (norm <= wanted && unseen * iteration.greatest_correction() <=
-                                  goal.tolerance * problem.scale * greatest(problem.x, board, run)) {
-            norm = iteration.renew();
-            if (norm <= wanted) {
-                run.at(1.0, "solve");
-                return {done, norm};
+        if (norm <= wanted) {
+            size = size < 0.0 ? greatest(problem.x, board, run) : size;
+            if (unseen * iteration.greatest_correction() <= goal.tolerance * problem.scale * size) {
+                norm = iteration.renew();
+                if (norm <= wanted) {
+                    run.at(1.0, "solve");
+                    return {done, norm};
+                }
+                counted = norm;
+                iteration.precondition();
             }
-            counted = norm;
-            iteration.precondition();
         }
         if (done == goal.most_iterations) {
             throw NotConverged(fmt::format("solver.solve_poisson: after {} iterations the residual is {:.3g} of what "
@@ -201,9 +207,14 @@ Convergence conjugate_gradients(ColouredProblem& problem, double zero, Goal cons
         }
         run.at(share, "solve");
         norm = iteration.advance();
-        if (norm < lasting * counted) {
+        if (norm < 0.9 * least) {
+            least = norm;
+            least_at = done;
+        }
+        bool const stuck = done - least_at > patience;
+        if (stuck || norm < lasting * counted) {
             norm = iteration.renew();
-            if (norm > 0.5 * counted) { // double has no more digits
+            if (stuck || norm > 0.5 * counted) { // double has no more digits
                 if (norm <= wanted) {
                     return {done + 1, norm};
                 }

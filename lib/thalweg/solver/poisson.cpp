@@ -118,16 +118,34 @@ void demand_solvable(GridProblem const& problem, Contents const& all, Run const&
     }
 }
 
-/// Values in the two colours' order; free cells get their own value where `guess` is one, else start.
-void spread(GridProblem const& problem, bool guess, double start, TwoColours<double>& x, Run const& run) {
+enum class FreeCells : std::uint8_t { zero, guess };
+
+/// Values in the two colours' order.
+void spread(GridProblem const& problem, FreeCells free, TwoColours<double>& x, Run const& run) {
     parallel_ranges(run, problem.kind.height(), 32, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t y = begin; y < end; ++y) {
             auto const kind = problem.kind.row(y);
             auto const value = problem.value.row(y);
             double* const of[2] = {x.of[Board::first(y, 0)].row(y), x.of[1 - Board::first(y, 0)].row(y)};
             for (std::size_t i = 0; i < kind.size(); ++i) {
-                double const inside = kind[i] == fixed || guess ? value[i] : start;
-                of[i & 1][i / 2] = kind[i] == outside ? 0.0 : inside;
+                bool const taken = kind[i] == fixed || (kind[i] == free_cell && free == FreeCells::guess);
+                of[i & 1][i / 2] = taken ? value[i] : 0.0;
+            }
+        }
+    });
+}
+
+/// Sets the free cells of x, which are 0.
+void start_from(double value, TwoColours<std::uint8_t> const& degree, Board const& board, TwoColours<double>& x,
+                Run const& run) {
+    parallel_ranges(run, board.height, 32, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t y = begin; y < end; ++y) {
+            for (int colour : {0, 1}) {
+                std::uint8_t const* const free = degree.of[colour].row(y);
+                double* const to = x.of[colour].row(y);
+                for (std::int64_t k = 0; k < board.half(); ++k) {
+                    to[k] += free[k] != 0 ? value : 0.0;
+                }
             }
         }
     });
@@ -167,10 +185,14 @@ GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run
             std::frexp(all.size, &exponent);
             coloured.scale = std::ldexp(1.0, -exponent);
         }
-        spread(problem, false, 0.0, coloured.x, run);
+        spread(problem, FreeCells::zero, coloured.x, run);
         if (double const zero = residual_norm(coloured, rows, run); zero > 0.0) {
-            bool const guess = all.guesses > 0 && all.unknown == 0;
-            spread(problem, guess, all.sum / static_cast<double>(all.fixed), coloured.x, run);
+            if (all.guesses > 0 && all.unknown == 0) {
+                spread(problem, FreeCells::guess, coloured.x, run);
+            } else {
+                start_from(all.sum / static_cast<double>(all.fixed), coloured.levels.degree, coloured.levels.board,
+                           coloured.x, run);
+            }
             Convergence const reached =
                 conjugate_gradients(coloured, zero, {params.tolerance, params.most_iterations}, rows, run);
             solution.iterations = reached.iterations;

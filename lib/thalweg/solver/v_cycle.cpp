@@ -10,7 +10,7 @@
 namespace thalweg::solver {
 namespace {
 
-constexpr float over_correction = 1.8F;
+constexpr float over_correction = 1.7F; // of 1.5 .. 2.2 the fewest iterations, taken over lines, points and borders
 constexpr int red = 0;
 constexpr int black = 1;
 

@@ -11,7 +11,7 @@
 namespace thalweg::solver {
 
 /// z = M r with M one V(1,1) cycle: symmetric and positive definite, near the inverse of the problem's matrix.
-/// On every level one red-black Gauss-Seidel sweep from zero, the correction of the coarser level, times 1.8 for what
+/// On every level one red-black Gauss-Seidel sweep from zero, the correction of the coarser level, times 1.7 for what
 /// constant pieces lack, and the sweep backwards. Legs run down and up the rows once, so that of the sweeps only z is
 /// ever stored.
 /// Gives: the sum of r z. The same bytes for any number of threads: a range of rows makes the rows around it anew.
