@@ -3,6 +3,7 @@
 #include <thalweg/solver/poisson.hpp>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/solver/poisson_opencl.hpp>
 
 #include <Eigen/SparseCholesky>
 
@@ -11,7 +12,10 @@
 
 namespace thalweg::solver {
 
-GridSolution solve_poisson(GridProblem problem, PoissonParams const&, Run const& run) {
+GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run const& run) {
+    if (run.device == Device::opencl) {
+        return solve_poisson_opencl(std::move(problem), params, run);
+    }
     Grid const& grid = problem.kind.grid();
     std::vector<int> number(static_cast<std::size_t>(grid.cells()), -1);
     int unknowns = 0;
