@@ -190,8 +190,7 @@ TEST(OpenCl, RefusesDevicesThatAreNot) {
 }
 
 TEST(OpenCl, SaysWhatTheCompilerSays) {
-    std::string const words =
-        message_of<IoError>([] { solver::DeviceQueue("solver.test", "kernel void f( { wombat }"); });
+    std::string const words = message_of<IoError>([] { solver::DeviceQueue("solver.test", "#error wombat"); });
     EXPECT_NE(words.find("solver.test: "), std::string::npos) << words;
     EXPECT_NE(words.find("wombat"), std::string::npos) << words;
     std::string const unknown = message_of<IoError>([] {
@@ -234,6 +233,22 @@ TEST(OpenClPoisson, OfNothingOfOneCellAndOfRows) {
     }
 }
 
+TEST(OpenClPoisson, BeginsAtAGuessWhereThereIsOne) {
+    GridProblem problem = random_problem(60, 60, 2, 0.05, 0.0);
+    auto const first = solver::solve_poisson(problem, {}, on_device());
+    problem.value = first.value;
+    EXPECT_LE(solver::solve_poisson(problem, {}, on_device()).iterations, 1);
+    for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+        if (problem.kind[i] == free_cell) {
+            problem.value[i] = std::numeric_limits<double>::quiet_NaN(); // tells nothing
+        }
+    }
+    auto const blind = solver::solve_poisson(problem, {}, on_device());
+    for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+        ASSERT_NEAR(blind.value[i], first.value[i], 1e-6);
+    }
+}
+
 TEST(OpenClPoisson, OfHeightsThatAreAllZero) {
     GridProblem problem = random_problem(20, 20, 4, 0.1, 0.0);
     for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
@@ -251,6 +266,9 @@ TEST(OpenClPoisson, RefusesBadProblems) {
     };
     GridProblem const good = random_problem(12, 9, 2, 0.2, 0.0);
     EXPECT_NO_THROW(solve(good));
+    GridProblem strange = good;
+    strange.kind[7] = 3;
+    EXPECT_THROW(solve(strange), BadInput);
     GridProblem dry = good;
     for (std::int64_t row = 0; row < 9; ++row) {
         dry.kind[Cell{5, row}] = outside;
@@ -260,6 +278,7 @@ TEST(OpenClPoisson, RefusesBadProblems) {
     }
     EXPECT_NE(message_of<BadInput>([&] { solve(dry); }).find("column 6, row 0"), std::string::npos);
     GridProblem hole = good;
+    hole.kind[Cell{3, 2}] = fixed;
     hole.value[Cell{3, 2}] = std::numeric_limits<double>::infinity();
     EXPECT_NE(message_of<BadInput>([&] { solve(hole); }).find("column 3, row 2"), std::string::npos);
     GridProblem other_size = good;
@@ -271,7 +290,12 @@ TEST(OpenClPoisson, RefusesBadProblems) {
     for (double const tolerance : {0.0, -1.0, 1.0, std::nan("")}) {
         EXPECT_THROW(solve(good, {.tolerance = tolerance}), BadParameter);
     }
+    EXPECT_THROW(solve(good, {.most_iterations = -1}), BadParameter);
     EXPECT_THROW(solve(random_problem(80, 80, 2, 0.01, 0.0), {.most_iterations = 2}), NotConverged);
+    EXPECT_NE(message_of<NotConverged>([&] {
+                  solve(random_problem(80, 80, 2, 0.01, 0.0), {.tolerance = 1e-18});
+              }).find("out of reach"),
+              std::string::npos);
 }
 
 TEST(OpenClPoisson, AgreesWithTheProcessor) {
@@ -280,15 +304,15 @@ TEST(OpenClPoisson, AgreesWithTheProcessor) {
         std::uint64_t seed;
         double fixed_share, outside_share;
     };
-    for (Case const& c : {Case{300, 200, 2, 0.01, 0.0}, Case{255, 257, 3, 0.02, 0.3}, Case{64, 64, 5, 0.05, 0.4},
-                          Case{33, 500, 6, 0.01, 0.1}, Case{401, 90, 7, 0.003, 0.2}}) {
+    for (Case const& c : {Case{300, 200, 2, 0.01, 0.0}, Case{255, 257, 3, 0.02, 0.05}, Case{64, 64, 5, 0.05, 0.2},
+                          Case{33, 500, 6, 0.01, 0.1}, Case{401, 90, 7, 0.01, 0.1}}) {
         GridProblem const problem = random_problem(c.width, c.height, c.seed, c.fixed_share, c.outside_share);
         auto const here = solver::solve_poisson(problem, {.tolerance = 1e-10});
         auto const there = solver::solve_poisson(problem, {.tolerance = 1e-10}, on_device());
         EXPECT_LE(greatest_difference(problem, here.value, there.value), 1e-6) << c.width << " x " << c.height;
         EXPECT_LE(there.residual, 1e-10);
         EXPECT_GT(there.iterations, 0);
-        EXPECT_LE(there.iterations, 60) << c.width << " x " << c.height;
+        EXPECT_LE(there.iterations, 30) << c.width << " x " << c.height;
     }
 }
 

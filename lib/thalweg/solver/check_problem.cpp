@@ -31,11 +31,9 @@ void check_numbers(GridProblem const& problem, char const* stage) {
         if (kind == outside) {
             continue;
         }
-        if (!std::isfinite(problem.value[i])) {
-            throw BadInput(
-                fmt::format("{}: the value at column {}, row {} is {}: give every cell that is not outside a "
-                            "number",
-                            stage, c.col, c.row, problem.value[i]));
+        if (kind == fixed && !std::isfinite(problem.value[i])) {
+            throw BadInput(fmt::format("{}: the value at column {}, row {} is {}: give every fixed cell a number",
+                                       stage, c.col, c.row, problem.value[i]));
         }
         if (kind == free_cell && problem.source.cells() > 0 && !std::isfinite(problem.source[i])) {
             throw BadInput(fmt::format("{}: the source at column {}, row {} is {}: give every free cell a number",
@@ -90,9 +88,9 @@ void check_problem(GridProblem const& problem, PoissonParams const& params, char
         throw BadParameter(
             fmt::format("{}: tolerance is {}: a number between 0 and 1 is wanted", stage, params.tolerance));
     }
-    if (params.most_iterations < 1) {
+    if (params.most_iterations < 0) {
         throw BadParameter(
-            fmt::format("{}: most_iterations is {}: 1 or more is wanted", stage, params.most_iterations));
+            fmt::format("{}: most_iterations is {}: 0 or more are wanted", stage, params.most_iterations));
     }
     Grid const& grid = problem.kind.grid();
     auto const other_size = [&](Raster<double> const& raster) {

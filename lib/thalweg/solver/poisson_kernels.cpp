@@ -16,8 +16,8 @@ std::string_view poisson_kernels() {
 
 /* The finest level: free cells are tied by 1; fixed neighbours are in the diagonal and on the right side. */
 kernel void assemble(global const uchar* kind, global const double* value, global const double* source, int sourced,
-                     long width, long height, long stride, long margin, global float* diagonal,
-                     global float* inverse, global float* east, global float* south, global double* right,
+                     int guessed, double start, long width, long height, long stride, long margin, global float* diagonal,
+                     global float* sink, global float* inverse, global float* east, global float* south, global double* right,
                      global double* u) {
     long const col = get_global_id(0);
     long const row = get_global_id(1);
@@ -29,26 +29,30 @@ kernel void assemble(global const uchar* kind, global const double* value, globa
     bool const inside[4] = {col > 0, col + 1 < width, row > 0, row + 1 < height};
     long const step[4] = {-1, 1, -width, width};
     float degree = 0.0f;
+    float to_fixed = 0.0f;
     double sum = sourced ? source[i] : 0.0;
     for (int side = 0; side < 4; ++side) {
         if (inside[side]) {
             uchar const other = kind[i + step[side]];
             degree += other != 0 ? 1.0f : 0.0f;
+            to_fixed += other == 2 ? 1.0f : 0.0f;
             sum += other == 2 ? value[i + step[side]] : 0.0;
         }
     }
     diagonal[at] = degree;
+    sink[at] = to_fixed;
     inverse[at] = 1.0f / degree;
     east[at] = inside[1] && kind[i + 1] == 1 ? 1.0f : 0.0f;
     south[at] = inside[3] && kind[i + width] == 1 ? 1.0f : 0.0f;
     right[at] = sum;
-    u[at] = value[i];
+    u[at] = guessed ? value[i] : start;
 }
 
-/* Galerkin's matrix of cells two by two. */
-kernel void coarsen(global const float* diagonal, global const float* east, global const float* south, long stride,
-                    long margin, long coarse_width, long coarse_stride, long coarse_margin,
-                    global float* coarse_diagonal, global float* coarse_inverse, global float* coarse_east,
+/* The matrix of cells two by two: Galerkin's of what ties cells to fixed ones, but between cells a share of it: where
+   numbers stay the same two by two, differences between those look steeper than they are. */
+kernel void coarsen(global const float* sink, global const float* east, global const float* south, float share,
+                    long stride, long margin, long coarse_width, long coarse_stride, long coarse_margin,
+                    global float* coarse_sink, global float* coarse_inverse, global float* coarse_east,
                     global float* coarse_south) {
     long const col = get_global_id(0);
     long const row = get_global_id(1);
@@ -60,12 +64,16 @@ kernel void coarsen(global const float* diagonal, global const float* east, glob
     long const c = a + stride;
     long const d = c + 1;
     long const at = coarse_margin + row * coarse_stride + col;
-    float const sum = diagonal[a] + diagonal[b] + diagonal[c] + diagonal[d];
-    float const own = sum - 2.0f * (east[a] + east[c] + south[a] + south[b]);
-    coarse_diagonal[at] = own;
-    coarse_inverse[at] = own > 0.0f ? 1.0f / own : 0.0f;
-    coarse_east[at] = east[b] + east[d];
-    coarse_south[at] = south[c] + south[d];
+    float const to_east = share * (east[b] + east[d]);
+    float const to_south = share * (south[c] + south[d]);
+    float const to_west = share * (east[a - 1] + east[c - 1]);
+    float const to_north = share * (south[a - stride] + south[b - stride]);
+    float const to_fixed = sink[a] + sink[b] + sink[c] + sink[d];
+    float const diagonal = to_fixed + to_east + to_south + to_west + to_north;
+    coarse_sink[at] = to_fixed;
+    coarse_inverse[at] = diagonal > 0.0f ? 1.0f / diagonal : 0.0f;
+    coarse_east[at] = to_east;
+    coarse_south[at] = to_south;
 }
 
 /* From x = 0: red cells, then black ones. */
@@ -105,7 +113,7 @@ kernel void restrict_residual(global const float* restrict east, global const fl
 /* Black cells from red ones to which what the coarser level found is added. */
 kernel void correct_black(global const float* restrict inverse, global const float* restrict east,
                           global const float* restrict south, global const float* restrict right,
-                          global const float* restrict coarse_x, float times, long width, long stride, long margin,
+                          global const float* restrict coarse_x, long width, long stride, long margin,
                           long coarse_stride, long coarse_margin, global float* x) {
     long const row = get_global_id(1);
     long const col = 2 * (long)get_global_id(0) + (1 - (row & 1));
@@ -116,10 +124,10 @@ kernel void correct_black(global const float* restrict inverse, global const flo
     global const float* const here = coarse_x + coarse_margin + (row >> 1) * coarse_stride;
     global const float* const above = coarse_x + coarse_margin + ((row - 1) >> 1) * coarse_stride;
     global const float* const below = coarse_x + coarse_margin + ((row + 1) >> 1) * coarse_stride;
-    float const reds = east[at] * (x[at + 1] + times * here[(col + 1) >> 1]) +
-                        east[at - 1] * (x[at - 1] + times * here[(col - 1) >> 1]) +
-                        south[at] * (x[at + stride] + times * below[col >> 1]) +
-                        south[at - stride] * (x[at - stride] + times * above[col >> 1]);
+    float const reds = east[at] * (x[at + 1] + here[(col + 1) >> 1]) +
+                        east[at - 1] * (x[at - 1] + here[(col - 1) >> 1]) +
+                        south[at] * (x[at + stride] + below[col >> 1]) +
+                        south[at - stride] * (x[at - stride] + above[col >> 1]);
     x[at] = (right[at] + reds) * inverse[at];
 }
 
@@ -163,6 +171,19 @@ kernel void square_sum(global const double* restrict a, long margin, global doub
         sum += a[at] * a[at];
     }
     sum_of_group(own, sum, sums);
+}
+
+/* Of each work item the greatest |u| and |z|. */
+kernel void find_greatest(global const double* restrict u, global const float* restrict z, long margin,
+                          global double* restrict most_u, global double* restrict most_z) {
+    double a = 0.0;
+    double b = 0.0;
+    for (long k = 0, at = FIRST; k < EACH; ++k, at += GROUP) {
+        a = fmax(a, fabs(u[at]));
+        b = fmax(b, fabs((double)z[at]));
+    }
+    most_u[get_global_id(0)] = a;
+    most_z[get_global_id(0)] = b;
 }
 
 kernel void product_sum(global const double* restrict r, global const float* restrict z, long margin,
