@@ -304,15 +304,15 @@ TEST(OpenClPoisson, AgreesWithTheProcessor) {
         std::uint64_t seed;
         double fixed_share, outside_share;
     };
-    for (Case const& c : {Case{300, 200, 2, 0.01, 0.0}, Case{255, 257, 3, 0.02, 0.05}, Case{64, 64, 5, 0.05, 0.2},
-                          Case{33, 500, 6, 0.01, 0.1}, Case{401, 90, 7, 0.01, 0.1}}) {
+    for (Case const& c : {Case{300, 200, 2, 0.01, 0.0}, Case{255, 257, 3, 0.02, 0.3}, Case{64, 64, 5, 0.05, 0.4},
+                          Case{33, 500, 6, 0.01, 0.1}, Case{401, 90, 7, 0.003, 0.2}}) {
         GridProblem const problem = random_problem(c.width, c.height, c.seed, c.fixed_share, c.outside_share);
         auto const here = solver::solve_poisson(problem, {.tolerance = 1e-10});
         auto const there = solver::solve_poisson(problem, {.tolerance = 1e-10}, on_device());
         EXPECT_LE(greatest_difference(problem, here.value, there.value), 1e-6) << c.width << " x " << c.height;
         EXPECT_LE(there.residual, 1e-10);
         EXPECT_GT(there.iterations, 0);
-        EXPECT_LE(there.iterations, 30) << c.width << " x " << c.height;
+        EXPECT_LE(there.iterations, c.outside_share > 0.1 ? 80 : 30) << c.width << " x " << c.height;
     }
 }
 
