@@ -61,15 +61,15 @@ DeviceEquations::DeviceEquations(GridProblem const& problem, Start const& start,
       u_(queue_.zeros<double>(finest_.count)), r_(queue_.zeros<double>(finest_.count)),
       p_(queue_.zeros<double>(finest_.count)), q_(queue_.zeros<double>(finest_.count)),
       sums_(queue_.zeros<double>(groups_)), most_u_(queue_.zeros<double>(groups_ * group)),
-      most_z_(queue_.zeros<double>(groups_ * group)) {
+      most_z_(queue_.zeros<double>(groups_ * group)), scale_(start.scale) {
     levels_.emplace_back(finest_, queue_);
     Level const& top = levels_.front();
     bool const sourced = problem.source.cells() > 0;
     auto sink = queue_.zeros<float>(finest_.count);
     queue_.run("assemble", width_, height_, kind_, value_,
                sourced ? queue_.copy_of(problem.source.values()) : queue_.zeros<double>(1), sourced ? 1 : 0,
-               start.guessed ? 1 : 0, start.value, width_, height_, finest_.stride, finest_.margin, diagonal_, sink,
-               top.inverse, top.east, top.south, right_, u_);
+               start.guessed ? 1 : 0, start.value, start.scale, width_, height_, finest_.stride, finest_.margin,
+               diagonal_, sink, top.inverse, top.east, top.south, right_, u_);
     while (!levels_.back().at.is_one_cell()) {
         Level const& fine = levels_.back();
         Level coarse(fine.at.coarser(), queue_);
@@ -147,7 +147,7 @@ double DeviceEquations::advance() {
 }
 
 void DeviceEquations::read_into(Raster<double>& value) {
-    queue_.run("collect", width_, height_, kind_, u_, width_, finest_.stride, finest_.margin, value_);
+    queue_.run("collect", width_, height_, kind_, u_, 1.0 / scale_, width_, finest_.stride, finest_.margin, value_);
     queue_.read(value_, value.values());
 }
 

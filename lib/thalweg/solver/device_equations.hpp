@@ -29,19 +29,20 @@ public:
     struct Start {
         bool guessed = false; ///< at the problem's own values
         double value = 0.0;   ///< else at this
+        double scale = 1.0;   ///< a power of 2, by which all numbers on the device are multiplied
     };
 
     /// Takes: a problem with a fixed cell for every free one; the stage that asks, for messages.
     /// Throws: as DeviceQueue; IoError when the device's memory is too small.
     DeviceEquations(GridProblem const& problem, Start const& start, char const* stage);
 
-    /// Of the residual with 0 in the free cells.
+    /// Of the residual with 0 in the free cells, scaled.
     double zero_norm() const { return zero_norm_; }
     /// Counts the residual from the values. Gives: its norm.
     double renew();
     /// Makes the correction that a cycle over all levels would add to the values.
     void precondition();
-    /// Greatest |number| of a correction and of the values.
+    /// Greatest |number| of a correction and of the values, both scaled.
     struct Greatest {
         double correction = 0.0;
         double value = 0.0;
@@ -78,6 +79,7 @@ private:
     DeviceArray<double> sums_, most_u_, most_z_;
     std::vector<double> parts_;
     std::vector<Level> levels_; ///< the finest first, the last of one cell
+    double scale_ = 1.0;
     double zero_norm_ = 0.0;
     double rz_ = 0.0;
 };

@@ -16,7 +16,7 @@ std::string_view poisson_kernels() {
 
 /* The finest level: free cells are tied by 1; fixed neighbours are in the diagonal and on the right side. */
 kernel void assemble(global const uchar* kind, global const double* value, global const double* source, int sourced,
-                     int guessed, double start, long width, long height, long stride, long margin, global float* diagonal,
+                     int guessed, double start, double scale, long width, long height, long stride, long margin, global float* diagonal,
                      global float* sink, global float* inverse, global float* east, global float* south, global double* right,
                      global double* u) {
     long const col = get_global_id(0);
@@ -44,8 +44,8 @@ kernel void assemble(global const uchar* kind, global const double* value, globa
     inverse[at] = 1.0f / degree;
     east[at] = inside[1] && kind[i + 1] == 1 ? 1.0f : 0.0f;
     south[at] = inside[3] && kind[i + width] == 1 ? 1.0f : 0.0f;
-    right[at] = sum;
-    u[at] = guessed ? value[i] : start;
+    right[at] = scale * sum;
+    u[at] = scale * (guessed ? value[i] : start);
 }
 
 /* The matrix of cells two by two: Galerkin's of what ties cells to fixed ones, but between cells a share of it: where
@@ -255,13 +255,13 @@ kernel void turn(global const float* restrict z, double beta, long margin, globa
 }
 
 /* Into the free cells of the grid. */
-kernel void collect(global const uchar* kind, global const double* u, long width, long stride, long margin,
+kernel void collect(global const uchar* kind, global const double* u, double times, long width, long stride, long margin,
                     global double* value) {
     long const col = get_global_id(0);
     long const row = get_global_id(1);
     long const i = row * width + col;
     if (col < width && kind[i] == 1) {
-        value[i] = u[margin + row * stride + col];
+        value[i] = times * u[margin + row * stride + col];
     }
 }
 )";

@@ -11,7 +11,6 @@
 
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
-#include <thalweg/solver/check_problem.hpp>
 #include <thalweg/solver/device_equations.hpp>
 
 namespace thalweg::solver {
@@ -20,36 +19,6 @@ namespace {
 
 constexpr char const* stage = "solver.solve_poisson";
 constexpr auto free_cell = static_cast<std::uint8_t>(CellKind::free);
-constexpr auto fixed = static_cast<std::uint8_t>(CellKind::fixed);
-
-/// What the cells hold.
-struct Contents {
-    std::int64_t free = 0;
-    std::int64_t fixed = 0;
-    std::int64_t guesses = 0;                               ///< free cells with a number other than 0
-    std::int64_t unknown = 0;                               ///< free cells with none that is finite
-    double least = std::numeric_limits<double>::infinity(); ///< of the fixed cells
-    double greatest = -std::numeric_limits<double>::infinity();
-    double sum = 0.0;
-};
-
-Contents contents(GridProblem const& problem) {
-    Contents c;
-    for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
-        double const value = problem.value[i];
-        if (problem.kind[i] == fixed) {
-            ++c.fixed;
-            c.least = std::min(c.least, value);
-            c.greatest = std::max(c.greatest, value);
-            c.sum += value;
-        } else if (problem.kind[i] == free_cell) {
-            ++c.free;
-            c.guesses += value != 0.0 ? 1 : 0;
-            c.unknown += std::isfinite(value) ? 0 : 1;
-        }
-    }
-    return c;
-}
 
 template <class Change> void change_free(GridProblem& problem, Change change) {
     for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
@@ -60,7 +29,7 @@ template <class Change> void change_free(GridProblem& problem, Change change) {
 }
 
 /// Iterates until the residual, counted from the values, and what a further cycle would add to them are small enough.
-/// Takes: greatest |height| of the fixed cells.
+/// Takes: greatest |height| of the fixed cells, scaled as the equations are.
 GridSolution iterate(DeviceEquations& equations, double height, PoissonParams const& params, Run const& run) {
     constexpr double unseen = 2.0; // what a cycle may leave of an error beside what it takes
     GridSolution solution;
@@ -103,15 +72,14 @@ GridSolution iterate(DeviceEquations& equations, double height, PoissonParams co
 
 } // namespace
 
-GridSolution solve_poisson_opencl(GridProblem problem, PoissonParams const& params, Run const& run) {
-    check_problem(problem, params, stage, run);
+GridSolution solve_poisson_opencl(GridProblem problem, ProblemContents const& all, PoissonParams const& params,
+                                  Run const& run) {
     GridSolution solution;
-    if (Contents const all = contents(problem); all.free > 0) {
-        bool const guessed = all.guesses > 0 && all.unknown == 0;
-        DeviceEquations equations(problem, {guessed, all.sum / static_cast<double>(all.fixed)}, stage);
+    if (all.free > 0) {
+        DeviceEquations equations(problem, {all.guessed(), all.mean(), all.scale()}, stage);
         if (equations.zero_norm() > 0.0) {
             double const height = std::max(std::fabs(all.least), std::fabs(all.greatest));
-            solution = iterate(equations, height, params, run);
+            solution = iterate(equations, height * all.scale(), params, run);
             equations.read_into(problem.value);
             if (problem.source.cells() == 0) {
                 change_free(problem, [&](double value) { return std::clamp(value, all.least, all.greatest); });
