@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include <thalweg/core/run.hpp>
 
@@ -18,6 +19,7 @@ enum Exit : int { done = 0, failed = 1, wrong = 2, check_failed = 3, interrupted
 /// How a command runs: options every command has.
 struct Session {
     int threads = 0;
+    std::string device = "cpu";
     bool quiet = false;
     bool json = false;
     Run run; ///< ready when the command is called

@@ -9,6 +9,7 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/pipeline/report.hpp>
+#include <thalweg/solver/devices.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -68,6 +69,11 @@ int main(int argc, char** argv) {
         CLI::App* const sub = app.add_subcommand(name, words);
         sub->add_option("--threads", session.threads, "Use this many workers; 0 takes every core.")
             ->check(CLI::Range(0, 1024));
+        sub->add_option("--device", session.device,
+                        "Solve large systems on the grid here, or on an OpenCL device, where heights differ by less "
+                        "than 1e-6 m. What needs no such system is not concerned.")
+            ->check(CLI::IsMember({"cpu", "opencl"}))
+            ->capture_default_str();
         sub->add_flag("-q,--quiet", session.quiet, "Say nothing but errors.");
         commands[sub] = add_command(*sub, session);
     };
@@ -112,5 +118,13 @@ int main(int argc, char** argv) {
     session.run.progress_arg = &terminal;
     session.run.log = [&](std::string_view line) { terminal.line(line); };
     CLI::App* const chosen = app.get_subcommands().front();
-    return call(commands.at(chosen), terminal);
+    return call(
+        [&] {
+            if (session.device == "opencl") {
+                session.run.device = Device::opencl;
+                session.run.say(fmt::format("{:<6} {}", "device", solver::opencl_device_name()));
+            }
+            return commands.at(chosen)();
+        },
+        terminal);
 }

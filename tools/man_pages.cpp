@@ -31,6 +31,8 @@ Rows const exit_codes{
 Rows const environment{
     {"NO_COLOR", "Where it is set to anything, nothing is coloured. Only a terminal gets colours in any case."},
     {"TERM", "Where it is dumb or unset, there is neither colour nor progress bar."},
+    {"THALWEG_OPENCL_DEVICE", "The device of --device opencl as platform:device, 0:0 for the first of the first; else "
+                              "a graphics card is taken before an accelerator, that before the processor."},
 };
 
 /// What make leaves.

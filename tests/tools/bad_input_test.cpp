@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <iterator>
 #include <string>
 
@@ -59,12 +60,29 @@ TEST(BadInput, CommandLine) {
     refused(place, "help maek", "Did you mean 'make'?");
     refused(place, "recipe all", "'all' is one word too many for thalweg recipe");
     refused(place, "make --threads -1", "--threads");
+    refused(place, "make --device nonsense",
+            "--device is one of cpu, opencl, not 'nonsense'. See thalweg make --help.");
+    refused(place, "make --device opncl", "Did you mean 'opencl'?");
     refused(place, "make nowhere.toml", "nowhere.toml");
     refused(place, "make .", "");
     refused(place, "check nowhere.gpkg", "nowhere.gpkg");
     refused(place, "stats nowhere.tif", "nowhere.tif");
     refused(place, "replay nowhere", "nowhere");
     refused(place, "make --set nothing", "section.key=value");
+}
+
+TEST(BadInput, OpenClDevices) {
+    Workplace const place;
+    setenv("THALWEG_OPENCL_DEVICE", "9:9", 1);
+    refused(place, small + "--device opencl",
+            "THALWEG_OPENCL_DEVICE='9:9' names no device: write platform:device as in 0:0");
+    unsetenv("THALWEG_OPENCL_DEVICE");
+    setenv("OCL_ICD_VENDORS", "/nonexistent", 1); // where the loader looks for platforms
+    refused(place, small + "--device opencl",
+            "no OpenCL platform with a device was found; install an OpenCL driver (Debian: "
+            "pocl-opencl-icd) or leave --device out");
+    EXPECT_EQ(thalweg_run(small + "-q --device cpu", place.path()).code, 0) << "the processor needs no platform";
+    unsetenv("OCL_ICD_VENDORS");
 }
 
 TEST(BadInput, RecipeKeys) {

@@ -141,3 +141,11 @@ TEST(Manners, ATamperedFileIsFoundByReplay) {
     EXPECT_NE(o.out.find("DIFFERS  network.tif"), std::string::npos) << o.out;
     EXPECT_NE(o.out.find("MISSING  map.png"), std::string::npos) << o.out;
 }
+
+TEST(Manners, TheDeviceIsNamed) {
+    Workplace const place;
+    Outcome const there = thalweg_run(small + "-o out --device opencl", place.path());
+    ASSERT_EQ(there.code, 0) << there.err;
+    EXPECT_NE(("\n" + there.err).find("\ndevice "), std::string::npos) << there.err;
+    EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0) << "a device is no part of a recipe";
+}
