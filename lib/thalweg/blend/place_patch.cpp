@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -32,11 +33,41 @@ double snapped(double v) {
     return std::fabs(v - whole) <= snap ? whole : v;
 }
 
+// Cells without data that reach the source's edge through others: what lies beyond its outline, not a hole in it.
+Mask beyond_outline(Raster<float> const& source) {
+    Grid const& grid = source.grid();
+    Mask beyond(grid);
+    std::vector<Cell> reached;
+    auto const take = [&](Cell c) {
+        if (grid.contains(c) && beyond[c] == 0 && std::isnan(source[c])) {
+            beyond[c] = 1;
+            reached.push_back(c);
+        }
+    };
+    for (std::int64_t col = 0; col < grid.width; ++col) {
+        take({col, 0});
+        take({col, grid.height - 1});
+    }
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        take({0, row});
+        take({grid.width - 1, row});
+    }
+    while (!reached.empty()) {
+        Cell const c = reached.back();
+        reached.pop_back();
+        take({c.col - 1, c.row});
+        take({c.col + 1, c.row});
+        take({c.col, c.row - 1});
+        take({c.col, c.row + 1});
+    }
+    return beyond;
+}
+
 /// How target and source lie to one another.
 class Placement {
 public:
     Placement(Raster<float> const& source, SourceWindow const& window, PlacePatchParams const& params)
-        : source_(source), window_(window),
+        : source_(source), beyond_(beyond_outline(source)), window_(window),
           middle_{static_cast<double>(window.col) + 0.5 * static_cast<double>(window.width - 1),
                   static_cast<double>(window.row) + 0.5 * static_cast<double>(window.height - 1)},
           cosine_(exact::cos(params.rotate_deg * (exact::pi / 180.0))),
@@ -60,8 +91,15 @@ public:
     }
 
     bool on_lattice(Place p) const {
-        return p.col >= 0.0 && p.row >= 0.0 && p.col <= static_cast<double>(source_.width() - 1) &&
-               p.row <= static_cast<double>(source_.height() - 1);
+        if (!(p.col >= 0.0 && p.row >= 0.0 && p.col <= static_cast<double>(source_.width() - 1) &&
+              p.row <= static_cast<double>(source_.height() - 1))) {
+            return false;
+        }
+        auto const col = static_cast<std::int64_t>(p.col);
+        auto const row = static_cast<std::int64_t>(p.row);
+        std::int64_t const east = static_cast<double>(col) < p.col ? col + 1 : col;
+        std::int64_t const south = static_cast<double>(row) < p.row ? row + 1 : row;
+        return (beyond_[{col, row}] | beyond_[{east, row}] | beyond_[{col, south}] | beyond_[{east, south}]) == 0;
     }
 
     bool in_window(Place p) const {
@@ -101,6 +139,7 @@ private:
     }
 
     Raster<float> const& source_;
+    Mask beyond_;
     SourceWindow window_;
     Place middle_;
     double cosine_;

@@ -30,12 +30,13 @@ struct PlacePatchParams {
 };
 
 /// Lays a DEM on the grid of another: moved, turned about z, scaled.
-/// Takes: a source, NaN where it has no data, whose coordinates are the target's; its cells may have another size.
+/// Takes: a source, NaN where it has no data, whose coordinates are the target's; its cells may have another size. Its
+/// outline is that of its cells' centres, less those without data that reach the edge through others.
 /// Gives: heights bilinear between the centres of the source's cells, those of its own centres (to 1e-6 of a cell) as
-/// they stand; NaN off the lattice of centres and where one of those it lies between has no data. The mask holds the
-/// cells of part that lie in the window and have, like all their neighbours, their place on the lattice. The same bits
-/// for any number of threads. Throws: BadParameter; BadInput when the window leaves the source, part is on another grid
-/// or empty, or the mask would be empty: it names both places; Cancelled.
+/// they stand; NaN beyond the outline and where one of the centres it lies between has no data. The mask holds the
+/// cells of part that lie in the window and, like all their neighbours, within the outline. The same bits for any
+/// number of threads. Throws: BadParameter; BadInput when the window leaves the source, part is on another grid or
+/// empty, or the mask would be empty: it names both places; Cancelled.
 /// Source: paper 003, algorithm 1, step 1 and section 4.2 (rotation and scaling).
 Patch place_patch(Raster<float> const& source, Grid const& target, PlacePatchParams const& params = {},
                   Run const& run = {});
