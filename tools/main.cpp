@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
     add("stats", "Measure a DEM.", add_stats);
     add("draw", "Draw pictures of a DEM, or of what make left.", add_draw);
     add("tin", "Make a TIN of a DEM, of points or of a network.", add_tin);
+    add("blend", "Set a piece of one DEM into another without a seam.", add_blend);
     add("replay", "Run a folder's recipe again and compare the bytes.", add_replay);
     add("recipe", "List every key of a recipe.", add_recipe);
     CLI::App* const completion =
