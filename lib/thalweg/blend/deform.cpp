@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/blend/deform.hpp>
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/blend/follow.hpp>
+#include <thalweg/blend/opening.hpp>
+#include <thalweg/core/error.hpp>
+
+namespace thalweg::blend {
+namespace {
+
+using solver::CellKind;
+
+constexpr auto outside_kind = static_cast<std::uint8_t>(CellKind::outside);
+constexpr auto free_kind = static_cast<std::uint8_t>(CellKind::free);
+
+void check(Raster<float> const& target, Mask const& region, DeformParams const& params) {
+    if (!std::isfinite(params.scale)) {
+        throw BadParameter(fmt::format("blend.deform: a scale of {}; it is a number", params.scale));
+    }
+    if (region.grid() != target.grid()) {
+        throw BadInput(fmt::format("blend.deform: a region of {} x {} cells for a target of {} x {}: they share a grid",
+                                   region.width(), region.height(), target.width(), target.height()));
+    }
+}
+
+// Cells with data; an infinite one could not be bent.
+Mask bendable(Raster<float> const& target, Mask const& region) {
+    Mask cells(target.grid());
+    for (std::int64_t i = 0; i < target.cells(); ++i) {
+        if (region[i] != 0 && std::isinf(target[i])) {
+            Cell const c = target.grid().at(i);
+            throw BadInput(fmt::format("blend.deform: the target's height at column {}, row {} is infinite: correct it",
+                                       c.col, c.row));
+        }
+        cells[i] = region[i] != 0 && !std::isnan(target[i]) ? 1 : 0;
+    }
+    return cells;
+}
+
+// Takes each handle's cell out of those that are free.
+Mask grip(Mask& cells, std::vector<Handle> const& handles, Raster<double>& heights) {
+    Mask held(cells.grid());
+    for (Handle const& handle : handles) {
+        Cell const c = handle.cell;
+        auto const refuse = [&](std::string const& why) {
+            throw BadInput(
+                fmt::format("blend.deform: the handle at column {}, row {} to {} m {}", c.col, c.row, handle.z, why));
+        };
+        if (!cells.grid().contains(c)) {
+            refuse(fmt::format("lies outside the target of {} x {} cells", cells.width(), cells.height()));
+        }
+        if (!std::isfinite(static_cast<float>(handle.z))) {
+            refuse("is no height");
+        }
+        if (held[c] != 0) {
+            if (heights[c] != handle.z) {
+                refuse(fmt::format("is there already, to {} m: give one of them", heights[c]));
+            }
+            continue;
+        }
+        if (cells[c] == 0) {
+            refuse("lies in no cell of the region that has a height: move it or widen the region");
+        }
+        cells[c] = 0;
+        held[c] = 1;
+        heights[c] = handle.z;
+    }
+    return held;
+}
+
+Deformed with_handles_only(Raster<float> const& target, std::vector<Handle> const& handles) {
+    Deformed deformed;
+    deformed.dem = target;
+    for (Handle const& handle : handles) {
+        deformed.dem[handle.cell] = static_cast<float>(handle.z);
+    }
+    return deformed;
+}
+
+bool is_empty(Mask const& mask) {
+    for (std::uint8_t const m : mask.values()) {
+        if (m != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+Deformed deform(Raster<float> const& target, Mask const& region, std::vector<Handle> const& handles,
+                DeformParams const& params, Run const& run) {
+    check(target, region, params);
+    Mask free = bendable(target, region);
+    Raster<double> pulled(target.grid());
+    Mask const held = grip(free, handles, pulled);
+    std::int64_t grips = 0;
+    for (std::uint8_t const m : held.values()) {
+        grips += m;
+    }
+    Deformed deformed = with_handles_only(target, handles);
+    deformed.cells = grips;
+    if (grips > 0 && is_empty(free)) {
+        return deformed;
+    }
+    Opening opening = open_target(target, free, held, "blend.deform", run);
+    Raster<double> carrier = opening.target;
+    for (std::int64_t i = 0; i < carrier.cells(); ++i) {
+        if (opening.kind[i] == outside_kind) {
+            continue;
+        }
+        Cell const c = carrier.grid().at(i);
+        Cell const there{c.col + opening.corner.col, c.row + opening.corner.row};
+        carrier[i] *= params.scale;
+        if (held[there] != 0) {
+            opening.target[i] = pulled[there];
+        }
+    }
+    solver::PoissonParams solving;
+    solving.tolerance = params.tolerance;
+    auto const solution = follow(opening.kind, opening.target, carrier, {}, solving, run);
+    for (std::int64_t i = 0; i < opening.kind.cells(); ++i) {
+        if (opening.kind[i] == free_kind) {
+            Cell const c = opening.kind.grid().at(i);
+            deformed.dem[{c.col + opening.corner.col, c.row + opening.corner.row}] =
+                static_cast<float>(solution.value[i]);
+        }
+    }
+    deformed.cells += opening.cells;
+    deformed.iterations = solution.iterations;
+    deformed.residual = solution.residual;
+    return deformed;
+}
+
+} // namespace thalweg::blend

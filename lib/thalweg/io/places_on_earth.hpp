@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <thalweg/core/grid.hpp>
+
+namespace thalweg::io {
+
+/// Whether the boxes of longitudes and latitudes around two grids overlap.
+/// Takes: grids with a CRS. Throws: BadInput when one has no longitudes and latitudes; names whose.
+bool overlap_on_earth(Grid const& a, Grid const& b, std::string const& of_a, std::string const& of_b);
+
+/// The CRS in which a grid's land is measured in metres: its own where that is projected in metres, else the UTM zone
+/// of its middle. Takes: a grid with a CRS. Throws: BadInput when the middle is in no UTM zone.
+std::string metric_crs(Grid const& grid, std::string const& what);
+
+} // namespace thalweg::io

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/same_frame.hpp>
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <ogr_spatialref.h>
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/io/spatial_reference.hpp>
+
+namespace thalweg::io {
+namespace {
+
+// WKT would fill the screen.
+std::string shortened(std::string const& crs) {
+    constexpr std::size_t most = 60;
+    return crs.empty() ? "no CRS" : crs.size() <= most ? crs : crs.substr(0, most) + "...";
+}
+
+} // namespace
+
+bool same_crs(std::string const& a, std::string const& b, std::string const& of_a, std::string const& of_b) {
+    if (a.empty() != b.empty()) {
+        throw BadInput(fmt::format("{} has {}, {} has {}: assign the missing one (gdal_edit.py or ogr2ogr -a_srs "
+                                   "EPSG:n)",
+                                   of_a, shortened(a), of_b, shortened(b)));
+    }
+    if (a == b) {
+        return true;
+    }
+    OGRSpatialReference first = read_reference(a);
+    OGRSpatialReference second = read_reference(b);
+    first.StripVertical();
+    second.StripVertical();
+    return first.IsSame(&second) != 0;
+}
+
+bool same_size(Grid const& a, Grid const& b) {
+    return std::fabs(a.cell_m - b.cell_m) <= 1e-6 * b.cell_m;
+}
+
+bool same_cells(Grid const& a, Grid const& b) {
+    double const most = 0.01 * a.cell_m;
+    return a.width == b.width && a.height == b.height && std::fabs(a.west - b.west) <= most &&
+           std::fabs(a.north - b.north) <= most && std::fabs(a.east() - b.east()) <= most &&
+           std::fabs(a.south() - b.south()) <= most;
+}
+
+} // namespace thalweg::io

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <thalweg/core/grid.hpp>
+
+namespace thalweg::io {
+
+/// Whether two CRS ("EPSG:n", WKT, "" for none) have the same horizontal coordinates.
+/// Throws: BadInput when exactly one of them is "", naming both sides; of_a and of_b say in words whose they are.
+bool same_crs(std::string const& a, std::string const& b, std::string const& of_a, std::string const& of_b);
+
+/// Whether the cells of two grids have sides of the same length, to a millionth; their units do not matter.
+bool same_size(Grid const& a, Grid const& b);
+
+/// Whether two grids have cell for cell the same place, to a hundredth of a cell; their CRS do not matter.
+bool same_cells(Grid const& a, Grid const& b);
+
+} // namespace thalweg::io

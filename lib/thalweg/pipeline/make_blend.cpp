@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make_blend.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/blend/mask_polygons.hpp>
+#include <thalweg/core/cells_along.hpp>
+#include <thalweg/core/error.hpp>
+#include <thalweg/io/bring_into.hpp>
+#include <thalweg/io/content_of.hpp>
+#include <thalweg/io/ground_cell.hpp>
+#include <thalweg/io/places_on_earth.hpp>
+#include <thalweg/io/read_dem.hpp>
+#include <thalweg/io/read_mask.hpp>
+#include <thalweg/io/read_polygons.hpp>
+#include <thalweg/io/read_rivers.hpp>
+#include <thalweg/io/same_frame.hpp>
+#include <thalweg/network/clip_lines.hpp>
+
+namespace thalweg::pipeline {
+namespace {
+
+Mask read_part(std::string const& path, Grid const& grid, Run const& run) {
+    if (path.empty()) {
+        return {};
+    }
+    return io::holds_polygons(path) ? blend::mask_polygons(io::read_polygons(path, grid.crs, run), grid)
+                                    : io::read_mask(path, grid, run);
+}
+
+Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
+    if (path.empty()) {
+        return {};
+    }
+    io::FileContent const content = io::content_of(path);
+    if (content.kind == io::FileContent::Kind::raster) {
+        return io::read_mask(content.path, grid, run);
+    }
+    if (content.kind != io::FileContent::Kind::lines) {
+        throw BadInput(fmt::format("pipeline.make_blend: {} holds points: cells to keep come from lines or a raster on "
+                                   "the target's grid",
+                                   content.path));
+    }
+    RiverLines const rivers = io::read_rivers({content.path, content.layer, "rosgen", {}, grid.crs}, run);
+    io::same_crs(rivers.crs, grid.crs, "pipeline.make_blend: " + content.path, "the target");
+    Mask kept(grid);
+    bool any = false;
+    for (RiverLine const& line : network::clip_lines(rivers, grid).lines) {
+        std::vector<Vec2> plan;
+        for (Vec3 const& v : line.vertices) {
+            plan.push_back({v.x, v.y});
+        }
+        for (Cell const c : cells_along(plan, grid, content.path)) {
+            kept[c] = 1;
+            any = true;
+        }
+    }
+    if (!any) {
+        throw BadInput(fmt::format("pipeline.make_blend: no line of {} crosses the target, which reaches from "
+                                   "({:.3f}, {:.3f}) to ({:.3f}, {:.3f})",
+                                   content.path, grid.west, grid.south(), grid.east(), grid.north));
+    }
+    return kept;
+}
+
+Raster<float> cut(Raster<float> const& source, blend::SourceWindow const& w, std::string const& path) {
+    if (w.col < 0 || w.row < 0 || w.width < 1 || w.height < 1 || w.width > source.width() ||
+        w.height > source.height() || w.col > source.width() - w.width || w.row > source.height() - w.height) {
+        throw BadInput(fmt::format("pipeline.make_blend: a window of {} x {} cells at column {}, row {} of {}, which "
+                                   "has {} x {}; it lies within",
+                                   w.width, w.height, w.col, w.row, path, source.width(), source.height()));
+    }
+    Grid frame = source.grid();
+    frame.west += static_cast<double>(w.col) * frame.cell_m;
+    frame.north -= static_cast<double>(w.row) * frame.cell_m;
+    frame.width = w.width;
+    frame.height = w.height;
+    Raster<float> part(frame);
+    for (std::int64_t row = 0; row < w.height; ++row) {
+        std::ranges::copy(
+            source.row(w.row + row).subspan(static_cast<std::size_t>(w.col), static_cast<std::size_t>(w.width)),
+            part.row(row).begin());
+    }
+    return part;
+}
+
+/// The source in metres or whatever the target's coordinates count, and the window that is left of it.
+struct Source {
+    Raster<float> dem;
+    blend::SourceWindow window;
+    bool is_warped = false;
+    bool is_elsewhere = false; // its coordinates say nothing about the target's
+};
+
+/// The coordinates in which a source is laid on the target.
+Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& params, Source& as) {
+    std::string const whose = "pipeline.make_blend: " + params.source;
+    std::string const target_words = "the target " + params.target;
+    if (io::same_crs(source.crs, target.crs, whose, target_words) ||
+        io::overlap_on_earth(source, target, whose, target_words)) {
+        return target;
+    }
+    if (io::ground_cell(target).unit != io::GridUnit::metres) {
+        throw BadInput(fmt::format("{} lies elsewhere than {}, whose cells are not in metres: there is nothing to "
+                                   "measure it by; warp the target (gdalwarp -t_srs)",
+                                   whose, target_words));
+    }
+    as.is_elsewhere = true;
+    Grid frame = source;
+    frame.cell_m = target.cell_m;
+    frame.crs = io::metric_crs(source, whose);
+    return frame;
+}
+
+Source read_source(MakeBlendParams const& params, Grid const& grid, Run const& run) {
+    Raster<float> dem = io::read_dem(params.source, run);
+    Source source;
+    Grid const frame = frame_for(dem.grid(), grid, params, source);
+    std::string const what = "pipeline.make_blend: " + params.source;
+    source.is_warped =
+        !io::same_crs(dem.grid().crs, frame.crs, what, "the target") || !io::same_size(dem.grid(), frame);
+    if (!source.is_warped) {
+        source.window = params.window.value_or(blend::SourceWindow{0, 0, dem.width(), dem.height()});
+        source.dem = std::move(dem);
+        return source;
+    }
+    source.dem = io::bring_into(params.window ? cut(dem, *params.window, params.source) : dem, frame, what, run);
+    source.window = {0, 0, source.dem.width(), source.dem.height()};
+    return source;
+}
+
+Vec2 middle_of(Grid const& grid, blend::SourceWindow const& w) {
+    return {grid.west + (static_cast<double>(w.col) + 0.5 * static_cast<double>(w.width)) * grid.cell_m,
+            grid.north - (static_cast<double>(w.row) + 0.5 * static_cast<double>(w.height)) * grid.cell_m};
+}
+
+bool overlap(Grid const& source, blend::SourceWindow const& w, Grid const& target) {
+    Vec2 const m = middle_of(source, w);
+    double const half_width = 0.5 * static_cast<double>(w.width) * source.cell_m;
+    double const half_height = 0.5 * static_cast<double>(w.height) * source.cell_m;
+    return m.x + half_width > target.west && m.x - half_width < target.east() && m.y + half_height > target.south() &&
+           m.y - half_height < target.north;
+}
+
+// As near to the middle as lets centres of equal cells fall on centres.
+Vec2 target_middle(Grid const& target, blend::SourceWindow const& w) {
+    auto const cells = [](std::int64_t of_target, std::int64_t of_source) {
+        return static_cast<double>(of_target / 2) + (of_source % 2 != 0 ? 0.5 : 0.0);
+    };
+    return {target.west + cells(target.width, w.width) * target.cell_m,
+            target.north - cells(target.height, w.height) * target.cell_m};
+}
+
+} // namespace
+
+MadeBlend make_blend(MakeBlendParams const& params, Run const& run) {
+    Raster<float> const target = io::read_dem(params.target, run);
+    Grid const& grid = target.grid();
+    if (params.rotate_deg != 0.0 && io::ground_cell(grid).unit == io::GridUnit::degrees) {
+        throw BadInput(fmt::format("pipeline.make_blend: {} is in degrees, whose cells are no squares: no patch can be "
+                                   "turned in it; warp it (gdalwarp -t_srs)",
+                                   params.target));
+    }
+    Source const source = read_source(params, grid, run);
+    blend::PlacePatchParams placing;
+    placing.rotate_deg = params.rotate_deg;
+    placing.scale = params.scale;
+    placing.gain = params.gain;
+    placing.window = source.window;
+    placing.part = read_part(params.mask, grid, run);
+    MadeBlend made;
+    made.is_warped = source.is_warped;
+    if (params.at) {
+        placing.at = params.at;
+    } else if (!source.is_elsewhere && overlap(source.dem.grid(), source.window, grid)) {
+        made.place = PatchPlace::own;
+    } else {
+        made.place = PatchPlace::middle;
+        placing.at = target_middle(grid, source.window);
+    }
+    made.at = placing.at.value_or(middle_of(source.dem.grid(), source.window));
+    blend::PasteParams pasting;
+    pasting.relief = params.relief;
+    pasting.holes = params.holes;
+    pasting.feather_cells = params.feather_cells;
+    pasting.keep = read_kept(params.keep, grid, run);
+    run.at(0.0, "blend");
+    blend::Patch const patch = blend::place_patch(source.dem, grid, placing, run);
+    made.outside = patch.outside;
+    made.pasted = blend::paste(target, patch, pasting, run);
+    return made;
+}
+
+} // namespace thalweg::pipeline

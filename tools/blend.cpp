@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/io/output_file.hpp>
+#include <thalweg/io/write_dem.hpp>
+#include <thalweg/pipeline/make_blend.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace thalweg::tools {
+
+namespace {
+
+struct Options {
+    pipeline::MakeBlendParams params;
+    std::vector<double> at;
+    std::vector<std::int64_t> window;
+    std::string file;
+    bool mixed = false;
+    bool fills = false;
+    bool overwrite = false;
+};
+
+char const* name_of(pipeline::PatchPlace place) {
+    switch (place) {
+    case pipeline::PatchPlace::own: return "own";
+    case pipeline::PatchPlace::middle: return "middle";
+    default: return "given";
+    }
+}
+
+std::string as_json(pipeline::MadeBlend const& made, std::string const& file) {
+    blend::Pasted const& pasted = made.pasted;
+    nlohmann::ordered_json const json{{"file", file},
+                                      {"place", name_of(made.place)},
+                                      {"at", {made.at.x, made.at.y}},
+                                      {"warped", made.is_warped},
+                                      {"cells", pasted.cells},
+                                      {"kept", pasted.kept},
+                                      {"holes", pasted.holes},
+                                      {"outside", made.outside},
+                                      {"seam_max_m", pasted.seam_max_m},
+                                      {"seam_rms_m", pasted.seam_rms_m},
+                                      {"iterations", pasted.iterations},
+                                      {"residual", pasted.residual}};
+    return json.dump(2) + "\n";
+}
+
+std::string in_words(pipeline::MadeBlend const& made, bool fills) {
+    blend::Pasted const& pasted = made.pasted;
+    std::string words = fmt::format(
+        "blend  {} cells around ({:.3f}, {:.3f}){}; seam {:.3f} m rms, {:.3f} m at most", pasted.cells, made.at.x,
+        made.at.y,
+        made.place == pipeline::PatchPlace::middle ? ", the middle of the target, for the source lies elsewhere" : "",
+        pasted.seam_rms_m, pasted.seam_max_m);
+    if (pasted.kept > 0) {
+        words += fmt::format("; {} cells keep their height", pasted.kept);
+    }
+    if (pasted.holes > 0) {
+        words += fmt::format("; {} cells in holes of the source are {}", pasted.holes,
+                             fills ? "filled" : "left as they were");
+    }
+    if (made.outside > 0) {
+        words += fmt::format("; {} cells of the mask lie off the source", made.outside);
+    }
+    return words;
+}
+
+void take_numbers(Options& options) {
+    if (!options.at.empty()) {
+        if (options.at.size() != 2) {
+            throw BadParameter(fmt::format("--at has {} numbers; it takes two, X,Y", options.at.size()));
+        }
+        options.params.at = Vec2{options.at[0], options.at[1]};
+    }
+    if (!options.window.empty()) {
+        if (options.window.size() != 4) {
+            throw BadParameter(
+                fmt::format("--window has {} numbers; it takes four, COLUMN,ROW,WIDTH,HEIGHT", options.window.size()));
+        }
+        options.params.window = {options.window[0], options.window[1], options.window[2], options.window[3]};
+    }
+    options.params.relief = options.mixed ? blend::Relief::mixed : blend::Relief::source;
+    options.params.holes = options.fills ? blend::Holes::fill : blend::Holes::leave;
+}
+
+int blend_files(Options& options, Session const& session) {
+    take_numbers(options);
+    io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
+    pipeline::MadeBlend const made = pipeline::make_blend(options.params, session.run);
+    io::write_dem(made.pasted.dem, file.staging(), session.run);
+    file.commit();
+    session.run.say(in_words(made, options.fills));
+    fmt::print("{}", session.json ? as_json(made, options.file) : options.file + "\n");
+    return Exit::done;
+}
+
+} // namespace
+
+Command add_blend(CLI::App& app, Session& session) {
+    auto const options = std::make_shared<Options>();
+    pipeline::MakeBlendParams& params = options->params;
+    app.add_option("TARGET", params.target, "The DEM that takes the patch.")->type_name("FILE")->required();
+    app.add_option("SOURCE", params.source,
+                   "The DEM the patch is taken from. In another CRS or with other cells it is warped (bilinear).")
+        ->type_name("FILE")
+        ->required();
+    app.add_option("-o,--output", options->file, "Write this GeoTIFF.")->type_name("FILE")->required();
+    app.add_option(
+           "--at", options->at,
+           "Put the middle of the patch there, in the target's coordinates. Without it the patch lies where its "
+           "own coordinates say, or, when that is outside the target, in the target's middle.")
+        ->type_name("X,Y")
+        ->delimiter(',')
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--rotate", params.rotate_deg, "Turn the patch by this many degrees, counterclockwise.")
+        ->check(CLI::Range(-360.0, 360.0));
+    app.add_option("--scale", params.scale, "Make the patch so many times as large in plan.");
+    app.add_option("--gain", params.gain, "Make it so many times as high.");
+    app.add_option("--mask", params.mask,
+                   "Replace only these cells: a raster with the target's cells (neither 0 nor no-data), or polygons, "
+                   "any that OGR reads.")
+        ->type_name("FILE");
+    app.add_option("--window", options->window,
+                   "Take only this part of the source: the column and row of its north-western cell, and how many "
+                   "columns and rows.")
+        ->type_name("C,R,W,H")
+        ->delimiter(',')
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--feather", params.feather_cells,
+                   "Over this many cells inside the edge let the target's relief become the patch's.")
+        ->check(CLI::Range(0.0, 1e6));
+    app.add_option(
+           "--keep", params.keep,
+           "Let these cells keep their height: those under lines (a network, or any lines that OGR reads), or a "
+           "raster with the target's cells.")
+        ->type_name("FILE");
+    app.add_flag("--mixed", options->mixed, "Between neighbours take the steeper of the patch and the target.");
+    app.add_flag("--fill-holes", options->fills,
+                 "Carry the land through holes of the source too. Without it they keep the target's heights.");
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
+    app.footer("The patch's relief is kept, its level is not: along its edge it takes the heights of the target "
+               "(Poisson blending), so that there is no step. Outside the patch the target's heights stay to the last "
+               "bit.\n\n"
+               "Examples:\n"
+               "  thalweg blend valley/dem.tif peaks.tif -o blended.tif --feather 8\n"
+               "  thalweg blend valley/dem.tif peaks.tif -o blended.tif --mask where.gpkg --rotate 30 --gain 0.5\n"
+               "  thalweg blend valley/dem.tif peaks.tif -o blended.tif --window 100,80,256,256 --keep valley\n");
+    return [options, &session] { return blend_files(*options, session); };
+}
+
+} // namespace thalweg::tools
