@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/stream_network.hpp>
+
+namespace thalweg::network {
+
+/// Which stream each arc belongs to: a stream is a chain of arcs of one Strahler order.
+/// Takes: a network whose components are trees, and its orders.
+/// Gives: by arc number labels from 1, numbered by the streams' last arcs: where an arc flows into one of its own order
+/// both have one label, elsewhere they differ.
+/// Throws: BadInput when the orders are of another network, or a component is no tree. Source: Strahler 1957.
+std::vector<std::int64_t> streams(StreamNetwork const& network, NetworkOrders const& orders);
+
+} // namespace thalweg::network
