@@ -159,6 +159,10 @@ Vec2 target_middle(Grid const& target, blend::SourceWindow const& w) {
 
 MadeBlend make_blend(MakeBlendParams const& params, Run const& run) {
     Raster<float> const target = io::read_dem(params.target, run);
+    return blend_into(target, read_kept(params.keep, target.grid(), run), params, run);
+}
+
+MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run) {
     Grid const& grid = target.grid();
     if (params.rotate_deg != 0.0 && io::ground_cell(grid).unit == io::GridUnit::degrees) {
         throw BadInput(fmt::format("pipeline.make_blend: {} is in degrees, whose cells are no squares: no patch can be "
@@ -187,7 +191,7 @@ MadeBlend make_blend(MakeBlendParams const& params, Run const& run) {
     pasting.relief = params.relief;
     pasting.holes = params.holes;
     pasting.feather_cells = params.feather_cells;
-    pasting.keep = read_kept(params.keep, grid, run);
+    pasting.keep = std::move(keep);
     run.at(0.0, "blend");
     blend::Patch const patch = blend::place_patch(source.dem, grid, placing, run);
     made.outside = patch.outside;

@@ -52,4 +52,8 @@ struct MadeBlend {
 /// Cancelled.
 MadeBlend make_blend(MakeBlendParams const& params, Run const& run = {});
 
+/// The same with a target at hand and the cells of it that are kept; params.target names it in messages, params.keep is
+/// not read.
+MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run = {});
+
 } // namespace thalweg::pipeline

@@ -179,6 +179,16 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
     if (t.tin) {
         report["tin"] = {{"vertices", t.tin->vertices.size()}, {"triangles", t.tin->triangles.size()}};
     }
+    if (!t.ridges.lines.empty()) {
+        report["ridges"] = {{"count", t.ridges.lines.size()}};
+    }
+    if (t.diffusion) {
+        report["diffusion"] = {{"iterations", t.diffusion->iterations}, {"residual", t.diffusion->residual}};
+    }
+    for (PatchStory const& p : t.patches) {
+        report["patches"].push_back(
+            {{"cells", p.cells}, {"kept", p.kept}, {"seam_max_m", p.seam_max_m}, {"seam_rms_m", p.seam_rms_m}});
+    }
     if (t.projection) {
         report["statistics"] = statistics_object(*t.projection);
         report["statistics"]["fine_forms_cells"] = t.fine_forms_cells;

@@ -6,6 +6,7 @@
 #include <thalweg/pipeline/around_rivers.hpp>
 #include <thalweg/pipeline/diary.hpp>
 #include <thalweg/pipeline/land.hpp>
+#include <thalweg/pipeline/paste_patches.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/pipeline/rivers.hpp>
 
@@ -51,7 +52,11 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.pit_volume_m3 = drainage.pit_volume_m3;
     if (terrain.recipe.network) {
         terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
-        terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
+        bool const patched = std::any_of(terrain.recipe.patches.begin(), terrain.recipe.patches.end(),
+                                         [](PatchRecipe const& p) { return p.rivers == PatchRivers::replace; });
+        if (!patched) { // else they were asked to move
+            terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
+        }
     }
 }
 
@@ -94,6 +99,7 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
     } else if (wanted.surface) {
         draw_around_rivers(terrain, points, diary, run);
     }
+    paste_patches(terrain, diary, run);
     if (keep && terrain.surface) {
         keep("surface", terrain.surface->dem);
     }

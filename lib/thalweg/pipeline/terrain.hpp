@@ -54,6 +54,14 @@ struct Diffusion {
     double residual = 0.0; ///< relative
 };
 
+/// What became of a patch.
+struct PatchStory {
+    std::int64_t cells = 0;  ///< that it replaced
+    std::int64_t kept = 0;   ///< under it that rivers keep
+    double seam_max_m = 0.0; ///< as blend::Pasted
+    double seam_rms_m = 0.0;
+};
+
 /// A terrain with all that led to it.
 struct Terrain {
     Recipe recipe; ///< every default resolved: made again, it gives the same terrain
@@ -67,6 +75,7 @@ struct Terrain {
     RidgeLines ridges; ///< between streams, where they are asked for
     std::optional<surface::Dilated> surface;
     std::optional<Diffusion> diffusion;           ///< how the surface was solved for, where it was diffused
+    std::vector<PatchStory> patches;              ///< in the recipe's order
     std::optional<Tin> tin;                       ///< of rivers and points, where the land is drawn over one
     std::optional<detail::Projection> projection; ///< how the statistics came out; its dem is moved to surface
     double fine_forms_cells = 0.0; ///< [cells] below which forms had to come from a Gaussian land to meet them; 0: none

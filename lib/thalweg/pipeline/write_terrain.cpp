@@ -75,6 +75,20 @@ Recipe keep_inputs(Terrain const& terrain, io::OutputFolder const& out) {
     if (recipe.skeleton && !recipe.skeleton->points.empty()) {
         recipe.skeleton->points = keep_input(out, recipe.folder, recipe.skeleton->points, "inputs/points/");
     }
+    TokunagaRecipe* const tokunaga = recipe.network ? &recipe.network->tokunaga : nullptr;
+    if (tokunaga != nullptr && !tokunaga->strokes.empty()) {
+        tokunaga->strokes = keep_input(out, recipe.folder, tokunaga->strokes, "inputs/strokes/");
+    }
+    if (tokunaga != nullptr && !tokunaga->region.empty()) {
+        tokunaga->region = keep_input(out, recipe.folder, tokunaga->region, "inputs/region/");
+    }
+    for (std::size_t i = 0; i < recipe.patches.size(); ++i) {
+        PatchRecipe& patch = recipe.patches[i];
+        patch.source = keep_input(out, recipe.folder, patch.source, fmt::format("inputs/patch{}/", i + 1));
+        if (!patch.mask.empty()) {
+            patch.mask = keep_input(out, recipe.folder, patch.mask, fmt::format("inputs/patch{}/mask/", i + 1));
+        }
+    }
     recipe.folder.clear();
     return recipe;
 }
