@@ -4,6 +4,8 @@
 
 #include <thalweg/core/memory.hpp>
 
+#include <thalweg/network/tokunaga_laws.hpp>
+
 #include <nlohmann/json.hpp>
 #include <toml++/toml.h>
 
@@ -91,6 +93,23 @@ ordered_json horton(measure::HortonLaws const& laws) {
             {"area", ratio(laws.area)}};
 }
 
+ordered_json streams_object(network::StreamCounts const& counts) {
+    return {{"links", counts.links}, {"streams", counts.streams}, {"side_branches", counts.side}};
+}
+
+/// Side branches by Tokunaga's numbers: of the network as drawn, and of the tree it was grown from.
+ordered_json tokunaga_object(Terrain const& t) {
+    ordered_json out{{"drawn", streams_object(t.streams)}};
+    if (t.story.tokunaga) {
+        network::TokunagaLaws const laws = network::tokunaga_laws(t.recipe.network->tokunaga.generator);
+        out["grown"] = streams_object(t.story.tokunaga->tree);
+        out["asked"] = {{"a", laws.a}, {"c", laws.c}, {"bifurcation", laws.bifurcation}};
+        out["placed"] = t.story.tokunaga->placed;
+        out["dropped"] = t.story.tokunaga->dropped;
+    }
+    return out;
+}
+
 ordered_json network_object(Terrain const& t) {
     StreamNetwork const& plan = t.network.plan;
     NetworkIndex const index(plan);
@@ -121,7 +140,8 @@ ordered_json network_object(Terrain const& t) {
             {"lifted", {{"count", h.lifted}, {"max_m", h.max_lift_m}, {"rms_m", h.rms_lift_m}}},
             {"lowered_cells", {{"count", t.story.lowered_cells}, {"max_m", t.story.max_lowered_m}}},
             {"area_from", t.areas.source},
-            {"horton", horton(t.laws)}};
+            {"horton", horton(t.laws)},
+            {"tokunaga", tokunaga_object(t)}};
 }
 
 ordered_json statistics_object(detail::Projection const& p) {

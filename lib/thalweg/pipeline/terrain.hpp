@@ -68,7 +68,8 @@ struct Terrain {
     Grid grid;
     RaisedNetwork network;
     NetworkOrders orders;
-    network::RiverTypes types; ///< by arc, where rivers have types; else empty
+    network::StreamCounts streams; ///< side branches, as drawn
+    network::RiverTypes types;     ///< by arc, where rivers have types; else empty
     measure::ContributingAreas areas;
     measure::HortonLaws laws;
     Valley valley;
