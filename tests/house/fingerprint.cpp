@@ -4,6 +4,10 @@
 // number of threads must print tests/data/fingerprint.txt. Usage: fingerprint [THREADS]
 #include "fnv.hpp"
 
+#include <thalweg/blend/deform.hpp>
+#include <thalweg/blend/paste.hpp>
+#include <thalweg/blend/paste_tin.hpp>
+#include <thalweg/blend/place_patch.hpp>
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/detail/estimate_fractal.hpp>
@@ -329,6 +333,30 @@ void print_rivers(StreamNetwork const& network, Grid const& grid, Run const& run
     network::Graded const graded = network::set_heights_graded(network, areas.us_area_m2, areas.ds_area_m2,
                                                                {.least_area_m2 = grid.cell_m * grid.cell_m}, run);
     print("set_heights_graded", hash_of(graded.network));
+/// A piece of one land set into another, on the grid and over triangles; a region bent.
+void print_blend(Raster<float> const& target, Tin const& tin, Run const& run) {
+    blend::PlacePatchParams placing;
+    placing.at = target.grid().centre({target.width() / 2, target.height() / 2});
+    placing.rotate_deg = 33.0;
+    placing.scale = 6.0 * target.grid().cell_m / 16.0; // of its cells, which are 16 m wide
+    blend::Patch const patch = blend::place_patch(coarse_land(), target.grid(), placing, run);
+    Fnv placed = hash_of(patch.z);
+    placed.add_all(patch.mask.values());
+    print("place_patch", placed);
+    print("paste", hash_of(blend::paste(target, patch, {}, run).dem));
+    blend::PasteParams mixed;
+    mixed.relief = blend::Relief::mixed;
+    mixed.holes = blend::Holes::fill;
+    mixed.feather_cells = 5.0;
+    print("paste, mixed, feathered", hash_of(blend::paste(target, patch, mixed, run).dem));
+    Cell const middle{target.width() / 2, target.height() / 2};
+    print("deform", hash_of(blend::deform(target, patch.mask, {{middle, 100.0}}, {.scale = 1.5}, run).dem));
+    auto guidance = blend::gradients_of(tin, tin.vertices, geometry::Measured::on_surface);
+    for (std::size_t i = 0; i < guidance.size(); i += 3) {
+        guidance[i] = blend::mapped(blend::rotation({1.0, 2.0, 3.0}, 20.0, 1.1), guidance[i]);
+    }
+    print("paste_tin",
+          hash_of(blend::paste_tin(tin, guidance, {{0, tin.vertices[0]}}, geometry::Measured::on_surface, run).tin));
 }
 
 } // namespace
@@ -384,4 +412,5 @@ int main(int count, char** words) {
     print_detail(run);
     print_lands_of_statistics(run);
     print_points(run);
+    print_blend(land, tin, run);
 }
