@@ -333,6 +333,8 @@ void print_rivers(StreamNetwork const& network, Grid const& grid, Run const& run
     network::Graded const graded = network::set_heights_graded(network, areas.us_area_m2, areas.ds_area_m2,
                                                                {.least_area_m2 = grid.cell_m * grid.cell_m}, run);
     print("set_heights_graded", hash_of(graded.network));
+}
+
 /// A piece of one land set into another, on the grid and over triangles; a region bent.
 void print_blend(Raster<float> const& target, Tin const& tin, Run const& run) {
     blend::PlacePatchParams placing;
