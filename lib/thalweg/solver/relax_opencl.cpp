@@ -43,7 +43,8 @@ void relax_opencl(GridProblem& problem, double alpha, std::int64_t sweeps, Run c
         return;
     }
     DeviceQueue queue(stage, relax_kernels());
-    std::int64_t const margin = std::max<std::int64_t>(grid.width, DeviceQueue::group);
+    // The last group may reach beyond the cells, and from there asks for neighbours.
+    std::int64_t const margin = grid.width + static_cast<std::int64_t>(DeviceQueue::group);
     std::int64_t const block = (cells + 2 * margin) * static_cast<std::int64_t>(sizeof(double));
     check_device_memory(queue.device(), stage, 2 * block + 2 * cells, block);
 
