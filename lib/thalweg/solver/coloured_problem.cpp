@@ -134,9 +134,13 @@ ColouredProblem coloured(GridProblem const& problem, Contents const& contents, R
     return made;
 }
 
+void spread_guess(GridProblem const& problem, ColouredProblem& coloured, Run const& run) {
+    spread(problem, FreeCells::guess, coloured.x, run);
+}
+
 void set_guess(GridProblem const& problem, Contents const& contents, ColouredProblem& coloured, Run const& run) {
     if (contents.guesses > 0 && contents.unknown == 0) {
-        spread(problem, FreeCells::guess, coloured.x, run);
+        spread_guess(problem, coloured, run);
     } else {
         start_from(contents.sum / static_cast<double>(contents.fixed), coloured.top, coloured.x, run);
     }

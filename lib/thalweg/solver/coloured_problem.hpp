@@ -59,6 +59,9 @@ struct ColouredProblem {
 /// Gives: free cells at 0. Refers to the problem's source.
 ColouredProblem coloured(GridProblem const& problem, Contents const& contents, Run const& run);
 
+/// Sets the free cells of x to their first guess.
+void spread_guess(GridProblem const& problem, ColouredProblem& coloured, Run const& run);
+
 /// Sets the free cells of x, which are 0, to their first guess, or without one to the mean of the fixed cells.
 void set_guess(GridProblem const& problem, Contents const& contents, ColouredProblem& coloured, Run const& run);
 
