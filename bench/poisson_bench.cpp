@@ -177,7 +177,9 @@ void BM_laplace_eigen_iccg(benchmark::State& state) {
     Assembled const system = assembled(of.problem);
     Eigen::VectorXd x;
     for (auto _ : state) {
-        Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteCholesky<double>> iteration;
+        Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper,
+                                 Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>>
+            iteration;
         iteration.setTolerance(1e-6);
         iteration.compute(system.matrix);
         x = iteration.solve(system.right);

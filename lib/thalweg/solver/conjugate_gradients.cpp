@@ -16,31 +16,6 @@
 namespace thalweg::solver {
 namespace {
 
-std::int64_t rows_a_range(Board const& board) {
-    return std::max<std::int64_t>(32, 65536 / board.half());
-}
-
-/// What term(row) gives for each row.
-template <class Part = double, class Term>
-std::vector<Part> each_row(Board const& board, Run const& run, Term const& term) {
-    std::vector<Part> parts(static_cast<std::size_t>(board.height));
-    parallel_ranges(run, board.height, rows_a_range(board), [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t y = begin; y < end; ++y) {
-            parts[static_cast<std::size_t>(y)] = term(y);
-        }
-    });
-    return parts;
-}
-
-/// Added in the order of the rows.
-double sum_of(std::vector<double> const& parts) {
-    double sum = 0.0;
-    for (double const part : parts) {
-        sum += part;
-    }
-    return sum;
-}
-
 /// Greatest absolute value of all cells.
 template <class T> double greatest(TwoColours<T> const& of, Board const& board, Run const& run) {
     auto const parts = each_row(board, run, [&](std::int64_t y) {
@@ -56,25 +31,11 @@ template <class T> double greatest(TwoColours<T> const& of, Board const& board, 
     return *std::max_element(parts.begin(), parts.end());
 }
 
-/// Residual of a row of one colour.
-void residual_row(ColouredProblem const& problem, std::int64_t y, int colour, float* r, GridRows const& rows) {
-    Board const& board = problem.levels.board;
-    std::vector<double> b(static_cast<std::size_t>(board.half()));
-    if (problem.b != nullptr) {
-        auto const given = problem.b->row(y);
-        for (std::int64_t x = Board::first(y, colour); x < board.width; x += 2) {
-            b[static_cast<std::size_t>(x / 2)] = given[static_cast<std::size_t>(x)];
-        }
-    }
-    rows.residual(r, b.data(), problem.x.of[colour].row(y), {problem.levels.degree.of[colour].row(y)},
-                  around(problem.x.of[1 - colour], y, colour), problem.scale, board.half());
-}
-
 class Iteration {
 public:
-    Iteration(ColouredProblem& problem, GridRows const& rows, Run const& run)
-        : problem_(problem), rows_(rows), run_(run), board_(problem.levels.board), n_(board_.half()), r_(board_),
-          z_(board_), p_(board_) {}
+    Iteration(ColouredProblem& problem, std::vector<CoarseLevel>& levels, GridRows const& rows, Run const& run)
+        : problem_(problem), levels_(levels), rows_(rows), run_(run), board_(problem.top.board), n_(board_.half()),
+          r_(board_), z_(board_), p_(board_) {}
 
     /// Counts r from x. Gives its norm.
     double renew() {
@@ -90,7 +51,7 @@ public:
     }
 
     /// Makes z, what a cycle would add to x.
-    void precondition() { rz_ = v_cycle(problem_.levels, r_, z_, rows_, run_); }
+    void precondition() { rz_ = v_cycle(problem_.top, levels_, r_, z_, rows_, run_); }
 
     double greatest_correction() const { return greatest(z_, board_, run_); }
 
@@ -116,8 +77,8 @@ public:
                  for (int colour : {0, 1}) {
                      float const* const p = p_.of[colour].row(y);
                      float* const ap = z_.of[colour].row(y);
-                     rows_.apply(ap, p, {problem_.levels.degree.of[colour].row(y)},
-                                 around(p_.of[1 - colour], y, colour), n_);
+                     rows_.apply(ap, p, {problem_.top.degree.of[colour].row(y)}, around(p_.of[1 - colour], y, colour),
+                                 n_);
                      sum.pap += rows_.dot(p, ap, n_);
                      sum.rp += rows_.dot(p, r_.of[colour].row(y), n_);
                  }
@@ -145,6 +106,7 @@ public:
 
 private:
     ColouredProblem& problem_;
+    std::vector<CoarseLevel>& levels_;
     GridRows const& rows_;
     Run const& run_;
     Board board_;
@@ -156,27 +118,14 @@ private:
 
 } // namespace
 
-double residual_norm(ColouredProblem const& problem, GridRows const& rows, Run const& run) {
-    Board const& board = problem.levels.board;
-    return std::sqrt(sum_of(each_row(board, run, [&](std::int64_t y) {
-        std::vector<float> r(static_cast<std::size_t>(board.stride()));
-        double squares = 0.0;
-        for (int colour : {0, 1}) {
-            residual_row(problem, y, colour, r.data(), rows);
-            squares += rows.dot(r.data(), r.data(), board.half());
-        }
-        return squares;
-    })));
-}
-
-Convergence conjugate_gradients(ColouredProblem& problem, double zero, Goal const& goal, GridRows const& rows,
-                                Run const& run) {
+Convergence conjugate_gradients(ColouredProblem& problem, std::vector<CoarseLevel>& levels, double zero,
+                                Goal const& goal, GridRows const& rows, Run const& run) {
     constexpr int patience = 60;     // iterations without a smaller residual
     constexpr double lasting = 1e-3; // digits a float keeps without doubt
-    constexpr double unseen = 2.0;   // what a cycle may leave of an error beside what it takes
+    constexpr double unseen = 4.0;   // what a cycle may leave of an error beside what it takes
     double const wanted = goal.tolerance * zero;
-    Board const& board = problem.levels.board;
-    Iteration iteration(problem, rows, run);
+    Board const& board = problem.top.board;
+    Iteration iteration(problem, levels, rows, run);
     double norm = iteration.renew();
     double counted = norm; // the last one that was counted from x
     double least = norm;

@@ -45,9 +45,10 @@ DeviceQueue queue_for(GridProblem const& problem, DeviceLayout const& finest, ch
 
 } // namespace
 
+// Sums take whole groups, and neighbours of the last cell they take.
 DeviceLayout::DeviceLayout(std::int64_t level_width, std::int64_t level_height)
-    : width(level_width), height(level_height), stride(even(width)), rows(even(height)),
-      margin(std::max(stride, each * group)), count(stride * rows + 2 * margin) {}
+    : width(level_width), height(level_height), stride(even(width)), rows(even(height)), margin(stride + each * group),
+      count(stride * rows + 2 * margin) {}
 
 DeviceEquations::Level::Level(DeviceLayout const& of, DeviceQueue& queue)
     : at(of), inverse(queue.zeros<float>(at.count)), east(queue.zeros<float>(at.count)),

@@ -128,27 +128,38 @@ CoarseLevel level_of(Equations const& from, Run const& run) {
 
 } // namespace
 
-GridLevels grid_levels(Raster<std::uint8_t> const& kind, Run const& run) {
-    GridLevels levels;
-    levels.board = {kind.width(), kind.height()};
-    levels.degree = TwoColours<std::uint8_t>(levels.board);
-    Padded<std::uint8_t> const degree = degrees(kind, levels.board, run);
-    for (std::int64_t y = 0; y < levels.board.height; ++y) {
-        split(degree.row(y), y, levels.board, levels.degree);
-    }
-    auto const both = [&](std::uint8_t a, std::uint8_t b) { return a > 0 && b > 0 ? 1.0F : 0.0F; };
-    Equations equations = sums(
-        levels.board, run, [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y)[x + 1]); },
-        [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y + 1)[x]); },
-        [&](std::int64_t x, std::int64_t y) { return static_cast<float>(degree.row(y)[x]); });
-    levels.coarse.push_back(level_of(equations, run));
+TopLevel top_level(Raster<std::uint8_t> const& kind, Run const& run) {
+    TopLevel top;
+    top.board = {kind.width(), kind.height()};
+    top.degree = TwoColours<std::uint8_t>(top.board);
+    Padded<std::uint8_t> const degree = degrees(kind, top.board, run);
+    parallel_ranges(run, top.board.height, 64, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t y = begin; y < end; ++y) {
+            split(degree.row(y), y, top.board, top.degree);
+        }
+    });
+    return top;
+}
+
+std::vector<CoarseLevel> coarse_levels(Raster<std::uint8_t> const& kind, Run const& run) {
+    Board const top{kind.width(), kind.height()};
+    std::vector<CoarseLevel> levels;
+    Equations equations = [&] {
+        Padded<std::uint8_t> const degree = degrees(kind, top, run);
+        auto const both = [](std::uint8_t a, std::uint8_t b) { return a > 0 && b > 0 ? 1.0F : 0.0F; };
+        return sums(
+            top, run, [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y)[x + 1]); },
+            [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y + 1)[x]); },
+            [&](std::int64_t x, std::int64_t y) { return static_cast<float>(degree.row(y)[x]); });
+    }();
+    levels.push_back(level_of(equations, run));
     while (equations.board.width > 1 || equations.board.height > 1) {
         Equations const& fine = equations;
         equations = sums(
             fine.board, run, [&](std::int64_t x, std::int64_t y) { return fine.east.row(y)[x]; },
             [&](std::int64_t x, std::int64_t y) { return fine.south.row(y)[x]; },
             [&](std::int64_t x, std::int64_t y) { return fine.diagonal.row(y)[x]; });
-        levels.coarse.push_back(level_of(equations, run));
+        levels.push_back(level_of(equations, run));
     }
     return levels;
 }

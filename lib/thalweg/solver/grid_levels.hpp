@@ -21,14 +21,16 @@ struct CoarseLevel {
     Plane<float> above, left, right, below;
 };
 
-/// Multigrid's levels down to a single cell.
-struct GridLevels {
+/// The grid itself.
+struct TopLevel {
     Board board;
     TwoColours<std::uint8_t> degree; ///< of free cells: neighbours that are not outside; 0: not free
-    std::vector<CoarseLevel> coarse; ///< the finest first, the last of one cell
 };
 
-/// Takes: a CellKind a cell; at least two cells.
-GridLevels grid_levels(Raster<std::uint8_t> const& kind, Run const& run);
+/// Takes: a CellKind a cell.
+TopLevel top_level(Raster<std::uint8_t> const& kind, Run const& run);
+
+/// Multigrid's levels above the grid, the finest first, the last of one cell. Takes: at least two cells.
+std::vector<CoarseLevel> coarse_levels(Raster<std::uint8_t> const& kind, Run const& run);
 
 } // namespace thalweg::solver

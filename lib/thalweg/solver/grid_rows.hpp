@@ -6,8 +6,8 @@
 
 #include <thalweg/solver/two_colours.hpp>
 
-/// The inner loops of v_cycle and conjugate_gradients: one colour of one row. n: cells of that colour in the row; those
-/// up to the next multiple of Board::lanes are written too, as 0.
+/// The inner loops of v_cycle, conjugate_gradients and relax_explicit: one colour of one row. n: cells of that colour
+/// in the row; of floats those up to the next multiple of Board::lanes are written too, as 0.
 namespace thalweg::solver {
 
 /// Instructions the loops are compiled for: the same bytes from each.
@@ -58,6 +58,9 @@ struct GridRows {
     /// r = scale * (b + sum of the neighbours - degree * x); 0 where the cell is not free
     void (*residual)(float* r, double const* b, double const* x, TopRow const& row, Around<double> const& others,
                      double scale, std::int64_t n);
+    /// to = x + alpha * (sum of the neighbours - degree * x); x where the cell is not free
+    void (*diffuse)(double* to, double const* x, TopRow const& row, Around<double> const& others, double alpha,
+                    std::int64_t n);
 };
 
 GridRows const& grid_rows(GridLanes lanes);

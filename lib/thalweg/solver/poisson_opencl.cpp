@@ -28,6 +28,13 @@ template <class Change> void change_free(GridProblem& problem, Change change) {
     }
 }
 
+/// A power of 2 that brings the problem's numbers near 1, so that their squares stay in range.
+double scale_of(Contents const& contents) {
+    int exponent = 0;
+    std::frexp(contents.size, &exponent); // 0 for 0
+    return std::ldexp(1.0, -exponent);
+}
+
 /// Iterates until the residual, counted from the values, and what a further cycle would add to them are small enough.
 /// Takes: greatest |height| of the fixed cells, scaled as the equations are.
 GridSolution iterate(DeviceEquations& equations, double height, PoissonParams const& params, Run const& run) {
@@ -72,17 +79,20 @@ GridSolution iterate(DeviceEquations& equations, double height, PoissonParams co
 
 } // namespace
 
-GridSolution solve_poisson_opencl(GridProblem problem, ProblemContents const& all, PoissonParams const& params,
+GridSolution solve_poisson_opencl(GridProblem problem, Contents const& contents, PoissonParams const& params,
                                   Run const& run) {
     GridSolution solution;
-    if (all.free > 0) {
-        DeviceEquations equations(problem, {all.guessed(), all.mean(), all.scale()}, stage);
+    if (contents.free > 0) {
+        bool const guessed = contents.guesses > 0 && contents.unknown == 0;
+        double const scale = scale_of(contents);
+        DeviceEquations equations(problem, {guessed, contents.sum / static_cast<double>(contents.fixed), scale}, stage);
         if (equations.zero_norm() > 0.0) {
-            double const height = std::max(std::fabs(all.least), std::fabs(all.greatest));
-            solution = iterate(equations, height * all.scale(), params, run);
+            double const height = std::max(std::fabs(contents.least), std::fabs(contents.greatest));
+            solution = iterate(equations, height * scale, params, run);
             equations.read_into(problem.value);
             if (problem.source.cells() == 0) {
-                change_free(problem, [&](double value) { return std::clamp(value, all.least, all.greatest); });
+                change_free(problem,
+                            [&](double value) { return std::clamp(value, contents.least, contents.greatest); });
             }
         } else {
             change_free(problem, [](double) { return 0.0; });

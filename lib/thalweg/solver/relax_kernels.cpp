@@ -39,10 +39,11 @@ kernel void sweep(global const uchar* restrict sides, global const double* restr
     long const i = margin + get_global_id(0);
     uchar const open = sides[i];
     double const u = from[i];
-    double sum = (open & 1) ? from[i - 1] : 0.0;
-    sum += (open & 2) ? from[i + 1] : 0.0;
-    sum += (open & 4) ? from[i - width] : 0.0;
-    sum += (open & 8) ? from[i + width] : 0.0;
+    double const west = (open & 1) ? from[i - 1] : 0.0;
+    double const east = (open & 2) ? from[i + 1] : 0.0;
+    double const north = (open & 4) ? from[i - width] : 0.0;
+    double const south = (open & 8) ? from[i + width] : 0.0;
+    double const sum = (west + east) + (north + south);
     double const count = (open & 1) + (open >> 1 & 1) + (open >> 2 & 1) + (open >> 3);
     to[i] = open ? u + alpha * (sum - count * u) : u;
 }

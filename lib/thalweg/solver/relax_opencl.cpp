@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include <thalweg/core/error.hpp>
 #include <thalweg/solver/device_queue.hpp>
 #include <thalweg/solver/relax_kernels.hpp>
 
@@ -15,7 +12,7 @@ namespace thalweg::solver {
 
 namespace {
 
-constexpr char const* stage = "solver.relax_opencl";
+constexpr char const* stage = "solver.relax_explicit";
 
 /// Sweeps that are queued before the host looks whether it shall stop: about a tenth of a second on slow devices.
 std::int64_t batch(std::int64_t cells) {
@@ -25,25 +22,14 @@ std::int64_t batch(std::int64_t cells) {
 } // namespace
 
 void relax_opencl(GridProblem& problem, double alpha, std::int64_t sweeps, Run const& run) {
-    if (!(alpha > 0.0 && alpha <= 0.25)) {
-        throw BadParameter(fmt::format("{}: alpha is {}: above 0 and at most 1/4 is wanted, beyond it heights grow "
-                                       "without end",
-                                       stage, alpha));
-    }
-    if (sweeps < 0) {
-        throw BadParameter(fmt::format("{}: {} sweeps: 0 or more are wanted", stage, sweeps));
-    }
     Grid const& grid = problem.kind.grid();
-    if (problem.value.width() != grid.width || problem.value.height() != grid.height) {
-        throw BadInput(fmt::format("{}: {} x {} kinds of cells, {} x {} values: one of each a cell is wanted", stage,
-                                   grid.width, grid.height, problem.value.width(), problem.value.height()));
-    }
     std::int64_t const cells = grid.cells();
     if (cells == 0 || sweeps == 0) {
         return;
     }
     DeviceQueue queue(stage, relax_kernels());
-    std::int64_t const margin = std::max<std::int64_t>(grid.width, DeviceQueue::group);
+    // The last group may reach beyond the cells, and from there asks for neighbours.
+    std::int64_t const margin = grid.width + static_cast<std::int64_t>(DeviceQueue::group);
     std::int64_t const block = (cells + 2 * margin) * static_cast<std::int64_t>(sizeof(double));
     check_device_memory(queue.device(), stage, 2 * block + 2 * cells, block);
 
@@ -53,13 +39,14 @@ void relax_opencl(GridProblem& problem, double alpha, std::int64_t sweeps, Run c
     auto now = queue.copy_of(std::as_const(problem.value).values(), margin);
     auto next = queue.zeros<double>(cells + 2 * margin);
     for (std::int64_t done = 0; done < sweeps;) {
-        run.at(static_cast<double>(done) / static_cast<double>(sweeps), "relax");
+        run.at(static_cast<double>(done) / static_cast<double>(sweeps), "diffuse");
         for (std::int64_t const end = std::min(sweeps, done + batch(cells)); done < end; ++done) {
             queue.run("sweep", cells, 1, sides, now, alpha, grid.width, margin, next);
             std::swap(now, next);
         }
         queue.finish();
     }
+    run.at(1.0, "diffuse");
     queue.read(now, problem.value.values(), margin);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -29,6 +30,11 @@ struct Board {
     /// Column of the first cell of a colour in a row.
     static std::int64_t first(std::int64_t row, std::int64_t colour) { return (row + colour) & 1; }
 };
+
+/// Rows that are worth a thread of their own.
+inline std::int64_t rows_a_range(Board const& board) {
+    return std::max<std::int64_t>(32, 65536 / board.half());
+}
 
 /// What belongs to the cells of one colour. Takes rows from -rows_above to height + rows_below - 1, and in each row
 /// indices from -1 to half().

@@ -14,7 +14,7 @@ constexpr float over_correction = 1.7F; // of 1.5 .. 2.2 the fewest iterations, 
 constexpr int red = 0;
 constexpr int black = 1;
 
-TopRow equations(GridLevels const& level, std::int64_t y, int colour) {
+TopRow equations(TopLevel const& level, std::int64_t y, int colour) {
     return {level.degree.of[colour].row(y)};
 }
 
@@ -30,7 +30,7 @@ CoarseRow equations(CoarseLevel const& level, std::int64_t y, int colour) {
         {level.below.row(y - 1), level.right.row(y) + shift - 1, level.left.row(y) + shift, level.above.row(y + 1)}};
 }
 
-SmoothingRows<TopRow> const& loops(GridRows const& rows, GridLevels const&) {
+SmoothingRows<TopRow> const& loops(GridRows const& rows, TopLevel const&) {
     return rows.top;
 }
 SmoothingRows<CoarseRow> const& loops(GridRows const& rows, CoarseLevel const&) {
@@ -52,10 +52,6 @@ private:
     std::int64_t stride_;
     std::vector<float> values_;
 };
-
-std::int64_t rows_a_range(Board const& coarse) {
-    return std::max<std::int64_t>(32, 32768 / coarse.half());
-}
 
 /// Sweeps red, then black, from zero, and hands what is left of r to the coarser level. After the sweep nothing is left
 /// in black cells, and in red ones what the black ones' change has brought: the sum of the neighbours.
@@ -125,13 +121,13 @@ double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, 
 }
 
 /// Solves the level's equations for its own right-hand side, nearly.
-void solve(GridLevels& levels, std::size_t index, GridRows const& rows, Run const& run) {
-    CoarseLevel& level = levels.coarse[index];
-    if (index + 1 == levels.coarse.size()) { // one red cell
+void solve(std::vector<CoarseLevel>& levels, std::size_t index, GridRows const& rows, Run const& run) {
+    CoarseLevel& level = levels[index];
+    if (index + 1 == levels.size()) { // one red cell
         level.e.of[red].row(0)[0] = level.inverse.of[red].row(0)[0] * level.r.of[red].row(0)[0];
         return;
     }
-    CoarseLevel& coarser = levels.coarse[index + 1];
+    CoarseLevel& coarser = levels[index + 1];
     down(level, level.r, coarser, rows, run);
     solve(levels, index + 1, rows, run);
     up(level, level.r, level.e, coarser, rows, run);
@@ -139,11 +135,11 @@ void solve(GridLevels& levels, std::size_t index, GridRows const& rows, Run cons
 
 } // namespace
 
-double v_cycle(GridLevels& levels, TwoColours<float> const& r, TwoColours<float>& z, GridRows const& rows,
-               Run const& run) {
-    down(levels, r, levels.coarse.front(), rows, run);
-    solve(levels, 0, rows, run);
-    return up(levels, r, z, levels.coarse.front(), rows, run);
+double v_cycle(TopLevel const& top, std::vector<CoarseLevel>& coarse, TwoColours<float> const& r, TwoColours<float>& z,
+               GridRows const& rows, Run const& run) {
+    down(top, r, coarse.front(), rows, run);
+    solve(coarse, 0, rows, run);
+    return up(top, r, z, coarse.front(), rows, run);
 }
 
 } // namespace thalweg::solver

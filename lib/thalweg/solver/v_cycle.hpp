@@ -16,7 +16,7 @@ namespace thalweg::solver {
 /// ever stored.
 /// Gives: the sum of r z. The same bytes for any number of threads: a range of rows makes the rows around it anew.
 /// Source: Braess 1995 (over-corrected aggregation); performance notes of the project.
-double v_cycle(GridLevels& levels, TwoColours<float> const& r, TwoColours<float>& z, GridRows const& rows,
-               Run const& run);
+double v_cycle(TopLevel const& top, std::vector<CoarseLevel>& coarse, TwoColours<float> const& r, TwoColours<float>& z,
+               GridRows const& rows, Run const& run);
 
 } // namespace thalweg::solver

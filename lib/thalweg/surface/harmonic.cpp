@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/harmonic.hpp>
+
+#include <thalweg/surface/heights_of.hpp>
+#include <thalweg/surface/problem_through.hpp>
+
+#include <utility>
+
+namespace thalweg::surface {
+
+Raster<float> harmonic(Valley const& valley, Run const& run) {
+    return harmonic(valley, {}, run);
+}
+
+Raster<float> harmonic(Valley const& valley, Mask const& inside, Run const& run) {
+    auto problem = problem_through(valley.z, inside, "surface.harmonic", run);
+    Raster<std::uint8_t> const kind = problem.kind;
+    return heights_of(solver::solve_poisson(std::move(problem), {1e-8, 1000}, run).value, kind, valley.z);
+}
+
+} // namespace thalweg::surface
