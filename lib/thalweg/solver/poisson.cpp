@@ -3,63 +3,47 @@
 #include <thalweg/solver/poisson.hpp>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/solver/coloured_problem.hpp>
+#include <thalweg/solver/conjugate_gradients.hpp>
 
-#include <Eigen/SparseCholesky>
+#include <utility>
 
-#include <array>
-#include <vector>
+#include <fmt/format.h>
 
 namespace thalweg::solver {
+namespace {
 
-GridSolution solve_poisson(GridProblem problem, PoissonParams const&, Run const& run) {
-    Grid const& grid = problem.kind.grid();
-    std::vector<int> number(static_cast<std::size_t>(grid.cells()), -1);
-    int unknowns = 0;
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        if (problem.kind[i] == static_cast<std::uint8_t>(CellKind::free)) {
-            number[static_cast<std::size_t>(i)] = unknowns++;
-        }
+void demand(PoissonParams const& params) {
+    if (!(params.tolerance > 0.0 && params.tolerance < 1.0)) {
+        throw BadParameter(fmt::format("solver.solve_poisson: a tolerance of {}; it must be greater than 0 and less "
+                                       "than 1",
+                                       params.tolerance));
     }
+    if (params.most_iterations < 0) {
+        throw BadParameter(fmt::format("solver.solve_poisson: {} iterations at most; it cannot be less than 0",
+                                       params.most_iterations));
+    }
+}
+
+} // namespace
+
+GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run const& run) {
+    demand(params);
+    Contents const contents = look_through(problem, "solver.solve_poisson", run);
     GridSolution solution;
-    if (unknowns > 0) {
-        std::vector<Eigen::Triplet<double>> entries;
-        Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
-        for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            int const row = number[static_cast<std::size_t>(i)];
-            if (row < 0) {
-                continue;
-            }
-            Cell const c = grid.at(i);
-            double degree = 0.0;
-            right[row] = problem.source.cells() > 0 ? problem.source[i] : 0.0;
-            for (Cell const n :
-                 {Cell{c.col - 1, c.row}, Cell{c.col + 1, c.row}, Cell{c.col, c.row - 1}, Cell{c.col, c.row + 1}}) {
-                if (!grid.contains(n) || problem.kind[n] == static_cast<std::uint8_t>(CellKind::outside)) {
-                    continue;
-                }
-                degree += 1.0;
-                if (int const column = number[static_cast<std::size_t>(grid.index(n))]; column >= 0) {
-                    entries.emplace_back(row, column, -1.0);
-                } else {
-                    right[row] += problem.value[n];
-                }
-            }
-            entries.emplace_back(row, row, degree);
+    if (contents.free > 0) {
+        GridRows const& rows = grid_rows(widest_grid_lanes());
+        ColouredProblem iterate = coloured(problem, contents, run);
+        if (double const zero = residual_norm(iterate, rows, run); zero > 0.0) {
+            set_guess(problem, contents, iterate, run);
+            auto levels = coarse_levels(problem.kind, run);
+            Convergence const reached =
+                conjugate_gradients(iterate, levels, zero, {params.tolerance, params.most_iterations}, rows, run);
+            solution.iterations = reached.iterations;
+            solution.residual = reached.residual / zero;
         }
-        Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
-        matrix.setFromTriplets(entries.begin(), entries.end());
-        Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> const factor(matrix);
-        if (factor.info() != Eigen::Success) {
-            throw BadInput("solver.solve_poisson: a part of the grid has no fixed cell");
-        }
-        Eigen::VectorXd const x = factor.solve(right);
-        for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            if (int const row = number[static_cast<std::size_t>(i)]; row >= 0) {
-                problem.value[i] = x[row];
-            }
-        }
+        collect(iterate, contents, problem, run);
     }
-    run.check();
     solution.value = std::move(problem.value);
     return solution;
 }

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Laplace's equation on a grid with lines of fixed cells, to 1e-6: our solver, two of Eigen's on the very same problem,
+// and memcpy of a float grid. One thread. Memory counts, first touch included: ours from the problem to the solution,
+// Eigen's from the assembled matrix to the vector. max_error_m: against our solution to 1e-12.
+#include <thalweg/core/chance.hpp>
+#include <thalweg/solver/poisson.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace {
+
+using namespace thalweg;
+using namespace thalweg::solver;
+using Matrix = Eigen::SparseMatrix<double>;
+
+constexpr auto fixed = static_cast<std::uint8_t>(CellKind::fixed);
+
+Run one_thread() {
+    Run run;
+    run.threads = 1;
+    return run;
+}
+
+/// Winding rivers and ridges through about 3.5 % of the cells.
+GridProblem lines(std::int64_t side) {
+    Grid const grid{side, side, 1.0, 0.0, 0.0, ""};
+    GridProblem problem{
+        Raster<std::uint8_t>(grid, static_cast<std::uint8_t>(CellKind::free)), Raster<double>(grid), {}};
+    ChanceStream chance(7, 1, 0);
+    auto const size = static_cast<double>(side);
+    std::int64_t wanted = side * side * 35 / 1000;
+    while (wanted > 0) {
+        double x = chance.real() * size;
+        double y = chance.real() * size;
+        double bearing = 6.28 * chance.real();
+        double const step_m = chance.real() < 0.5 ? 60.0 : -60.0;
+        auto const length = static_cast<std::int64_t>(200.0 + chance.real() * size / 4.0);
+        for (std::int64_t i = 0; i < length; ++i) {
+            x += std::cos(bearing);
+            y += std::sin(bearing);
+            bearing += 0.6 * (chance.real() - 0.5);
+            Cell const cell{static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(std::floor(y))};
+            if (!grid.contains(cell)) {
+                break;
+            }
+            wanted -= problem.kind[cell] == fixed ? 0 : 1;
+            problem.kind[cell] = fixed;
+            problem.value[cell] = 500.0 + 200.0 * std::sin(8.0 * x / size) + 150.0 * std::cos(10.0 * y / size) +
+                                  step_m + 0.05 * static_cast<double>(i);
+        }
+    }
+    return problem;
+}
+
+struct Case {
+    GridProblem problem;
+    Raster<double> exact;
+};
+
+Case const& case_of(std::int64_t side) {
+    static Case made;
+    if (made.problem.kind.width() != side) {
+        made.problem = lines(side);
+        made.exact = solve_poisson(made.problem, {1e-12, 200}, one_thread()).value;
+    }
+    return made;
+}
+
+/// The matrix of the free cells, numbered row by row.
+struct Assembled {
+    std::vector<std::int64_t> cells;
+    Matrix matrix;
+    Eigen::VectorXd right;
+};
+
+Assembled assembled(GridProblem const& problem) {
+    Grid const& grid = problem.kind.grid();
+    Assembled made;
+    std::vector<int> number(static_cast<std::size_t>(grid.cells()), -1);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (problem.kind[i] != fixed) {
+            number[static_cast<std::size_t>(i)] = static_cast<int>(made.cells.size());
+            made.cells.push_back(i);
+        }
+    }
+    auto const n = static_cast<int>(made.cells.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    made.right = Eigen::VectorXd::Zero(n);
+    for (int row = 0; row < n; ++row) {
+        Cell const c = grid.at(made.cells[static_cast<std::size_t>(row)]);
+        double degree = 0.0;
+        for (Cell const near : {Cell{c.col - 1, c.row}, {c.col + 1, c.row}, {c.col, c.row - 1}, {c.col, c.row + 1}}) {
+            if (grid.contains(near)) {
+                degree += 1.0;
+                if (problem.kind[near] == fixed) {
+                    made.right[row] += problem.value[near];
+                } else {
+                    entries.emplace_back(row, number[static_cast<std::size_t>(grid.index(near))], -1.0);
+                }
+            }
+        }
+        entries.emplace_back(row, row, degree);
+    }
+    made.matrix.resize(n, n);
+    made.matrix.setFromTriplets(entries.begin(), entries.end());
+    return made;
+}
+
+void count(benchmark::State& state, std::int64_t side) {
+    std::int64_t const cells = state.iterations() * side * side;
+    state.SetItemsProcessed(cells);
+    state.counters["ns_per_cell"] = benchmark::Counter(static_cast<double>(cells) * 1e-9,
+                                                       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void count_error(benchmark::State& state, Case const& of, Assembled const& system, Eigen::VectorXd const& x) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < system.cells.size(); ++i) {
+        most = std::max(most, std::fabs(x[static_cast<Eigen::Index>(i)] - of.exact[system.cells[i]]));
+    }
+    state.counters["max_error_m"] = most;
+}
+
+void BM_laplace_memcpy(benchmark::State& state) {
+    Grid const grid{state.range(0), state.range(0), 1.0, 0.0, 0.0, ""};
+    Raster<float> const from(grid, 1.0F);
+    Raster<float> to(grid);
+    for (auto _ : state) {
+        std::memcpy(to.values().data(), from.values().data(), to.values().size_bytes());
+        benchmark::ClobberMemory();
+    }
+    count(state, state.range(0));
+}
+
+void BM_laplace(benchmark::State& state) {
+    Case const& of = case_of(state.range(0));
+    GridSolution solution;
+    for (auto _ : state) {
+        state.PauseTiming();
+        GridProblem problem = of.problem;
+        state.ResumeTiming();
+        solution = solve_poisson(std::move(problem), {1e-6, 200}, one_thread());
+    }
+    double most = 0.0;
+    for (std::int64_t i = 0; i < of.exact.cells(); ++i) {
+        most = std::max(most, std::fabs(solution.value[i] - of.exact[i]));
+    }
+    state.counters["max_error_m"] = most;
+    state.counters["solver_iterations"] = solution.iterations;
+    count(state, state.range(0));
+}
+
+void BM_laplace_eigen_ldlt(benchmark::State& state) {
+    Case const& of = case_of(state.range(0));
+    Assembled const system = assembled(of.problem);
+    Eigen::VectorXd x;
+    for (auto _ : state) {
+        Eigen::SimplicialLDLT<Matrix> const factor(system.matrix);
+        x = factor.solve(system.right);
+    }
+    count_error(state, of, system, x);
+    count(state, state.range(0));
+}
+
+void BM_laplace_eigen_iccg(benchmark::State& state) {
+    Case const& of = case_of(state.range(0));
+    Assembled const system = assembled(of.problem);
+    Eigen::VectorXd x;
+    for (auto _ : state) {
+        Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteCholesky<double>> iteration;
+        iteration.setTolerance(1e-6);
+        iteration.compute(system.matrix);
+        x = iteration.solve(system.right);
+        state.counters["solver_iterations"] = static_cast<double>(iteration.iterations());
+    }
+    count_error(state, of, system, x);
+    count(state, state.range(0));
+}
+
+BENCHMARK(BM_laplace_memcpy)->Arg(2048)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_laplace)->RangeMultiplier(2)->Range(512, 4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_laplace_eigen_ldlt)->Arg(2048)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_laplace_eigen_iccg)->Arg(2048)->Unit(benchmark::kMillisecond);
+
+} // namespace
