@@ -105,7 +105,7 @@ TEST(Deform, EqualsThePasteOfTheScaledTarget) {
         }
         Deformed deformed;
         try {
-            deformed = deform(target, region, handles, {.scale = scale, .tolerance = 1e-13});
+            deformed = deform(target, region, handles, {.scale = scale, .tolerance = 1e-12});
         } catch (BadInput const&) {
             RC_DISCARD("nothing to bend");
         }

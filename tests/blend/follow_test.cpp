@@ -21,7 +21,7 @@ constexpr auto fixed_kind = static_cast<std::uint8_t>(CellKind::fixed);
 
 solver::PoissonParams tight() {
     solver::PoissonParams params;
-    params.tolerance = 1e-13;
+    params.tolerance = 1e-12;
     return params;
 }
 

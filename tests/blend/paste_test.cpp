@@ -22,7 +22,7 @@ constexpr std::uint64_t any_seed = 1000000;
 
 PasteParams tight() {
     PasteParams params;
-    params.tolerance = 1e-13;
+    params.tolerance = 1e-12;
     return params;
 }
 

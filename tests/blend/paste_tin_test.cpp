@@ -114,7 +114,7 @@ TEST(PasteTin, OnAGridItIsTheFivePointForm) {
             }
         }
         solver::PoissonParams tight;
-        tight.tolerance = 1e-13;
+        tight.tolerance = 1e-12;
         auto const on_grid = follow(kind, lands::patch_of(target, pins).z, lands::patch_of(source, pins).z, {}, tight);
         PastedTin const on_tin = paste_tin(tin, gradients_of(tin, with_heights(tin, source)), fixed);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
