@@ -123,8 +123,9 @@ Skeleton gathered(Terrain const& terrain, FeaturePoints const& points, Run const
 }
 
 surface::Dilated diffused(Terrain& terrain, FeaturePoints const& points, Mask const& inside, Run const& run) {
-    surface::Diffused land =
-        surface::diffuse(gathered(terrain, points, run), inside, terrain.recipe.surface->diffuse, run);
+    surface::DiffuseParams params = terrain.recipe.surface->diffuse;
+    params.seed = terrain.recipe.seed;
+    surface::Diffused land = surface::diffuse(gathered(terrain, points, run), inside, params, run);
     terrain.diffusion = {land.iterations, land.residual};
     surface::Dilated drawn;
     drawn.dem = std::move(land.dem);

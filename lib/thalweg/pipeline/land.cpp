@@ -12,11 +12,13 @@
 #include <thalweg/io/read_points.hpp>
 #include <thalweg/pipeline/frame.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
+#include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/grf.hpp>
 #include <thalweg/skeleton/markov3.hpp>
 #include <thalweg/skeleton/separable_ar.hpp>
 #include <thalweg/skeleton/shift_mean.hpp>
 #include <thalweg/solver/expected_slope.hpp>
+#include <thalweg/surface/diffuse.hpp>
 #include <thalweg/surface/rasterise_tin.hpp>
 
 #include <fmt/format.h>
@@ -169,6 +171,15 @@ Raster<float> land_of_points(Terrain& terrain, FeaturePoints const& points, Grid
                                 regression.terms));
         }
         return std::move(regression.surface);
+    }
+    if (wanted.method == Method::diffuse) {
+        Valley const no_rivers{Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
+        surface::DiffuseParams params = wanted.diffuse;
+        params.seed = terrain.recipe.seed;
+        surface::Diffused land =
+            surface::diffuse(skeleton::draw_skeleton(no_rivers, {}, points, {}, run).skeleton, params, run);
+        terrain.diffusion = {land.iterations, land.residual};
+        return std::move(land.dem);
     }
     terrain.tin = geometry::triangulate(points.points, {}, run).tin;
     if (wanted.interpolation == Interpolation::natural) {

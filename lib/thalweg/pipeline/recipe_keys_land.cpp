@@ -43,14 +43,18 @@ void add_skeleton_keys(std::vector<Key>& keys) {
 namespace {
 
 void add_diffusion_keys(std::vector<Key>& keys) {
-    using surface::DiffuseMode;
-    keys.push_back(choice<DiffuseMode>(
-        "surface.diffusion", {{"steady", DiffuseMode::steady}, {"explicit", DiffuseMode::explicit_}},
+    using surface::Diffusion;
+    using surface::DiffusionStart;
+    keys.push_back(choice<Diffusion>(
+        "surface.diffusion", {{"steady", Diffusion::steady}, {"explicit", Diffusion::explicit_sweeps}},
         "diffuse: to its end, or so many sweeps as in the paper",
-        in_surface<DiffuseMode>([](SurfaceRecipe& s) -> DiffuseMode& { return s.diffuse.mode; })));
-    keys.push_back(integer<std::int64_t>(
-        "surface.sweeps", "", {1, 1e9}, "diffuse, explicit: how many",
-        in_surface<std::int64_t>([](SurfaceRecipe& s) -> std::int64_t& { return s.diffuse.iterations; })));
+        in_surface<Diffusion>([](SurfaceRecipe& s) -> Diffusion& { return s.diffuse.mode; })));
+    keys.push_back(integer<int>("surface.sweeps", "", {0, 1e9}, "diffuse, explicit: how many",
+                                in_surface<int>([](SurfaceRecipe& s) -> int& { return s.diffuse.iterations; })));
+    keys.push_back(choice<DiffusionStart>(
+        "surface.start", {{"coarse", DiffusionStart::coarse}, {"zero", DiffusionStart::zero}},
+        "diffuse, explicit: from the end of a coarser grid's diffusion, or from 0 as in the paper",
+        in_surface<DiffusionStart>([](SurfaceRecipe& s) -> DiffusionStart& { return s.diffuse.start; })));
     keys.push_back(number("surface.alpha", "", {0, 0.25, true}, "diffuse, explicit: D dt / h^2",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.diffuse.alpha; })));
     keys.push_back(number("surface.smoothing", "cells", {0, 1000},

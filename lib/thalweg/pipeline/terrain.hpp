@@ -49,7 +49,7 @@ struct NetworkStory {
 };
 
 /// How a solver came to its end.
-struct Diffusion {
+struct SolverStory {
     std::int64_t iterations = 0;
     double residual = 0.0; ///< relative
 };
@@ -75,7 +75,7 @@ struct Terrain {
     Valley valley;
     RidgeLines ridges; ///< between streams, where they are asked for
     std::optional<surface::Dilated> surface;
-    std::optional<Diffusion> diffusion;           ///< how the surface was solved for, where it was diffused
+    std::optional<SolverStory> diffusion;         ///< how the surface was solved for, where it was diffused
     std::vector<PatchStory> patches;              ///< in the recipe's order
     std::optional<Tin> tin;                       ///< of rivers and points, where the land is drawn over one
     std::optional<detail::Projection> projection; ///< how the statistics came out; its dem is moved to surface
