@@ -38,9 +38,13 @@
 #include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/skeleton/separable_ar.hpp>
 #include <thalweg/skeleton/shift_mean.hpp>
+#include <thalweg/solver/conjugate_gradients.hpp>
 #include <thalweg/solver/expected_slope.hpp>
 #include <thalweg/solver/fft.hpp>
+#include <thalweg/surface/diffuse.hpp>
 #include <thalweg/surface/dilate.hpp>
+#include <thalweg/surface/harmonic.hpp>
+#include <thalweg/surface/problem_through.hpp>
 #include <thalweg/surface/rasterise_tin.hpp>
 #include <thalweg/surface/separable.hpp>
 
@@ -361,6 +365,32 @@ void print_blend(Raster<float> const& target, Tin const& tin, Run const& run) {
           hash_of(blend::paste_tin(tin, guidance, {{0, tin.vertices[0]}}, geometry::Measured::on_surface, run).tin));
 }
 
+/// solve_poisson with the loops of any processor of the architecture.
+Raster<double> poisson_plain(solver::GridProblem problem, Run const& run) {
+    auto const contents = solver::look_through(problem, "fingerprint", run);
+    auto iterate = solver::coloured(problem, contents, run);
+    auto const& rows = solver::grid_rows(solver::GridLanes::plain);
+    double const zero = solver::residual_norm(iterate, rows, run);
+    solver::set_guess(problem, contents, iterate, run);
+    auto levels = solver::coarse_levels(problem.kind, run);
+    solver::conjugate_gradients(iterate, levels, zero, {1e-9, 1000}, rows, run);
+    solver::collect(iterate, contents, problem, run);
+    return problem.value;
+}
+
+void print_diffused(Valley const& valley, Run const& run) {
+    auto const problem = surface::problem_through(valley.z, {}, "fingerprint", run);
+    print("solve_poisson", hash_of(solver::solve_poisson(problem, {1e-9, 1000}, run).value));
+    print("solve_poisson, plain", hash_of(poisson_plain(problem, run)));
+    print("harmonic", hash_of(surface::harmonic(valley, run)));
+    surface::DiffuseParams params;
+    params.noise_m = 3.0;
+    print("diffuse", hash_of(surface::diffuse({valley.z}, params, run).dem));
+    params.mode = surface::Diffusion::explicit_sweeps;
+    params.iterations = 50;
+    print("diffuse, explicit", hash_of(surface::diffuse({valley.z}, params, run).dem));
+}
+
 } // namespace
 
 int main(int count, char** words) {
@@ -411,6 +441,7 @@ int main(int count, char** words) {
             print(increment, hash_of(surface::dilate(valley, params, run).dem));
         }
     }
+    print_diffused(valley, run);
     print_detail(run);
     print_lands_of_statistics(run);
     print_points(run);

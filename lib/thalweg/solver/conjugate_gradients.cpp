@@ -59,33 +59,32 @@ public:
     double advance() {
         auto const conjugate = static_cast<float>(rz_before_ > 0.0 ? rz_ / rz_before_ : 0.0);
         rz_before_ = rz_;
-        parallel_ranges(run_, board_.height, rows_a_range(board_), [&](std::int64_t begin, std::int64_t end) {
-            for (std::int64_t y = begin; y < end; ++y) {
-                for (int colour : {0, 1}) {
-                    rows_.direct(p_.of[colour].row(y), z_.of[colour].row(y), conjugate, n_);
+        std::vector<Products> parts(static_cast<std::size_t>(board_.height));
+        std::int64_t const chunk = rows_a_range(board_);
+        std::int64_t const chunks = (board_.height + chunk - 1) / chunk;
+        parallel_ranges(run_, chunks, 1, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t i = first; i < last; ++i) {
+                std::int64_t const end = std::min(board_.height, (i + 1) * chunk);
+                for (std::int64_t y = i * chunk; y < end; ++y) {
+                    direct(y, conjugate);
+                    if (y >= i * chunk + 2) {
+                        parts[static_cast<std::size_t>(y - 1)] = apply(y - 1);
+                    }
                 }
             }
         });
-        // z has served: A p takes its place. r p is r z but for what floats have lost; with it each step is downhill.
-        struct Products {
-            double pap = 0.0;
-            double rp = 0.0;
-        };
+        // The first and last rows of chunks waited for their neighbours.
+        parallel_ranges(run_, chunks, 32, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t i = first; i < last; ++i) {
+                for (std::int64_t const y : {i * chunk, std::min(board_.height, (i + 1) * chunk) - 1}) {
+                    parts[static_cast<std::size_t>(y)] = apply(y);
+                }
+            }
+        });
         Products all;
-        for (Products const& row : each_row<Products>(board_, run_, [&](std::int64_t y) {
-                 Products sum;
-                 for (int colour : {0, 1}) {
-                     float const* const p = p_.of[colour].row(y);
-                     float* const ap = z_.of[colour].row(y);
-                     rows_.apply(ap, p, {problem_.top.degree.of[colour].row(y)}, around(p_.of[1 - colour], y, colour),
-                                 n_);
-                     sum.pap += rows_.dot(p, ap, n_);
-                     sum.rp += rows_.dot(p, r_.of[colour].row(y), n_);
-                 }
-                 return sum;
-             })) {
-            all.pap += row.pap;
-            all.rp += row.rp;
+        for (Products const& part : parts) {
+            all.pap += part.pap;
+            all.rp += part.rp;
         }
         if (!(all.pap > 0.0)) { // nothing is left that a float could tell from 0
             rz_before_ = 0.0;
@@ -105,6 +104,30 @@ public:
     }
 
 private:
+    struct Products {
+        double pap = 0.0;
+        double rp = 0.0; ///< r z but for what floats have lost: with it each step is downhill
+    };
+
+    void direct(std::int64_t y, float conjugate) {
+        for (int colour : {0, 1}) {
+            rows_.direct(p_.of[colour].row(y), z_.of[colour].row(y), conjugate, n_);
+        }
+    }
+
+    /// z has served: A p takes its place.
+    Products apply(std::int64_t y) {
+        Products sum;
+        for (int colour : {0, 1}) {
+            float const* const p = p_.of[colour].row(y);
+            float* const ap = z_.of[colour].row(y);
+            rows_.apply(ap, p, {problem_.top.degree.of[colour].row(y)}, around(p_.of[1 - colour], y, colour), n_);
+            sum.pap += rows_.dot(p, ap, n_);
+            sum.rp += rows_.dot(p, r_.of[colour].row(y), n_);
+        }
+        return sum;
+    }
+
     ColouredProblem& problem_;
     std::vector<CoarseLevel>& levels_;
     GridRows const& rows_;

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid_rows.hpp>
 
+#include <bit>
 #include <cstring>
 
 namespace thalweg::solver {
 namespace {
+
+static_assert(std::endian::native == std::endian::little, "bytes are taken from words");
 
 namespace plain {
 #define THALWEG_TARGET

@@ -37,12 +37,17 @@ SmoothingRows<CoarseRow> const& loops(GridRows const& rows, CoarseLevel const&) 
     return rows.coarse;
 }
 
-/// The last four rows of one colour.
+/// The last four rows of one colour, each in its own place or where it is lent one.
 class Window {
 public:
-    explicit Window(Board const& board)
-        : stride_(board.stride()), values_(static_cast<std::size_t>(4 * stride_ + 16)) {}
-    float* row(std::int64_t y) { return values_.data() + 8 + (y & 3) * stride_; }
+    explicit Window(Board const& board) : stride_(board.stride()), values_(static_cast<std::size_t>(4 * stride_ + 16)) {
+        for (std::int64_t y = 0; y < 4; ++y) {
+            keep(y);
+        }
+    }
+    float* row(std::int64_t y) { return rows_[static_cast<std::size_t>(y & 3)]; }
+    void keep(std::int64_t y) { lend(y, values_.data() + 8 + (y & 3) * stride_); }
+    void lend(std::int64_t y, float* place) { rows_[static_cast<std::size_t>(y & 3)] = place; }
     Around<float> around(std::int64_t y, int colour) {
         std::int64_t const shift = Board::first(y, colour);
         return {row(y - 1), row(y) + shift - 1, row(y) + shift, row(y + 1)};
@@ -51,6 +56,7 @@ public:
 private:
     std::int64_t stride_;
     std::vector<float> values_;
+    std::array<float*, 4> rows_{};
 };
 
 /// Sweeps red, then black, from zero, and hands what is left of r to the coarser level. After the sweep nothing is left
@@ -103,11 +109,12 @@ double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, 
             }
             loop.corrected(e_red.row(y), r.of[red].row(y), equations(level, y, red), correction.data(), n);
             if (std::int64_t const b = y - 1; b >= 2 * begin - 1) {
+                // Rows of the next range are made here too, but only it may write them.
+                b >= 2 * begin&& b < 2 * end ? e_black.lend(b, e.of[black].row(b)) : e_black.keep(b);
                 loop.relax(e_black.row(b), r.of[black].row(b), equations(level, b, black), e_red.around(b, black), n);
             }
             if (std::int64_t const q = y - 2; q >= 2 * begin) {
                 loop.relax(e.of[red].row(q), r.of[red].row(q), equations(level, q, red), e_black.around(q, red), n);
-                std::copy_n(e_black.row(q), n, e.of[black].row(q));
                 sums[static_cast<std::size_t>(q / 2)] += rows.dot(r.of[red].row(q), e.of[red].row(q), n) +
                                                          rows.dot(r.of[black].row(q), e.of[black].row(q), n);
             }
