@@ -71,6 +71,11 @@ template <class T> void split(T const* from, std::int64_t y, Board const& board,
     }
 }
 
+/// What is left of an edge between cells of 2 x 2: numbers that are alike two by two make differences look steeper than
+/// they are. With a half, the Laplacian is that of the coarser grid; edges to fixed cells stay whole. A power of two,
+/// so that nothing is rounded off, and the diagonal less all edges is exactly that to fixed cells.
+constexpr float share_of_edges = 0.5F;
+
 /// A coarse cell's equation from those of the 2 x 2 cells it stands for.
 /// east(x, y), south(x, y), diagonal(x, y): of the finer level.
 template <class Edge, class South, class Diagonal>
@@ -86,9 +91,12 @@ Equations sums(Board const& fine, Run const& run, Edge const& east, South const&
                 std::int64_t const x = 2 * col;
                 float const inner = (east(x, y) + east(x, y + 1)) + (south(x, y) + south(x + 1, y));
                 float const all = (diagonal(x, y) + diagonal(x + 1, y)) + (diagonal(x, y + 1) + diagonal(x + 1, y + 1));
-                to_diagonal[col] = all - 2.0F * inner;
-                to_east[col] = east(x + 1, y) + east(x + 1, y + 1);
-                to_south[col] = south(x, y + 1) + south(x + 1, y + 1);
+                float const to_west = x > 0 ? east(x - 1, y) + east(x - 1, y + 1) : 0.0F;
+                float const to_north = y > 0 ? south(x, y - 1) + south(x + 1, y - 1) : 0.0F;
+                to_east[col] = share_of_edges * (east(x + 1, y) + east(x + 1, y + 1));
+                to_south[col] = share_of_edges * (south(x, y + 1) + south(x + 1, y + 1));
+                to_diagonal[col] =
+                    (all - 2.0F * inner) - share_of_edges * (to_west + to_north) - (to_east[col] + to_south[col]);
             }
         }
     });
@@ -110,8 +118,7 @@ CoarseLevel level_of(Equations const& from, Run const& run) {
         for (std::int64_t y = begin; y < end; ++y) {
             float const* const diagonal = from.diagonal.row(y);
             for (std::int64_t x = 0; x < board.width; ++x) {
-                // Sums of whole numbers: what is not 0 is at least 1.
-                inverse[static_cast<std::size_t>(x)] = diagonal[x] > 0.5F ? 1.0F / diagonal[x] : 0.0F;
+                inverse[static_cast<std::size_t>(x)] = diagonal[x] > 0.0F ? 1.0F / diagonal[x] : 0.0F;
             }
             split(inverse.data(), y, board, level.inverse);
             for (std::int64_t x = Board::first(y, 0); x < board.width; x += 2) {
