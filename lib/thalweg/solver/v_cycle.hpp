@@ -15,7 +15,7 @@ namespace thalweg::solver {
 /// constant pieces lack, and the sweep backwards. Legs run down and up the rows once, so that of the sweeps only z is
 /// ever stored.
 /// Gives: the sum of r z. The same bytes for any number of threads: a range of rows makes the rows around it anew.
-/// Source: Braess 1995 (over-corrected aggregation); performance notes of the project.
+/// Source: Braess 1995, Towards algebraic multigrid for elliptic problems of second order (over-corrected aggregation).
 double v_cycle(TopLevel const& top, std::vector<CoarseLevel>& coarse, TwoColours<float> const& r, TwoColours<float>& z,
                GridRows const& rows, Run const& run);
 
