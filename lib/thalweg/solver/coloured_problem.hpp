@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include <thalweg/core/parallel.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/solver/grid_levels.hpp>

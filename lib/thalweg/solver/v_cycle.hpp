@@ -14,7 +14,8 @@ namespace thalweg::solver {
 /// On every level one red-black Gauss-Seidel sweep from zero, the correction of the coarser level, and the sweep
 /// backwards; the coarser levels' edges are halved for what constant pieces lack. Legs run down and up the rows once,
 /// so that of the sweeps only z is ever stored. Gives: the sum of r z. The same bytes for any number of threads: a
-/// range of rows makes the rows around it anew. Source: Braess 1995 (aggregation); performance notes of the project.
+/// range of rows makes the rows around it anew. Source: Braess 1995, Towards
+/// algebraic multigrid for elliptic problems of second order (aggregation).
 double v_cycle(TopLevel const& top, std::vector<CoarseLevel>& coarse, TwoColours<float> const& r, TwoColours<float>& z,
                GridRows const& rows, Run const& run);
 
