@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Poisson blending beside Laplace's equation of equal size on the same solver, so that their ratio is read from one
 // run. One thread. Half of the grid is the mask: the middle square with half of the cells.
-// BM_laplace: solve_poisson with the mask's cells free and all others fixed, with the memory it allocates.
-// BM_paste: the whole stage, opening and target's copy included. BM_paste_feathered: the same with a guidance field.
+// BM_blend_laplace: solve_poisson with the mask's cells free and all others fixed, with the memory it allocates.
+// BM_blend_paste: the whole stage, opening and target's copy included. BM_blend_paste_feathered: the same with a
+// guidance field.
 #include <thalweg/blend/paste.hpp>
 #include <thalweg/core/chance.hpp>
 #include <thalweg/solver/poisson.hpp>
@@ -51,7 +52,7 @@ Run one_thread() {
     return run;
 }
 
-void BM_laplace(benchmark::State& state) {
+void BM_blend_laplace(benchmark::State& state) {
     Lands const& lands = lands_of(state.range(0));
     Grid const& grid = lands.target.grid();
     for (auto _ : state) {
@@ -65,14 +66,14 @@ void BM_laplace(benchmark::State& state) {
     }
 }
 
-void BM_paste(benchmark::State& state) {
+void BM_blend_paste(benchmark::State& state) {
     Lands const& lands = lands_of(state.range(0));
     for (auto _ : state) {
         benchmark::DoNotOptimize(blend::paste(lands.target, lands.patch, {}, one_thread()));
     }
 }
 
-void BM_paste_feathered(benchmark::State& state) {
+void BM_blend_paste_feathered(benchmark::State& state) {
     Lands const& lands = lands_of(state.range(0));
     blend::PasteParams params;
     params.feather_cells = 16.0;
@@ -81,8 +82,8 @@ void BM_paste_feathered(benchmark::State& state) {
     }
 }
 
-BENCHMARK(BM_laplace)->Arg(1024)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_paste)->Arg(1024)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_paste_feathered)->Arg(1024)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_blend_laplace)->Arg(1024)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_blend_paste)->Arg(1024)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_blend_paste_feathered)->Arg(1024)->Unit(benchmark::kMillisecond);
 
 } // namespace
