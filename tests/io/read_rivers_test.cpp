@@ -335,6 +335,48 @@ TEST_F(ReadRivers, FieldsOfTypeAndRank) {
     EXPECT_TRUE(has(refusal({.path = write("b.gpkg", {broken})}), "feature 1 of b.gpkg has the rank 1.5"));
 }
 
+TEST_F(ReadRivers, LambdaThatIsNoGenerator) {
+    auto const file_with = [&](OGRFieldType type, std::string const& lambda) {
+        return write("a.gpkg", {{.fields = {{"Lambda", type}},
+                                 .features = {{"LINESTRING(0 0,1 1)", {{"Lambda", "2"}}},
+                                              {"LINESTRING(1.5 2,2 1)", {{"Lambda", lambda}}}}}});
+    };
+    std::vector<std::pair<OGRFieldType, std::string>> const wrong{
+        {OFTInteger, "0"},  {OFTInteger, "-1"}, {OFTInteger, "51"}, {OFTReal, "2.5"},
+        {OFTReal, "1e300"}, {OFTString, "few"}, {OFTString, "2 3"}, {OFTString, ""}};
+    for (auto const& [type, lambda] : wrong) {
+        auto const refused = refusal({.path = file_with(type, lambda)});
+        EXPECT_TRUE(has(refused, "feature 2 of a.gpkg, which begins at (1.5, 2), has the Lambda '" +
+                                     (lambda == "1e300" ? "1e+300" : lambda) + "': a whole number from 1 to 50"))
+            << refused;
+    }
+    EXPECT_TRUE(has(refusal({.path = write("b.gpkg", {two_rivers}), .lambda_field = "number"}),
+                    "layer rivers of b.gpkg has no field 'number'"));
+}
+
+TEST_F(ReadRivers, FieldOfLambda) {
+    for (char const* const field : {"lambda", "LAMBDA", "Lambda"}) {
+        for (auto const type : {OFTInteger, OFTInteger64, OFTReal, OFTString}) {
+            auto const file = write("a.gpkg", {{.type = wkbUnknown,
+                                                .fields = {{field, type}},
+                                                .features = {{"LINESTRING(0 0,1 1)", {{field, "1"}}},
+                                                             {"MULTILINESTRING((0 5,1 5),(2 5,3 5))", {{field, "50"}}},
+                                                             {"LINESTRING(1 1,2 1)", {}}}}});
+            auto const rivers = io::read_rivers({.path = file});
+            ASSERT_EQ(rivers.lines.size(), 4U);
+            EXPECT_EQ(rivers.lines[0].lambda, 1);
+            EXPECT_EQ(rivers.lines[1].lambda, 50);
+            EXPECT_EQ(rivers.lines[2].lambda, 50);
+            EXPECT_EQ(rivers.lines[3].lambda, 0);
+            EXPECT_EQ(io::read_rivers({.path = file, .lambda_field = ""}).lines[0].lambda, 0);
+        }
+    }
+    auto const other =
+        write("b.gpkg", {{.fields = {{"gen", OFTInteger}}, .features = {{"LINESTRING(0 0,1 1)", {{"gen", "3"}}}}}});
+    EXPECT_EQ(io::read_rivers({.path = other}).lines[0].lambda, 0);
+    EXPECT_EQ(io::read_rivers({.path = other, .lambda_field = "GEN"}).lines[0].lambda, 3);
+}
+
 namespace {
 
 RiverLines walker() {

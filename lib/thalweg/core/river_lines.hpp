@@ -16,6 +16,7 @@ struct RiverLine {
     std::vector<Vec3> vertices; ///< [m], coordinates rounded to 1e-6 m; z is NaN where the file has none
     std::string type;           ///< river type (Rosgen) from the type field, or ""
     std::int64_t rank = 0;      ///< flow rank from the direction field: falls downstream; 0 where there is none
+    int lambda = 0;             ///< generator of the network a stroke grows; 0 where the file has none
 };
 
 struct RiverLines {

@@ -3,10 +3,12 @@
 #include <thalweg/io/read_rivers.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -129,6 +131,32 @@ std::int64_t rank_of(OGRFeature const& feature, int field, std::string const& na
     return feature.GetFieldAsInteger64(field);
 }
 
+// A text counts when all of it is a number.
+double number_in(OGRFeature const& feature, int field) {
+    auto const type = feature.GetFieldDefnRef(field)->GetType();
+    if (type == OFTInteger || type == OFTInteger64 || type == OFTReal) {
+        return feature.GetFieldAsDouble(field);
+    }
+    std::string const text = feature.GetFieldAsString(field);
+    double value = std::numeric_limits<double>::quiet_NaN();
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size() ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+int lambda_of(OGRFeature const& feature, int field, Vec3 begin, std::string const& name) {
+    if (field < 0 || feature.IsFieldSetAndNotNull(field) == 0) {
+        return 0;
+    }
+    double const value = number_in(feature, field);
+    if (!(value >= 1.0 && value <= 50.0) || value != std::floor(value)) {
+        refuse(fmt::format("feature {} of {}, which begins at ({}, {}), has the {} '{}': a whole number from 1 to 50 "
+                           "is wanted, or none",
+                           feature.GetFID(), name, begin.x, begin.y, feature.GetFieldDefnRef(field)->GetNameRef(),
+                           feature.GetFieldAsString(field)));
+    }
+    return static_cast<int>(value);
+}
+
 // One line for each part.
 void add_parts(OGRGeometry const& geometry, RiverLine const& feature, std::string const& name,
                std::vector<RiverLine>& lines) {
@@ -166,6 +194,9 @@ std::vector<RiverLine> read_lines(OGRLayer& layer, ReadRiversParams const& param
     int const type_field =
         params.type_field.empty() ? -1 : find_field(layer, params.type_field, params.type_field == "rosgen", name);
     int const rank_field = find_rank_field(layer, params, name);
+    int const lambda_field = params.lambda_field.empty()
+                                 ? -1
+                                 : find_field(layer, params.lambda_field, params.lambda_field == "lambda", name);
     std::vector<RiverLine> lines;
     for (auto const& feature : layer) {
         run.check();
@@ -180,7 +211,11 @@ std::vector<RiverLine> read_lines(OGRLayer& layer, ReadRiversParams const& param
             refuse(fmt::format("feature {} of {} has no line; remove it", line.feature, name));
         }
         std::unique_ptr<OGRGeometry> const straight(drawn->getLinearGeometry());
+        std::size_t const first = lines.size();
         add_parts(*straight, line, name, lines);
+        for (std::size_t k = first; k < lines.size(); ++k) {
+            lines[k].lambda = lambda_of(*feature, lambda_field, lines[first].vertices.front(), name);
+        }
     }
     return lines;
 }

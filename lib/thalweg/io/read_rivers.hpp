@@ -15,6 +15,7 @@ struct ReadRiversParams {
     std::string type_field = "rosgen"; ///< river type; optional in the file when it has this default name
     std::string rank_field = {};       ///< number that falls downstream; "" takes hydroseq (NHDPlus) where there is one
     std::string crs = {}; ///< of the result; "" takes the file's own when projected in metres, else its UTM zone
+    std::string lambda_field = "lambda"; ///< [1, 50] generator; optional in the file when it has this default name
 };
 
 /// Reads the lines of any OGR source, multi-part lines part by part, curves as OGR linearises them, reprojected and
@@ -22,7 +23,8 @@ struct ReadRiversParams {
 /// has_z: every vertex has a height, and not all are the same (files that fill Z with 0 have none).
 /// Throws: BadInput naming file, layer and feature: missing file, layer or named field, no or several line layers, no
 /// features, something that is no line, no CRS, coordinates that are not finite or cannot be reprojected, a line of
-/// fewer than two vertices; IoError when the file cannot be read to its end; Cancelled.
+/// fewer than two vertices, a lambda that is no whole number from 1 to 50; IoError when the file cannot be read to its
+/// end; Cancelled.
 RiverLines read_rivers(ReadRiversParams const& params, Run const& run = {});
 
 } // namespace thalweg::io
