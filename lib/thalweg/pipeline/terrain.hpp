@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
+#include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/tin.hpp>
@@ -46,6 +47,7 @@ struct Terrain {
     measure::ContributingAreas areas;
     measure::HortonLaws laws;
     Valley valley;
+    RidgeLines ridges; ///< between streams, where they are asked for
     std::optional<surface::Dilated> surface;
     std::optional<Tin> tin;                       ///< of rivers and points, where the land is drawn over one
     std::optional<detail::Projection> projection; ///< how the statistics came out; its dem is moved to surface
