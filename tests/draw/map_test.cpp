@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -77,6 +78,34 @@ TEST(Map, HasItsWidthItsRiversAndItsRelief) {
     test::Pixels const pixels = test::decode(small_map({}).bytes);
     ASSERT_EQ(pixels.width, 1400U);
     EXPECT_GT(test::river_pixels(pixels), test::river_pixels(without) + 2000);
+}
+
+TEST(Map, RidgesAreBrownLinesAndNoneLeaveNoTrace) {
+    test::SmallLand const land = test::small_land();
+    MapSheet sheet{land.dem, land.hillshade, &land.network, &land.orders, {}};
+    std::string const without = draw::map(sheet).bytes;
+    RidgeLines ridges;
+    sheet.ridges = &ridges;
+    EXPECT_TRUE(draw::map(sheet).bytes == without);
+
+    ridges.lines.push_back({{{500020, 4499540, 9.0}, {500020, 4499900, 8.0}, {500035, 4499960, 7.0}}, 1, 2});
+    test::Pixels const plain = test::decode(without);
+    test::Pixels const pixels = test::decode(draw::map(sheet).bytes);
+    ASSERT_EQ(pixels.width, plain.width);
+    std::size_t on_the_map = 0; // brown where it was not
+    std::size_t in_the_legend = 0;
+    for (std::size_t y = 0; y < std::min(pixels.height, plain.height); ++y) {
+        for (std::size_t x = 0; x < pixels.width; ++x) {
+            bool const darker = pixels.at(x, y, 2) + 40 < plain.at(x, y, 2);
+            bool const brown = pixels.at(x, y, 0) > pixels.at(x, y, 2) + 15;
+            (y < plain.height * 4 / 5 ? on_the_map : in_the_legend) += darker && brown ? 1 : 0;
+        }
+    }
+    EXPECT_GT(on_the_map, 500U);
+    EXPECT_TRUE(in_the_legend > 20U || pixels.height > plain.height);
+
+    ridges.lines[0].line[1].x = NAN;
+    EXPECT_THROW(draw::map(sheet), BadInput);
 }
 
 TEST(Map, EveryFormatIsWhatItSays) {

@@ -32,8 +32,11 @@
 #include <thalweg/network/trace.hpp>
 #include <thalweg/pipeline/frame.hpp>
 #include <thalweg/skeleton/attract.hpp>
+#include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/grf.hpp>
 #include <thalweg/skeleton/markov3.hpp>
+#include <thalweg/skeleton/midpoint_inverse.hpp>
+#include <thalweg/skeleton/noise_along.hpp>
 #include <thalweg/skeleton/regress.hpp>
 #include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/skeleton/separable_ar.hpp>
@@ -260,6 +263,30 @@ void print_points(Run const& run) {
     print("regress, mean slope", hash_of(skeleton::regress(darts, grid, steep, run).surface));
 }
 
+/// What a surface is drawn through: the valley's rivers, lines across as ridges, and a point.
+void print_skeleton(Valley const& valley, Run const& run) {
+    Grid const& grid = valley.z.grid();
+    std::vector<skeleton::PlaceOnLine> places;
+    RidgeLines ridges;
+    for (std::int64_t k = 1; k < 8; ++k) {
+        Vec2 const from = grid.centre({0, k * (grid.height - 1) / 8});
+        Vec2 const to = grid.centre({grid.width - 1, (8 - k) * (grid.height - 1) / 8});
+        double const z = 100.0 * static_cast<double>(k);
+        ridges.lines.push_back({{{from.x, from.y, z}, {to.x, to.y, 900.0 - z}}, k, k + 1});
+        places.push_back({from, 0.1 * static_cast<double>(k)});
+        places.push_back({to, 0.1 * static_cast<double>(k)});
+    }
+    skeleton::NoiseAlongParams const noise{3, 25.0, 10.0 * grid.cell_m};
+    Fnv fnv;
+    fnv.add_all(skeleton::noise_along(places, {grid.west, grid.north}, noise, run));
+    print("noise_along", fnv);
+    Vec2 const middle = grid.centre({grid.width / 2, grid.height / 3});
+    FeaturePoints const points{{{middle.x, middle.y, 777.0}}, ""};
+    Skeleton const drawn = skeleton::draw_skeleton(valley, ridges, points, {noise}, run).skeleton;
+    print("draw_skeleton", hash_of(drawn.z));
+    print("midpoint_inverse", hash_of(skeleton::midpoint_inverse(drawn, {6.0}, run).z));
+}
+
 /// The expansion without the vector instructions of this processor, which the C library's masks do not hide.
 surface::Expansion expand_plain(Valley const& valley, Run const& run) {
     using namespace surface::separable;
@@ -446,4 +473,5 @@ int main(int count, char** words) {
     print_lands_of_statistics(run);
     print_points(run);
     print_blend(land, tin, run);
+    print_skeleton(valley, run);
 }

@@ -396,6 +396,67 @@ TEST(WriteNetwork, GeoPackageHasRunTableAndSpatialIndex) {
     EXPECT_EQ(text, "seed=7 version=0.1.0 ");
 }
 
+TEST(WriteNetwork, RidgesAreALayerOfTheGeoPackage) {
+    SampleNetwork const sample = y_shape();
+    RidgeLines const ridges{{{{{0.1, 0.2, 3.5}, {3.1, 4.2, 1.0 / 3.0}, {3.1, 14.2, 9.7}}, 1, 3},
+                             {{{-7.7, 1.1, -2.5}, {-7.7, 1.3, -2.5}}, 2, 12345}}};
+    io::NetworkTables tables = sample.tables();
+    tables.ridges = &ridges;
+    ScratchFolder const folder;
+    io::write_geopackage(tables, folder / "net.gpkg");
+    auto const dataset = open(folder / "net.gpkg");
+    ASSERT_EQ(dataset->GetLayerCount(), 4);
+    OGRLayer& layer = *dataset->GetLayerByName("ridges");
+    EXPECT_EQ(fields_of(layer), "ridge_id:i left:i right:i length:r z_min:r z_max:r ");
+    EXPECT_EQ(layer.GetGeomType(), wkbLineString25D);
+    EXPECT_STREQ(layer.GetSpatialRef()->GetAuthorityCode(nullptr), "32631");
+    expect_no_nulls(layer);
+    std::size_t r = 0;
+    std::vector<double> const length{15.0, 1.3 - 1.1};
+    for (auto const& feature : layer) {
+        ASSERT_LT(r, 2U);
+        auto const& line = ridges.lines[r].line;
+        EXPECT_EQ(feature->GetFieldAsInteger("ridge_id"), static_cast<int>(r) + 1);
+        EXPECT_EQ(feature->GetFieldAsInteger64("left"), ridges.lines[r].left);
+        EXPECT_EQ(feature->GetFieldAsInteger64("right"), ridges.lines[r].right);
+        EXPECT_NEAR(feature->GetFieldAsDouble("length"), length[r], 1e-12);
+        EXPECT_EQ(feature->GetFieldAsDouble("z_min"), r == 0 ? 1.0 / 3.0 : -2.5);
+        EXPECT_EQ(feature->GetFieldAsDouble("z_max"), r == 0 ? 9.7 : -2.5);
+        auto const& drawn = *feature->GetGeometryRef()->toLineString();
+        ASSERT_EQ(drawn.getNumPoints(), static_cast<int>(line.size()));
+        for (int i = 0; Vec3 const& p : line) {
+            EXPECT_EQ((Vec3{drawn.getX(i), drawn.getY(i), drawn.getZ(i)}), p);
+            ++i;
+        }
+        ++r;
+    }
+    EXPECT_EQ(r, 2U);
+    EXPECT_EQ(io::read_network(folder / "net.gpkg").arcs.size(), 3U);
+
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    io::write_geopackage(tables, folder / "again.gpkg");
+    EXPECT_TRUE(bytes_of(folder / "net.gpkg") == bytes_of(folder / "again.gpkg"));
+}
+
+TEST(WriteNetwork, WithoutRidgesThereIsNoLayer) {
+    SampleNetwork const sample = y_shape();
+    RidgeLines ridges;
+    io::NetworkTables tables = sample.tables();
+    tables.ridges = &ridges;
+    ScratchFolder const folder;
+    io::write_geopackage(tables, folder / "net.gpkg");
+    EXPECT_EQ(open(folder / "net.gpkg")->GetLayerByName("ridges"), nullptr);
+    io::write_geopackage(sample.tables(), folder / "none.gpkg");
+    EXPECT_TRUE(bytes_of(folder / "net.gpkg") == bytes_of(folder / "none.gpkg"));
+
+    ridges.lines.push_back({{{0.0, 0.0, 1.0}}, 4, 5});
+    EXPECT_NE(message_of([&] { io::write_geopackage(tables, folder / "bad.gpkg"); }).find("ridge 1 between streams 4"),
+              std::string::npos);
+    ridges.lines[0].line = {{0.0, 0.0, 1.0}, {1.0, 0.0, std::numeric_limits<double>::quiet_NaN()}};
+    EXPECT_NE(message_of([&] { io::write_geopackage(tables, folder / "worse.gpkg"); }).find("ridges 1 has"),
+              std::string::npos);
+}
+
 TEST(WriteNetwork, NetworkWithoutCrs) {
     ScratchFolder const folder;
     SampleNetwork const sample = y_shape();

@@ -97,6 +97,30 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
     }
 }
 
+TEST(Page, RidgesFollowTheArcs) {
+    Terrain terrain = small_terrain(Land::without);
+    Grid const& grid = terrain.grid;
+    Vec2 const a = grid.centre({3, 4});
+    Vec2 const b = grid.centre({40, 9});
+    Vec2 const c = grid.centre({41, 60});
+    terrain.ridges.lines = {{{{a.x, a.y, 5.0}, {b.x, b.y, 6.0}, {c.x, c.y, 7.0}}, 1, 2},
+                            {{{c.x, c.y, 7.0}, {a.x, a.y, 5.0}}, 2, 3}};
+    std::string const html = page(terrain);
+    json const data = data_of(html);
+    EXPECT_EQ(data["ridges"], json::parse("{\"n\": [3, 2]}"));
+    auto counts = data["rivers"]["arcs"]["n"].get<std::vector<std::int64_t>>();
+    std::size_t const arcs = counts.size();
+    EXPECT_EQ(arcs, data["rivers"]["arcs"]["id"].size());
+    counts.insert(counts.end(), {3, 2});
+    auto const lines = page_decoder::lines(unpacked(page_decoder::part(html, "@@LINES@@")), counts);
+    // The step is a 16th of a cell: centres lie on whole steps.
+    EXPECT_EQ(lines[arcs], (std::vector<Vec2>{{56.0, 72.0}, {648.0, 152.0}, {664.0, 968.0}}));
+    EXPECT_EQ(lines[arcs + 1], (std::vector<Vec2>{{664.0, 968.0}, {56.0, 72.0}}));
+
+    terrain.ridges.lines.clear();
+    EXPECT_TRUE(data_of(page(terrain))["ridges"].is_null());
+}
+
 TEST(Page, FiguresSayWhatWasAskedAndWhatCame) {
     Terrain const terrain = small_terrain(Land::with);
     json const data = data_of(page(terrain, {.contour_interval_m = 25.0, .recipe = "seed = 7\n"}));

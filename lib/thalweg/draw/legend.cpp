@@ -164,6 +164,15 @@ Block contour_samples(LegendFacts const& facts, double unit) {
             }};
 }
 
+Block ridge_sample(double unit) {
+    return {100.0, [unit](Cairo* sheet, Vec2 at) {
+                LineStyle const line = ridge_style(unit);
+                double const y = at.y + 32.0 * unit;
+                draw_text(sheet, {at.x, at.y + 13.0 * unit}, "Ridges", Styles(unit).heading);
+                draw_line(sheet, {at.x, y}, {at.x + 34.0 * unit, y}, line.width_px, line.colour);
+            }};
+}
+
 Block no_data_sample(double unit) {
     return {100.0, [unit](Cairo* sheet, Vec2 at) {
                 Box const swatch{at.x, at.y + 22.0 * unit, 28.0 * unit, 16.0 * unit};
@@ -182,6 +191,9 @@ std::vector<std::vector<Block>> rows_of(LegendFacts const& facts, double width, 
     }
     if (facts.contour_interval_m > 0.0) {
         blocks.push_back(contour_samples(facts, unit));
+    }
+    if (facts.ridges) {
+        blocks.push_back(ridge_sample(unit));
     }
     if (facts.holes && facts.low_m <= facts.high_m) {
         blocks.push_back(no_data_sample(unit));

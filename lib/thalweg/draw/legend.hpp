@@ -19,6 +19,7 @@ struct LegendFacts {
     bool holes = false; ///< some cells have no height
     int highest_order = 0;
     double contour_interval_m = 0.0; ///< 0 for none
+    bool ridges = false;             ///< some are drawn
 };
 
 /// Height [px] that the legend takes in a row of so many pixels: blocks that do not fit go into further rows.

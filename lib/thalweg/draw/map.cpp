@@ -51,6 +51,11 @@ void demand_sheet(MapSheet const& sheet, MapParams const& params) {
     for (std::size_t i = 0; i < sheet.contours.size(); ++i) {
         demand_finite(sheet.contours[i].second, "contour", i);
     }
+    if (has_ridges(sheet)) {
+        for (std::size_t i = 0; i < sheet.ridges->lines.size(); ++i) {
+            demand_finite(in_plan(sheet.ridges->lines[i].line), "ridge", i + 1);
+        }
+    }
     if (sheet.network == nullptr) {
         return;
     }
@@ -120,6 +125,7 @@ Layout lay_out(MapSheet const& sheet, MapParams const& params) {
     }
     out.legend.highest_order = highest_order(sheet);
     out.legend.contour_interval_m = params.contour_interval_m;
+    out.legend.ridges = has_ridges(sheet);
     return out;
 }
 
@@ -214,6 +220,7 @@ Picture map(MapSheet const& sheet, MapParams const& params) {
         cairo_clip(canvas);
         draw_relief(canvas, relief, layout.ground, sheet.dem.grid().cell_m * layout.window.px_per_m);
         draw_contours(canvas, sheet, layout.window, params.contour_interval_m, unit);
+        draw_ridges(canvas, sheet, layout.window, unit);
         draw_rivers(canvas, sheet, layout.window, unit);
         label_contours(canvas, sheet, layout.window, params.contour_interval_m, unit);
         cairo_restore(canvas);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/draw/picture.hpp>
 
@@ -27,10 +28,11 @@ struct MapSheet {
     RaisedNetwork const* network = nullptr;
     NetworkOrders const* orders = nullptr;                      ///< of the network; needed where there is one
     std::vector<std::pair<double, std::vector<Vec2>>> contours; ///< height [m] and line
+    RidgeLines const* ridges = nullptr;                         ///< null or empty: none
 };
 
-/// A map: hillshade under a hypsometric tint, contours, rivers whose width and colour follow Strahler order, scale bar,
-/// legend, title, frame with coordinates.
+/// A map: hillshade under a hypsometric tint, contours, ridges as thin brown lines, rivers whose width and colour
+/// follow Strahler order, scale bar, legend, title, frame with coordinates.
 /// Takes: a DEM of one cell or more; cells without a height are light grey, cells without a shade lie level.
 /// Throws: BadParameter; BadInput when hillshade or orders are of another grid or network, or a line has a coordinate
 /// that is not finite.

@@ -77,6 +77,20 @@ LineStyle river_style(int order, int highest, double unit) {
             {blend(0.25, 0.07), blend(0.50, 0.31), blend(0.80, 0.64)}};
 }
 
+LineStyle ridge_style(double unit) {
+    return {std::max(0.8, 1.1 * unit), {0.37, 0.20, 0.08, 0.85}};
+}
+
+std::vector<Vec2> in_plan(std::vector<Vec3> const& line) {
+    std::vector<Vec2> plan(line.size());
+    std::transform(line.begin(), line.end(), plan.begin(), [](Vec3 const& p) { return Vec2{p.x, p.y}; });
+    return plan;
+}
+
+bool has_ridges(MapSheet const& sheet) {
+    return sheet.ridges != nullptr && !sheet.ridges->lines.empty();
+}
+
 int highest_order(MapSheet const& sheet) {
     if (sheet.orders == nullptr || sheet.orders->strahler.empty()) {
         return 0;
@@ -95,6 +109,19 @@ void draw_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, d
                 cairo_stroke(canvas);
             }
         }
+    }
+}
+
+void draw_ridges(Cairo* canvas, MapSheet const& sheet, Window const& window, double unit) {
+    if (!has_ridges(sheet)) {
+        return;
+    }
+    LineStyle const style = ridge_style(unit);
+    set_colour(canvas, style.colour);
+    cairo_set_line_width(canvas, style.width_px);
+    for (RidgeLine const& ridge : sheet.ridges->lines) {
+        trace_line(canvas, on_sheet(in_plan(ridge.line), window), 0.0);
+        cairo_stroke(canvas);
     }
 }
 

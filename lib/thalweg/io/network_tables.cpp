@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/network_tables.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -38,6 +39,14 @@ double length_3d(std::vector<Vec2> const& line, std::vector<double> const& z) {
         double const plan = distance(line[i - 1], line[i]);
         double const rise = z[i] - z[i - 1];
         sum += std::sqrt(plan * plan + rise * rise);
+    }
+    return sum;
+}
+
+double length_in_plan(std::vector<Vec3> const& line) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        sum += distance({line[i - 1].x, line[i - 1].y}, {line[i].x, line[i].y});
     }
     return sum;
 }
@@ -115,6 +124,23 @@ Table nodes_table(NetworkTables const& tables, NetworkIndex const& index) {
         real("z", length_decimals, [&node_z](auto row) { return node_z[at(row)]; }),
         real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[at(row)]; }),
         real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[at(row)]; }),
+    };
+    return table;
+}
+
+Table ridges_table(RidgeLines const& ridges) {
+    auto const ridge = [&ridges](std::int64_t row) -> RidgeLine const& { return ridges.lines[at(row)]; };
+    auto const lower = [](Vec3 const& a, Vec3 const& b) { return a.z < b.z; };
+
+    Table table{"ridges", Table::Shape::line, static_cast<std::int64_t>(ridges.lines.size()), {}, {}};
+    table.shape_at = [ridge](std::int64_t row) { return ridge(row).line; };
+    table.columns = {
+        integer("ridge_id", [](auto row) { return row + 1; }),
+        integer("left", [ridge](auto row) { return ridge(row).left; }),
+        integer("right", [ridge](auto row) { return ridge(row).right; }),
+        real("length", length_decimals, [ridge](auto row) { return length_in_plan(ridge(row).line); }),
+        real("z_min", length_decimals, [=](auto row) { return std::ranges::min_element(ridge(row).line, lower)->z; }),
+        real("z_max", length_decimals, [=](auto row) { return std::ranges::max_element(ridge(row).line, lower)->z; }),
     };
     return table;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/table.hpp>
 #include <thalweg/io/write_network.hpp>
@@ -13,5 +14,8 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index);
 
 /// The layer nodes of the network schema. The arguments must outlive the table.
 Table nodes_table(NetworkTables const& tables, NetworkIndex const& index);
+
+/// The layer ridges of the network schema. The argument must outlive the table; every ridge has a vertex.
+Table ridges_table(RidgeLines const& ridges);
 
 } // namespace thalweg::io

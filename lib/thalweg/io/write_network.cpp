@@ -55,6 +55,15 @@ void require_whole(NetworkTables const& tables, NetworkIndex const& index, std::
     }
 }
 
+void require_lines(RidgeLines const& ridges, std::string const& what) {
+    for (std::size_t i = 0; i < ridges.lines.size(); ++i) {
+        if (ridges.lines[i].line.size() < 2) {
+            throw BadInput(fmt::format("{}: ridge {} between streams {} and {} has fewer than two vertices", what,
+                                       i + 1, ridges.lines[i].left, ridges.lines[i].right));
+        }
+    }
+}
+
 Table run_table(std::map<std::string, std::string> const& rows) {
     std::vector<std::pair<std::string, std::string>> const list(rows.begin(), rows.end());
     auto const at = [](std::int64_t row) { return static_cast<std::size_t>(row); };
@@ -72,7 +81,13 @@ void write_geopackage(NetworkTables const& tables, std::string const& path, Run 
     NetworkIndex const index(tables.network.plan);
     std::string const file = path.ends_with(".gpkg") ? path : path + ".gpkg";
     require_whole(tables, index, "io.write_geopackage: " + file);
-    write_tables({arcs_table(tables, index), nodes_table(tables, index), run_table(tables.run)}, tables.crs, file, run);
+    std::vector<Table> layers{arcs_table(tables, index), nodes_table(tables, index)};
+    if (tables.ridges != nullptr && !tables.ridges->lines.empty()) {
+        require_lines(*tables.ridges, "io.write_geopackage: " + file);
+        layers.push_back(ridges_table(*tables.ridges));
+    }
+    layers.push_back(run_table(tables.run));
+    write_tables(layers, tables.crs, file, run);
 }
 
 void write_shapefiles(NetworkTables const& tables, std::string const& path, Run const& run) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <thalweg/core/network_file.hpp>
+#include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
@@ -23,15 +24,19 @@ struct NetworkTables {
     std::string crs;
     std::map<std::string, std::string> run;             ///< rows of the GeoPackage's run table
     std::vector<std::uint8_t> const* braided = nullptr; ///< by arc, 1 or 0; without it all are 0
+    RidgeLines const* ridges = nullptr;                 ///< layer ridges of the GeoPackage; none when null or empty
 };
 
 /// Writes PATH (.gpkg is added where it is missing): layers arcs (LineStringZ) and nodes (PointZ), table run, with the
 /// fields of the network schema and four more by arc: survives (real [cells]; -1 for infinity), feature (integer), type
 /// (text; none where there is none) and braided (integer, 1 or 0). dist_out of an arc counts from its downstream end,
 /// as NHDPlus (Pathlength) and HydroRIVERS (DIST_DN_KM) have it. arc_id is the arc's number + 1, node_id the node's
-/// + 1. Gives: the same bytes for the same network, on any day. Throws: BadInput naming the arc or node when the values
-/// do not belong to the network, an arc's end is not its node, a node reaches no outlet, a number is not finite or, in
-/// a shapefile, has more digits than its field; IoError, also when the file exists.
+/// + 1. Where there are ridges, also the layer ridges (LineStringZ): ridge_id, the ridge's number + 1; left and right,
+/// the labels of its streams; length [m] in plan; z_min and z_max [m]. Shapefiles have none.
+/// Gives: the same bytes for the same network, on any day. Throws: BadInput naming the arc or node when the values do
+/// not belong to the network, an arc's end is not its node, a node reaches no outlet, a ridge has fewer than two
+/// vertices, a number is not finite or, in a shapefile, has more digits than its field; IoError, also when the file
+/// exists.
 void write_geopackage(NetworkTables const& tables, std::string const& path, Run const& run = {});
 
 /// Writes the shapefiles PATH_arcs.* and PATH_nodes.* with the same fields, UTF-8: reals of 24 characters (9 decimals

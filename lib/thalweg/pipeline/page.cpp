@@ -36,11 +36,20 @@ std::string html_text(std::string const& text) {
     return out;
 }
 
-PageLines lines_of(StreamNetwork const& plan, Grid const& grid) {
+/// The arcs by number, then the ridges.
+PageLines lines_of(StreamNetwork const& plan, RidgeLines const& ridges, Grid const& grid) {
+    std::vector<std::vector<Vec2>> ridges_in_plan;
+    for (RidgeLine const& ridge : ridges.lines) {
+        auto& line = ridges_in_plan.emplace_back();
+        for (Vec3 const& p : ridge.line) {
+            line.push_back({p.x, p.y});
+        }
+    }
     std::vector<std::span<Vec2 const>> lines;
     for (ArcId const arc : boost::make_iterator_range(boost::edges(plan))) {
         lines.emplace_back(plan[arc].line);
     }
+    lines.insert(lines.end(), ridges_in_plan.begin(), ridges_in_plan.end());
     return page_lines(lines, grid);
 }
 
@@ -49,7 +58,7 @@ PageLines lines_of(StreamNetwork const& plan, Grid const& grid) {
 std::string page(Terrain const& terrain, PageParams const& params, Run const& run) {
     std::optional<PageHeights> const heights = terrain.surface ? page_heights(terrain.surface->dem, run) : std::nullopt;
     run.check();
-    PageLines const lines = lines_of(terrain.network.plan, terrain.grid);
+    PageLines const lines = lines_of(terrain.network.plan, terrain.ridges, terrain.grid);
     PageParts parts;
     parts.title = html_text(as_utf8(title_of(terrain.recipe)));
     parts.data = page_data(terrain, params, heights, lines);

@@ -88,6 +88,14 @@ ordered_json arcs_object(Terrain const& t, NetworkIndex const& index, PageLines 
             {"n", n}};
 }
 
+ordered_json ridges_object(Terrain const& t, NetworkIndex const& index, PageLines const& lines) {
+    if (t.ridges.lines.empty()) {
+        return nullptr;
+    }
+    auto const first = lines.vertices.begin() + static_cast<std::ptrdiff_t>(index.arcs.size());
+    return {{"n", std::vector<std::int64_t>(first, lines.vertices.end())}};
+}
+
 /// A place on a profile: distance to the outlet and height, both in metres.
 struct ProfilePoint {
     double to_outlet_m;
@@ -324,7 +332,7 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
                              {{"step", lines.step},
                               {"prune", t.recipe.network ? t.recipe.network->prune_cells.value_or(0.0) : 0.0},
                               {"arcs", arcs_object(t, index, lines)}}},
-                            {"ridges", nullptr},
+                            {"ridges", ridges_object(t, index, lines)},
                             {"profile", profile_array(stem)},
                             {"curve", curve_object(t)},
                             {"hypsometry", hypsometry_object(t)},

@@ -11,7 +11,8 @@
 namespace thalweg::pipeline {
 
 /// The JSON object of the report page (web/README.md).
-/// Takes: a terrain, and its heights and lines as they stand on the page; lines are the arcs by number.
+/// Takes: a terrain, and its heights and lines as they stand on the page; lines are the arcs by number, then the
+/// ridges.
 /// Gives: one line of JSON without '<'; lengths and heights to the millimetre, what is not a number as null. A figure
 /// has "asked" only where the recipe asks for it.
 std::string page_data(Terrain const& terrain, PageParams const& params, std::optional<PageHeights> const& heights,

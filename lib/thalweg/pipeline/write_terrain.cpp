@@ -103,7 +103,8 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
                                    t.areas.node_m2,
                                    t.grid.crs,
                                    about,
-                                   t.types.braided.empty() ? nullptr : &t.types.braided};
+                                   t.types.braided.empty() ? nullptr : &t.types.braided,
+                                   &t.ridges};
     io::write_geopackage(tables, out.path("network"), run);
     io::write_shapefiles(tables, out.path("network"), run);
     Mask cells(t.grid);
@@ -123,7 +124,7 @@ void write_surface(Terrain const& t, std::string const& title, io::OutputFolder 
     bool const rivers = t.recipe.network.has_value();
     RaisedNetwork const* const network = rivers ? &t.network : nullptr;
     NetworkOrders const* const orders = rivers ? &t.orders : nullptr;
-    draw::MapSheet sheet{dem, io::hillshade(dem), network, orders, {}};
+    draw::MapSheet sheet{dem, io::hillshade(dem), network, orders, {}, &t.ridges};
     for (auto const& [z, line] : contours) {
         sheet.contours.emplace_back(z, line);
     }

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/skeleton/midpoint_inverse.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/core/parallel.hpp>
+
+namespace thalweg::skeleton {
+
+namespace {
+
+constexpr std::int64_t cells_a_range = 65536;
+
+void demand(Skeleton const& skeleton, MidpointInverseParams const& params) {
+    if (!(params.longest_cells >= 0.0)) {
+        throw BadParameter(
+            fmt::format("skeleton.midpoint_inverse: longest_cells is {}, must be 0 or more", params.longest_cells));
+    }
+    for (std::int64_t i = 0; i < skeleton.z.cells(); ++i) {
+        if (std::isinf(skeleton.z[i])) {
+            Cell const c = skeleton.z.grid().at(i);
+            throw BadInput(fmt::format("skeleton.midpoint_inverse: infinite height at column {}, row {}; every cell of "
+                                       "a skeleton needs a finite one",
+                                       c.col, c.row));
+        }
+    }
+}
+
+/// Fills an empty cell from its known children; steps: where these lie, in steps of h.
+void fill(Raster<float>& z, Cell parent, std::array<Cell, 4> const& steps, std::int64_t h) {
+    if (!std::isnan(z[parent])) {
+        return;
+    }
+    double sum = 0.0;
+    int known = 0;
+    for (Cell const step : steps) {
+        Cell const child{parent.col + step.col * h, parent.row + step.row * h};
+        if (z.grid().contains(child) && !std::isnan(z[child])) {
+            sum += z[child];
+            ++known;
+        }
+    }
+    if (known > 0) {
+        z[parent] = static_cast<float>(sum / known);
+    }
+}
+
+/// Parents are corners and centres, where columns and rows make an even number of steps; children lie between them.
+void fill_from_edges(Raster<float>& z, std::int64_t h, Run const& run) {
+    std::int64_t const rows = (z.height() - 1) / h + 1;
+    parallel_ranges(run, rows, cells_a_range * h / z.width() + 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t r = begin; r < end; ++r) {
+            for (std::int64_t col = r % 2 * h; col < z.width(); col += 2 * h) {
+                fill(z, {col, r * h}, {{{0, -1}, {-1, 0}, {1, 0}, {0, 1}}}, h);
+            }
+        }
+    });
+}
+
+/// Parents are corners only, children centres.
+void fill_from_centres(Raster<float>& z, std::int64_t h, Run const& run) {
+    std::int64_t const rows = (z.height() - 1) / (2 * h) + 1;
+    parallel_ranges(run, rows, cells_a_range * h / z.width() + 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t r = begin; r < end; ++r) {
+            for (std::int64_t col = 0; col < z.width(); col += 2 * h) {
+                fill(z, {col, r * 2 * h}, {{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}}, h);
+            }
+        }
+    });
+}
+
+/// Copies what two rasters share in their north-western corners.
+void copy_shared(Raster<float> const& from, Raster<float>& to) {
+    std::int64_t const width = std::min(from.width(), to.width());
+    for (std::int64_t r = 0; r < std::min(from.height(), to.height()); ++r) {
+        std::copy_n(from.row(r).begin(), width, to.row(r).begin());
+    }
+}
+
+} // namespace
+
+Skeleton midpoint_inverse(Skeleton const& skeleton, MidpointInverseParams const& params, Run const& run) {
+    demand(skeleton, params);
+    Grid const& grid = skeleton.z.grid();
+    std::int64_t whole = 1; // side of the square, less one
+    while (whole < std::max(grid.width, grid.height) - 1) {
+        whole *= 2;
+    }
+    std::int64_t longest = 0; // half-step
+    for (std::int64_t h = 1; h <= whole / 2 && static_cast<double>(h) <= params.longest_cells; h *= 2) {
+        longest = h;
+    }
+    Skeleton out = skeleton;
+    if (longest == 0) {
+        return out;
+    }
+    // A height passes on by less than 4 longest along an axis; what leaves the grid and comes back, by half of it.
+    Grid frame = grid;
+    frame.width = std::min(whole + 1, grid.width + 2 * longest);
+    frame.height = std::min(whole + 1, grid.height + 2 * longest);
+    Raster<float> z(frame, std::numeric_limits<float>::quiet_NaN());
+    copy_shared(skeleton.z, z);
+    for (std::int64_t h = 1; h <= longest; h *= 2) {
+        fill_from_edges(z, h, run);
+        if (static_cast<double>(h) * std::sqrt(2.0) <= params.longest_cells) {
+            fill_from_centres(z, h, run);
+        }
+    }
+    copy_shared(z, out.z);
+    return out;
+}
+
+} // namespace thalweg::skeleton

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/skeleton/noise_along.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <libnoise/noise.h>
+
+#include <thalweg/core/chance.hpp>
+#include <thalweg/core/error.hpp>
+
+namespace thalweg::skeleton {
+
+namespace {
+
+constexpr std::uint64_t noise_stage = 0x6e6f697365616c31; // "noiseal1"
+constexpr int octaves = 4;
+constexpr double gain = 0.5;
+constexpr double sum_of_gains = 1.875;
+constexpr double widest_shift = 256.0; // [wavelengths] after which libnoise repeats itself
+
+void demand(NoiseAlongParams const& params) {
+    if (!(params.amplitude_m >= 0.0) || !std::isfinite(params.amplitude_m)) {
+        throw BadParameter(
+            fmt::format("skeleton.noise_along: amplitude_m is {}, must be 0 or more", params.amplitude_m));
+    }
+    if (!(params.wavelength_m > 0.0) || !std::isfinite(params.wavelength_m)) {
+        throw BadParameter(
+            fmt::format("skeleton.noise_along: wavelength_m is {}, must be greater than 0", params.wavelength_m));
+    }
+}
+
+void demand(PlaceOnLine const& place, std::size_t number) {
+    bool const usable =
+        std::isfinite(place.at.x) && std::isfinite(place.at.y) && place.share >= 0.0 && place.share <= 1.0;
+    if (!usable) {
+        throw BadInput(fmt::format("skeleton.noise_along: place {} at ({}, {}) with a share of {} is on no line; give "
+                                   "numbers, the share from 0 to 1",
+                                   number, place.at.x, place.at.y, place.share));
+    }
+}
+
+} // namespace
+
+std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 origin, NoiseAlongParams const& params,
+                                Run const& run) {
+    constexpr std::size_t places_between_checks = 65536;
+    demand(params);
+    auto const words = chance_block(params.seed, noise_stage);
+    noise::module::Perlin field;
+    field.SetSeed(static_cast<int>(words[0] >> 33U));
+    field.SetOctaveCount(octaves);
+    field.SetPersistence(gain);
+    field.SetLacunarity(2.0);
+    // libnoise folds its seed to 16 bits, and its noise is 0 wherever coordinates are whole.
+    double const shift_x = widest_shift * unit(words[1]);
+    double const shift_y = widest_shift * unit(words[2]);
+    double const level = unit(words[3]);
+    std::vector<double> noise(places.size(), 0.0);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (i % places_between_checks == 0) {
+            run.check();
+        }
+        demand(places[i], i);
+        if (params.amplitude_m > 0.0) {
+            double const f = field.GetValue((places[i].at.x - origin.x) / params.wavelength_m + shift_x,
+                                            (places[i].at.y - origin.y) / params.wavelength_m + shift_y, level);
+            // What libnoise calls 1 is passed now and then.
+            double const share = places[i].share;
+            noise[i] = params.amplitude_m * std::clamp(f / sum_of_gains, -1.0, 1.0) * (4.0 * share * (1.0 - share));
+        }
+    }
+    return noise;
+}
+
+} // namespace thalweg::skeleton

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/run.hpp>
+#include <thalweg/core/vec.hpp>
+
+namespace thalweg::skeleton {
+
+struct NoiseAlongParams {
+    std::uint64_t seed = 7;
+    double amplitude_m = 0.0;     ///< [m] >= 0, bound of the noise
+    double wavelength_m = 1000.0; ///< [m] > 0, of its coarsest octave
+};
+
+/// A place on a line.
+struct PlaceOnLine {
+    Vec2 at;            ///< [m]
+    double share = 0.0; ///< [0, 1] of the line's length behind it
+};
+
+/// Noise on a line that leaves its ends where they are: F(at) 4 share (1 - share), F fractal Perlin noise of four
+/// octaves (gain 0.5, lacunarity 2).
+/// Takes: places, and an origin near them from which coordinates count.
+/// Gives: [m] a value a place, within the amplitude, 0 in the ends; F is a field of the plane: lines that come near
+/// each other get alike noise. Throws: BadParameter; BadInput, naming the place: a share outside [0, 1] or no number.
+/// Source: paper 003, equation 11; specification 3.5; Perlin 1985 by libnoise.
+std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 origin,
+                                NoiseAlongParams const& params = {}, Run const& run = {});
+
+} // namespace thalweg::skeleton
