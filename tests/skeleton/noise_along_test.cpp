@@ -55,6 +55,8 @@ TEST(NoiseAlong, RefusesWhatIsNoNoiseOrNoLine) {
                                    {{0.0, 0.0}, not_a_number}}) {
         EXPECT_THROW(noise_along({bad}, {}), BadInput);
     }
+    EXPECT_THROW(noise_along({{{2e6, 0.0}, 0.5}}, {}, {.wavelength_m = 1.0}), BadInput);
+    EXPECT_THROW(noise_along({{{2.0, 0.0}, 0.5}}, {}, {.amplitude_m = 1.0, .wavelength_m = 1e-308}), BadInput);
     try {
         noise_along({{{1.0, 2.0}, 0.5}, {{3.0, 4.0}, 2.0}}, {});
         FAIL();

@@ -32,14 +32,20 @@ void demand(NoiseAlongParams const& params) {
     }
 }
 
-void demand(PlaceOnLine const& place, std::size_t number) {
-    bool const usable =
-        std::isfinite(place.at.x) && std::isfinite(place.at.y) && place.share >= 0.0 && place.share <= 1.0;
-    if (!usable) {
-        throw BadInput(fmt::format("skeleton.noise_along: place {} at ({}, {}) with a share of {} is on no line; give "
-                                   "numbers, the share from 0 to 1",
+/// A place in wavelengths from the origin.
+Vec2 scaled(PlaceOnLine const& place, std::size_t number, Vec2 origin, double wavelength_m) {
+    constexpr double farthest = 0x1p20; // libnoise folds coordinates beyond 2^30, after three doublings
+    Vec2 const at{(place.at.x - origin.x) / wavelength_m, (place.at.y - origin.y) / wavelength_m};
+    if (!(std::fabs(at.x) <= farthest && std::fabs(at.y) <= farthest)) {
+        throw BadInput(fmt::format("skeleton.noise_along: place {} at ({}, {}) is not within 2^20 wavelengths of {} m "
+                                   "from ({}, {}); lengthen the wave",
+                                   number, place.at.x, place.at.y, wavelength_m, origin.x, origin.y));
+    }
+    if (!(place.share >= 0.0 && place.share <= 1.0)) {
+        throw BadInput(fmt::format("skeleton.noise_along: place {} at ({}, {}) has a share of {}; give one from 0 to 1",
                                    number, place.at.x, place.at.y, place.share));
     }
+    return at;
 }
 
 } // namespace
@@ -63,10 +69,9 @@ std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 ori
         if (i % places_between_checks == 0) {
             run.check();
         }
-        demand(places[i], i);
+        Vec2 const at = scaled(places[i], i, origin, params.wavelength_m);
         if (params.amplitude_m > 0.0) {
-            double const f = field.GetValue((places[i].at.x - origin.x) / params.wavelength_m + shift_x,
-                                            (places[i].at.y - origin.y) / params.wavelength_m + shift_y, level);
+            double const f = field.GetValue(at.x + shift_x, at.y + shift_y, level);
             // What libnoise calls 1 is passed now and then.
             double const share = places[i].share;
             noise[i] = params.amplitude_m * std::clamp(f / sum_of_gains, -1.0, 1.0) * (4.0 * share * (1.0 - share));

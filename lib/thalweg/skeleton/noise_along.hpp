@@ -26,7 +26,8 @@ struct PlaceOnLine {
 /// octaves (gain 0.5, lacunarity 2).
 /// Takes: places, and an origin near them from which coordinates count.
 /// Gives: [m] a value a place, within the amplitude, 0 in the ends; F is a field of the plane: lines that come near
-/// each other get alike noise. Throws: BadParameter; BadInput, naming the place: a share outside [0, 1] or no number.
+/// each other get alike noise. Throws: BadParameter; BadInput, naming the place: a share outside [0, 1], or farther
+/// than 2^20 wavelengths from the origin.
 /// Source: paper 003, equation 11; specification 3.5; Perlin 1985 by libnoise.
 std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 origin,
                                 NoiseAlongParams const& params = {}, Run const& run = {});
