@@ -177,7 +177,7 @@ std::vector<std::size_t> trunk_of(TokunagaTree const& tree) {
 class Planting {
 public:
     Planting(std::vector<Stroke> const& strokes, RiverLines const& drawn, Grid const& grid, StrokesParams const& params)
-        : strokes_(strokes), drawn_(drawn), grid_(grid), params_(params), joints_(strokes.size()),
+        : strokes_(strokes), drawn_(drawn), grid_(grid), params_(params), joints_(strokes.size(), -1),
           junctions_(strokes.size()) {
         for (std::size_t k = 0; k < strokes.size(); ++k) {
             if (strokes[k].onto >= 0) {

@@ -154,8 +154,7 @@ void require_apart(std::vector<Stroke> const& strokes, RiverLines const& names, 
 } // namespace
 
 std::vector<Stroke> join_strokes(RiverLines const& drawn, Grid const& grid, Run const& run) {
-    constexpr double share_of_width = 1e-4;
-    double const tolerance_m = share_of_width * (grid.east() - grid.west);
+    double const tolerance_m = 0.5 * grid.cell_m;
     std::vector<Stroke> strokes;
     for (RiverLine const& line : drawn.lines) {
         strokes.push_back(as_drawn(line, drawn, grid));

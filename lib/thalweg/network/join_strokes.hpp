@@ -22,8 +22,8 @@ struct Stroke {
 };
 
 /// Reads strokes as drawn and finds which begins on which.
-/// Takes: lines inside the grid. A stroke begins on another when its first vertex lies within a ten-thousandth of the
-/// grid's width of it: it is moved onto it.
+/// Takes: lines inside the grid. A stroke begins on another when its first vertex lies within half a cell of it: it is
+/// moved onto it.
 /// Throws: as grow_strokes, for what concerns the strokes alone; Cancelled.
 std::vector<Stroke> join_strokes(RiverLines const& strokes, Grid const& grid, Run const& run = {});
 

@@ -195,7 +195,7 @@ Grid frame_polygons(Polygons const& polygons, GridRecipe const& wanted) {
 
 Grid frame_tree(std::int64_t links, GridRecipe const& wanted) {
     constexpr double link_cells = 12.0;
-    constexpr double share = 0.9; // of the grid's side that the network fills
+    constexpr double share = 0.96; // of the grid's side that the network fills
     auto const side = static_cast<std::int64_t>(std::ceil(link_cells * std::sqrt(static_cast<double>(links)) / share));
     Grid grid;
     grid.width = wanted.width > 0 ? wanted.width : side;

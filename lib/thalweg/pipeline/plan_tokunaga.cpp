@@ -25,9 +25,9 @@ struct Region {
     Vec2 mouth;
 };
 
-/// The grid but for a margin of 5 %, so that no river runs along its edge.
+/// The grid but for a margin of 2 %, so that no river runs along its edge.
 Region within(Grid const& grid, Side mouth) {
-    double const margin = 0.05 * std::min(grid.east() - grid.west, grid.north - grid.south());
+    double const margin = 0.02 * std::min(grid.east() - grid.west, grid.north - grid.south());
     double const west = grid.west + margin;
     double const east = grid.east() - margin;
     double const south = grid.south() + margin;
