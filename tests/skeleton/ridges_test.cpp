@@ -185,7 +185,9 @@ RaisedNetwork straight(std::vector<std::vector<Vec2>> const& lines) {
     for (auto const& line : lines) {
         NodeId const from = boost::add_vertex(Node{line.front()}, plan);
         NodeId const to = boost::add_vertex(Node{line.back()}, plan);
-        add_arc(plan, from, to, {line});
+        Arc arc;
+        arc.line = line;
+        add_arc(plan, from, to, std::move(arc));
     }
     return network::set_heights(plan).network;
 }

@@ -3,8 +3,10 @@
 #include <thalweg/geometry/medial_lines.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include <CGAL/Segment_Delaunay_graph_2.h>
@@ -116,6 +118,34 @@ void build(Built& built, LabelledSites const& sites, Origin const& origin, Run c
     }
 }
 
+/// The sites around a face counterclockwise, the least first, and its vertex of that site.
+struct Around {
+    std::array<std::size_t, 3> sites{};
+    int first = 0;
+};
+
+Around around(Built const& built, Graph::Face_handle face) {
+    std::array<std::size_t, 3> sites{};
+    for (int i = 0; i < 3; ++i) {
+        sites[static_cast<std::size_t>(i)] = built.site_of.at(face->vertex(i));
+    }
+    auto const least = std::ranges::min_element(sites);
+    int const first = static_cast<int>(least - sites.begin());
+    std::ranges::rotate(sites, least);
+    return {sites, first};
+}
+
+/// The finite faces, sorted by the sites around them: the graph keeps them in an order that hangs on where in memory
+/// they lie, as does which vertex of a face is the first.
+std::vector<std::pair<Around, Graph::Face_handle>> faces_of(Built const& built) {
+    std::vector<std::pair<Around, Graph::Face_handle>> faces;
+    for (auto face = built.graph.finite_faces_begin(); face != built.graph.finite_faces_end(); ++face) {
+        faces.emplace_back(around(built, face), face);
+    }
+    std::ranges::sort(faces, {}, [](auto const& f) { return f.first.sites; });
+    return faces;
+}
+
 RawDiagram raw_of(Built const& built, LabelledSites const& sites, Origin const& origin, Run const& run) {
     Graph const& graph = built.graph;
     auto const site = [&](std::size_t s) {
@@ -125,29 +155,34 @@ RawDiagram raw_of(Built const& built, LabelledSites const& sites, Origin const& 
     };
     RawDiagram raw;
     std::map<Graph::Face_handle, std::size_t> number_of;
-    for (auto face = graph.finite_faces_begin(); face != graph.finite_faces_end(); ++face) {
+    auto const vertex = graph.geom_traits().construct_svd_vertex_2_object();
+    for (auto const& [of, face] : faces_of(built)) {
         if ((raw.at.size() & 0xfff) == 0) {
             run.check();
         }
-        std::array<std::size_t, 3> around{};
-        for (int i = 0; i < 3; ++i) {
-            around[static_cast<std::size_t>(i)] = built.site_of.at(face->vertex(i));
-        }
-        Point const guess = graph.primal(Graph::Face_handle(face));
-        Vec2 const at = equidistant({site(around[0]), site(around[1]), site(around[2])}, {guess.x(), guess.y()});
+        int const next = Graph::ccw(of.first);
+        Point const guess =
+            vertex(face->vertex(of.first)->site(), face->vertex(next)->site(), face->vertex(Graph::ccw(next))->site());
+        Vec2 const at = equidistant({site(of.sites[0]), site(of.sites[1]), site(of.sites[2])}, {guess.x(), guess.y()});
         number_of[face] = raw.at.size();
         raw.at.push_back(origin.to_ground(at));
-        raw.sites.push_back(around);
+        raw.sites.push_back(of.sites);
     }
     for (auto edge = graph.finite_edges_begin(); edge != graph.finite_edges_end(); ++edge) {
         auto const [face, i] = *edge;
         auto const here = number_of.find(face);
         auto const beyond = number_of.find(face->neighbor(i));
         if (here != number_of.end() && beyond != number_of.end()) {
-            raw.links.push_back({here->second, beyond->second, built.site_of.at(face->vertex(Graph::cw(i))),
-                                 built.site_of.at(face->vertex(Graph::ccw(i)))});
+            RawDiagram::Link link{here->second, beyond->second, built.site_of.at(face->vertex(Graph::cw(i))),
+                                  built.site_of.at(face->vertex(Graph::ccw(i)))};
+            if (link.from > link.to) {
+                std::swap(link.from, link.to);
+                std::swap(link.left, link.right);
+            }
+            raw.links.push_back(link);
         }
     }
+    std::ranges::sort(raw.links, {}, [](auto const& l) { return std::tuple(l.from, l.to, l.left, l.right); });
     return raw;
 }
 
