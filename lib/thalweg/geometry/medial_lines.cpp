@@ -3,10 +3,8 @@
 #include <thalweg/geometry/medial_lines.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include <CGAL/Segment_Delaunay_graph_2.h>
@@ -118,29 +116,12 @@ void build(Built& built, LabelledSites const& sites, Origin const& origin, Run c
     }
 }
 
-/// The sites around a face counterclockwise, the least first, and its vertex of that site.
-struct Around {
-    std::array<std::size_t, 3> sites{};
-    int first = 0;
-};
-
-Around around(Built const& built, Graph::Face_handle face) {
-    std::array<std::size_t, 3> sites{};
-    for (int i = 0; i < 3; ++i) {
-        sites[static_cast<std::size_t>(i)] = built.site_of.at(face->vertex(i));
-    }
-    auto const least = std::ranges::min_element(sites);
-    int const first = static_cast<int>(least - sites.begin());
-    std::ranges::rotate(sites, least);
-    return {sites, first};
-}
-
-/// The finite faces, sorted by the sites around them: the graph keeps them in an order that hangs on where in memory
-/// they lie, as does which vertex of a face is the first.
+/// The finite faces, sorted by the sites around them.
 std::vector<std::pair<Around, Graph::Face_handle>> faces_of(Built const& built) {
     std::vector<std::pair<Around, Graph::Face_handle>> faces;
     for (auto face = built.graph.finite_faces_begin(); face != built.graph.finite_faces_end(); ++face) {
-        faces.emplace_back(around(built, face), face);
+        auto const site = [&](int i) { return built.site_of.at(face->vertex(i)); };
+        faces.emplace_back(least_first({site(0), site(1), site(2)}), face);
     }
     std::ranges::sort(faces, {}, [](auto const& f) { return f.first.sites; });
     return faces;
@@ -173,16 +154,10 @@ RawDiagram raw_of(Built const& built, LabelledSites const& sites, Origin const& 
         auto const here = number_of.find(face);
         auto const beyond = number_of.find(face->neighbor(i));
         if (here != number_of.end() && beyond != number_of.end()) {
-            RawDiagram::Link link{here->second, beyond->second, built.site_of.at(face->vertex(Graph::cw(i))),
-                                  built.site_of.at(face->vertex(Graph::ccw(i)))};
-            if (link.from > link.to) {
-                std::swap(link.from, link.to);
-                std::swap(link.left, link.right);
-            }
-            raw.links.push_back(link);
+            raw.links.push_back({here->second, beyond->second, built.site_of.at(face->vertex(Graph::cw(i))),
+                                 built.site_of.at(face->vertex(Graph::ccw(i)))});
         }
     }
-    std::ranges::sort(raw.links, {}, [](auto const& l) { return std::tuple(l.from, l.to, l.left, l.right); });
     return raw;
 }
 
@@ -202,11 +177,11 @@ Diagram medial_lines(std::vector<LabelledLine> const& lines, Bounds const& bound
     Origin const origin = origin_of(sites);
     Built built;
     build(built, sites, origin, run);
-    RawDiagram const raw = raw_of(built, sites, origin, run);
+    RawDiagram raw = raw_of(built, sites, origin, run);
     auto const curve = [&](Diagram::Site const& s, Diagram::Site const& t, Vec2 p, Vec2 q) {
         return curve_between(s, t, p, q, params.tolerance_m, 2.0 * sites.size_m);
     };
-    return finish(sites, raw, bounds, curve, run);
+    return finish(sites, std::move(raw), bounds, curve, run);
 }
 
 } // namespace thalweg::geometry
