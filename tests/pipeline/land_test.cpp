@@ -105,7 +105,7 @@ TEST(Land, OverTheTrianglesOfRivers) {
 }
 
 TEST(Land, ABaseOfTrianglesTakesTheScarpsAway) {
-    Terrain const paper = made(rivers + "[surface]\nmetric = \"euclid\"\nrelief = 300\n");
+    Terrain const paper = made(rivers + "[surface]\nmetric = \"euclid\"\nrelief = 300\nbase = \"paper\"\n");
     Terrain const smooth = made(rivers + "[surface]\nmetric = \"euclid\"\nrelief = 300\nbase = \"tin\"\n");
     expect_valley_kept(paper);
     expect_valley_kept(smooth);
