@@ -220,7 +220,7 @@ Around least_first(std::array<std::size_t, 3> const& sites) {
     Around around{sites, 0};
     auto const least = std::ranges::min_element(around.sites);
     around.first = static_cast<int>(least - around.sites.begin());
-    std::ranges::rotate(around.sites, least);
+    std::rotate(around.sites.begin(), least, around.sites.end());
     return around;
 }
 
