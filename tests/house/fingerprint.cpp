@@ -28,6 +28,7 @@
 #include <thalweg/network/set_heights.hpp>
 #include <thalweg/network/set_heights_by_type.hpp>
 #include <thalweg/network/set_heights_graded.hpp>
+#include <thalweg/network/streams.hpp>
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
 #include <thalweg/pipeline/frame.hpp>
@@ -38,6 +39,7 @@
 #include <thalweg/skeleton/midpoint_inverse.hpp>
 #include <thalweg/skeleton/noise_along.hpp>
 #include <thalweg/skeleton/regress.hpp>
+#include <thalweg/skeleton/ridges.hpp>
 #include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/skeleton/separable_ar.hpp>
 #include <thalweg/skeleton/shift_mean.hpp>
@@ -263,6 +265,30 @@ void print_points(Run const& run) {
     print("regress, mean slope", hash_of(skeleton::regress(darts, grid, steep, run).surface));
 }
 
+/// Ridges between streams, by both methods.
+void print_ridges(RaisedNetwork const& rivers, Grid const& grid, Run const& run) {
+    auto const streams = network::streams(rivers.plan, network::order(rivers.plan));
+    Fnv labels;
+    labels.add_all(streams);
+    print("streams", labels);
+    using Method = skeleton::RidgesParams::Method;
+    for (Method const method : {Method::voronoi, Method::segments}) {
+        skeleton::RidgesParams params;
+        params.method = method;
+        Fnv fnv;
+        for (RidgeLine const& ridge : skeleton::ridges(rivers, streams, grid, params, run).lines) {
+            fnv.add(ridge.left);
+            fnv.add(ridge.right);
+            for (Vec3 const& p : ridge.line) {
+                fnv.add(p.x);
+                fnv.add(p.y);
+                fnv.add(p.z);
+            }
+        }
+        print(method == Method::voronoi ? "ridges, voronoi" : "ridges, segments", fnv);
+    }
+}
+
 /// What a surface is drawn through: the valley's rivers, lines across as ridges, and a point.
 void print_skeleton(Valley const& valley, Run const& run) {
     Grid const& grid = valley.z.grid();
@@ -473,5 +499,6 @@ int main(int count, char** words) {
     print_lands_of_statistics(run);
     print_points(run);
     print_blend(land, tin, run);
+    print_ridges(raised.network, grid, run);
     print_skeleton(valley, run);
 }
