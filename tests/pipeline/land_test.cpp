@@ -105,12 +105,16 @@ TEST(Land, OverTheTrianglesOfRivers) {
 }
 
 TEST(Land, ABaseOfTrianglesTakesTheScarpsAway) {
-    Terrain const paper = made(rivers + "[surface]\nmetric = \"euclid\"\nrelief = 300\n");
+    Terrain const paper = made(rivers + "[surface]\nmetric = \"euclid\"\nrelief = 300\nbase = \"paper\"\n");
     Terrain const smooth = made(rivers + "[surface]\nmetric = \"euclid\"\nrelief = 300\nbase = \"tin\"\n");
     expect_valley_kept(paper);
     expect_valley_kept(smooth);
     EXPECT_FALSE(paper.tin);
     EXPECT_LT(greatest_step(smooth.surface->dem), 0.5 * greatest_step(paper.surface->dem));
+    Terrain const harmonic = made(rivers + "[surface]\nmetric = \"euclid\"\nrelief = 300\n"); // what comes unasked
+    expect_valley_kept(harmonic);
+    EXPECT_FALSE(harmonic.tin);
+    EXPECT_LT(greatest_step(harmonic.surface->dem), 0.5 * greatest_step(paper.surface->dem));
     Raster<float> const base = surface::rasterise_tin(*smooth.tin, smooth.grid);
     for (std::int64_t i = 0; i < smooth.grid.cells(); ++i) {
         EXPECT_TRUE(std::isnan(base[i]) || !std::isnan(smooth.valley.z[i]) || smooth.surface->dem[i] > base[i] - 1e-3F);
