@@ -111,6 +111,10 @@ TEST(Land, ABaseOfTrianglesTakesTheScarpsAway) {
     expect_valley_kept(smooth);
     EXPECT_FALSE(paper.tin);
     EXPECT_LT(greatest_step(smooth.surface->dem), 0.5 * greatest_step(paper.surface->dem));
+    Terrain const harmonic = made(rivers + "[surface]\nmetric = \"euclid\"\nrelief = 300\n"); // what comes unasked
+    expect_valley_kept(harmonic);
+    EXPECT_FALSE(harmonic.tin);
+    EXPECT_LT(greatest_step(harmonic.surface->dem), 0.5 * greatest_step(paper.surface->dem));
     Raster<float> const base = surface::rasterise_tin(*smooth.tin, smooth.grid);
     for (std::int64_t i = 0; i < smooth.grid.cells(); ++i) {
         EXPECT_TRUE(std::isnan(base[i]) || !std::isnan(smooth.valley.z[i]) || smooth.surface->dem[i] > base[i] - 1e-3F);

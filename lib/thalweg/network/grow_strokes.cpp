@@ -4,20 +4,20 @@
 
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/error.hpp>
-#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/network/balance_banks.hpp>
 #include <thalweg/network/embed_tree.hpp>
 #include <thalweg/network/join_links.hpp>
 #include <thalweg/network/join_strokes.hpp>
 #include <thalweg/network/polygon.hpp>
 #include <thalweg/network/settle_links.hpp>
 #include <thalweg/network/spread_forest.hpp>
+#include <thalweg/network/stroke_lands.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
+#include <optional>
 #include <utility>
 
 namespace thalweg::network {
@@ -42,86 +42,6 @@ void check(StrokesParams const& params) {
         throw BadParameter(
             fmt::format("network.grow_strokes: min_spacing_m is {}, it must be at least 0", params.min_spacing_m));
     }
-}
-
-double distance_to(Stroke const& stroke, Vec2 p) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 1 < stroke.line.size(); ++i) {
-        least = std::min(least, distance(p, geometry::foot_on(stroke.line[i], stroke.line[i + 1], p).at));
-    }
-    return least;
-}
-
-/// The land of every stroke: what lies nearer to it than to others, measured by their lengths, and within its reach.
-class Lands {
-public:
-    Lands(std::vector<Stroke> const& strokes, Grid const& grid, double reach)
-        : strokes_(strokes), grid_(grid), reach_(reach) {}
-
-    std::vector<Vec2> sample(std::size_t stroke, double width_m) const {
-        double const far = reach_m(stroke);
-        Vec2 low = strokes_[stroke].line.front();
-        Vec2 high = low;
-        for (Vec2 const p : strokes_[stroke].line) {
-            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-        }
-        low = {std::max(low.x - far, grid_.west), std::max(low.y - far, grid_.south())};
-        high = {std::min(high.x + far, grid_.east()), std::min(high.y + far, grid_.north)};
-        std::vector<Vec2> places;
-        for (double y = low.y + 0.5 * width_m; y < high.y; y += width_m) {
-            for (double x = low.x + 0.5 * width_m; x < high.x; x += width_m) {
-                if (belongs(stroke, {x, y})) {
-                    places.push_back({x, y});
-                }
-            }
-        }
-        return places;
-    }
-
-    double area_m2(std::size_t stroke) const {
-        double const width = reach_m(stroke) / 24.0;
-        return std::max(1.0, static_cast<double>(sample(stroke, width).size())) * width * width;
-    }
-
-private:
-    double reach_m(std::size_t stroke) const { return reach_ * strokes_[stroke].way.back(); }
-
-    bool belongs(std::size_t stroke, Vec2 p) const {
-        double const own = distance_to(strokes_[stroke], p) / reach_m(stroke);
-        if (!(own < 1.0)) {
-            return false;
-        }
-        for (std::size_t k = 0; k < strokes_.size(); ++k) {
-            if (k == stroke) {
-                continue;
-            }
-            double const other = distance_to(strokes_[k], p) / reach_m(k);
-            if (other < own || (other == own && k < stroke)) {
-                return false;
-            }
-        }
-        return true;
-    }
-
-    std::vector<Stroke> const& strokes_;
-    Grid const& grid_;
-    double reach_;
-};
-
-/// Strokes so that each comes after the one on which it begins.
-std::vector<std::size_t> downstream_first(std::vector<Stroke> const& strokes) {
-    std::vector<std::size_t> turn;
-    std::vector<std::uint8_t> done(strokes.size(), 0);
-    while (turn.size() < strokes.size()) {
-        for (std::size_t k = 0; k < strokes.size(); ++k) {
-            if (done[k] == 0 && (strokes[k].onto < 0 || done[static_cast<std::size_t>(strokes[k].onto)] != 0)) {
-                done[k] = 1;
-                turn.push_back(k);
-            }
-        }
-    }
-    return turn;
 }
 
 /// Another stroke's beginning on a trunk.
@@ -161,24 +81,12 @@ std::vector<double> ways_of_trunk(std::size_t nodes, double length_m, std::vecto
     return ways;
 }
 
-/// Links of the stream that runs from the mouth to the fork, by number.
-std::vector<std::size_t> trunk_of(TokunagaTree const& tree) {
-    std::vector<std::size_t> trunk;
-    std::int64_t link = 0;
-    while (link >= 0) {
-        TreeLink const& here = tree.links[static_cast<std::size_t>(link)];
-        trunk.push_back(static_cast<std::size_t>(link));
-        std::int64_t const next = here.up[0];
-        link = next >= 0 && tree.links[static_cast<std::size_t>(next)].order == here.order ? next : -1;
-    }
-    return trunk;
-}
-
 class Planting {
 public:
-    Planting(std::vector<Stroke> const& strokes, RiverLines const& drawn, Grid const& grid, StrokesParams const& params)
-        : strokes_(strokes), drawn_(drawn), grid_(grid), params_(params), joints_(strokes.size(), -1),
-          junctions_(strokes.size()) {
+    Planting(std::vector<Stroke> const& strokes, RiverLines const& drawn, StrokeLands const& lands, double width_m,
+             StrokesParams const& params)
+        : strokes_(strokes), drawn_(drawn), lands_(lands), width_m_(width_m), params_(params),
+          joints_(strokes.size(), -1), junctions_(strokes.size()) {
         for (std::size_t k = 0; k < strokes.size(); ++k) {
             if (strokes[k].onto >= 0) {
                 junctions_[static_cast<std::size_t>(strokes[k].onto)].push_back({strokes[k].onto_way_m, k});
@@ -194,7 +102,8 @@ public:
         params.seed = chance(params_.tree.seed, stage, stroke);
         params.generator = drawn_.lines[stroke].lambda > 0 ? drawn_.lines[stroke].lambda : params.generator;
         params.order = depth_of(stroke) + 1;
-        TokunagaTree const tree = grow_tokunaga(params, run);
+        TokunagaTree tree = grow_tokunaga(params, run);
+        balance_banks(tree, lands_.share_left(stroke));
         std::vector<std::size_t> const trunk = trunk_of(tree);
         std::vector<double> const ways = ways_of_trunk(trunk.size(), strokes_[stroke].way.back(), junctions_[stroke]);
 
@@ -235,8 +144,7 @@ public:
 
 private:
     int depth_of(std::size_t stroke) const {
-        double const width = grid_.east() - grid_.west;
-        double const depth = std::floor(strokes_[stroke].way.back() / width * params_.max_depth + 0.5);
+        double const depth = std::floor(strokes_[stroke].way.back() / width_m_ * params_.max_depth + 0.5);
         return static_cast<int>(std::clamp(depth, 1.0, static_cast<double>(params_.max_depth)));
     }
 
@@ -257,7 +165,8 @@ private:
 
     std::vector<Stroke> const& strokes_;
     RiverLines const& drawn_;
-    Grid const& grid_;
+    StrokeLands const& lands_;
+    double width_m_; ///< [m] of the grid
     StrokesParams const& params_;
     std::vector<ForestLink> links_;
     std::vector<std::int64_t> joints_; ///< by stroke: the link into which it flows, -1 for its own mouth
@@ -273,11 +182,11 @@ GrownStrokes grow_strokes(RiverLines const& drawn, Grid const& grid, StrokesPara
     if (strokes.empty()) {
         return grown;
     }
-    Planting planting(strokes, drawn, grid, params);
+    StrokeLands const lands(strokes, grid, params.reach);
+    Planting planting(strokes, drawn, lands, grid.east() - grid.west, params);
     for (std::size_t const k : downstream_first(strokes)) {
         planting.plant(k, run);
     }
-    Lands const lands(strokes, grid, params.reach);
     Forest forest;
     forest.links = planting.take();
     for (std::size_t k = 0; k < strokes.size(); ++k) {

@@ -13,10 +13,11 @@
 namespace thalweg::network {
 
 struct StrokesParams {
-    TokunagaParams tree;     ///< seed, rule, banks, and the generator of strokes without their own; order is not read
-    int max_depth = 6;       ///< [1, 29] refinements of a stroke as long as the grid is wide
-    double reach = 0.35;     ///< (0, 2] how far beside a stroke its land reaches, as a share of its length
-    double clearance = 0.35; ///< as in EmbedParams
+    TokunagaParams tree;        ///< seed, rule, the banks of all but the trunks' branches, and the generator of strokes
+                                ///< without their own; order is not read
+    int max_depth = 6;          ///< [1, 29] refinements of a stroke as long as the grid is wide
+    double reach = 0.35;        ///< (0, 2] how far beside a stroke its land reaches, as a share of its length
+    double clearance = 0.35;    ///< as in EmbedParams
     double min_spacing_m = 0.0; ///< [m] as in EmbedParams
 };
 
@@ -27,12 +28,12 @@ struct GrownStrokes {
 };
 
 /// Grows a network along every stroke somebody drew: its trunk follows the stroke, its branches fill the land nearest
-/// to it. Takes: strokes from their mouth upstream, inside the grid. One that begins on another joins its trunk there.
+/// to it, on either side as many links as there is land.
+/// Takes: strokes from their mouth upstream, inside the grid. One that begins on another joins its trunk there.
 /// Gives: refinements = length / width of the grid * max_depth, rounded, at least 1 and at most max_depth; no two arcs
 /// meet but in shared nodes. Throws: BadParameter; BadInput naming the stroke and the place: fewer than two different
-/// vertices, a vertex outside the grid, a type nobody knows, a stroke that meets itself, two that cross, end on one
-/// another, begin or join at the same place; Cancelled.
-/// Source: paper 003, equation 9.
+/// vertices, half a cell or less, a vertex outside the grid, a type nobody knows, a stroke that meets itself, two that
+/// cross, end on one another, begin or join at the same place; Cancelled. Source: paper 003, equation 9.
 GrownStrokes grow_strokes(RiverLines const& strokes, Grid const& grid, StrokesParams const& params = {},
                           Run const& run = {});
 

@@ -25,6 +25,13 @@ std::string named(RiverLines const& strokes, std::int64_t feature, Vec2 at) {
     return fmt::format("network.grow_strokes: stroke {} of {} at ({:.3f}, {:.3f})", feature, strokes.name, at.x, at.y);
 }
 
+void measure(Stroke& stroke) {
+    stroke.way.assign(1, 0.0);
+    for (std::size_t i = 1; i < stroke.line.size(); ++i) {
+        stroke.way.push_back(stroke.way.back() + distance(stroke.line[i - 1], stroke.line[i]));
+    }
+}
+
 Stroke as_drawn(RiverLine const& drawn, RiverLines const& strokes, Grid const& grid) {
     Stroke stroke;
     stroke.feature = drawn.feature;
@@ -36,11 +43,10 @@ Stroke as_drawn(RiverLine const& drawn, RiverLines const& strokes, Grid const& g
                                        "north; enlarge the grid or shorten the stroke",
                                        grid.west, grid.east(), grid.south(), grid.north));
         }
-        if (stroke.line.empty() || !(stroke.line.back() == p)) {
-            stroke.way.push_back(stroke.line.empty() ? 0.0 : stroke.way.back() + distance(stroke.line.back(), p));
-            stroke.line.push_back(p);
-        }
+        stroke.line.push_back(p);
     }
+    stroke.line.erase(std::unique(stroke.line.begin(), stroke.line.end()), stroke.line.end());
+    measure(stroke);
     if (stroke.line.size() < 2) {
         Vec2 const at = stroke.line.empty() ? Vec2{} : stroke.line.front();
         throw BadInput(named(strokes, drawn.feature, at) + " is a single point; draw it from its mouth upstream");
@@ -58,11 +64,17 @@ Stroke as_drawn(RiverLine const& drawn, RiverLines const& strokes, Grid const& g
     return stroke;
 }
 
-/// Finds the stroke on which another begins, if any, and moves its beginning onto it.
-void find_beginning(std::size_t number, std::vector<Stroke>& strokes, double tolerance_m) {
+/// A place on a stroke by one of its segments.
+struct Spot {
+    std::size_t segment = 0;
+    double along = 0.0; ///< [0, 1]
+};
+
+/// Finds the stroke on which another begins as they are drawn, if any.
+Spot find_beginning(std::size_t number, std::vector<Stroke>& strokes, double tolerance_m) {
     Stroke& stroke = strokes[number];
     double least = tolerance_m;
-    Vec2 onto = stroke.line.front();
+    Spot spot;
     for (std::size_t other = 0; other < strokes.size(); ++other) {
         if (other == number) {
             continue;
@@ -73,18 +85,34 @@ void find_beginning(std::size_t number, std::vector<Stroke>& strokes, double tol
             double const off = distance(foot.at, stroke.line.front());
             if (off < least || (off == least && stroke.onto < 0)) {
                 least = off;
-                onto = foot.at;
+                spot = {i, foot.along};
                 stroke.onto = static_cast<std::int64_t>(other);
                 stroke.onto_way_m = strokes[other].way[i] + foot.along * distance(line[i], line[i + 1]);
             }
         }
     }
-    if (stroke.onto >= 0) {
-        stroke.line.front() = onto;
-        for (std::size_t i = 1; i < stroke.line.size(); ++i) {
-            stroke.way[i] = stroke.way[i - 1] + distance(stroke.line[i - 1], stroke.line[i]);
-        }
-    }
+    return spot;
+}
+
+/// Moves the beginning of a stroke onto the other, which lies where it shall.
+void move_beginning(Stroke& stroke, Stroke const& onto, Spot spot) {
+    Vec2 const a = onto.line[spot.segment];
+    Vec2 const b = onto.line[spot.segment + 1];
+    stroke.line.front() = {a.x + spot.along * (b.x - a.x), a.y + spot.along * (b.y - a.y)};
+    stroke.onto_way_m = onto.way[spot.segment] + spot.along * distance(a, b);
+    measure(stroke);
+}
+
+/// Where a line lies on a point that it shares with others or with itself.
+struct Meeting {
+    std::size_t stroke;
+    std::size_t segment;
+};
+
+bool meets_itself(std::vector<Meeting> const& here) {
+    return std::adjacent_find(here.begin(), here.end(), [](Meeting const& a, Meeting const& b) {
+               return a.stroke == b.stroke && b.segment > a.segment + 1;
+           }) != here.end();
 }
 
 /// Throws where strokes meet otherwise than by one that begins on another.
@@ -93,31 +121,46 @@ void require_joined(std::vector<Stroke> const& strokes, RiverLines const& names,
     for (Stroke const& s : strokes) {
         lines.push_back(s.line);
     }
-    std::map<std::pair<double, double>, std::vector<std::size_t>> meetings;
+    std::map<std::pair<double, double>, std::vector<Meeting>> meetings; // sorted by line and segment, as crossings are
     for (geometry::Crossing const& c : geometry::crossings(lines, run)) {
-        meetings[{c.at.x, c.at.y}].push_back(c.line);
+        meetings[{c.at.x, c.at.y}].push_back({c.line, c.segment});
     }
-    for (auto const& [place, who] : meetings) {
+    for (auto const& [place, here] : meetings) {
         Vec2 const at{place.first, place.second};
-        std::size_t const one = who.front();
-        auto const other = std::find_if(who.begin(), who.end(), [one](std::size_t k) { return k != one; });
-        if (other == who.end()) {
-            throw BadInput(named(names, strokes[one].feature, at) + " meets itself; draw it without loops");
+        bool const alone = here.front().stroke == here.back().stroke;
+        if (alone || meets_itself(here)) {
+            throw BadInput(named(names, strokes[here.front().stroke].feature, at) +
+                           " meets itself; draw it without loops");
         }
         auto const begins_here = [&](std::size_t k, std::size_t on) {
             return strokes[k].onto == static_cast<std::int64_t>(on) &&
                    distance(strokes[k].line.front(), at) <= tolerance_m;
         };
-        if (begins_here(one, *other) || begins_here(*other, one)) {
-            continue;
+        for (auto const& [other, other_segment] : here) {
+            for (auto const& [one, segment] : here) {
+                if (one >= other || begins_here(one, other) || begins_here(other, one)) {
+                    continue;
+                }
+                throw BadInput(named(names, strokes[one].feature, at) +
+                               fmt::format(" crosses stroke {}; rivers do not cross: let one begin on the other",
+                                           strokes[other].feature));
+            }
         }
-        bool const ends = distance(strokes[one].line.back(), at) <= tolerance_m ||
-                          distance(strokes[*other].line.back(), at) <= tolerance_m;
-        throw BadInput(named(names, strokes[one].feature, at) +
-                       fmt::format(" {} stroke {}; {}", ends ? "meets the end of or ends on" : "crosses",
-                                   strokes[*other].feature,
-                                   ends ? "strokes run from their mouth upstream: turn round the one that ends here"
-                                        : "rivers do not cross: let one begin on the other"));
+    }
+}
+
+/// Throws where the upper end of a stroke lies on another.
+void require_mouths_below(std::vector<Stroke> const& strokes, RiverLines const& names, double tolerance_m) {
+    for (std::size_t k = 0; k < strokes.size(); ++k) {
+        Vec2 const end = strokes[k].line.back();
+        for (std::size_t other = 0; other < strokes.size(); ++other) {
+            if (other == k || distance_to(strokes[other], end) > tolerance_m) {
+                continue;
+            }
+            throw BadInput(named(names, strokes[k].feature, end) +
+                           fmt::format(" ends on stroke {}; strokes run from their mouth upstream: turn it round",
+                                       strokes[other].feature));
+        }
     }
 }
 
@@ -131,7 +174,8 @@ void require_apart(std::vector<Stroke> const& strokes, RiverLines const& names, 
                                fmt::format(" begins where stroke {} does; move one of them", strokes[m].feature));
             }
         }
-        Stroke const& s = strokes[k];
+    }
+    for (Stroke const& s : strokes) {
         if (s.onto >= 0) {
             Stroke const& below = strokes[static_cast<std::size_t>(s.onto)];
             if (s.onto_way_m >= below.way.back() - tolerance_m) {
@@ -159,12 +203,45 @@ std::vector<Stroke> join_strokes(RiverLines const& drawn, Grid const& grid, Run 
     for (RiverLine const& line : drawn.lines) {
         strokes.push_back(as_drawn(line, drawn, grid));
     }
+    std::vector<Spot> spots;
     for (std::size_t k = 0; k < strokes.size(); ++k) {
-        find_beginning(k, strokes, tolerance_m);
+        spots.push_back(find_beginning(k, strokes, tolerance_m));
     }
     require_apart(strokes, drawn, tolerance_m);
+    for (std::size_t const k : downstream_first(strokes)) {
+        if (strokes[k].onto >= 0) {
+            move_beginning(strokes[k], strokes[static_cast<std::size_t>(strokes[k].onto)], spots[k]);
+        }
+        if (!(strokes[k].way.back() > tolerance_m)) {
+            throw BadInput(named(drawn, strokes[k].feature, strokes[k].line.front()) +
+                           " is no longer than half a cell; draw it longer");
+        }
+    }
+    require_mouths_below(strokes, drawn, tolerance_m);
     require_joined(strokes, drawn, 2.0 * tolerance_m, run);
     return strokes;
+}
+
+double distance_to(Stroke const& stroke, Vec2 p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < stroke.line.size(); ++i) {
+        least = std::min(least, distance(p, geometry::foot_on(stroke.line[i], stroke.line[i + 1], p).at));
+    }
+    return least;
+}
+
+std::vector<std::size_t> downstream_first(std::vector<Stroke> const& strokes) {
+    std::vector<std::size_t> turn;
+    std::vector<std::uint8_t> done(strokes.size(), 0);
+    while (turn.size() < strokes.size()) {
+        for (std::size_t k = 0; k < strokes.size(); ++k) {
+            if (done[k] == 0 && (strokes[k].onto < 0 || done[static_cast<std::size_t>(strokes[k].onto)] != 0)) {
+                done[k] = 1;
+                turn.push_back(k);
+            }
+        }
+    }
+    return turn;
 }
 
 Vec2 place_at(Stroke const& stroke, double way_m) {

@@ -14,7 +14,7 @@ namespace thalweg::network {
 
 /// A stroke in plan, and where it begins.
 struct Stroke {
-    std::vector<Vec2> line;   ///< [m] from the mouth upstream, no vertex twice in a row
+    std::vector<Vec2> line;   ///< [m] from the mouth upstream
     std::vector<double> way;  ///< [m] along the line to each vertex
     std::int64_t onto = -1;   ///< stroke on which it begins, by number; -1 for none
     double onto_way_m = 0.0;  ///< [m] along that stroke
@@ -26,6 +26,12 @@ struct Stroke {
 /// moved onto it.
 /// Throws: as grow_strokes, for what concerns the strokes alone; Cancelled.
 std::vector<Stroke> join_strokes(RiverLines const& strokes, Grid const& grid, Run const& run = {});
+
+/// Strokes by number, each after the one on which it begins; no ring of them.
+std::vector<std::size_t> downstream_first(std::vector<Stroke> const& strokes);
+
+/// Distance [m] of a place from a line.
+double distance_to(Stroke const& stroke, Vec2 p);
 
 /// The place at a way [m] along a line.
 Vec2 place_at(Stroke const& stroke, double way_m);

@@ -13,7 +13,8 @@ namespace thalweg::network {
 
 namespace {
 
-constexpr double sharpest = 0.93969262; // cosine of 20 degrees
+constexpr double sharpest = 0.93969262;       // cosine of 20 degrees
+constexpr double sharpest_drawn = 0.99984770; // cosine of 1 degree
 
 std::size_t z(std::int64_t number) {
     return static_cast<std::size_t>(number);
@@ -87,6 +88,9 @@ private:
         return (down >= 0 && (z(down) == k || down == other)) || (other >= 0 && z(other) == i);
     }
 
+    /// Whether somebody else chose the link's place, which then counts more than what is near it.
+    bool drawn(std::size_t i) const { return forest_.links[i].pinned && rounded(*forest_.links[i].pinned) == at_[i]; }
+
     bool fits(std::size_t i) const { return clear(i) && bends_gently(i); }
 
     /// Moves the node of a link to the nearest place that has room for it; leaves it where there is none.
@@ -135,7 +139,9 @@ private:
                 return true;
             }
             double const need =
-                std::max(forest_.clearance * std::min(length, distance(t.a, t.b)), forest_.min_spacing_m);
+                drawn(i) && drawn(k)
+                    ? 0.0
+                    : std::max(forest_.clearance * std::min(length, distance(t.a, t.b)), forest_.min_spacing_m);
             double const squared = squared_distance(s, t);
             return squared > 0.0 && squared >= need * need;
         });
@@ -147,9 +153,11 @@ private:
             return true;
         }
         Vec2 const here = at_[z(down)];
-        return cosine_at(here, lower_end(z(down)), at_[i]) <= sharpest &&
-               std::all_of(up_[z(down)].begin(), up_[z(down)].end(),
-                           [&](std::size_t k) { return cosine_at(here, at_[k], at_[i]) <= sharpest; });
+        auto const apart = [&](std::size_t other, Vec2 to) {
+            return cosine_at(here, to, at_[i]) <= (drawn(i) && drawn(other) ? sharpest_drawn : sharpest);
+        };
+        return apart(z(down), lower_end(z(down))) &&
+               std::all_of(up_[z(down)].begin(), up_[z(down)].end(), [&](std::size_t k) { return apart(k, at_[k]); });
     }
 
     Forest const& forest_;
