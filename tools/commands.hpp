@@ -33,6 +33,7 @@ Command add_draw(CLI::App& app, Session& session);
 Command add_replay(CLI::App& app, Session& session);
 Command add_recipe(CLI::App& app, Session& session);
 Command add_tin(CLI::App& app, Session& session);
+Command add_grow(CLI::App& app, Session& session);
 // Of the command line itself: they read the other commands.
 Command add_completion(CLI::App& app);
 Command add_man(CLI::App& app);

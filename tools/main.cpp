@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
     add("stats", "Measure a DEM.", add_stats);
     add("draw", "Draw pictures of a DEM, or of what make left.", add_draw);
     add("tin", "Make a TIN of a DEM, of points or of a network.", add_tin);
+    add("grow", "Grow a network by Tokunaga's law and count its streams.", add_grow);
     add("replay", "Run a folder's recipe again and compare the bytes.", add_replay);
     add("recipe", "List every key of a recipe.", add_recipe);
     CLI::App* const completion =
