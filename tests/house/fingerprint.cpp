@@ -20,7 +20,10 @@
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/measure/statistics.hpp>
 #include <thalweg/network/assign_types.hpp>
+#include <thalweg/network/embed_tree.hpp>
 #include <thalweg/network/grow_dla.hpp>
+#include <thalweg/network/grow_tokunaga.hpp>
+#include <thalweg/network/lsystem.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/pick_branch.hpp>
 #include <thalweg/network/prune.hpp>
@@ -444,6 +447,31 @@ void print_diffused(Valley const& valley, Run const& run) {
     print("diffuse, explicit", hash_of(surface::diffuse({valley.z}, params, run).dem));
 }
 
+Fnv hash_of(network::TokunagaTree const& tree) {
+    Fnv fnv;
+    for (network::TreeLink const& link : tree.links) {
+        fnv.add(link.down);
+        fnv.add_all(link.up);
+        fnv.add(static_cast<std::int64_t>(link.order));
+        fnv.add(static_cast<std::int64_t>(link.turn));
+    }
+    fnv.add(tree.link_length);
+    return fnv;
+}
+
+void print_trees(Run const& run) {
+    network::TokunagaTree const tree = network::grow_tokunaga({.generator = 3, .order = 5}, run);
+    print("grow_tokunaga", hash_of(tree));
+    Fnv word;
+    for (char const letter : network::write_lsystem(tree)) {
+        word.add(static_cast<std::int64_t>(letter));
+    }
+    print("write_lsystem", word);
+    network::EmbedParams const params{.region = {{0, 0}, {4000, 0}, {4000, 2500}, {1500, 2000}, {0, 4000}},
+                                      .mouth = {2000, 0}};
+    print("embed_tree", hash_of(network::embed_tree(tree, params, run).network));
+}
+
 } // namespace
 
 int main(int count, char** words) {
@@ -501,4 +529,5 @@ int main(int count, char** words) {
     print_blend(land, tin, run);
     print_ridges(raised.network, grid, run);
     print_skeleton(valley, run);
+    print_trees(run);
 }
