@@ -31,6 +31,7 @@ NODE_FIELDS = {
     "real": "z area dist_out".split(),
     "text": ["kind"],
 }
+RIDGE_FIELDS = {"int": "ridge_id left right".split(), "real": "length z_min z_max".split()}
 TYPES = {"int": {ogr.OFTInteger, ogr.OFTInteger64}, "real": {ogr.OFTReal}, "text": {ogr.OFTString}}
 EXAMPLES = 5
 
@@ -244,12 +245,38 @@ def check_graph(arcs, nodes, report):
             "length_m": math.fsum(arc["length"] for arc in arcs.values())}
 
 
+def has_ridges(path):
+    return path.suffix.lower() != ".shp" and ogr.Open(str(path)).GetLayerByName("ridges") is not None
+
+
+def check_ridges(ridges, arcs, report):
+    """Ridges part two streams, lie at the heights they name and meet no river."""
+    rivers = [LineString([p[:2] for p in arc["xyz"]]) for arc in arcs.values()]
+    tree = STRtree(rivers)
+    for i, ridge in ridges.items():
+        plan = [p[:2] for p in ridge["xyz"]]
+        z = [p[2] for p in ridge["xyz"]]
+        report.unless(ridge["left"] != ridge["right"], "ridge_in_one_stream", f"ridge {i}: {ridge['left']}")
+        report.unless(ridge["z_min"] <= ridge["z_max"], "ridge_z_order", f"ridge {i}")
+        report.unless(near(ridge["z_min"], min(z)) and near(ridge["z_max"], max(z)), "ridge_z", f"ridge {i}")
+        length = math.fsum(math.dist(a, b) for a, b in zip(plan, plan[1:]))
+        report.unless(length > 0 and near(ridge["length"], length), "ridge_length", f"ridge {i}")
+        line = LineString(plan)
+        for hit in tree.query(line):
+            river = hit if isinstance(hit, LineString) else rivers[int(hit)]  # shapely 1 and 2
+            report.unless(not line.intersects(river), "ridge_meets_river", f"ridge {i}")
+
+
 def main(path):
     report = Report()
     arcs_file, nodes_file = files_of(path)
     arc_rows = read(arcs_file, "arcs", ARC_FIELDS, ogr.wkbLineString25D, report)
     node_rows = read(nodes_file, "nodes", NODE_FIELDS, ogr.wkbPoint25D, report)
     answer = {"network": str(path), "arcs": len(arc_rows), "nodes": len(node_rows)}
+    ridge_rows = []
+    if has_ridges(arcs_file):
+        ridge_rows = read(arcs_file, "ridges", RIDGE_FIELDS, ogr.wkbLineString25D, report)
+        answer["ridges"] = len(ridge_rows)
     report.unless(arc_rows, "no_arcs", str(arcs_file))
     if not any(report.counts[kind] for kind in ("field_missing", "field_type", "null", "not_finite")):
         arcs = by_id(arc_rows, "arc_id", report)
@@ -257,6 +284,7 @@ def main(path):
         check_shapes(arcs, nodes, report)
         check_crossings(arcs, nodes, report)
         answer.update(check_graph(arcs, nodes, report))
+        check_ridges(by_id(ridge_rows, "ridge_id", report), arcs, report)
     answer["violations"] = {kind: count for kind, count in report.counts.items() if count}
     answer["examples"] = report.examples
     print(json.dumps(answer, indent=1))

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace thalweg::pipeline {
@@ -46,8 +47,13 @@ Region within(Grid const& grid, Side mouth) {
 /// A polygon of a file; the river leaves it where it reaches farthest to the side.
 Region inside(Polygons const& polygons, Side mouth) {
     if (polygons.polygons.size() != 1 || polygons.polygons.front().rings.size() != 1) {
-        throw BadInput(fmt::format("network.tokunaga.region: {} holds {} polygons; a network fills one without holes",
-                                   polygons.name, polygons.polygons.size()));
+        std::size_t rings = 0;
+        for (Polygon const& polygon : polygons.polygons) {
+            rings += polygon.rings.size();
+        }
+        throw BadInput(fmt::format("network.tokunaga.region: {} holds {} polygons of {} rings; a network fills one "
+                                   "without holes",
+                                   polygons.name, polygons.polygons.size(), rings));
     }
     Region region{polygons.polygons.front().rings.front(), {}};
     if (region.ring.size() > 1 && region.ring.front() == region.ring.back()) {
@@ -86,6 +92,32 @@ std::vector<std::int64_t> downstream(network::TokunagaTree const& tree) {
     return down;
 }
 
+constexpr char const* more_room = "lower network.tokunaga.order or spacing, or take a larger grid (or smaller cells)";
+
+/// Throws before a network is laid out that has no chance: links would lie at less than half the distance they keep.
+void require_room(std::int64_t links, Grid const& grid, double spacing_cells) {
+    double const apart = std::sqrt(static_cast<double>(grid.cells()) / static_cast<double>(links));
+    double const kept = std::max(spacing_cells, 1.0);
+    if (links > 1 && apart < 0.5 * kept) {
+        throw BadInput(fmt::format("network.tokunaga: {} links on {} x {} cells lie {:.2g} cells apart, and keep {} "
+                                   "cells from one another: {}",
+                                   links, grid.width, grid.height, apart, kept, more_room));
+    }
+}
+
+/// Throws where less than half of a network found room; warns where much of it did not.
+void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Run const& run) {
+    std::int64_t const all = placed + dropped;
+    std::string const found = fmt::format("{} of {} links found no room on {} x {} cells: {}", dropped, all, grid.width,
+                                          grid.height, more_room);
+    if (2 * placed < all || placed == 0) {
+        throw BadInput("network.tokunaga: " + found);
+    }
+    if (10 * placed < 9 * all) {
+        run.say("warning: network.tokunaga: " + found);
+    }
+}
+
 Planned fill_region(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
     recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
@@ -102,6 +134,7 @@ Planned fill_region(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& r
     }
     Grid const grid = polygons ? frame_polygons(*polygons, recipe.grid)
                                : frame_tree(static_cast<std::int64_t>(tree.links.size()), recipe.grid);
+    require_room(static_cast<std::int64_t>(tree.links.size()), grid, wanted.spacing_cells);
     Region const region = polygons ? inside(*polygons, wanted.mouth) : within(grid, wanted.mouth);
     network::EmbedParams params;
     params.seed = recipe.seed;
@@ -113,6 +146,7 @@ Planned fill_region(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& r
     story.dropped = embedded.dropped;
     diary.say(
         fmt::format("{} of {} links placed, {:.0f} m apart", embedded.placed, tree.links.size(), embedded.spacing_m));
+    judge_room(embedded.placed, embedded.dropped, grid, run);
     return {std::move(embedded.network), grid, {}};
 }
 
@@ -127,6 +161,7 @@ Planned follow_strokes(Recipe& recipe, Terrain& terrain, Diary& diary, Run const
     Grid const grid = frame_lines(strokes, recipe.grid);
     network::StrokesParams params;
     params.tree = tree_of(recipe);
+    params.max_depth = std::max(wanted.order - 1, 1); // each refinement raises the order by one
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
     network::GrownStrokes grown =
         diary.stage("grow", [&] { return network::grow_strokes(strokes, grid, params, run); });
@@ -134,6 +169,7 @@ Planned follow_strokes(Recipe& recipe, Terrain& terrain, Diary& diary, Run const
     terrain.story.tokunaga->placed = grown.placed;
     terrain.story.tokunaga->dropped = grown.dropped;
     diary.say(fmt::format("{} of {} links placed", grown.placed, grown.placed + grown.dropped));
+    judge_room(grown.placed, grown.dropped, grid, run);
     return {std::move(grown.network), grid, {}};
 }
 
