@@ -3,8 +3,9 @@
 // Laplace's equation on a grid with lines of fixed cells, to 1e-6: our solver, two of Eigen's on the very same problem,
 // and memcpy of a float grid. One thread. Memory counts, first touch included: ours from the problem to the solution,
 // Eigen's from the assembled matrix to the vector. max_error_m: against our solution to 1e-12.
-#include <thalweg/core/chance.hpp>
 #include <thalweg/solver/poisson.hpp>
+
+#include <solver/winding_lines.hpp>
 
 #include <benchmark/benchmark.h>
 
@@ -31,37 +32,6 @@ Run one_thread() {
     return run;
 }
 
-/// Winding rivers and ridges through about 3.5 % of the cells.
-GridProblem lines(std::int64_t side) {
-    Grid const grid{side, side, 1.0, 0.0, 0.0, ""};
-    GridProblem problem{
-        Raster<std::uint8_t>(grid, static_cast<std::uint8_t>(CellKind::free)), Raster<double>(grid), {}};
-    ChanceStream chance(7, 1, 0);
-    auto const size = static_cast<double>(side);
-    std::int64_t wanted = side * side * 35 / 1000;
-    while (wanted > 0) {
-        double x = chance.real() * size;
-        double y = chance.real() * size;
-        double bearing = 6.28 * chance.real();
-        double const step_m = chance.real() < 0.5 ? 60.0 : -60.0;
-        auto const length = static_cast<std::int64_t>(200.0 + chance.real() * size / 4.0);
-        for (std::int64_t i = 0; i < length; ++i) {
-            x += std::cos(bearing);
-            y += std::sin(bearing);
-            bearing += 0.6 * (chance.real() - 0.5);
-            Cell const cell{static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(std::floor(y))};
-            if (!grid.contains(cell)) {
-                break;
-            }
-            wanted -= problem.kind[cell] == fixed ? 0 : 1;
-            problem.kind[cell] = fixed;
-            problem.value[cell] = 500.0 + 200.0 * std::sin(8.0 * x / size) + 150.0 * std::cos(10.0 * y / size) +
-                                  step_m + 0.05 * static_cast<double>(i);
-        }
-    }
-    return problem;
-}
-
 struct Case {
     GridProblem problem;
     Raster<double> exact;
@@ -70,7 +40,7 @@ struct Case {
 Case const& case_of(std::int64_t side) {
     static Case made;
     if (made.problem.kind.width() != side) {
-        made.problem = lines(side);
+        made.problem = test::winding_lines(side, 0.035);
         made.exact = solve_poisson(made.problem, {1e-12, 200}, one_thread()).value;
     }
     return made;

@@ -84,6 +84,8 @@ int main(int argc, char** argv) {
     add("tin", "Make a TIN of a DEM, of points or of a network.", add_tin);
     add("points", "Write the cells of a DEM as a cloud of points.", add_points);
     add("blend", "Set a piece of one DEM into another without a seam.", add_blend);
+    add("deform", "Scale a region of a DEM, or pull it to heights.", add_deform);
+    add("grow", "Grow a network by Tokunaga's law and count its streams.", add_grow);
     add("replay", "Run a folder's recipe again and compare the bytes.", add_replay);
     add("recipe", "List every key of a recipe.", add_recipe);
     CLI::App* const completion =

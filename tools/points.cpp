@@ -55,7 +55,8 @@ Command add_points(CLI::App& app, Session& session) {
     app.add_option("--every", options->source.write.every,
                    "Take one of so many rows and columns. Without it, every cell.")
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()));
-    app.add_flag("--skeleton", options->skeleton, "Take only the cells of the rivers, of a folder that make left.");
+    app.add_flag("--skeleton", options->skeleton,
+                 "Take only the cells of rivers and ridges, of a folder that make left.");
     app.add_option("--format", options->format,
                    "Write this format: " + formats + ". Without it, by the name's ending.");
     app.add_flag("--json", session.json, "Print one JSON object.");

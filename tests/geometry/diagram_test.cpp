@@ -4,6 +4,7 @@
 #include <thalweg/geometry/voronoi.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -16,6 +17,7 @@
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
+#include <thalweg/geometry/equidistant.hpp>
 #include <thalweg/geometry/segments_near.hpp>
 
 using namespace thalweg;
@@ -289,6 +291,25 @@ TEST(Diagram, MedialLinesKeepTheirLaws) {
         check_ends(diagram);
         check_nothing_is_missing(diagram, lines, Kind::segments, corner, seed);
     }));
+}
+
+TEST(Diagram, NeedsNoGuess) {
+    using Site = Diagram::Site;
+    auto const point = [](Vec2 p) { return Site{0, 0, p, p}; };
+    Vec2 const none{NAN, NAN};
+    Vec2 const middle = equidistant({point({0, 0}), point({2, 0}), point({0, 2})}, none);
+    EXPECT_NEAR(distance(middle, {1, 1}), 0.0, 1e-12);
+    // Two stretches of a river that goes almost straight on, and a place beside it: seen from both sides.
+    for (double const bend : {1e-3, 1e-6, 1e-9}) {
+        Site const before{0, 0, {-100, bend}, {0, 0}};
+        Site const after{0, 1, {0, 0}, {150, 1.5 * bend}};
+        std::array<Site, 3> const sites{point({7, 30}), before, after};
+        Vec2 const p = equidistant(sites, none);
+        for (Site const& site : sites) {
+            EXPECT_NEAR(distance_to(site, p), 49.0 / 60.0 + 15.0, 1e-6) << bend;
+        }
+        EXPECT_NEAR(p.x, 0.0, 1e-2) << bend;
+    }
 }
 
 TEST(Diagram, CanBeStopped) {

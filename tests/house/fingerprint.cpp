@@ -20,7 +20,10 @@
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/measure/statistics.hpp>
 #include <thalweg/network/assign_types.hpp>
+#include <thalweg/network/embed_tree.hpp>
 #include <thalweg/network/grow_dla.hpp>
+#include <thalweg/network/grow_tokunaga.hpp>
+#include <thalweg/network/lsystem.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/pick_branch.hpp>
 #include <thalweg/network/prune.hpp>
@@ -28,6 +31,7 @@
 #include <thalweg/network/set_heights.hpp>
 #include <thalweg/network/set_heights_by_type.hpp>
 #include <thalweg/network/set_heights_graded.hpp>
+#include <thalweg/network/streams.hpp>
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
 #include <thalweg/pipeline/frame.hpp>
@@ -38,6 +42,7 @@
 #include <thalweg/skeleton/midpoint_inverse.hpp>
 #include <thalweg/skeleton/noise_along.hpp>
 #include <thalweg/skeleton/regress.hpp>
+#include <thalweg/skeleton/ridges.hpp>
 #include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/skeleton/separable_ar.hpp>
 #include <thalweg/skeleton/shift_mean.hpp>
@@ -263,6 +268,30 @@ void print_points(Run const& run) {
     print("regress, mean slope", hash_of(skeleton::regress(darts, grid, steep, run).surface));
 }
 
+/// Ridges between streams, by both methods.
+void print_ridges(RaisedNetwork const& rivers, Grid const& grid, Run const& run) {
+    auto const streams = network::streams(rivers.plan, network::order(rivers.plan));
+    Fnv labels;
+    labels.add_all(streams);
+    print("streams", labels);
+    using Method = skeleton::RidgesParams::Method;
+    for (Method const method : {Method::voronoi, Method::segments}) {
+        skeleton::RidgesParams params;
+        params.method = method;
+        Fnv fnv;
+        for (RidgeLine const& ridge : skeleton::ridges(rivers, streams, grid, params, run).lines) {
+            fnv.add(ridge.left);
+            fnv.add(ridge.right);
+            for (Vec3 const& p : ridge.line) {
+                fnv.add(p.x);
+                fnv.add(p.y);
+                fnv.add(p.z);
+            }
+        }
+        print(method == Method::voronoi ? "ridges, voronoi" : "ridges, segments", fnv);
+    }
+}
+
 /// What a surface is drawn through: the valley's rivers, lines across as ridges, and a point.
 void print_skeleton(Valley const& valley, Run const& run) {
     Grid const& grid = valley.z.grid();
@@ -418,6 +447,31 @@ void print_diffused(Valley const& valley, Run const& run) {
     print("diffuse, explicit", hash_of(surface::diffuse({valley.z}, params, run).dem));
 }
 
+Fnv hash_of(network::TokunagaTree const& tree) {
+    Fnv fnv;
+    for (network::TreeLink const& link : tree.links) {
+        fnv.add(link.down);
+        fnv.add_all(link.up);
+        fnv.add(static_cast<std::int64_t>(link.order));
+        fnv.add(static_cast<std::int64_t>(link.turn));
+    }
+    fnv.add(tree.link_length);
+    return fnv;
+}
+
+void print_trees(Run const& run) {
+    network::TokunagaTree const tree = network::grow_tokunaga({.generator = 3, .order = 5}, run);
+    print("grow_tokunaga", hash_of(tree));
+    Fnv word;
+    for (char const letter : network::write_lsystem(tree)) {
+        word.add(static_cast<std::int64_t>(letter));
+    }
+    print("write_lsystem", word);
+    network::EmbedParams const params{.region = {{0, 0}, {4000, 0}, {4000, 2500}, {1500, 2000}, {0, 4000}},
+                                      .mouth = {2000, 0}};
+    print("embed_tree", hash_of(network::embed_tree(tree, params, run).network));
+}
+
 } // namespace
 
 int main(int count, char** words) {
@@ -473,5 +527,7 @@ int main(int count, char** words) {
     print_lands_of_statistics(run);
     print_points(run);
     print_blend(land, tin, run);
+    print_ridges(raised.network, grid, run);
     print_skeleton(valley, run);
+    print_trees(run);
 }

@@ -17,10 +17,14 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <solver/winding_lines.hpp>
 
 using namespace thalweg;
 using namespace thalweg::solver;
+using test::winding_lines;
 
 namespace {
 
@@ -135,32 +139,6 @@ double greatest_difference(Raster<double> const& a, Raster<double> const& b) {
 
 bool same_bytes(Raster<double> const& a, Raster<double> const& b) {
     return a.cells() == b.cells() && std::memcmp(a.values().data(), b.values().data(), a.values().size_bytes()) == 0;
-}
-
-/// Winding lines through a share of the cells, as rivers and ridges are.
-GridProblem lines(std::int64_t side, double share) {
-    GridProblem problem = all_free(side, side);
-    ChanceStream chance(5, 1, 0);
-    double wanted = share * static_cast<double>(side * side);
-    while (wanted > 0.0) {
-        double const size = static_cast<double>(side);
-        double x = size * chance.real();
-        double y = size * chance.real();
-        double bearing = 6.28 * chance.real();
-        double const z = 1000.0 * chance.real();
-        for (int i = 0; i < side; ++i) {
-            x += std::cos(bearing);
-            y += std::sin(bearing);
-            bearing += 0.5 * (chance.real() - 0.5);
-            Cell const cell{static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(std::floor(y))};
-            if (!problem.kind.grid().contains(cell)) {
-                break;
-            }
-            wanted -= problem.kind[cell] == fixed ? 0.0 : 1.0;
-            fix(problem, cell, z * (1.0 - 0.5 * i / size));
-        }
-    }
-    return problem;
 }
 
 TEST(Poisson, NothingToDo) {
@@ -334,16 +312,24 @@ TEST(Poisson, SameBytesForAnyThreadsAndLanes) {
 }
 
 TEST(Poisson, IterationsDoNotGrowWithTheGrid) {
+    auto const iterations = [](GridProblem problem) {
+        return solve_poisson(std::move(problem), {1e-6, 100}).iterations;
+    };
     for (double const share : {0.01, 0.05}) {
-        int const few = solve_poisson(by_chance(512, 512, share, 0.0, 1), {1e-6, 100}).iterations;
-        int const many = solve_poisson(by_chance(1024, 1024, share, 0.0, 1), {1e-6, 100}).iterations;
+        int const few = iterations(by_chance(512, 512, share, 0.0, 1));
+        int const many = iterations(by_chance(1024, 1024, share, 0.0, 1));
         EXPECT_LE(std::abs(many - few), 3) << share;
-        EXPECT_LE(solve_poisson(lines(700, share), {1e-6, 100}).iterations, 22) << share;
+    }
+    int const on_lines = iterations(winding_lines(512, 0.035));
+    EXPECT_LE(on_lines, 22);
+    for (std::int64_t const side : {1024, 2048}) {
+        EXPECT_LE(std::abs(iterations(winding_lines(side, 0.035)) - on_lines), 3) << side;
     }
 }
 
 TEST(Poisson, WithinAMillimetreAtOneMillionth) {
-    std::vector<GridProblem> problems = {lines(300, 0.035), by_chance(300, 300, 0.01, 0.0, 1), all_free(300, 300)};
+    std::vector<GridProblem> problems = {winding_lines(300, 0.035), by_chance(300, 300, 0.01, 0.0, 1),
+                                         all_free(300, 300)};
     fix(problems[2], {0, 0}, 1000.0);
     fix(problems[2], {299, 299}, 0.0);
     for (GridProblem const& problem : problems) {
@@ -353,7 +339,7 @@ TEST(Poisson, WithinAMillimetreAtOneMillionth) {
 }
 
 TEST(Poisson, AnyUnitOfHeight) {
-    GridProblem problem = lines(100, 0.03);
+    GridProblem problem = winding_lines(100, 0.03);
     Raster<double> const metres = solve_poisson(problem, {1e-10, 100}).value;
     for (double const unit_m : {0x1p-60, 0x1p40}) { // powers of two: every bit but the exponent's
         GridProblem other = problem;
@@ -369,7 +355,7 @@ TEST(Poisson, AnyUnitOfHeight) {
 }
 
 TEST(Poisson, TellsHowFarItIsAndStops) {
-    GridProblem const problem = lines(200, 0.03);
+    GridProblem const problem = winding_lines(200, 0.03);
     std::vector<double> shares;
     thalweg::Run run;
     run.progress_arg = &shares;

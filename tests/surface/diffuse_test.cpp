@@ -59,7 +59,7 @@ TEST(Diffuse, RefusesWhatCannotBeSpread) {
         change(params);
         return valleys::message<BadParameter>([&] { diffuse(land, params); });
     };
-    for (double const alpha : {0.26, 0.0, -0.1, std::nan("")}) {
+    for (double const alpha : {std::nextafter(0.25, 1.0), 0.26, 0.0, -0.1, std::nan("")}) {
         EXPECT_NE(refused([&](auto& p) { p.alpha = alpha; }).find("1/4"), std::string::npos) << alpha;
     }
     EXPECT_NE(refused([](auto& p) { p.tolerance = 0.0; }).find("tolerance"), std::string::npos);

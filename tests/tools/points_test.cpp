@@ -6,6 +6,7 @@
 #include <io/point_files.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iterator>
 #include <map>
 #include <string>
@@ -133,4 +134,18 @@ TEST(Points, BadInputIsRefused) {
     refused(place, "dem.asc -o a.las --skeleton", "a skeleton is that of a folder");
     refused(place, "empty.asc -o a.las", "empty.asc");
     refused(place, "degrees.asc -o a.las", "the coordinates of degrees.asc are geographic: bring it into");
+}
+
+TEST(Points, SkeletonsHaveTheirRidgesToo) {
+    Workplace const place;
+    std::string const recipe = std::string(THALWEG_SOURCE_DIR) + "/samples/tokunaga.toml";
+    ASSERT_EQ(thalweg_run("make " + recipe +
+                              " -o land -q --set grid.width=128 --set grid.height=128 --set network.tokunaga.order=3",
+                          place.path())
+                  .code,
+              0);
+    ASSERT_EQ(thalweg_run("points land -o skeleton.las --skeleton", place.path()).code, 0);
+    auto const las = point_files::read_las(file_bytes(place / "skeleton.las"));
+    EXPECT_GT(std::count(las.classes.begin(), las.classes.end(), 9), 100);
+    EXPECT_GT(std::count(las.classes.begin(), las.classes.end(), 8), 100);
 }

@@ -34,7 +34,7 @@ def options(*command):
 def keys():
     section, found = "", []
     for line in say("recipe").splitlines():
-        if head := re.match(r"\[(.*)\]$", line):
+        if head := re.match(r"\[+([^]]*)\]+$", line):
             section = head[1] + "."
         elif key := re.match(r"(\w+)", line):
             found.append(section + key[1])

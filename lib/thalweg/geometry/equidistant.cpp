@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include <thalweg/geometry/segments_near.hpp>
+
 namespace thalweg::geometry {
 namespace {
 
@@ -120,9 +122,49 @@ Vec2 by_newton(std::array<Site, 3> const& sites, Vec2 p) {
     return best;
 }
 
+/// The middle of the shortest way between two sites that do not cross.
+Vec2 middle_between(Site const& s, Site const& t) {
+    Vec2 middle;
+    double least = std::numeric_limits<double>::infinity();
+    auto const look = [&](Vec2 p, Site const& other) {
+        Vec2 const foot = foot_on(other.a, other.b, p).at;
+        if (double const d = distance(p, foot); d < least) {
+            least = d;
+            middle = 0.5 * (p + foot);
+        }
+    };
+    for (auto const& [from, to] : {std::pair(&s, &t), std::pair(&t, &s)}) {
+        look(from->a, *to);
+        look(from->b, *to);
+    }
+    return middle;
+}
+
+/// A guess where there is none: the best that is found from between two of the sites, seen counterclockwise.
+Vec2 guessed(std::array<Site, 3> const& sites) {
+    Vec2 best = middle_between(sites[0], sites[1]);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i) {
+        Vec2 const p = by_newton(sites, middle_between(sites[i], sites[(i + 1) % 3]));
+        std::array<Vec2, 3> feet;
+        std::ranges::transform(sites, feet.begin(), [&](Site const& s) { return foot_on(s.a, s.b, p).at; });
+        Vec2 const u = feet[1] - feet[0];
+        Vec2 const v = feet[2] - feet[0];
+        bool const clockwise = u.x * v.y - u.y * v.x < -1e-9 * (dot(u, u) + dot(v, v));
+        if (double const off = spread(sites, p); !clockwise && off < least) {
+            least = off;
+            best = p;
+        }
+    }
+    return best;
+}
+
 } // namespace
 
 Vec2 equidistant(std::array<Site, 3> const& sites, Vec2 guess) {
+    if (!std::isfinite(guess.x) || !std::isfinite(guess.y)) {
+        guess = guessed(sites);
+    }
     Vec2 p = guess;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {

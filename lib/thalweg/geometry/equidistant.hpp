@@ -10,7 +10,8 @@
 namespace thalweg::geometry {
 
 /// The point equally far from three sites of a segment Voronoi diagram, a guess made better.
-/// Takes: sites that lie near the origin in terms of their distances, a guess not far off.
+/// Takes: sites that lie near the origin in terms of their distances, counterclockwise; a guess not far off, or one
+/// that is not finite.
 /// Gives: the point at which the distances agree best, the guess itself where nothing better is found.
 /// Source: Newton's method; in closed form where a site is an end of another.
 Vec2 equidistant(std::array<Diagram::Site, 3> const& sites, Vec2 guess);

@@ -147,6 +147,17 @@ private:
     Bounds const& bounds_;
 };
 
+/// From lower to higher faces, sorted: an order that does not hang on where in memory faces lie.
+void sort(std::vector<RawDiagram::Link>& links) {
+    for (auto& link : links) {
+        if (link.from > link.to) {
+            std::swap(link.from, link.to);
+            std::swap(link.left, link.right);
+        }
+    }
+    std::ranges::sort(links, {}, [](auto const& l) { return std::tie(l.from, l.to, l.left, l.right); });
+}
+
 } // namespace
 
 LabelledSites sites_of(std::vector<LabelledLine> const& lines, Bounds const& bounds, Parts parts,
@@ -205,8 +216,16 @@ LabelledSites sites_of(std::vector<LabelledLine> const& lines, Bounds const& bou
     return out;
 }
 
-Diagram finish(LabelledSites const& sites, RawDiagram const& raw, Bounds const& bounds, Curve const& curve,
-               Run const& run) {
+Around least_first(std::array<std::size_t, 3> const& sites) {
+    Around around{sites, 0};
+    auto const least = std::ranges::min_element(around.sites);
+    around.first = static_cast<int>(least - around.sites.begin());
+    std::rotate(around.sites.begin(), least, around.sites.end());
+    return around;
+}
+
+Diagram finish(LabelledSites const& sites, RawDiagram raw, Bounds const& bounds, Curve const& curve, Run const& run) {
+    sort(raw.links);
     Groups groups(raw.at.size());
     for (auto const& link : raw.links) {
         if (distance(raw.at[link.from], raw.at[link.to]) <= same_place * sites.size_m) {

@@ -27,6 +27,14 @@ enum class Parts : std::uint8_t { vertices, segments };
 LabelledSites sites_of(std::vector<LabelledLine> const& lines, Bounds const& bounds, Parts parts,
                        std::string const& what);
 
+/// The sites around a face counterclockwise, the least first, and which of the face's vertices that is. CGAL's meshes
+/// keep faces, and say which vertex of a face is the first, by where in memory they lie.
+struct Around {
+    std::array<std::size_t, 3> sites{};
+    int first = 0;
+};
+Around least_first(std::array<std::size_t, 3> const& sites);
+
 /// A diagram before its vertices are merged and its edges are cut: by face of its dual.
 struct RawDiagram {
     struct Link {
@@ -37,14 +45,13 @@ struct RawDiagram {
     };
     std::vector<Vec2> at;                          ///< by face
     std::vector<std::array<std::size_t, 3>> sites; ///< by face; numbers beyond the sites are far points
-    std::vector<Link> links;                       ///< all pairs of neighbouring faces
+    std::vector<Link> links;                       ///< all pairs of neighbouring faces, in any order
 };
 
 using Curve = std::function<std::vector<Vec2>(Diagram::Site const&, Diagram::Site const&, Vec2, Vec2)>;
 
 /// Merges vertices that rounding alone keeps apart, leaves out edges between sites with a label in common, and cuts
 /// the others at the bounds. curve: the points between the ends of an edge.
-Diagram finish(LabelledSites const& sites, RawDiagram const& raw, Bounds const& bounds, Curve const& curve,
-               Run const& run);
+Diagram finish(LabelledSites const& sites, RawDiagram raw, Bounds const& bounds, Curve const& curve, Run const& run);
 
 } // namespace thalweg::geometry

@@ -116,6 +116,17 @@ void build(Built& built, LabelledSites const& sites, Origin const& origin, Run c
     }
 }
 
+/// The finite faces, sorted by the sites around them.
+std::vector<std::pair<Around, Graph::Face_handle>> faces_of(Built const& built) {
+    std::vector<std::pair<Around, Graph::Face_handle>> faces;
+    for (auto face = built.graph.finite_faces_begin(); face != built.graph.finite_faces_end(); ++face) {
+        auto const site = [&](int i) { return built.site_of.at(face->vertex(i)); };
+        faces.emplace_back(least_first({site(0), site(1), site(2)}), face);
+    }
+    std::ranges::sort(faces, {}, [](auto const& f) { return f.first.sites; });
+    return faces;
+}
+
 RawDiagram raw_of(Built const& built, LabelledSites const& sites, Origin const& origin, Run const& run) {
     Graph const& graph = built.graph;
     auto const site = [&](std::size_t s) {
@@ -125,19 +136,18 @@ RawDiagram raw_of(Built const& built, LabelledSites const& sites, Origin const& 
     };
     RawDiagram raw;
     std::map<Graph::Face_handle, std::size_t> number_of;
-    for (auto face = graph.finite_faces_begin(); face != graph.finite_faces_end(); ++face) {
+    auto const vertex = graph.geom_traits().construct_svd_vertex_2_object();
+    for (auto const& [of, face] : faces_of(built)) {
         if ((raw.at.size() & 0xfff) == 0) {
             run.check();
         }
-        std::array<std::size_t, 3> around{};
-        for (int i = 0; i < 3; ++i) {
-            around[static_cast<std::size_t>(i)] = built.site_of.at(face->vertex(i));
-        }
-        Point const guess = graph.primal(Graph::Face_handle(face));
-        Vec2 const at = equidistant({site(around[0]), site(around[1]), site(around[2])}, {guess.x(), guess.y()});
+        int const next = Graph::ccw(of.first);
+        Point const guess =
+            vertex(face->vertex(of.first)->site(), face->vertex(next)->site(), face->vertex(Graph::ccw(next))->site());
+        Vec2 const at = equidistant({site(of.sites[0]), site(of.sites[1]), site(of.sites[2])}, {guess.x(), guess.y()});
         number_of[face] = raw.at.size();
         raw.at.push_back(origin.to_ground(at));
-        raw.sites.push_back(around);
+        raw.sites.push_back(of.sites);
     }
     for (auto edge = graph.finite_edges_begin(); edge != graph.finite_edges_end(); ++edge) {
         auto const [face, i] = *edge;
@@ -167,11 +177,11 @@ Diagram medial_lines(std::vector<LabelledLine> const& lines, Bounds const& bound
     Origin const origin = origin_of(sites);
     Built built;
     build(built, sites, origin, run);
-    RawDiagram const raw = raw_of(built, sites, origin, run);
+    RawDiagram raw = raw_of(built, sites, origin, run);
     auto const curve = [&](Diagram::Site const& s, Diagram::Site const& t, Vec2 p, Vec2 q) {
         return curve_between(s, t, p, q, params.tolerance_m, 2.0 * sites.size_m);
     };
-    return finish(sites, raw, bounds, curve, run);
+    return finish(sites, std::move(raw), bounds, curve, run);
 }
 
 } // namespace thalweg::geometry

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/geometry/voronoi.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -49,6 +50,17 @@ Mesh mesh_of(LabelledSites const& sites, Run const& run) {
     return mesh;
 }
 
+/// The finite faces, sorted by the sites around them.
+std::vector<std::pair<Around, Mesh::Face_handle>> faces_of(Mesh const& mesh) {
+    std::vector<std::pair<Around, Mesh::Face_handle>> faces;
+    for (auto const face : mesh.finite_face_handles()) {
+        auto const site = [&](int i) { return face->vertex(i)->info(); };
+        faces.emplace_back(least_first({site(0), site(1), site(2)}), face);
+    }
+    std::ranges::sort(faces, {}, [](auto const& f) { return f.first.sites; });
+    return faces;
+}
+
 } // namespace
 
 Diagram voronoi(std::vector<LabelledLine> const& lines, Bounds const& bounds, Run const& run) {
@@ -58,11 +70,13 @@ Diagram voronoi(std::vector<LabelledLine> const& lines, Bounds const& bounds, Ru
     }
     Mesh const mesh = mesh_of(sites, run);
     RawDiagram raw;
-    for (auto const face : mesh.finite_face_handles()) {
+    for (auto const& [around, face] : faces_of(mesh)) {
         face->info() = raw.at.size();
-        Point const at = mesh.dual(face);
+        int const next = Mesh::ccw(around.first);
+        Point const at = CGAL::circumcenter(face->vertex(around.first)->point(), face->vertex(next)->point(),
+                                            face->vertex(Mesh::ccw(next))->point());
         raw.at.push_back({at.x(), at.y()});
-        raw.sites.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+        raw.sites.push_back(around.sites);
     }
     for (auto const& [face, i] : mesh.finite_edges()) {
         auto const beyond = face->neighbor(i);
@@ -72,7 +86,7 @@ Diagram voronoi(std::vector<LabelledLine> const& lines, Bounds const& bounds, Ru
         }
     }
     return finish(
-        sites, raw, bounds, [](auto const&, auto const&, Vec2, Vec2) { return std::vector<Vec2>{}; }, run);
+        sites, std::move(raw), bounds, [](auto const&, auto const&, Vec2, Vec2) { return std::vector<Vec2>{}; }, run);
 }
 
 } // namespace thalweg::geometry

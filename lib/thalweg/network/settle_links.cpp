@@ -122,6 +122,13 @@ private:
         return false;
     }
 
+    /// At the mouth a link may begin on the wall; the mouth is rounded, so that it may lie a little beside it.
+    bool begins_on(std::size_t i, Segment const& wall) const {
+        double const wide = usual_[forest_.links[i].tree];
+        return forest_.links[i].down < 0 && squared_distance(lower_end(i), wall) <= 1e-10 * wide * wide &&
+               (forest_.links[i].pinned.has_value() || forest_.inside(at_[i]));
+    }
+
     bool clear(std::size_t i) const {
         Segment const s = segment(i);
         double const length = distance(s.a, s.b);
@@ -132,8 +139,7 @@ private:
         return grid_->near(s, margin, [&](std::size_t k) {
             Segment const& t = (*grid_)[k];
             if (k >= links_) {
-                // At the mouth a link may begin on the wall.
-                return forest_.links[i].down < 0 || squared_distance(s, t) > 0.0;
+                return squared_distance(s, t) > 0.0 || begins_on(i, t);
             }
             if (k == i || neighbours(i, k)) {
                 return true;

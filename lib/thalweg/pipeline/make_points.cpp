@@ -9,11 +9,14 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/skeleton.hpp>
 #include <thalweg/io/ground_cell.hpp>
+#include <thalweg/io/has_layer.hpp>
 #include <thalweg/io/raster_files.hpp>
+#include <thalweg/io/read_rivers.hpp>
 
 namespace thalweg::pipeline {
 
@@ -21,9 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Rivers {
+/// A skeleton, and which of its cells are rivers.
+struct Drawn {
     Skeleton skeleton;
-    Mask cells;
+    Mask rivers;
 };
 
 // Nobody's viewer draws degrees beside metres.
@@ -36,24 +40,49 @@ void require_metres(Grid const& grid, std::string const& path) {
     }
 }
 
-// The land is taken over: a large one need not be there twice.
-Rivers rivers_of(Raster<float> land, std::string const& path, Run const& run) {
+Mask mask_of(std::string const& path, Grid const& grid, Run const& run) {
     Raster<float> const drawn = io::read_dem(path, run);
-    Grid const& grid = land.grid();
     if (drawn.grid() != grid) {
         throw BadInput(fmt::format("pipeline.make_points: {} has {} x {} cells, the DEM beside it {} x {}, or lies "
                                    "elsewhere: they belong to different lands",
                                    path, drawn.width(), drawn.height(), grid.width, grid.height));
     }
-    Rivers rivers{{std::move(land)}, Mask(drawn.grid())};
+    Mask cells(grid);
     for (std::int64_t i = 0; i < drawn.cells(); ++i) {
-        bool const wet = drawn[i] > 0.0F;
-        rivers.cells[i] = wet ? 1 : 0;
-        if (!wet) {
-            rivers.skeleton.z[i] = std::numeric_limits<float>::quiet_NaN();
+        cells[i] = drawn[i] > 0.0F ? 1 : 0;
+    }
+    return cells;
+}
+
+/// Cells under the ridges of a network file; none where it has no such layer.
+Mask ridges_of(std::string const& path, Grid const& grid, Run const& run) {
+    Mask cells(grid);
+    if (!io::has_layer(path, "ridges")) {
+        return cells;
+    }
+    for (RiverLine const& ridge : io::read_rivers({.path = path, .layer = "ridges", .crs = grid.crs}, run).lines) {
+        std::vector<Vec2> plan;
+        for (Vec3 const& v : ridge.vertices) {
+            plan.push_back({v.x, v.y});
+        }
+        for (Cell const c : cells_along(plan, grid, path)) {
+            cells[c] = 1;
         }
     }
-    return rivers;
+    return cells;
+}
+
+// The land is taken over: a large one need not be there twice.
+Drawn skeleton_of(Raster<float> land, fs::path const& folder, Run const& run) {
+    Mask const ridges = ridges_of((folder / "network.gpkg").string(), land.grid(), run);
+    Drawn drawn{{std::move(land)}, {}};
+    drawn.rivers = mask_of((folder / "network.tif").string(), drawn.skeleton.z.grid(), run);
+    for (std::int64_t i = 0; i < ridges.cells(); ++i) {
+        if (drawn.rivers[i] == 0 && ridges[i] == 0) {
+            drawn.skeleton.z[i] = std::numeric_limits<float>::quiet_NaN();
+        }
+    }
+    return drawn;
 }
 
 } // namespace
@@ -71,8 +100,8 @@ MadePoints make_points(MakePointsParams const& params, std::string const& output
     require_metres(land.grid(), params.path);
     MadePoints made{0, land.grid().crs};
     if (params.of == PointsOf::skeleton) {
-        Rivers const rivers = rivers_of(std::move(land), (folder / "network.tif").string(), run);
-        made.count = io::write_points(rivers.skeleton, rivers.cells, output, params.write, run);
+        Drawn const drawn = skeleton_of(std::move(land), folder, run);
+        made.count = io::write_points(drawn.skeleton, drawn.rivers, output, params.write, run);
     } else {
         made.count = io::write_points(land, output, params.write, run);
     }

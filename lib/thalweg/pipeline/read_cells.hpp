@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run.hpp>
+
+/// Cells of a grid that a file names. Private to this room.
+namespace thalweg::pipeline {
+
+/// Cells of a raster on the grid that are neither 0 nor no-data, or whose centres lie in polygons; empty for "".
+/// Throws: as io::read_mask, io::read_polygons and blend::mask_polygons.
+Mask read_part(std::string const& path, Grid const& grid, Run const& run);
+
+/// Cells of a raster on the grid, or under lines; empty for "". Throws: as the doors; BadInput for points, and when no
+/// line crosses the grid.
+Mask read_kept(std::string const& path, Grid const& grid, Run const& run);
+
+} // namespace thalweg::pipeline

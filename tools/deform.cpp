@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/io/output_file.hpp>
+#include <thalweg/io/write_dem.hpp>
+#include <thalweg/pipeline/make_deform.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace thalweg::tools {
+
+namespace {
+
+struct Options {
+    pipeline::MakeDeformParams params;
+    std::vector<double> pull;
+    std::string file;
+    bool overwrite = false;
+};
+
+void take_handles(Options& options) {
+    if (options.pull.size() % 3 != 0) {
+        throw BadParameter(
+            fmt::format("--pull has {} numbers; it takes three for each place, X,Y,Z", options.pull.size()));
+    }
+    for (std::size_t i = 0; i < options.pull.size(); i += 3) {
+        options.params.handles.push_back({options.pull[i], options.pull[i + 1], options.pull[i + 2]});
+    }
+}
+
+int deform_file(Options& options, Session const& session) {
+    take_handles(options);
+    io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
+    blend::Deformed const made = pipeline::make_deform(options.params, session.run);
+    io::write_dem(made.dem, file.staging(), session.run);
+    file.commit();
+    session.run.say(fmt::format("deform {} cells, {} of them pulled", made.cells, options.params.handles.size()));
+    nlohmann::ordered_json const json{{"file", options.file},
+                                      {"cells", made.cells},
+                                      {"handles", options.params.handles.size()},
+                                      {"iterations", made.iterations},
+                                      {"residual", made.residual}};
+    fmt::print("{}", session.json ? json.dump(2) + "\n" : options.file + "\n");
+    return Exit::done;
+}
+
+} // namespace
+
+Command add_deform(CLI::App& app, Session& session) {
+    auto const options = std::make_shared<Options>();
+    app.add_option("TARGET", options->params.target, "The DEM to bend.")->type_name("FILE")->required();
+    app.add_option("-o,--output", options->file, "Write this GeoTIFF.")->type_name("FILE")->required();
+    app.add_option("--mask", options->params.mask,
+                   "The region: a raster with the target's cells (neither 0 nor no-data), or polygons, any that OGR "
+                   "reads.")
+        ->type_name("FILE")
+        ->required();
+    app.add_option("--scale", options->params.scale,
+                   "Make the region's slopes so many times as steep: 0 levels it, below 0 turns hills to hollows.");
+    app.add_option("--pull", options->pull, "Pull the land to this height [m] there; may be given several times.")
+        ->type_name("X,Y,Z")
+        ->delimiter(',')
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
+    app.footer("The region's relief is kept or scaled; its edge and all beyond keep their heights to the last bit, and "
+               "the land follows the places that are pulled (Poisson's equation).\n\n"
+               "Examples:\n"
+               "  thalweg deform valley/dem.tif -o bent.tif --mask region.gpkg --scale 1.5\n"
+               "  thalweg deform valley/dem.tif -o bent.tif --mask region.gpkg --pull 512000,4990000,900\n");
+    return [options, &session] { return deform_file(*options, session); };
+}
+
+} // namespace thalweg::tools

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/network/count_streams.hpp>
+#include <thalweg/network/grow_tokunaga.hpp>
+#include <thalweg/network/lsystem.hpp>
+#include <thalweg/network/tokunaga_laws.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace thalweg::tools {
+
+namespace {
+
+struct Options {
+    network::TokunagaParams params;
+    std::string rule = "tokunaga";
+    bool lsystem = false;
+};
+
+network::SideRule rule_of(std::string const& word) {
+    return word == "constant" ? network::SideRule::constant
+           : word == "plane"  ? network::SideRule::plane
+                              : network::SideRule::tokunaga;
+}
+
+/// What was counted, beside what the closed forms promise.
+struct Count {
+    network::StreamCounts streams;
+    network::TokunagaLaws laws;
+    std::vector<double> side_law;    ///< by k - 1: a c^(k-1)
+    std::vector<double> bifurcation; ///< by order - 1: N_w / N_(w+1)
+};
+
+Count count(network::TokunagaTree const& tree, int generator) {
+    std::vector<std::int64_t> down;
+    for (network::TreeLink const& link : tree.links) {
+        down.push_back(link.down);
+    }
+    Count c{network::count_streams(down), network::tokunaga_laws(generator), {}, {}};
+    double side = c.laws.a;
+    for (std::size_t k = 0; k < c.streams.side.size(); ++k, side *= c.laws.c) {
+        c.side_law.push_back(side);
+    }
+    for (std::size_t w = 0; w + 1 < c.streams.streams.size(); ++w) {
+        c.bifurcation.push_back(static_cast<double>(c.streams.streams[w]) /
+                                static_cast<double>(c.streams.streams[w + 1]));
+    }
+    return c;
+}
+
+void print_json(Options const& options, Count const& c) {
+    nlohmann::ordered_json const out{{"generator", options.params.generator},
+                                     {"order", c.streams.order},
+                                     {"rule", options.rule},
+                                     {"seed", options.params.seed},
+                                     {"links", c.streams.links},
+                                     {"sources", c.streams.sources},
+                                     {"streams", c.streams.streams},
+                                     {"side_branches", c.streams.side},
+                                     {"side_branches_law", c.side_law},
+                                     {"bifurcation", c.bifurcation},
+                                     {"bifurcation_law", c.laws.bifurcation}};
+    fmt::print("{}\n", out.dump());
+}
+
+void print_table(Count const& c) {
+    fmt::print("links    {}, of which {} are sources\n", c.streams.links, c.streams.sources);
+    fmt::print("order    {}\n", c.streams.order);
+    fmt::print("\norder w      streams N_w  N_w / N_w+1 (law {:.3f})\n", c.laws.bifurcation);
+    for (std::size_t w = 0; w < c.streams.streams.size(); ++w) {
+        fmt::print("{:7}  {:15}{}\n", w + 1, c.streams.streams[w],
+                   w < c.bifurcation.size() ? fmt::format("  {:11.3f}", c.bifurcation[w]) : "");
+    }
+    if (c.streams.side.empty()) {
+        return;
+    }
+    fmt::print("\norders less k    side branches T_k    law {:.3g} * {:.3f}^(k-1)\n", c.laws.a, c.laws.c);
+    for (std::size_t k = 0; k < c.streams.side.size(); ++k) {
+        fmt::print("{:13}  {:19.3f}  {:23.3f}\n", k + 1, c.streams.side[k], c.side_law[k]);
+    }
+}
+
+int grow(Options const& options, Session const& session) {
+    network::TokunagaParams params = options.params;
+    params.rule = rule_of(options.rule);
+    if (options.lsystem) {
+        if (session.json) {
+            throw BadParameter("thalweg grow prints a word or JSON: give --lsystem or --json, not both");
+        }
+        params.banks = network::BankRule::alternating; // as the rules are written
+        fmt::print("{}\n", network::lsystem(params, session.run));
+        return Exit::done;
+    }
+    Count const counted = count(network::grow_tokunaga(params, session.run), params.generator);
+    if (session.json) {
+        print_json(options, counted);
+    } else {
+        print_table(counted);
+    }
+    return Exit::done;
+}
+
+} // namespace
+
+Command add_grow(CLI::App& app, Session& session) {
+    auto const options = std::make_shared<Options>();
+    network::TokunagaParams& params = options->params;
+    app.add_flag("--lsystem", options->lsystem, "Print the network as the word of an L-system, in one line.");
+    app.add_option("--generator", params.generator,
+                   "Number lambda of the generator, 1 to 50: 1 has no side branches, many make a feathered network.")
+        ->type_name("N")
+        ->capture_default_str();
+    app.add_option("--order", params.order, "Strahler order of the outlet, 1 to 30.")
+        ->type_name("N")
+        ->capture_default_str();
+    app.add_option("--rule", options->rule, "How many side branches a link gets when the network is refined.")
+        ->check(CLI::IsMember({"tokunaga", "constant", "plane"}))
+        ->capture_default_str();
+    app.add_option("--seed", params.seed, "Seed of chance.")->type_name("N")->capture_default_str();
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    app.footer("Refines a generator until the outlet has the order, and prints how many streams there are of each "
+               "order, and how many side branches a stream has, beside Tokunaga's law. A word is drawn from the outlet "
+               "upstream: F is a link, G a source's link, [ and ] enclose a branch, + and - turn left and right.\n\n"
+               "Examples:\n"
+               "  thalweg grow --order 8\n"
+               "  thalweg grow --generator 4 --order 6 --seed 3 --json\n"
+               "  thalweg grow --lsystem --order 3\n");
+    return [options, &session] { return grow(*options, session); };
+}
+
+} // namespace thalweg::tools
