@@ -22,6 +22,7 @@
 #include <thalweg/network/assign_types.hpp>
 #include <thalweg/network/embed_tree.hpp>
 #include <thalweg/network/grow_dla.hpp>
+#include <thalweg/network/grow_strokes.hpp>
 #include <thalweg/network/grow_tokunaga.hpp>
 #include <thalweg/network/lsystem.hpp>
 #include <thalweg/network/order.hpp>
@@ -470,6 +471,13 @@ void print_trees(Run const& run) {
     network::EmbedParams const params{.region = {{0, 0}, {4000, 0}, {4000, 2500}, {1500, 2000}, {0, 4000}},
                                       .mouth = {2000, 0}};
     print("embed_tree", hash_of(network::embed_tree(tree, params, run).network));
+    RiverLines strokes;
+    strokes.lines.resize(2);
+    strokes.lines[0].vertices = {{500, 0, 0}, {700, 900, 0}, {500, 1900, 0}};
+    strokes.lines[1].vertices = {{696, 880, 0}, {1500, 1600, 0}};
+    strokes.lines[1].lambda = 3;
+    Grid const grid{200, 200, 10.0, 0.0, 2000.0, ""};
+    print("grow_strokes", hash_of(network::grow_strokes(strokes, grid, {}, run).network));
 }
 
 } // namespace

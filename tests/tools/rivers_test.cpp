@@ -317,6 +317,9 @@ TEST(Rivers, LinksWithoutRoomAreWarnedOfOrRefused) {
     made(place, base + "1 --set grid.width=2 --set grid.height=2", "two");
     made(place, base + "1 --set grid.width=1 --set grid.height=1", "one");
 
+    made(place, base + "2 --set grid.width=1 --set grid.height=300", "column");
+    refused(place, base + "2 --set grid.width=300 --set grid.height=1", "4 of 7 links found no room on 300 x 1 cells");
+
     // A stroke so short that its many branches have no room beside it.
     place.write("r.toml", strokes_recipe);
     place.write("s.geojson", collection(stroke(1, "[503000,4000300],[503000,4005700]", "\"lambda\":2") + "," +

@@ -33,7 +33,8 @@ struct EmbeddedTree {
 /// Takes: a binary tree and a region with the outlet's place.
 /// Gives: a network in which no two arcs meet but in shared nodes. Links that share no node keep apart by
 /// clearance * the length of the shorter and by min_spacing_m, those that do meet at 20 degrees at least; links for
-/// which this cannot be kept are left out with all above them, streams of high order last. Coordinates are rounded to
+/// which this cannot be kept are left out with all above them, streams of high order last; where min_spacing_m is more
+/// than so many links can keep, the streams of the lowest orders. Coordinates are rounded to
 /// 1e-6 m. Chance is the hash of (seed, order and link).
 /// Throws: BadParameter when the region is no ring of three different places at least, crosses itself, is too small
 /// for so many links (spacing below 1e-3 m), or the outlet lies outside; Cancelled.

@@ -153,6 +153,12 @@ RidgeLines ridges(RaisedNetwork const& network, std::vector<std::int64_t> const&
         }
         pieces = ridge_pieces(geometry::voronoi(dense.lines, bounds, run), dense, rise);
     }
+    for (RidgePiece& piece : pieces) { // cut anew near rivers, a place on the edge may leave it by a rounding
+        for (Vec3& p : piece.ridge.line) {
+            p.x = std::clamp(p.x, bounds.west, bounds.east);
+            p.y = std::clamp(p.y, bounds.south, bounds.north);
+        }
+    }
     return chain_ridges(without_meetings(std::move(pieces), rivers, run));
 }
 
