@@ -169,7 +169,10 @@ TEST(Recipe, PatchesAreSetByNumber) {
     set_key(recipe, "patch.2.scale=2");
     EXPECT_EQ(recipe.patches[0].rotate_deg, 45.0);
     EXPECT_EQ(recipe.patches[1].scale, 2.0);
-    for (char const* bad : {"patch.3.scale=2", "patch.0.scale=2", "patch.x.scale=2", "patch.2.scale=0", "patch=3",
+    Recipe with_a_third = recipe;
+    set_key(with_a_third, "patch.3.source=c.tif");
+    EXPECT_EQ(with_a_third.patches.at(2).source, "c.tif");
+    for (char const* bad : {"patch.4.scale=2", "patch.0.scale=2", "patch.x.scale=2", "patch.2.scale=0", "patch=3",
                             "patch.window=[1,2,3]", "patch.window=[0,0,0,1]"}) {
         EXPECT_THROW(set_key(recipe, bad), BadParameter) << bad;
     }

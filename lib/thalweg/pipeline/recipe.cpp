@@ -252,12 +252,14 @@ void set_key(Recipe& recipe, std::string const& assignment) {
         }
         if (patch == 0) {
             key->put(recipe, value);
-        } else if (patch > recipe.patches.size()) {
+        } else if (patch > recipe.patches.size() + 1) {
             throw BadParameter(fmt::format("the recipe has {} patches", recipe.patches.size()));
         } else {
+            bool const is_new = patch > recipe.patches.size();
             Recipe one;
-            one.patches.push_back(recipe.patches[patch - 1]);
+            one.patches.push_back(is_new ? PatchRecipe{} : recipe.patches[patch - 1]);
             key->put(one, value);
+            recipe.patches.resize(std::max(recipe.patches.size(), patch));
             recipe.patches[patch - 1] = one.patches.front();
         }
     } catch (BadParameter const& fault) {

@@ -185,7 +185,8 @@ std::vector<KeyHelp> recipe_keys();
 /// mean), wrong types, values out of range. name: for messages.
 Recipe read_recipe(std::string const& toml, std::string const& name);
 
-/// Sets one key from "section.key=value"; "patch.2.key=value" of the second patch. Throws BadParameter.
+/// Sets one key from "section.key=value"; "patch.2.key=value" of the second patch, or a new
+/// one after the last. Throws BadParameter.
 void set_key(Recipe& recipe, std::string const& assignment);
 
 /// The recipe as TOML, every default written out, sections without a stage left out. read_recipe gives it back.
