@@ -7,6 +7,10 @@
 #include <map>
 #include <utility>
 
+// CGAL checks the whole diagram at every insertion of a debug build: minutes for a thousand segments.
+#ifndef CGAL_NDEBUG
+#define CGAL_NDEBUG
+#endif
 #include <CGAL/Segment_Delaunay_graph_2.h>
 #include <CGAL/Segment_Delaunay_graph_filtered_traits_2.h>
 #include <CGAL/Simple_cartesian.h>
