@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg {
@@ -14,20 +16,41 @@ namespace thalweg {
 struct NetworkFile {
     struct FileNode {
         std::int64_t id = 0;
-        Vec3 at;
+        Vec3 at; ///< [m]
     };
     struct FileArc {
         std::int64_t id = 0;
         std::int64_t from_node = 0;
         std::int64_t to_node = 0;
-        std::int64_t ds_arc = 0;
+        std::int64_t ds_arc = 0; ///< id of the arc downstream; 0 at an outlet
         std::int64_t strahler = 0;
         std::int64_t shreve = 0;
         std::int64_t basin = 0;
-        std::vector<Vec3> line;
+        std::vector<Vec3> line = {};                                  ///< [m] as drawn, downstream under every schema
+        double us_area_m2 = std::numeric_limits<double>::quiet_NaN(); ///< NaN where the file does not say
+        double ds_area_m2 = std::numeric_limits<double>::quiet_NaN();
+        double survives = std::numeric_limits<double>::infinity(); ///< [cells]
+        std::int64_t feature = 0;                                  ///< id in the file it once came from; 0 for none
+        std::string type = {};
+        bool braided = false;
+    };
+    /// What the file says. The rest was filled in by what reads it, or left alone, and is not to be checked.
+    struct Says {
+        bool nodes = true;      ///< has nodes of its own; else one was made for each end of an arc
+        bool ends = true;       ///< arcs name their nodes; else nodes were told apart by their exact places in plan
+        bool downstream = true; ///< ds_arc
+        bool strahler = true;
+        bool shreve = true;
+        bool basin = true;
+        bool heights = true; ///< z; else it is NaN
+        bool areas = true;
     };
     std::vector<FileNode> nodes;
     std::vector<FileArc> arcs;
+    Says says = {};
+    std::string crs = {};               ///< of the coordinates, "" for none
+    std::string schema = "native";      ///< how its fields were understood
+    std::vector<Finding> findings = {}; ///< of reading: what had to be bent to be held here
 };
 
 } // namespace thalweg
