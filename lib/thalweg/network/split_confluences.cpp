@@ -208,8 +208,8 @@ public:
 
     /// Moves one tributary away from a node. near: the arcs near it, of the network as it was.
     bool split(NodeId n, std::vector<std::size_t> const& near) const {
-        constexpr int gentle = 7;    // halvings before the other direction is tried
-        constexpr int enough = 48;   // by then a distance is below what coordinates can tell apart
+        constexpr int gentle = 7;  // halvings before the other direction is tried
+        constexpr int enough = 48; // by then a distance is below what coordinates can tell apart
         std::vector<std::size_t> arcs = near;
         for (std::size_t i = 0; i < arcs.size(); ++i) {
             auto const& pieces = net_.cut_off(arcs[i]);
@@ -230,8 +230,8 @@ private:
                 continue;
             }
             for (Pair const& pair : pairs) {
-                Neighbours at{net_.away_from(n, pair.trunk), net_.away_from(n, pair.tributary), pair.left, !upstream,
-                              {}};
+                Neighbours at{
+                    net_.away_from(n, pair.trunk), net_.away_from(n, pair.tributary), pair.left, !upstream, {}};
                 for (std::size_t const a : arcs) {
                     if (a != pair.trunk && a != pair.tributary) {
                         at.others.push_back(&net_.line(a));
@@ -301,8 +301,7 @@ Split split_confluences(RaisedNetwork const& network, SplitParams const& params,
     if (crowded.empty()) {
         return {network, {}};
     }
-    double const distance_m =
-        params.distance_m > 0.0 ? params.distance_m : median_segment(network.plan, index);
+    double const distance_m = params.distance_m > 0.0 ? params.distance_m : median_segment(network.plan, index);
     std::vector<std::vector<Vec2>> lines;
     for (ArcId const arc : index.arcs) {
         lines.push_back(network.plan[arc].line);
