@@ -47,8 +47,8 @@ def words(state):
 
 def start(state):
     stop(state)
-    # A socket's path may have 107 characters, and a folder in a home may be closed to postgres: hence not beside STATE.
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="thalweg-pg-", dir="/tmp"))
+    # A socket's path may have 107 characters, and a folder of one user may be closed to postgres: hence not beside STATE.
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="thalweg-pg-", dir="/var/tmp"))
     user = "postgres" if os.geteuid() == 0 else pwd.getpwuid(os.geteuid()).pw_name
     state.parent.mkdir(parents=True, exist_ok=True)
     state.write_text(json.dumps({"host": str(folder), "user": user, "dbname": "thalweg"}))
