@@ -15,6 +15,7 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/parallel.hpp>
 #include <thalweg/measure/compensated_sum.hpp>
+#include <thalweg/measure/framed.hpp>
 
 namespace thalweg::measure {
 
@@ -77,29 +78,6 @@ private:
     std::vector<Entry> moving_;                ///< kept for its memory
     std::array<std::vector<Entry>, 32> above_; ///< by the highest bit in which a rank differs from last_
 };
-
-/// Distance in a raster's values from a cell to its neighbour in each direction.
-std::array<std::int64_t, 8> offsets_in(Grid const& grid) {
-    std::array<std::int64_t, 8> offsets{};
-    for (std::size_t k = 0; k < offsets.size(); ++k) {
-        offsets[k] = d8_steps[k].row * grid.width + d8_steps[k].col;
-    }
-    return offsets;
-}
-
-/// The DEM in a frame of no data, one cell wide: then leaving the grid is entering no data, and every cell that has
-/// data has eight neighbours.
-Raster<float> framed(Raster<float> const& dem) {
-    Grid grid = dem.grid();
-    grid.width += 2;
-    grid.height += 2;
-    Raster<float> framed(grid, std::numeric_limits<float>::quiet_NaN());
-    for (std::int64_t r = 0; r < dem.height(); ++r) {
-        auto const row = dem.row(r);
-        std::copy(row.begin(), row.end(), framed.row(r + 1).begin() + 1);
-    }
-    return framed;
-}
 
 /// Raises depressions to the level at which they spill. Gives: the way back to where the flood came from.
 Raster<std::int8_t> flood(Raster<float>& level, Run const& run) {
@@ -203,7 +181,7 @@ Drainage drain(Raster<float> const& dem, Run const& run) {
     }
     Drainage result{Raster<std::int8_t>(grid), Raster<std::int64_t>(grid), 0, 0.0};
     {
-        Raster<float> level = framed(dem);
+        Raster<float> level = framed(dem, std::numeric_limits<float>::quiet_NaN());
         Raster<std::int8_t> direction = flood(level, run);
         descend(level, direction, run);
         CompensatedSum raised_m;
