@@ -31,28 +31,33 @@ inline std::array<std::int64_t, 8> d8_offsets(Grid const& grid) {
 
 /// A raster in a frame of no data, one cell wide: then leaving the grid is entering no data, and every cell that has
 /// data has eight neighbours.
-inline Raster<float> framed(Raster<float> const& bare) {
-    Grid grid = bare.grid();
+template <class T> Raster<T> framed(Raster<T> const& inner, T no_data) {
+    Grid grid = inner.grid();
     grid.width += 2;
     grid.height += 2;
     grid.west -= grid.cell_m;
     grid.north += grid.cell_m;
-    Raster<float> framed(grid, std::numeric_limits<float>::quiet_NaN());
-    for (std::int64_t r = 0; r < bare.height(); ++r) {
-        auto const row = bare.row(r);
-        std::copy(row.begin(), row.end(), framed.row(r + 1).begin() + 1);
+    Raster<T> outer(grid, no_data);
+    for (std::int64_t r = 0; r < inner.height(); ++r) {
+        auto const row = inner.row(r);
+        std::copy(row.begin(), row.end(), outer.row(r + 1).begin() + 1);
     }
-    return framed;
+    return outer;
 }
 
-/// The raster of this grid inside such a frame.
-inline Raster<float> unframed(Raster<float> const& framed, Grid const& grid) {
-    Raster<float> bare(grid);
+/// A raster of heights in such a frame.
+inline Raster<float> framed(Raster<float> const& inner) {
+    return framed(inner, std::numeric_limits<float>::quiet_NaN());
+}
+
+/// What a frame holds.
+template <class T> Raster<T> unframed(Raster<T> const& outer, Grid const& grid) {
+    Raster<T> inner(grid);
     for (std::int64_t r = 0; r < grid.height; ++r) {
-        auto const row = framed.row(r + 1).subspan(1, static_cast<std::size_t>(grid.width));
-        std::copy(row.begin(), row.end(), bare.row(r).begin());
+        auto const row = outer.row(r + 1).subspan(1, static_cast<std::size_t>(grid.width));
+        std::copy(row.begin(), row.end(), inner.row(r).begin());
     }
-    return bare;
+    return inner;
 }
 
 } // namespace thalweg
