@@ -108,9 +108,10 @@ OGRLayer& create_layer(Target const& target, Table const& table) {
     CPLStringList options;
     OGRwkbGeometryType type = wkbNone;
     if (table.shape != Table::Shape::none) {
-        type = table.shape == Table::Shape::point  ? wkbPoint25D
-               : table.shape == Table::Shape::line ? wkbLineString25D
-                                                   : wkbPolygon25D;
+        type = table.shape == Table::Shape::point     ? wkbPoint25D
+               : table.shape == Table::Shape::line    ? wkbLineString25D
+               : table.shape == Table::Shape::polygon ? wkbPolygon25D
+                                                      : wkbMultiPolygon;
     }
     if (target.format == Format::shapefile) {
         options.SetNameValue("ENCODING", "UTF-8");
@@ -153,7 +154,29 @@ void set_field(OGRFeature& feature, int index, Column const& column, std::int64_
     }
 }
 
+void set_parts(OGRFeature& feature, Table const& table, std::int64_t row, Target const& target) {
+    OGRMultiPolygon parts;
+    for (Polygon const& part : table.parts_at(row)) {
+        OGRPolygon drawn;
+        for (auto const& positions : part.rings) {
+            OGRLinearRing ring;
+            ring.setNumPoints(static_cast<int>(positions.size()));
+            for (int i = 0; Vec2 const p : positions) {
+                ring.setPoint(i++, p.x, p.y);
+            }
+            ring.closeRings();
+            target.require(drawn.addRing(&ring) == OGRERR_NONE);
+        }
+        target.require(parts.addGeometry(&drawn) == OGRERR_NONE);
+    }
+    target.require(feature.SetGeometry(&parts) == OGRERR_NONE);
+}
+
 void set_shape(OGRFeature& feature, Table const& table, std::int64_t row, Target const& target) {
+    if (table.shape == Table::Shape::multi_polygon) {
+        set_parts(feature, table, row, target);
+        return;
+    }
     std::vector<Vec3> const positions = table.shape_at(row);
     for (Vec3 const& p : positions) {
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
