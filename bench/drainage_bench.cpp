@@ -8,6 +8,7 @@
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/measure/drain_dinf.hpp>
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/measure/statistics.hpp>
 
@@ -50,7 +51,17 @@ void bench_drain_relief(benchmark::State& state) {
     }
     set_cells(state);
 }
-BENCHMARK(bench_drain_relief)->Name("drain/relief")->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(bench_drain_relief)->Name("drain/relief")->Arg(1024)->Arg(2048)->Arg(4096)->Unit(benchmark::kMillisecond);
+
+void bench_drain_dinf(benchmark::State& state) {
+    Raster<float> const dem = relief(state.range(0));
+    measure::Drainage const d8 = measure::drain(dem);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(measure::drain_dinf(dem, d8));
+    }
+    set_cells(state);
+}
+BENCHMARK(bench_drain_dinf)->Name("drain_dinf/relief")->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
 
 void bench_drain_noise(benchmark::State& state) {
     Raster<float> dem(Grid{state.range(0), state.range(0), 1.0, 0.0, 0.0, ""});

@@ -17,4 +17,8 @@ void write_dem(Raster<float> const& dem, std::string const& path, Run const& run
 /// Writes a new Byte GeoTIFF (tiled, DEFLATE). Gives and throws: like write_dem.
 void write_mask(Mask const& mask, std::string const& path, Run const& run = {});
 
+/// Writes numbers by cell as a new Float64 GeoTIFF (tiled, DEFLATE with the floating-point predictor), nodata -9999 for
+/// NaN: contributing areas, which Float32 would round. Gives and throws: like write_dem.
+void write_field(Raster<double> const& field, std::string const& path, Run const& run = {});
+
 } // namespace thalweg::io
