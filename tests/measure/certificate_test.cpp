@@ -186,6 +186,7 @@ TEST(Certify, ComparesAreasWithThoseOfTheFile) {
     areas[0] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(certificate_of(land, areas).compared_areas, 2);
     EXPECT_EQ(certificate_of(land, areas).max_area_difference, 0.5);
+    EXPECT_EQ(certificate_of(land, areas).close_areas, 1);
 }
 
 TEST(Certify, ListsAThousandOfAKind) {

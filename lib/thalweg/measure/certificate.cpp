@@ -221,9 +221,10 @@ private:
         for (std::size_t r = 0; r < reaches_.size(); ++r) {
             if (most[r] > 0 && ds_area_m2[r] > 0.0) { // never NaN
                 double const here = static_cast<double>(most[r]) * cell_m2;
+                double const difference = std::fabs(here - ds_area_m2[r]) / ds_area_m2[r];
                 ++out_.compared_areas;
-                out_.max_area_difference =
-                    std::max(out_.max_area_difference, std::fabs(here - ds_area_m2[r]) / ds_area_m2[r]);
+                out_.close_areas += difference <= 0.05 ? 1 : 0;
+                out_.max_area_difference = std::max(out_.max_area_difference, difference);
             }
         }
     }

@@ -41,6 +41,7 @@ struct Certificate {
     Agreements extracted;              ///< the cells with that area or more
 
     std::int64_t compared_areas = 0;  ///< reaches whose file names an area at the lower end
+    std::int64_t close_areas = 0;     ///< of these, that differ from the DEM's by 5 % or less
     double max_area_difference = 0.0; ///< greatest relative difference of it from that of the DEM
     std::vector<Finding> findings;    ///< feature: the reach's id
 

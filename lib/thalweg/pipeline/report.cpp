@@ -167,7 +167,10 @@ ordered_json certificate_object(measure::Certificate const& c) {
             {"sources_arriving", c.arriving_sources},
             {"traced", agreements_object(c.traced)},
             {"extracted", {{"area_cells", c.threshold_cells}, {"agreement", agreements_object(c.extracted)}}},
-            {"areas", {{"compared", c.compared_areas}, {"max_difference", c.max_area_difference}}}};
+            {"areas",
+             {{"compared", c.compared_areas},
+              {"within_5_percent", c.close_areas},
+              {"max_difference", c.max_area_difference}}}};
 }
 
 ordered_json change_object(surface::LandChange const& c) {

@@ -111,8 +111,11 @@ void check_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.checks.insert(terrain.checks.end(), topology.checks.begin(), topology.checks.end());
     terrain.findings = std::move(topology.findings);
     if (terrain.drained && terrain.certificate && honours_rivers(terrain.recipe)) {
-        std::vector<Finding> const& more = terrain.certificate->findings;
-        terrain.findings.insert(terrain.findings.end(), more.begin(), more.end());
+        std::vector<Check> const checks = terrain.certificate->checks();
+        if (!std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; })) { // else nobody looks
+            std::vector<Finding> const& more = terrain.certificate->findings;
+            terrain.findings.insert(terrain.findings.end(), more.begin(), more.end());
+        }
     }
 }
 
