@@ -30,7 +30,7 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
     checked.nodes = static_cast<std::int64_t>(network.nodes.size());
     checked.findings = network.findings;
 
-    measure::TopologyReport topology = measure::check_topology(network, run);
+    measure::TopologyReport topology = measure::check_topology(network, {job.near_m}, run);
     append(checked.checks, std::move(topology.checks));
     append(checked.findings, std::move(topology.findings));
 
