@@ -17,6 +17,7 @@
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/detail/project.hpp>
+#include <thalweg/measure/certificate.hpp>
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/measure/horton.hpp>
 #include <thalweg/measure/hypsometry.hpp>
@@ -91,6 +92,7 @@ struct Terrain {
     std::optional<measure::Hypsometry> hypsometry; ///< likewise
     std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
     double pit_volume_m3 = 0.0;
+    std::optional<measure::Certificate> certificate; ///< of rivers and surface, where both are there
     NetworkStory story;
     std::vector<Check> checks;
     std::vector<Finding> findings;                         ///< of the checks
