@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/elementary.hpp>
+#include <thalweg/core/d8.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/parallel.hpp>
-#include <thalweg/measure/framed.hpp>
 
 namespace thalweg::measure {
 
@@ -28,7 +28,7 @@ constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
 
 /// The filled DEM in its frame: from where water leaves, up the ways it comes.
 Raster<float> levels(Raster<float> const& dem, Raster<std::int8_t> const& direction, Run const& run) {
-    auto const offsets = offsets_in(dem.grid());
+    auto const offsets = d8_offsets(dem.grid());
     Raster<float> level(dem.grid(), no_height);
     std::vector<std::int64_t> way;
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
@@ -97,7 +97,7 @@ float steepest(std::array<double, 8> const& drop, std::array<double, 8> const& h
 }
 
 Raster<float> bearings(Raster<float> const& level, Raster<std::int8_t> const& direction, Run const& run) {
-    auto const offsets = offsets_in(level.grid());
+    auto const offsets = d8_offsets(level.grid());
     Raster<float> bearing(level.grid(), no_height);
     parallel_ranges(run, level.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
@@ -132,7 +132,7 @@ Parting parting(float bearing, std::array<std::int64_t, 8> const& offsets) {
 }
 
 Raster<double> accumulate(Raster<float> const& bearing, Run const& run) {
-    auto const offsets = offsets_in(bearing.grid());
+    auto const offsets = d8_offsets(bearing.grid());
     Raster<double> area(bearing.grid());
     Raster<std::uint8_t> awaited(bearing.grid()); // neighbours whose water has not arrived yet
     std::int64_t left = 0;

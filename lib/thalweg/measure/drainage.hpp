@@ -2,19 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/d8.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 namespace thalweg::measure {
 
-/// Steps of the D8 directions 0..7, clockwise from the east: E, SE, S, SW, W, NW, N, NE (rows count to the south).
-inline constexpr std::array<Cell, 8> d8_steps = {
-    {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+using thalweg::d8_steps;
+
 inline constexpr std::int8_t d8_leaves = -1;  ///< water leaves the grid, or enters no data, from this cell
 inline constexpr std::int8_t d8_no_data = -2; ///< the cell has no height
 

@@ -21,6 +21,7 @@
 #include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/surface/diffuse.hpp>
 #include <thalweg/surface/dilate.hpp>
+#include <thalweg/surface/drain.hpp>
 
 namespace thalweg::pipeline {
 
@@ -102,6 +103,7 @@ struct SurfaceRecipe {
     std::string mask; ///< raster on the grid: cells with 0 or no data are left out; "" for none
     Interpolation interpolation = Interpolation::linear; ///< of a TIN
     skeleton::RegressParams regress;
+    std::optional<surface::Drain> drain; ///< none: carve where there are rivers, else surface::Drain::none
 };
 
 /// The land that the statistics are brought to.

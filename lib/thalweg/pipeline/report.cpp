@@ -144,6 +144,11 @@ ordered_json network_object(Terrain const& t) {
             {"tokunaga", tokunaga_object(t)}};
 }
 
+ordered_json change_object(surface::LandChange const& c) {
+    return {{"raised_cells", c.raised_cells}, {"cut_cells", c.cut_cells}, {"max_raise_m", c.max_raise_m},
+            {"max_cut_m", c.max_cut_m},       {"raised_m3", c.raised_m3}, {"cut_m3", c.cut_m3}};
+}
+
 ordered_json statistics_object(detail::Projection const& p) {
     ordered_json residuals = ordered_json::array();
     for (detail::Residual const& r : p.residuals) {
@@ -195,6 +200,10 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
         }
         report["dem"]["pit_cells"] = t.pits;
         report["dem"]["pit_volume_m3"] = t.pit_volume_m3;
+    }
+    if (t.drained) {
+        report["drained"] = {{"banks", change_object(t.drained->banks)},
+                             {"depressions", change_object(t.drained->depressions)}};
     }
     if (t.tin) {
         report["tin"] = {{"vertices", t.tin->vertices.size()}, {"triangles", t.tin->triangles.size()}};

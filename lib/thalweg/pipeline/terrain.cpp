@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace thalweg::pipeline {
@@ -34,6 +35,33 @@ std::int64_t valley_cells_moved(Valley const& valley, Raster<float> const& dem) 
     return moved;
 }
 
+/// Whether rivers keep their heights under every patch.
+bool honours_rivers(Recipe const& recipe) {
+    return recipe.network && std::none_of(recipe.patches.begin(), recipe.patches.end(),
+                                          [](PatchRecipe const& p) { return p.rivers == PatchRivers::replace; });
+}
+
+/// Makes the land drain, as the recipe wants it.
+void drain_land(Terrain& terrain, Diary& diary, Run const& run) {
+    if (!terrain.surface || !terrain.recipe.surface) {
+        return;
+    }
+    std::optional<surface::Drain>& method = terrain.recipe.surface->drain;
+    method = method.value_or(terrain.recipe.network ? surface::Drain::carve : surface::Drain::none);
+    if (*method == surface::Drain::none) {
+        return;
+    }
+    Valley const none{Raster<float>(terrain.grid, std::numeric_limits<float>::quiet_NaN())};
+    surface::DrainedLand land = diary.stage("carve", [&] {
+        return surface::drain(std::move(terrain.surface->dem), honours_rivers(terrain.recipe) ? terrain.valley : none,
+                              {*method}, run);
+    });
+    terrain.surface->dem = std::move(land.dem);
+    terrain.drained = {land.banks, land.depressions};
+    diary.say(fmt::format("banks {:.3g} m3, depressions {:.3g} m3 up, {:.3g} m3 down", land.banks.raised_m3,
+                          land.depressions.raised_m3, land.depressions.cut_m3));
+}
+
 Check none_of(char const* name, std::int64_t count) {
     return {name, static_cast<double>(count), 0.0, count == 0};
 }
@@ -52,9 +80,7 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.pit_volume_m3 = drainage.pit_volume_m3;
     if (terrain.recipe.network) {
         terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
-        bool const patched = std::any_of(terrain.recipe.patches.begin(), terrain.recipe.patches.end(),
-                                         [](PatchRecipe const& p) { return p.rivers == PatchRivers::replace; });
-        if (!patched) { // else they were asked to move
+        if (honours_rivers(terrain.recipe)) { // else they were asked to move
             terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
         }
     }
@@ -100,6 +126,7 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
         draw_around_rivers(terrain, points, diary, run);
     }
     paste_patches(terrain, diary, run);
+    drain_land(terrain, diary, run);
     if (keep && terrain.surface) {
         keep("surface", terrain.surface->dem);
     }

@@ -62,6 +62,12 @@ struct PatchStory {
     double seam_rms_m = 0.0;
 };
 
+/// What it took to make the land drain.
+struct DrainStory {
+    surface::LandChange banks;
+    surface::LandChange depressions;
+};
+
 /// A terrain with all that led to it.
 struct Terrain {
     Recipe recipe; ///< every default resolved: made again, it gives the same terrain
@@ -77,6 +83,7 @@ struct Terrain {
     std::optional<surface::Dilated> surface;
     std::optional<SolverStory> diffusion;         ///< how the surface was solved for, where it was diffused
     std::vector<PatchStory> patches;              ///< in the recipe's order
+    std::optional<DrainStory> drained;            ///< where the recipe wants the land to drain
     std::optional<Tin> tin;                       ///< of rivers and points, where the land is drawn over one
     std::optional<detail::Projection> projection; ///< how the statistics came out; its dem is moved to surface
     double fine_forms_cells = 0.0; ///< [cells] below which forms had to come from a Gaussian land to meet them; 0: none
