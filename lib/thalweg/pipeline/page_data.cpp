@@ -26,8 +26,8 @@ double rounded(double metres) {
     return std::fabs(metres) < finest ? std::floor(metres * 1000.0 + 0.5) / 1000.0 : metres;
 }
 
-ordered_json ratio(std::optional<double> const& value) {
-    return value ? ordered_json(*value) : ordered_json(nullptr);
+ordered_json ratio(std::optional<measure::HortonRatio> const& law) {
+    return law ? ordered_json(law->ratio) : ordered_json(nullptr);
 }
 
 /// At most so many of a list, evenly, the first and last among them.

@@ -77,8 +77,8 @@ ordered_json recipe_object(Recipe const& recipe) {
 }
 
 /// A ratio, or null where it is unknown.
-ordered_json ratio(std::optional<double> const& value) {
-    return value ? ordered_json(*value) : ordered_json(nullptr);
+ordered_json ratio(std::optional<measure::HortonRatio> const& law) {
+    return law ? ordered_json(law->ratio) : ordered_json(nullptr);
 }
 
 ordered_json horton(measure::HortonLaws const& laws) {
