@@ -41,6 +41,7 @@ Check none_of(char const* name, std::int64_t count) {
 void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     if (!terrain.surface) {
         terrain.areas = measure::areas_nearest(terrain.network.plan, terrain.grid, run);
+        terrain.laws = laws_of_terrain(terrain, nullptr, run);
         return;
     }
     Raster<float> const& dem = terrain.surface->dem;
@@ -58,10 +59,10 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
             terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
         }
     }
+    terrain.laws = diary.stage("laws", [&] { return laws_of_terrain(terrain, &drainage, run); });
 }
 
 void check_rivers(Terrain& terrain, Diary& diary, Run const& run) {
-    terrain.laws = measure::horton(terrain.network.plan, terrain.orders, terrain.areas.ds_area_m2);
     measure::TopologyReport topology = diary.stage(
         "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), run); });
     terrain.checks.insert(terrain.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
