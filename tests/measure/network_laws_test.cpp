@@ -91,9 +91,10 @@ TEST(LineFit, NeedsTwoPlaces) {
     ASSERT_TRUE(two);
     EXPECT_EQ(two->slope, 2.0);
     EXPECT_EQ(two->intercept, 1.0);
-    EXPECT_EQ(two->r2, 1.0);
+    EXPECT_TRUE(std::isnan(two->r2));
     EXPECT_TRUE(std::isnan(two->slope_error));
-    EXPECT_TRUE(std::isnan(fit_line({{0, 1}, {2, 1}})->r2));
+    EXPECT_EQ(fit_line({{0, 1}, {2, 5}, {1, 3}})->r2, 1.0);
+    EXPECT_TRUE(std::isnan(fit_line({{0, 1}, {2, 1}, {3, 1}})->r2));
 }
 
 TEST(LineFit, AnscombesFirst) { // Anscombe 1973, with the figures published for it

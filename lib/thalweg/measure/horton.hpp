@@ -21,7 +21,7 @@ struct StreamOrder {
 /// By what factor something changes from an order to the next.
 struct HortonRatio {
     double ratio = 0.0;
-    double r2 = 0.0;         ///< of the line through the logarithms; NaN where all are one
+    double r2 = 0.0;         ///< of the line through the logarithms; NaN of two, or where all are one
     std::int64_t orders = 0; ///< that have a logarithm
 };
 

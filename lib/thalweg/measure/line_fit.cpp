@@ -38,10 +38,10 @@ std::optional<LineFit> fit_line(std::vector<Vec2> const& points) {
         double const by = (p.y - mean.y) - fit.slope * (p.x - mean.x);
         missed.add(by * by);
     }
-    if (yy.value() > 0.0) {
-        fit.r2 = std::max(0.0, 1.0 - missed.value() / yy.value());
-    }
-    if (points.size() > 2) {
+    if (points.size() > 2) { // two say nothing of how well a line fits
+        if (yy.value() > 0.0) {
+            fit.r2 = std::max(0.0, 1.0 - missed.value() / yy.value());
+        }
         fit.slope_error = std::sqrt(missed.value() / (n - 2.0) / xx.value());
     }
     return fit;

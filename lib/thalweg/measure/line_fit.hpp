@@ -15,7 +15,8 @@ namespace thalweg::measure {
 struct LineFit {
     double slope = 0.0;
     double intercept = 0.0;                               ///< y at x = 0
-    double r2 = std::numeric_limits<double>::quiet_NaN(); ///< share of y's variance explained; NaN where y is constant
+    double r2 = std::numeric_limits<double>::quiet_NaN(); ///< share of y's variance explained; NaN of two points, or
+                                                          ///< where y is constant
     double slope_error = std::numeric_limits<double>::quiet_NaN(); ///< standard error; NaN of two points
     std::int64_t points = 0;
 };

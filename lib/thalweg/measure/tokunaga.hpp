@@ -12,7 +12,7 @@ namespace thalweg::measure {
 struct TokunagaLaw {
     double a = 0.0;
     double c = 0.0;
-    double r2 = 0.0;          ///< of the line through the logarithms of T_k; NaN where all are one
+    double r2 = 0.0;          ///< of the line through the logarithms of T_k; NaN of two, or where all are one
     double log_c_error = 0.0; ///< standard error of ln c; NaN of two T_k
     std::int64_t terms = 0;   ///< T_k that were fitted
 };

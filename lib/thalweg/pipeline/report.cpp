@@ -7,6 +7,7 @@
 #include <thalweg/core/memory.hpp>
 
 #include <thalweg/network/tokunaga_laws.hpp>
+#include <thalweg/pipeline/law_rows.hpp>
 
 #include <nlohmann/json.hpp>
 #include <toml++/toml.h>
@@ -112,6 +113,29 @@ ordered_json tokunaga_object(Terrain const& t) {
     return out;
 }
 
+ordered_json laws_object(measure::NetworkLaws const& laws) {
+    ordered_json out = ordered_json::object();
+    for (LawRow const& row : law_rows(laws)) {
+        ordered_json& law = out[row.key];
+        law = {{"value", row.value ? ordered_json(*row.value) : ordered_json(nullptr)}, {"unit", row.unit}};
+        for (auto const& [name, figure] : row.details) {
+            law[name] = figure;
+        }
+        if (row.nature != nullptr) {
+            law["range"] = {row.nature->low, row.nature->high};
+            law["source"] = row.nature->source;
+        }
+    }
+    return out;
+}
+
+ordered_json dem_laws_object(DemLaws const& found) {
+    ordered_json out = laws_object(found.laws);
+    out["support"] = {
+        {"cells", found.support_cells}, {"area_m2", found.support_m2}, {"as_dense_as_the_network", found.as_dense}};
+    return out;
+}
+
 ordered_json network_object(Terrain const& t) {
     StreamNetwork const& plan = t.network.plan;
     NetworkIndex const index(plan);
@@ -142,8 +166,9 @@ ordered_json network_object(Terrain const& t) {
             {"lifted", {{"count", h.lifted}, {"max_m", h.max_lift_m}, {"rms_m", h.rms_lift_m}}},
             {"lowered_cells", {{"count", t.story.lowered_cells}, {"max_m", t.story.max_lowered_m}}},
             {"area_from", t.areas.source},
-            {"horton", horton(t.laws)},
-            {"tokunaga", tokunaga_object(t)}};
+            {"horton", horton(t.laws.network ? t.laws.network->horton : measure::HortonLaws{})},
+            {"tokunaga", tokunaga_object(t)},
+            {"laws", t.laws.network ? laws_object(*t.laws.network) : ordered_json(nullptr)}};
 }
 
 ordered_json agreements_object(measure::Agreements const& agreements) {
@@ -231,6 +256,9 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
         }
         report["dem"]["pit_cells"] = t.pits;
         report["dem"]["pit_volume_m3"] = t.pit_volume_m3;
+        if (t.laws.dem) {
+            report["dem"]["laws"] = dem_laws_object(*t.laws.dem);
+        }
     }
     if (t.drained) {
         report["drained"] = {{"banks", change_object(t.drained->banks)},
@@ -282,8 +310,12 @@ std::vector<std::string> files_of_report(std::string const& json) {
     return files;
 }
 
-std::string statistics_json(measure::Statistics const& statistics) {
-    return dem(statistics).dump() + "\n";
+std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws) {
+    ordered_json out = dem(statistics);
+    if (laws != nullptr) {
+        out["laws"] = dem_laws_object(*laws);
+    }
+    return out.dump() + "\n";
 }
 
 std::string as_json(CheckedFiles const& checked) {

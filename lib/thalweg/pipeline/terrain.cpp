@@ -81,6 +81,7 @@ void check_drainage(Terrain& terrain, std::int64_t depressions) {
 void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     if (!terrain.surface) {
         terrain.areas = measure::areas_nearest(terrain.network.plan, terrain.grid, run);
+        terrain.laws = laws_of_terrain(terrain, nullptr, run);
         return;
     }
     Raster<float> const& dem = terrain.surface->dem;
@@ -113,10 +114,10 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
             return WaterAreas{areas_m2(drainage), areas_m2(measure::drain_dinf(dem, drainage, run).area_cells)};
         });
     }
+    terrain.laws = diary.stage("laws", [&] { return laws_of_terrain(terrain, &drainage, run); });
 }
 
 void check_rivers(Terrain& terrain, Diary& diary, Run const& run) {
-    terrain.laws = measure::horton(terrain.network.plan, terrain.orders, terrain.areas.ds_area_m2);
     measure::TopologyReport topology = diary.stage(
         "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run); });
     terrain.checks.insert(terrain.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
