@@ -30,6 +30,7 @@ struct Session {
 using Command = std::function<int()>;
 Command add_make(CLI::App& app, Session& session);
 Command add_check(CLI::App& app, Session& session);
+Command add_convert(CLI::App& app, Session& session);
 Command add_stats(CLI::App& app, Session& session);
 Command add_draw(CLI::App& app, Session& session);
 Command add_replay(CLI::App& app, Session& session);

@@ -53,7 +53,7 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
             terrain.areas.node_m2.assign(boost::num_vertices(terrain.network.plan), 0.0);
         }
         terrain.laws = measure::horton(terrain.network.plan, terrain.orders, terrain.areas.ds_area_m2);
-        auto const topology = measure::check_topology(measure::as_file(terrain.network, terrain.orders), run);
+        auto const topology = measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run);
         terrain.checks = topology.checks;
         terrain.findings = topology.findings;
     }

@@ -63,7 +63,7 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
 void check_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.laws = measure::horton(terrain.network.plan, terrain.orders, terrain.areas.ds_area_m2);
     measure::TopologyReport topology = diary.stage(
-        "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), run); });
+        "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run); });
     terrain.checks.insert(terrain.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
     terrain.checks.insert(terrain.checks.end(), topology.checks.begin(), topology.checks.end());
     terrain.findings = std::move(topology.findings);
