@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <thalweg/detail/midpoint.hpp>
+#include <thalweg/io/schema.hpp>
 #include <thalweg/network/adopt.hpp>
 #include <thalweg/network/grow_dla.hpp>
 #include <thalweg/network/grow_tokunaga.hpp>
@@ -146,8 +147,9 @@ struct PatchRecipe {
 };
 
 struct OutputRecipe {
-    std::string title;               ///< of the pictures and the page; "" names the seed
-    double contour_interval_m = 0.0; ///< [m] 0 chooses a round number
+    std::string title;                      ///< of the pictures and the page; "" names the seed
+    double contour_interval_m = 0.0;        ///< [m] 0 chooses a round number
+    io::Schema schema = io::Schema::native; ///< another one: a network file more, in its words
 };
 
 /// Everything that decides a result, as one plain value.
