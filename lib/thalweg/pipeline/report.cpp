@@ -237,6 +237,11 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
     if (t.certificate) {
         report["certificate"] = certificate_object(*t.certificate);
     }
+    if (t.catchments) {
+        auto const& cells = t.catchments->cells;
+        report["catchments"] = {{"count", std::count_if(cells.begin(), cells.end(), [](auto n) { return n > 0; })},
+                                {"cells_without", t.catchments->without}};
+    }
     if (t.tin) {
         report["tin"] = {{"vertices", t.tin->vertices.size()}, {"triangles", t.tin->triangles.size()}};
     }

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/terrain.hpp>
 
+#include <thalweg/measure/drain_dinf.hpp>
 #include <thalweg/measure/topology.hpp>
 #include <thalweg/pipeline/around_rivers.hpp>
+#include <thalweg/pipeline/catchment_rows.hpp>
 #include <thalweg/pipeline/diary.hpp>
 #include <thalweg/pipeline/land.hpp>
 #include <thalweg/pipeline/paste_patches.hpp>
@@ -90,6 +92,11 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.pit_volume_m3 = drainage.pit_volume_m3;
     if (terrain.recipe.network) {
         terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
+        if (terrain.recipe.output.catchments) {
+            terrain.catchments = diary.stage("catchments", [&] {
+                return measure::catchments(measure::reaches_of(terrain.network.plan), drainage, run);
+            });
+        }
         if (honours_rivers(terrain.recipe)) { // else they were asked to move
             terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
         }
@@ -100,6 +107,11 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     }
     if (terrain.drained) {
         check_drainage(terrain, static_cast<std::int64_t>(drainage.depressions.size()));
+    }
+    if (terrain.recipe.output.accumulation) {
+        terrain.water_areas = diary.stage("areas", [&] {
+            return WaterAreas{areas_m2(drainage), areas_m2(measure::drain_dinf(dem, drainage, run).area_cells)};
+        });
     }
 }
 

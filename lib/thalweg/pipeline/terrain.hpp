@@ -17,6 +17,7 @@
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/detail/project.hpp>
+#include <thalweg/measure/catchments.hpp>
 #include <thalweg/measure/certificate.hpp>
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/measure/horton.hpp>
@@ -69,6 +70,12 @@ struct DrainStory {
     surface::LandChange depressions;
 };
 
+/// Contributing areas [m2] by cell, NaN without data.
+struct WaterAreas {
+    Raster<double> d8;
+    Raster<double> dinf;
+};
+
 /// A terrain with all that led to it.
 struct Terrain {
     Recipe recipe; ///< every default resolved: made again, it gives the same terrain
@@ -93,6 +100,8 @@ struct Terrain {
     std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
     double pit_volume_m3 = 0.0;
     std::optional<measure::Certificate> certificate; ///< of rivers and surface, where both are there
+    std::optional<measure::Catchments> catchments;   ///< of the arcs on the surface, where they are asked for
+    std::optional<WaterAreas> water_areas;           ///< by cell of the surface, where they are asked for
     NetworkStory story;
     std::vector<Check> checks;
     std::vector<Finding> findings;                         ///< of the checks
