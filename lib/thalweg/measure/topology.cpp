@@ -74,6 +74,7 @@ TopologyReport check_topology(NetworkFile const& file, TopologyParams const& par
     Joints joints = check_ends(file, plans, left_out, ambiguous, findings);
     check_near_ends(file, plans, left_out, near_m, joints, findings, run);
     check_heights(file, plans, left_out, joints, findings);
+    report.upstream = joints.against;
     run.at(0.3, "check");
     std::size_t const junctions = joints.junctions.ids.size();
     check_trees(file, joints, Graph(joints.said, left_out, junctions), findings);

@@ -34,6 +34,7 @@ struct TopologyParams {
 struct TopologyReport {
     std::vector<Finding> findings; ///< in the order of the kinds; feature = arc_id or node_id as the file has it
     std::vector<Check> checks;     ///< one a kind of fault, value = how many, limit 0
+    std::vector<char> upstream;    ///< by arc: 1 where its line is drawn against the flow
 };
 
 /// Checks a network as it stands in its file: ends, direction, trees, orders, heights, geometry, meetings.

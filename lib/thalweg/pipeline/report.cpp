@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report.hpp>
 
+#include <thalweg/pipeline/check_files.hpp>
+
 #include <thalweg/core/memory.hpp>
 
 #include <thalweg/network/tokunaga_laws.hpp>
@@ -284,9 +286,16 @@ std::string statistics_json(measure::Statistics const& statistics) {
     return dem(statistics).dump() + "\n";
 }
 
-std::string checks_json(std::vector<Check> const& checks, std::vector<Finding> const& findings) {
-    bool const ok = std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
-    ordered_json const out{{"ok", ok}, {"checks", checks_array(checks)}, {"findings", findings_array(findings)}};
+std::string as_json(CheckedFiles const& checked) {
+    ordered_json const out{{"ok", checked.ok()},
+                           {"arcs", checked.arcs},
+                           {"nodes", checked.nodes},
+                           {"schema", checked.schema},
+                           {"checks", checks_array(checked.checks)},
+                           {"findings", findings_array(checked.findings)},
+                           {"notes", findings_array(checked.notes)},
+                           {"mended", findings_array(checked.mended)},
+                           {"written", checked.written}};
     return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
