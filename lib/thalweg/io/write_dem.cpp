@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -31,10 +32,10 @@ void require(bool done, Driver const& driver, std::string const& what) {
     }
 }
 
-/// A new tiled GeoTIFF of one band; numbers that are not whole have nodata_height for none.
+/// A new tiled GeoTIFF of one band.
 template <class T>
-void write_tiled(Raster<T> const& raster, GDALDataType type, char const* verb, std::string const& path,
-                 Run const& run) {
+void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<double> no_data, char const* verb,
+                 std::string const& path, Run const& run) {
     std::string const what = verb + path;
     require_new(path, what);
     require_size(raster.grid(), what);
@@ -42,8 +43,7 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, char const* verb, s
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
     options.SetNameValue("TILED", "YES");
-    constexpr bool fractions = std::is_floating_point_v<T>;
-    if (fractions) {
+    if (std::is_floating_point_v<T>) {
         options.SetNameValue("PREDICTOR", "3");
         options.SetNameValue("BIGTIFF", "IF_SAFER");
         options.SetNameValue("NUM_THREADS", run.threads > 0 ? fmt::format("{}", run.threads).c_str() : "ALL_CPUS");
@@ -52,8 +52,8 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, char const* verb, s
         path.c_str(), static_cast<int>(raster.width()), static_cast<int>(raster.height()), 1, type, options.List()));
     require(target != nullptr, driver, what);
     set_frame(*target, raster.grid());
-    if (fractions) {
-        target->GetRasterBand(1)->SetNoDataValue(static_cast<double>(nodata_height));
+    if (no_data) {
+        target->GetRasterBand(1)->SetNoDataValue(*no_data);
     }
     GDALRasterIOExtraArg extra;
     INIT_RASTERIO_EXTRA_ARG(extra);
@@ -96,7 +96,11 @@ void write_dem(Raster<float> const& dem, std::string const& path, Run const& run
 }
 
 void write_mask(Mask const& mask, std::string const& path, Run const& run) {
-    write_tiled(mask, GDT_Byte, "io.write_mask: ", path, run);
+    write_tiled(mask, GDT_Byte, {}, "io.write_mask: ", path, run);
+}
+
+void write_codes(Raster<std::uint8_t> const& codes, std::string const& path, Run const& run) {
+    write_tiled(codes, GDT_Byte, no_code, "io.write_codes: ", path, run);
 }
 
 void write_field(Raster<double> const& field, std::string const& path, Run const& run) {
@@ -110,7 +114,7 @@ void write_field(Raster<double> const& field, std::string const& path, Run const
         }
         filled[i] = std::isnan(filled[i]) ? no_data : filled[i];
     }
-    write_tiled(filled, GDT_Float64, "io.write_field: ", path, run);
+    write_tiled(filled, GDT_Float64, no_data, "io.write_field: ", path, run);
 }
 
 } // namespace thalweg::io

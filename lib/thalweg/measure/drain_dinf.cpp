@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/elementary.hpp>
 #include <thalweg/core/d8.hpp>
+#include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/parallel.hpp>
 

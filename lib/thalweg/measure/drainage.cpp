@@ -104,6 +104,58 @@ void accumulate(Drainage& drainage, Run const& run) {
     }
 }
 
+/// The depressions of a DEM under its water, which is gone afterwards.
+std::vector<Depression> take_depressions(Raster<float> const& dem, Raster<float>& level, Run const& run) {
+    std::vector<Depression> found;
+    Grid const& grid = dem.grid();
+    auto const inner = [&](std::int64_t i) {
+        Cell const c = level.grid().at(i);
+        return Cell{c.col - 1, c.row - 1};
+    };
+    auto const offsets = d8_offsets(level.grid());
+    std::vector<std::int64_t> open;
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        run.check();
+        for (std::int64_t col = 0; col < grid.width; ++col) {
+            std::int64_t const first = level.grid().index({col + 1, row + 1});
+            if (!(level[first] > dem[Cell{col, row}])) {
+                continue;
+            }
+            Depression depression{{col, row}};
+            CompensatedSum depth_m;
+            auto const take = [&](std::int64_t i, Cell c) {
+                double const depth = static_cast<double>(level[i]) - static_cast<double>(dem[c]);
+                if (dem[c] < dem[depression.lowest] ||
+                    (dem[c] == dem[depression.lowest] && grid.index(c) < grid.index(depression.lowest))) {
+                    depression.lowest = c;
+                }
+                ++depression.cells;
+                depression.max_depth_m = std::max(depression.max_depth_m, depth);
+                depth_m.add(depth);
+                level[i] = dem[c];
+                open.push_back(i);
+            };
+            take(first, {col, row});
+            while (!open.empty()) {
+                std::int64_t const i = open.back();
+                open.pop_back();
+                for (std::int64_t const step : offsets) {
+                    std::int64_t const n = i + step;
+                    if (std::isnan(level[n])) {
+                        continue;
+                    }
+                    if (Cell const c = inner(n); level[n] > dem[c]) {
+                        take(n, c);
+                    }
+                }
+            }
+            depression.volume_m3 = depth_m.value() * grid.cell_m * grid.cell_m;
+            found.push_back(depression);
+        }
+    }
+    return found;
+}
+
 } // namespace
 
 Drainage drain(Raster<float> const& dem, Run const& run) {
@@ -119,7 +171,7 @@ Drainage drain(Raster<float> const& dem, Run const& run) {
             fmt::format("measure.drain: the height at column {}, row {} is infinite; mark cells without data as NaN",
                         cell.col, cell.row));
     }
-    Drainage result{Raster<std::int8_t>(grid), Raster<std::int64_t>(grid), 0, 0.0};
+    Drainage result{Raster<std::int8_t>(grid), Raster<std::int64_t>(grid)};
     {
         Raster<float> level = framed(dem);
         Raster<std::int8_t> direction = flood(level, run);
@@ -138,6 +190,7 @@ Drainage drain(Raster<float> const& dem, Run const& run) {
             std::copy(ways.begin(), ways.end(), result.direction.row(r).begin());
         }
         result.pit_volume_m3 = raised_m.value() * grid.cell_m * grid.cell_m;
+        result.depressions = take_depressions(dem, level, run);
     }
     accumulate(result, run);
     return result;

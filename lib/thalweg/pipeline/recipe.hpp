@@ -150,6 +150,8 @@ struct PatchRecipe {
 struct OutputRecipe {
     std::string title;               ///< of the pictures and the page; "" names the seed
     double contour_interval_m = 0.0; ///< [m] 0 chooses a round number
+    bool catchments = true;          ///< of the arcs, where there are rivers and a surface
+    bool accumulation = false;       ///< contributing areas by cell, where there is a surface
 };
 
 /// Everything that decides a result, as one plain value.

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/terrain.hpp>
 
+#include <thalweg/measure/drain_dinf.hpp>
 #include <thalweg/measure/topology.hpp>
 #include <thalweg/pipeline/around_rivers.hpp>
+#include <thalweg/pipeline/catchment_rows.hpp>
 #include <thalweg/pipeline/diary.hpp>
 #include <thalweg/pipeline/land.hpp>
 #include <thalweg/pipeline/paste_patches.hpp>
@@ -66,9 +68,20 @@ Check none_of(char const* name, std::int64_t count) {
     return {name, static_cast<double>(count), 0.0, count == 0};
 }
 
+/// Of a land that was made to drain: whether it does, by its rivers where it honours them.
+void check_drainage(Terrain& terrain, std::int64_t depressions) {
+    if (!terrain.certificate || !honours_rivers(terrain.recipe)) {
+        terrain.checks.push_back(none_of("depressions", depressions));
+        return;
+    }
+    std::vector<Check> const checks = terrain.certificate->checks();
+    terrain.checks.insert(terrain.checks.end(), checks.begin(), checks.end());
+}
+
 void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     if (!terrain.surface) {
         terrain.areas = measure::areas_nearest(terrain.network.plan, terrain.grid, run);
+        terrain.laws = laws_of_terrain(terrain, nullptr, run);
         return;
     }
     Raster<float> const& dem = terrain.surface->dem;
@@ -80,19 +93,43 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.pit_volume_m3 = drainage.pit_volume_m3;
     if (terrain.recipe.network) {
         terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
+        if (terrain.recipe.output.catchments) {
+            terrain.catchments = diary.stage("catchments", [&] {
+                return measure::catchments(measure::reaches_of(terrain.network.plan), drainage, run);
+            });
+        }
         if (honours_rivers(terrain.recipe)) { // else they were asked to move
             terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
         }
+        terrain.certificate = diary.stage("certify", [&] {
+            return measure::certify(dem, drainage, measure::reaches_of(terrain.network.plan), terrain.areas.ds_area_m2,
+                                    run);
+        });
     }
+    if (terrain.drained) {
+        check_drainage(terrain, static_cast<std::int64_t>(drainage.depressions.size()));
+    }
+    if (terrain.recipe.output.accumulation) {
+        terrain.water_areas = diary.stage("areas", [&] {
+            return WaterAreas{areas_m2(drainage), areas_m2(measure::drain_dinf(dem, drainage, run).area_cells)};
+        });
+    }
+    terrain.laws = diary.stage("laws", [&] { return laws_of_terrain(terrain, &drainage, run); });
 }
 
 void check_rivers(Terrain& terrain, Diary& diary, Run const& run) {
-    terrain.laws = measure::horton(terrain.network.plan, terrain.orders, terrain.areas.ds_area_m2);
     measure::TopologyReport topology = diary.stage(
-        "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), run); });
+        "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run); });
     terrain.checks.insert(terrain.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
     terrain.checks.insert(terrain.checks.end(), topology.checks.begin(), topology.checks.end());
     terrain.findings = std::move(topology.findings);
+    if (terrain.drained && terrain.certificate && honours_rivers(terrain.recipe)) {
+        std::vector<Check> const checks = terrain.certificate->checks();
+        if (!std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; })) { // else nobody looks
+            std::vector<Finding> const& more = terrain.certificate->findings;
+            terrain.findings.insert(terrain.findings.end(), more.begin(), more.end());
+        }
+    }
 }
 
 } // namespace
