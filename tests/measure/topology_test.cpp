@@ -83,6 +83,49 @@ TEST(CheckTopology, SaysWhatWhereAndHowMuch) {
     EXPECT_EQ(check->value, 1.0);
 }
 
+TEST(CheckTopology, ArcsAreNamedAsInTheirFile) {
+    auto const y = [](std::int64_t shift) {
+        NetworkFile file;
+        file.id_shift = shift;
+        file.nodes = {{1, {0, 0, 0}}, {2, {0, 9, 1}}, {3, {-5, 20, 2}}, {4, {5, 20, 2}}};
+        file.arcs = {{.id = 5 + shift,
+                      .from_node = 2,
+                      .to_node = 1,
+                      .strahler = 2,
+                      .shreve = 2,
+                      .basin = 1,
+                      .line = {{0, 9, 1}, {0, 0, 0}}},
+                     {.id = 6 + shift,
+                      .from_node = 3,
+                      .to_node = 2,
+                      .ds_arc = 7 + shift,
+                      .strahler = 1,
+                      .shreve = 1,
+                      .basin = 1,
+                      .line = {{-5, 20, 2}, {0, 9, 1}}},
+                     {.id = 7 + shift,
+                      .from_node = 4,
+                      .to_node = 2,
+                      .ds_arc = 5 + shift,
+                      .strahler = 3,
+                      .shreve = 1,
+                      .basin = 1,
+                      .line = {{5, 20, 2}, {-5, 15, 1.5}, {0, 9, 1}}}};
+        return check_topology(file).findings;
+    };
+    auto const plain = y(0);
+    auto const shifted = y(1);
+    ASSERT_GE(plain.size(), 3U); // a crossing, a wrong ds_arc, a wrong order
+    ASSERT_EQ(plain.size(), shifted.size());
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        EXPECT_EQ(plain[i].feature, shifted[i].feature) << shifted[i].text;
+        EXPECT_EQ(plain[i].amount, shifted[i].amount) << shifted[i].text;
+        if (plain[i].kind != "ds_arc_mismatch") { // which also tells what stands for none
+            EXPECT_EQ(plain[i].text, shifted[i].text);
+        }
+    }
+}
+
 TEST(CheckTopology, LoopOnItself) {
     NetworkFile file;
     file.nodes = {{1, {0, 0, 5}}, {2, {0, 1, 1}}};

@@ -118,8 +118,9 @@ private:
             if (named_already) {
                 return said; // the arcs of a node that bears another's name still agree on its own
             }
-            findings_.push_back({"missing_node", arc.id, plan_of(place), static_cast<double>(id),
-                                 fmt::format("arc {}: its {} {} is not among the nodes", arc.id, which, id)});
+            findings_.push_back(
+                {"missing_node", number_of(file_, arc), plan_of(place), static_cast<double>(id),
+                 fmt::format("arc {}: its {} {} is not among the nodes", number_of(file_, arc), which, id)});
             return meant == none ? said : meant;
         }
         if (!has_line || !is_number(there->at.x) || !is_number(there->at.y) ||
@@ -135,9 +136,9 @@ private:
         double const apart = std::sqrt(flat * flat + dz * dz);
         joints_.faulty[a][end] = 1;
         findings_.push_back(
-            {"end_mismatch", arc.id, plan_of(place), apart,
-             fmt::format("arc {}: its end at ({}, {}, {}) lies {} m from {} {} at ({}, {}, {})", arc.id, place.x,
-                         place.y, place.z, apart, which, id, there->at.x, there->at.y, there->at.z)});
+            {"end_mismatch", number_of(file_, arc), plan_of(place), apart,
+             fmt::format("arc {}: its end at ({}, {}, {}) lies {} m from {} {} at ({}, {}, {})", number_of(file_, arc),
+                         place.x, place.y, place.z, apart, which, id, there->at.x, there->at.y, there->at.z)});
         return meant == none ? said : meant;
     }
 
@@ -211,13 +212,13 @@ Joints check_ends(NetworkFile const& file, Plans const& plans, std::vector<char>
     for (std::size_t a = 0; a < arcs; ++a) {
         if (left_out[a] == 0 && (turned[a] != 0 || joints.against[a] != 0)) {
             FileArc const& arc = file.arcs[a];
-            findings.push_back({"wrong_direction", arc.id, start_of(arc), length_of(plans[a]),
+            findings.push_back({"wrong_direction", number_of(file, arc), start_of(arc), length_of(plans[a]),
                                 turned[a] == 0
-                                    ? fmt::format("arc {}: is drawn from its to_node {} to its from_node {}", arc.id,
-                                                  arc.to_node, arc.from_node)
+                                    ? fmt::format("arc {}: is drawn from its to_node {} to its from_node {}",
+                                                  number_of(file, arc), arc.to_node, arc.from_node)
                                     : fmt::format("arc {}: is said to run from node {} to {}, against the arcs that "
                                                   "ds_arc links it to",
-                                                  arc.id, arc.from_node, arc.to_node)});
+                                                  number_of(file, arc), arc.from_node, arc.to_node)});
         }
         if (turned[a] != 0) {
             std::swap(joints.said[a][0], joints.said[a][1]);
@@ -247,9 +248,9 @@ void check_heights(NetworkFile const& file, Plans const& plans, std::vector<char
         }
         if (greatest_rise > 0.0) {
             Vec2 const at = plan_of(line[rises_at]);
-            findings.push_back({"z_rising", file.arcs[a].id, at, greatest_rise,
-                                fmt::format("arc {}: runs uphill by {} m to vertex {} at ({}, {})", file.arcs[a].id,
-                                            greatest_rise, rises_at, at.x, at.y)});
+            findings.push_back({"z_rising", number_of(file, file.arcs[a]), at, greatest_rise,
+                                fmt::format("arc {}: runs uphill by {} m to vertex {} at ({}, {})",
+                                            number_of(file, file.arcs[a]), greatest_rise, rises_at, at.x, at.y)});
         }
     }
 }

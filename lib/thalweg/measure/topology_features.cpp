@@ -28,10 +28,11 @@ template <class Visit> void each_repeated(std::vector<Id> ids, Visit const& visi
     }
 }
 
-Finding repeated_id(char const* kind, char const* noun, std::span<Id const> same, Vec2 second) {
-    return {kind, same[0].first, second, static_cast<double>(same.size()),
-            fmt::format("{} {}: {} {}s have this id, the second at ({}, {})", noun, same[0].first, same.size(), noun,
-                        second.x, second.y)};
+// id: as the file itself has it.
+Finding repeated_id(char const* kind, char const* noun, std::int64_t id, std::size_t count, Vec2 second) {
+    return {
+        kind, id, second, static_cast<double>(count),
+        fmt::format("{} {}: {} {}s have this id, the second at ({}, {})", noun, id, count, noun, second.x, second.y)};
 }
 
 std::vector<Vec2> without_repeats(std::vector<Vec3> const& vertices) {
@@ -95,12 +96,14 @@ std::vector<char> check_ids(NetworkFile const& file, Findings& findings) {
         ids.emplace_back(arc.id, a);
         if (arc.id < 1) {
             ambiguous[a] = 1;
-            findings.push_back({"bad_arc_id", arc.id, start_of(arc), static_cast<double>(arc.id),
-                                fmt::format("arc {}: ids of arcs start at 1", arc.id)});
+            findings.push_back(
+                {"bad_arc_id", number_of(file, arc), start_of(arc), static_cast<double>(number_of(file, arc)),
+                 fmt::format("arc {}: ids of arcs start at {}", number_of(file, arc), 1 - file.id_shift)});
         }
     }
     each_repeated(std::move(ids), [&](std::span<Id const> same) {
-        findings.push_back(repeated_id("duplicate_arc_id", "arc", same, start_of(file.arcs[same[1].second])));
+        findings.push_back(repeated_id("duplicate_arc_id", "arc", number_of(file, file.arcs[same[0].second]),
+                                       same.size(), start_of(file.arcs[same[1].second])));
         for (Id const& id : same) {
             ambiguous[id.second] = 1;
         }
@@ -111,7 +114,7 @@ std::vector<char> check_ids(NetworkFile const& file, Findings& findings) {
     }
     each_repeated(std::move(ids), [&](std::span<Id const> same) {
         Vec3 const second = file.nodes[same[1].second].at;
-        findings.push_back(repeated_id("duplicate_node_id", "node", same,
+        findings.push_back(repeated_id("duplicate_node_id", "node", same[0].first, same.size(),
                                        is_number(second.x) && is_number(second.y) ? plan_of(second) : Vec2{}));
     });
     return ambiguous;
@@ -125,31 +128,33 @@ Plans check_shapes(NetworkFile const& file, Findings& findings) {
     for (std::size_t a = 0; a < file.arcs.size(); ++a) {
         FileArc const& arc = file.arcs[a];
         if (arc.line.size() < 2) {
-            findings.push_back({"null_geometry", arc.id, start_of(arc), static_cast<double>(arc.line.size()),
-                                fmt::format("arc {}: has no line ({} vertices)", arc.id, arc.line.size())});
+            findings.push_back(
+                {"null_geometry", number_of(file, arc), start_of(arc), static_cast<double>(arc.line.size()),
+                 fmt::format("arc {}: has no line ({} vertices)", number_of(file, arc), arc.line.size())});
             continue;
         }
         if (auto const bad =
                 arc.line.size() - static_cast<std::size_t>(std::count_if(arc.line.begin(), arc.line.end(), is_place));
             bad > 0) {
             findings.push_back(
-                {"nan", arc.id, start_of(arc), static_cast<double>(bad),
-                 fmt::format("arc {}: {} of its {} vertices have coordinates that are no numbers below {}", arc.id, bad,
-                             arc.line.size(), greatest_coordinate)});
+                {"nan", number_of(file, arc), start_of(arc), static_cast<double>(bad),
+                 fmt::format("arc {}: {} of its {} vertices have coordinates that are no numbers below {}",
+                             number_of(file, arc), bad, arc.line.size(), greatest_coordinate)});
             continue;
         }
         plans[a] = without_repeats(arc.line);
         if (length_of(plans[a]) <= 0.0) {
             plans[a].clear();
-            findings.push_back({"zero_length", arc.id, start_of(arc), 0.0,
-                                fmt::format("arc {}: has no length, its {} vertices lie at ({}, {})", arc.id,
-                                            arc.line.size(), arc.line[0].x, arc.line[0].y)});
+            findings.push_back({"zero_length", number_of(file, arc), start_of(arc), 0.0,
+                                fmt::format("arc {}: has no length, its {} vertices lie at ({}, {})",
+                                            number_of(file, arc), arc.line.size(), arc.line[0].x, arc.line[0].y)});
         } else if (std::size_t const repeated = arc.line.size() - plans[a].size(); repeated > 0) {
             auto const second = std::next(std::adjacent_find(arc.line.begin(), arc.line.end(),
                                                              [](Vec3 p, Vec3 q) { return plan_of(p) == plan_of(q); }));
-            findings.push_back({"repeated_vertex", arc.id, plan_of(*second), static_cast<double>(repeated),
-                                fmt::format("arc {}: vertex {} at ({}, {}) repeats the one before it ({} such)", arc.id,
-                                            second - arc.line.begin(), second->x, second->y, repeated)});
+            findings.push_back(
+                {"repeated_vertex", number_of(file, arc), plan_of(*second), static_cast<double>(repeated),
+                 fmt::format("arc {}: vertex {} at ({}, {}) repeats the one before it ({} such)", number_of(file, arc),
+                             second - arc.line.begin(), second->x, second->y, repeated)});
         }
     }
     for (FileNode const& node : file.nodes) {
@@ -185,9 +190,10 @@ std::vector<char> check_copies(NetworkFile const& file, Plans const& plans, Find
         FileArc const& arc = file.arcs[lines[i].arc];
         FileArc const& earlier = file.arcs[lines[first].arc];
         copies[lines[i].arc] = 1;
-        findings.push_back({"duplicate_geometry", arc.id, start_of(arc), static_cast<double>(earlier.id),
-                            fmt::format("arc {}: lies on the vertices of arc {}, from ({}, {})", arc.id, earlier.id,
-                                        start_of(arc).x, start_of(arc).y)});
+        findings.push_back({"duplicate_geometry", number_of(file, arc), start_of(arc),
+                            static_cast<double>(number_of(file, earlier)),
+                            fmt::format("arc {}: lies on the vertices of arc {}, from ({}, {})", number_of(file, arc),
+                                        number_of(file, earlier), start_of(arc).x, start_of(arc).y)});
     }
     return copies;
 }

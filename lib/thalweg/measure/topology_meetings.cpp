@@ -62,9 +62,10 @@ public:
         if (!spikes.empty()) {
             Spike const& longest = *std::max_element(
                 spikes.begin(), spikes.end(), [](Spike const& p, Spike const& q) { return p.length_m < q.length_m; });
-            found_.push_back({"spike", arc.id, longest.tip, longest.length_m,
-                              fmt::format("arc {}: turns back on itself at ({}, {}) for {} m ({} such places)", arc.id,
-                                          longest.tip.x, longest.tip.y, longest.length_m, spikes.size())});
+            found_.push_back(
+                {"spike", number_of(file_, arc), longest.tip, longest.length_m,
+                 fmt::format("arc {}: turns back on itself at ({}, {}) for {} m ({} such places)",
+                             number_of(file_, arc), longest.tip.x, longest.tip.y, longest.length_m, spikes.size())});
         }
         std::vector<Vec2> touches;
         for (Meeting const& m : meetings) {
@@ -77,9 +78,9 @@ public:
         std::ranges::sort(touches, {}, key);
         touches.erase(std::unique(touches.begin(), touches.end()), touches.end());
         if (!touches.empty()) {
-            found_.push_back({"self_touching", arc.id, at, static_cast<double>(touches.size()),
-                              fmt::format("arc {}: touches or crosses itself at ({}, {}) ({} such places)", arc.id,
-                                          at.x, at.y, touches.size())});
+            found_.push_back({"self_touching", number_of(file_, arc), at, static_cast<double>(touches.size()),
+                              fmt::format("arc {}: touches or crosses itself at ({}, {}) ({} such places)",
+                                          number_of(file_, arc), at.x, at.y, touches.size())});
         }
     }
 
@@ -100,9 +101,9 @@ public:
         }
         if (!stretch_ends.empty()) {
             Vec2 const at = stretch_ends.front();
-            found_.push_back({"overlap", arc.id, at, shared_m,
-                              fmt::format("arc {}: shares a stretch of {} m with arc {}, at ({}, {})", arc.id, shared_m,
-                                          earlier.id, at.x, at.y)});
+            found_.push_back({"overlap", number_of(file_, arc), at, shared_m,
+                              fmt::format("arc {}: shares a stretch of {} m with arc {}, at ({}, {})",
+                                          number_of(file_, arc), shared_m, number_of(file_, earlier), at.x, at.y)});
         }
         std::ranges::sort(points, {}, [](Vec2 p) { return std::tuple(p.x, p.y); });
         points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -113,9 +114,9 @@ public:
             if (ends_at(b, at) || ends_at(a, at)) {
                 touches_.push_back(ends_at(b, at) ? Touch{at, a, b} : Touch{at, b, a});
             } else {
-                found_.push_back({"crossing", arc.id, at, static_cast<double>(earlier.id),
-                                  fmt::format("arc {}: meets arc {} at ({}, {}), where they share no node", arc.id,
-                                              earlier.id, at.x, at.y)});
+                found_.push_back({"crossing", number_of(file_, arc), at, static_cast<double>(number_of(file_, earlier)),
+                                  fmt::format("arc {}: meets arc {} at ({}, {}), where they share no node",
+                                              number_of(file_, arc), number_of(file_, earlier), at.x, at.y)});
             }
         }
     }
@@ -131,12 +132,13 @@ public:
             bool const through = last - first > 1 && !ends_at(touch.through, touch.at);
             FileArc const& arc = file_.arcs[through ? touch.through : touch.ending];
             FileArc const& other = file_.arcs[through ? touch.ending : touch.through];
-            found_.push_back({"touches", arc.id, touch.at, static_cast<double>(other.id),
-                              through ? fmt::format("arc {}: runs through the end of arc {} at ({}, {}), but has no "
-                                                    "node there",
-                                                    arc.id, other.id, touch.at.x, touch.at.y)
-                                      : fmt::format("arc {}: ends on arc {} at ({}, {}), where they share no node",
-                                                    arc.id, other.id, touch.at.x, touch.at.y)});
+            found_.push_back(
+                {"touches", number_of(file_, arc), touch.at, static_cast<double>(number_of(file_, other)),
+                 through ? fmt::format("arc {}: runs through the end of arc {} at ({}, {}), but has no "
+                                       "node there",
+                                       number_of(file_, arc), number_of(file_, other), touch.at.x, touch.at.y)
+                         : fmt::format("arc {}: ends on arc {} at ({}, {}), where they share no node",
+                                       number_of(file_, arc), number_of(file_, other), touch.at.x, touch.at.y)});
         }
         findings.insert(findings.end(), std::make_move_iterator(found_.begin()), std::make_move_iterator(found_.end()));
     }

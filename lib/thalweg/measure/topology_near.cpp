@@ -117,15 +117,16 @@ void check_near_ends(NetworkFile const& file, Plans const& plans, std::vector<ch
         Vec2 const at = places[i];
         if (near.junction != none && near.from_junction == 0.0) {
             FileArc const& other = file.arcs[near.ending];
-            findings.push_back({"touches", arc.id, at, static_cast<double>(other.id),
+            findings.push_back({"touches", number_of(file, arc), at, static_cast<double>(number_of(file, other)),
                                 fmt::format("arc {}: ends at ({}, {}), where arc {} does, but they have no common node",
-                                            arc.id, at.x, at.y, other.id)});
+                                            number_of(file, arc), at.x, at.y, number_of(file, other))});
         } else if (!near.touches) {
             std::size_t const towards = near.junction != none ? near.ending : near.arc;
             double const apart = near.junction != none ? near.from_junction : near.apart;
-            findings.push_back({"dangling_end", arc.id, at, apart,
-                                fmt::format("arc {}: its end at ({}, {}) lies {} m from arc {} without meeting it",
-                                            arc.id, at.x, at.y, apart, file.arcs[towards].id)});
+            findings.push_back(
+                {"dangling_end", number_of(file, arc), at, apart,
+                 fmt::format("arc {}: its end at ({}, {}) lies {} m from arc {} without meeting it",
+                             number_of(file, arc), at.x, at.y, apart, number_of(file, file.arcs[towards]))});
         }
         joints.faulty[end.arc][end.end] = 1;
         if (near.junction != none) {

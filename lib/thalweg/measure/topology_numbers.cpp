@@ -24,17 +24,21 @@ void check_downstream(NetworkFile const& file, Graph const& g, std::vector<char>
             return file.arcs[n].id == arc.ds_arc || ambiguous[n] != 0; // whose id may be the wrong one of both
         });
         if (!agrees) {
-            findings.push_back({"ds_arc_mismatch", arc.id, start_of(arc), static_cast<double>(right),
-                                fmt::format("arc {}: its ds_arc is {}, but arc {} leaves its to_node {} (0 for none)",
-                                            arc.id, arc.ds_arc, right, arc.to_node)});
+            findings.push_back({"ds_arc_mismatch", number_of(file, arc), start_of(arc),
+                                static_cast<double>(right - file.id_shift),
+                                fmt::format("arc {}: its ds_arc is {}, but arc {} leaves its to_node {} ({} for none)",
+                                            number_of(file, arc), arc.ds_arc - file.id_shift, right - file.id_shift,
+                                            arc.to_node, -file.id_shift)});
         }
     }
 }
 
-void check_order(FileArc const& arc, char const* name, std::int64_t given, std::int64_t right, Findings& findings) {
+void check_order(NetworkFile const& file, FileArc const& arc, char const* name, std::int64_t given, std::int64_t right,
+                 Findings& findings) {
     if (given != right) {
-        findings.push_back({fmt::format("{}_mismatch", name), arc.id, start_of(arc), static_cast<double>(right),
-                            fmt::format("arc {}: its {} is {} and should be {}", arc.id, name, given, right)});
+        findings.push_back(
+            {fmt::format("{}_mismatch", name), number_of(file, arc), start_of(arc), static_cast<double>(right),
+             fmt::format("arc {}: its {} is {} and should be {}", number_of(file, arc), name, given, right)});
     }
 }
 
@@ -83,10 +87,10 @@ void check_orders(NetworkFile const& file, Graph const& g, std::size_t junctions
             continue;
         }
         if (file.says.strahler) {
-            check_order(file.arcs[a], "strahler", file.arcs[a].strahler, orders[a].strahler, findings);
+            check_order(file, file.arcs[a], "strahler", file.arcs[a].strahler, orders[a].strahler, findings);
         }
         if (file.says.shreve) {
-            check_order(file.arcs[a], "shreve", file.arcs[a].shreve, orders[a].shreve, findings);
+            check_order(file, file.arcs[a], "shreve", file.arcs[a].shreve, orders[a].shreve, findings);
         }
     }
 }
@@ -152,9 +156,10 @@ void check_basins(NetworkFile const& file, Graph const& g, std::size_t junctions
     for (std::size_t a = 0; a < file.arcs.size(); ++a) {
         FileArc const& arc = file.arcs[a];
         if (outlet[a] != none && g.left_out[a] == 0 && arc.basin != right[outlet[a]]) {
-            findings.push_back({"basin_mismatch", arc.id, start_of(arc), static_cast<double>(right[outlet[a]]),
+            findings.push_back({"basin_mismatch", number_of(file, arc), start_of(arc),
+                                static_cast<double>(right[outlet[a]]),
                                 fmt::format("arc {}: lies in basin {}, but the arcs with which it drains in basin {}",
-                                            arc.id, arc.basin, right[outlet[a]])});
+                                            number_of(file, arc), arc.basin, right[outlet[a]])});
         }
     }
     std::sort(basins.begin(), basins.end());
@@ -163,9 +168,9 @@ void check_basins(NetworkFile const& file, Graph const& g, std::size_t junctions
         auto const [basin_before, mouth_before, of_before] = basins[i - 1];
         if (basin == basin_before) {
             FileArc const& arc = file.arcs[mouth];
-            findings.push_back({"basin_mismatch", arc.id, start_of(arc), static_cast<double>(basin),
+            findings.push_back({"basin_mismatch", number_of(file, arc), start_of(arc), static_cast<double>(basin),
                                 fmt::format("arc {}: ends in an outlet of its own but shares basin {} with arc {}",
-                                            arc.id, basin, file.arcs[mouth_before].id)});
+                                            number_of(file, arc), basin, number_of(file, file.arcs[mouth_before]))});
         }
     }
 }

@@ -32,6 +32,11 @@ inline Vec2 plan_of(Vec3 p) {
     return {p.x, p.y};
 }
 
+/// The number by which the file itself calls an arc.
+inline std::int64_t number_of(NetworkFile const& file, FileArc const& arc) {
+    return arc.id - file.id_shift;
+}
+
 /// A place to point at: the first vertex that is one.
 Vec2 start_of(FileArc const& arc);
 

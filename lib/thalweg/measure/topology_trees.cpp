@@ -27,9 +27,9 @@ void find_groups(NetworkFile const& file, std::vector<std::size_t> const& part, 
         if (part[a] != none && size[part[a]] > 0) {
             FileArc const& arc = file.arcs[a];
             Vec2 const at = start_of(arc);
-            findings.push_back(
-                {kind, arc.id, at, static_cast<double>(size[part[a]]),
-                 fmt::format("arc {}: {} ({} arcs, one at ({}, {}))", arc.id, what, size[part[a]], at.x, at.y)});
+            findings.push_back({kind, number_of(file, arc), at, static_cast<double>(size[part[a]]),
+                                fmt::format("arc {}: {} ({} arcs, one at ({}, {}))", number_of(file, arc), what,
+                                            size[part[a]], at.x, at.y)});
             size[part[a]] = 0;
         }
     }
@@ -132,9 +132,10 @@ void check_trees(NetworkFile const& file, Joints const& joints, Graph const& sai
                         : out.empty()                                       ? Vec2{}
                                                                             : start_of(file.arcs[out.front()]);
         if (out.size() > 1) {
-            findings.push_back({"several_outflows", id, at, static_cast<double>(out.size()),
-                                fmt::format("node {}: {} arcs leave it at ({}, {}), among them {} and {}", id,
-                                            out.size(), at.x, at.y, file.arcs[out[0]].id, file.arcs[out[1]].id)});
+            findings.push_back(
+                {"several_outflows", id, at, static_cast<double>(out.size()),
+                 fmt::format("node {}: {} arcs leave it at ({}, {}), among them {} and {}", id, out.size(), at.x, at.y,
+                             number_of(file, file.arcs[out[0]]), number_of(file, file.arcs[out[1]]))});
         }
         if (has_arc[j] == 0) {
             findings.push_back({"isolated_node", id, at, 0.0,
