@@ -39,6 +39,7 @@ Command add_tin(CLI::App& app, Session& session);
 Command add_points(CLI::App& app, Session& session);
 Command add_blend(CLI::App& app, Session& session);
 Command add_deform(CLI::App& app, Session& session);
+Command add_measure(CLI::App& app, Session& session);
 Command add_grow(CLI::App& app, Session& session);
 // Of the command line itself: they read the other commands.
 Command add_completion(CLI::App& app);

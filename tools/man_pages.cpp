@@ -43,6 +43,8 @@ Rows const made{
     {"network_SCHEMA.gpkg", "The arcs in the words of another schema, where the recipe names one."},
     {"network.tif", "The cells in which rivers run."},
     {"contours.gpkg", "Contour lines."},
+    {"catchments.gpkg", "The land that each arc drains, and each basin, as outlines."},
+    {"area_d8.tif, area_dinf.tif", "Contributing areas by cell, where the recipe asks for them."},
     {"map.png, profile.svg, curve.svg", "A map, the long profiles of the streams, the curve of the increments."},
     {"wireframe.svg, sections.svg", "The land as a net of lines seen up the valley, and sections across it."},
     {"report.html", "Terrain, rivers, diagrams and figures on one page for any browser; it needs no internet."},

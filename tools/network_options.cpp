@@ -27,12 +27,12 @@ io::ReadNetworkParams NetworkOptions::params() const {
     return read;
 }
 
-void add_network_options(CLI::App& app, NetworkOptions& options) {
+void add_network_options(CLI::App& app, NetworkOptions& options, char const* schema_flag) {
     app.add_option("NETWORK", options.path,
                    "A network that GDAL reads: a file, a folder that make left, a database (PG:dbname=rivers).")
         ->type_name("FILE(gpkg,shp,fgb,geojson)")
         ->required();
-    app.add_option("--from", options.schema, "The schema of NETWORK. Without it, it is recognised by its fields.")
+    app.add_option(schema_flag, options.schema, "The schema of NETWORK. Without it, it is recognised by its fields.")
         ->check(CLI::IsMember(schema_names()));
     app.add_option("--field", options.fields,
                    "Which field of NETWORK holds a quantity of the network schema: ds_arc=NEXT_DOWN. May be given many "
@@ -40,7 +40,7 @@ void add_network_options(CLI::App& app, NetworkOptions& options) {
         ->type_name("QUANTITY=NAME")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--layer", options.layer, "The layer of NETWORK's arcs.")->type_name("NAME");
+    app.add_option("--layer,--arcs-layer", options.layer, "The layer of NETWORK's arcs.")->type_name("NAME");
     app.add_option("--nodes-layer", options.nodes_layer, "The layer of NETWORK's nodes.")->type_name("NAME");
 }
 

@@ -25,8 +25,8 @@ struct NetworkOptions {
     io::ReadNetworkParams params() const;
 };
 
-/// Adds NETWORK, --from, --field, --layer and --nodes-layer.
-void add_network_options(CLI::App& app, NetworkOptions& options);
+/// Adds NETWORK, --from (or the name or names of schema_flag), --field, --layer and --nodes-layer.
+void add_network_options(CLI::App& app, NetworkOptions& options, char const* schema_flag = "--from");
 
 /// The names of all schemas.
 std::vector<std::string> schema_names();

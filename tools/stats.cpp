@@ -5,6 +5,8 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/measure/statistics.hpp>
+#include <thalweg/pipeline/law_rows.hpp>
+#include <thalweg/pipeline/laws.hpp>
 #include <thalweg/pipeline/recipe_of_dem.hpp>
 #include <thalweg/pipeline/report.hpp>
 
@@ -12,8 +14,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace thalweg::tools {
@@ -31,7 +36,27 @@ std::string length(solver::CorrelationLength const& l) {
 struct Options {
     std::string path;
     bool recipe = false;
+    bool laws = false;
+    std::int64_t support_cells = pipeline::DemLawsParams{}.support_cells;
 };
+
+void print_laws(pipeline::DemLaws const& found) {
+    fmt::print("\nrivers where at least {} cells ({:.3g} km²) drain\n{:58}  in nature\n", found.support_cells,
+               found.support_m2 / 1e6, "");
+    for (pipeline::LawRow const& row : pipeline::law_rows(found.laws)) {
+        std::string const value =
+            row.value ? fmt::format("{:.4g}{}{}", *row.value, row.unit.empty() ? "" : " ", row.unit) : "unknown";
+        std::string const range =
+            row.nature != nullptr ? fmt::format("{:g} to {:g}", row.nature->low, row.nature->high) : "";
+        std::string fit;
+        for (auto const& [name, figure] : row.details) {
+            if (name == "r2" && !std::isnan(figure)) {
+                fit = fmt::format("r2 {:.3f}", figure);
+            }
+        }
+        fmt::print("{:<28}  {:<16}  {:<10}  {}\n", row.name, value, fit, range);
+    }
+}
 
 void print_recipe(pipeline::DemRecipe const& made) {
     for (std::string const& note : made.notes) {
@@ -46,12 +71,16 @@ int stats(Options const& options, Session const& session) {
     }
     Raster<float> const dem = io::read_dem(options.path, session.run);
     measure::Statistics const s = measure::statistics(dem, session.run);
+    std::optional<pipeline::DemLaws> laws;
+    if (options.laws) {
+        laws = pipeline::laws_of_dem(dem, {.support_cells = options.support_cells}, session.run);
+    }
     if (options.recipe) {
         print_recipe(pipeline::recipe_of_dem(dem, s, options.path));
         return Exit::done;
     }
     if (session.json) {
-        fmt::print("{}", pipeline::statistics_json(s));
+        fmt::print("{}", pipeline::statistics_json(s, laws ? &*laws : nullptr));
         return Exit::done;
     }
     fmt::print("cells      {} with data, {} without ({} x {})\n", s.cells, s.nodata, dem.width(), dem.height());
@@ -67,6 +96,9 @@ int stats(Options const& options, Session const& session) {
     fmt::print("length     {} cells along rows, {} along columns\n", length(s.lx), length(s.ly));
     fmt::print("dimension  {} from lags 1 to 5, {} from lags 1 to 32\n", known(s.dimension, 3),
                known(s.dimension_dyadic, 3));
+    if (laws) {
+        print_laws(*laws);
+    }
     return Exit::done;
 }
 
@@ -76,11 +108,22 @@ Command add_stats(CLI::App& app, Session& session) {
     auto const options = std::make_shared<Options>();
     app.add_option("DEM", options->path, "Any raster of heights that GDAL reads.")->type_name("FILE")->required();
     app.add_flag("--json", session.json, "Print one JSON object.");
-    app.add_flag("--recipe", options->recipe, "Print a recipe of other land with the same statistics, for make.");
+    CLI::Option* const recipe =
+        app.add_flag("--recipe", options->recipe, "Print a recipe of other land with the same statistics, for make.");
+    CLI::Option* const laws = app.add_flag("--laws", options->laws,
+                                           "Print the laws of the rivers that the DEM's water draws, beside nature's.")
+                                  ->excludes(recipe);
+    app.add_option("--support", options->support_cells, "Cells that drain through the first cell of a river.")
+        ->type_name("CELLS")
+        ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+        ->capture_default_str()
+        ->needs(laws);
     app.footer("Count, mean, standard deviation, lowest and highest cell, mean slope, shape, roughness, correlation "
-               "lengths and fractal dimension. Cells without data are left out.\n\n"
+               "lengths and fractal dimension. Cells without data are left out. With --laws: Horton's ratios, "
+               "Tokunaga's a and c, Hack's exponent, concavity, drainage density, junction angles and links.\n\n"
                "Examples:\n"
                "  thalweg stats valley/dem.tif\n"
+               "  thalweg stats samples/bigtujunga_srtm1.tif --laws --support 500\n"
                "  thalweg stats samples/jacksboro_srtm3.tif --recipe > alike.toml\n");
     return [options, &session] { return stats(*options, session); };
 }

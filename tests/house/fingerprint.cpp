@@ -17,7 +17,11 @@
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
+#include <thalweg/measure/catchments.hpp>
+#include <thalweg/measure/drain_dinf.hpp>
 #include <thalweg/measure/drainage.hpp>
+#include <thalweg/measure/extract_streams.hpp>
+#include <thalweg/measure/flow_lengths.hpp>
 #include <thalweg/measure/statistics.hpp>
 #include <thalweg/network/assign_types.hpp>
 #include <thalweg/network/embed_tree.hpp>
@@ -36,6 +40,8 @@
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
 #include <thalweg/pipeline/frame.hpp>
+#include <thalweg/pipeline/law_rows.hpp>
+#include <thalweg/pipeline/laws.hpp>
 #include <thalweg/skeleton/attract.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/grf.hpp>
@@ -57,6 +63,7 @@
 #include <thalweg/surface/rasterise_tin.hpp>
 #include <thalweg/surface/separable.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -213,6 +220,24 @@ Raster<solver::Complex> transformed(Run const& run) {
     return solver::fft(std::move(values), solver::Direction::forward, run);
 }
 
+/// The rivers that a DEM draws by itself, and their laws.
+void print_laws(Raster<float> const& dem, Run const& run) {
+    measure::Drainage const drainage = measure::drain(dem, run);
+    Raster<float> const flow_length = measure::flow_lengths(drainage, run);
+    print("flow_lengths", hash_of(flow_length));
+    print("extract_streams", hash_of(measure::extract_streams(drainage, dem, {.support_cells = 20}, run).network));
+    Fnv fnv;
+    auto const found = pipeline::laws_of_dem(dem, drainage, flow_length, {.network_m = 400.0 * dem.grid().cell_m}, run);
+    fnv.add(found.support_cells);
+    for (pipeline::LawRow const& row : pipeline::law_rows(found.laws)) {
+        fnv.add(row.value.value_or(0.0));
+        for (auto const& [name, figure] : row.details) {
+            fnv.add(std::isnan(figure) ? 0.0 : figure); // a NaN has many bits
+        }
+    }
+    print("network_laws", fnv);
+}
+
 void print_lands_of_statistics(Run const& run) {
     print("fft", hash_of(transformed(run)));
     Grid const grid{130, 40, 300.0, 0.0, 0.0, ""};
@@ -238,6 +263,7 @@ void print_lands_of_statistics(Run const& run) {
     auto const projected = detail::project(land, targets, {{{20, 20}, 500.0}}, {.prior = prior}, run);
     print("project", hash_of(projected.dem));
     print("statistics", hash_of(measure::statistics(projected.dem, run)));
+    print_laws(projected.dem, run);
 }
 
 void print_points(Run const& run) {
@@ -460,6 +486,15 @@ Fnv hash_of(network::TokunagaTree const& tree) {
     return fnv;
 }
 
+void print_water(Raster<float> const& land, StreamNetwork const& rivers, Run const& run) {
+    measure::Drainage const d8 = measure::drain(land, run);
+    print("drain", hash_of(d8.area_cells));
+    measure::DinfDrainage const dinf = measure::drain_dinf(land, d8, run);
+    print("drain_dinf", hash_of(dinf.bearing));
+    print("drain_dinf, areas", hash_of(dinf.area_cells));
+    print("catchments", hash_of(measure::catchments(measure::reaches_of(rivers), d8, run).reach));
+}
+
 void print_trees(Run const& run) {
     network::TokunagaTree const tree = network::grow_tokunaga({.generator = 3, .order = 5}, run);
     print("grow_tokunaga", hash_of(tree));
@@ -537,5 +572,6 @@ int main(int count, char** words) {
     print_blend(land, tin, run);
     print_ridges(raised.network, grid, run);
     print_skeleton(valley, run);
+    print_water(land, raised.network.plan, run);
     print_trees(run);
 }

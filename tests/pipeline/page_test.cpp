@@ -145,7 +145,9 @@ TEST(Page, FiguresSayWhatWasAskedAndWhatCame) {
         length += l.get<double>();
     }
     EXPECT_NEAR(row(data, "drainage density")["got"].get<double>(), length / 1000.0 / (90 * 70 * 0.0009), 1e-3);
-    EXPECT_EQ(data["laws"]["orders"].size(), terrain.laws.orders.size());
+    EXPECT_EQ(data["laws"]["orders"].size(), terrain.laws.network->horton.orders.size());
+    EXPECT_EQ(data["laws"]["dem_orders"].size(), terrain.laws.dem->laws.horton.orders.size());
+    EXPECT_EQ(data["laws"]["support"]["cells"], terrain.laws.dem->support_cells);
     EXPECT_EQ(data["hypsometry"]["points"].size(), 101U);
     EXPECT_EQ(data["hypsometry"]["integral"], terrain.hypsometry->integral);
 

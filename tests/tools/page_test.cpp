@@ -40,7 +40,12 @@ TEST(ReportPage, EveryMakeLeavesOneAndNamesItLast) {
     EXPECT_EQ(data["grid"]["width"], 64);
     EXPECT_EQ(data["rivers"]["arcs"]["id"].size(), report["network"]["arcs"]);
     EXPECT_EQ(data["recipe"], file_bytes(place / "out/recipe.toml"));
-    EXPECT_EQ(data["laws"]["bifurcation"], report["network"]["horton"]["bifurcation"]);
+    for (auto const& row : data["laws"]["rows"]) {
+        auto const key = row["key"].get<std::string>();
+        EXPECT_EQ(row["network"]["value"], report["network"]["laws"][key]["value"]) << key;
+        EXPECT_EQ(row["dem"]["value"], report["dem"]["laws"][key]["value"]) << key;
+    }
+    EXPECT_EQ(report["network"]["laws"]["bifurcation"]["value"], report["network"]["horton"]["bifurcation"]);
     EXPECT_EQ(data["laws"]["orders"].size(), report["network"]["strahler"]);
     EXPECT_EQ(data["hypsometry"]["integral"], report["dem"]["hypsometric_integral"]);
     EXPECT_EQ(unpacked(page_decoder::part(page, "@@HEIGHTS@@")).size(), 48U + 2U * 64U * 48U);

@@ -33,7 +33,8 @@ function scale(values, log) {
     if (low === high) high *= 10;
     const ticks = [];
     for (let t = low; t <= high * 1.001; t *= 10) ticks.push(t);
-    return { low, high, ticks, share: (v) => (Math.log10(v) - Math.log10(low)) / (Math.log10(high) - Math.log10(low)) };
+    const decades = Math.log10(high) - Math.log10(low);
+    return { low, high, ticks, share: (v) => (Math.log10(v) - Math.log10(low)) / decades };
   }
   if (!(high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high), 1e-9))) {
     const half = Math.max(0.5, Math.abs(high) * 0.01);
@@ -47,10 +48,12 @@ function scale(values, log) {
 }
 
 /**
- * series: [{points: [[x, y], …], name, kind: 'line' | 'area' | 'points', fit: [[x, y], [x, y]]}].
- * what: {title, x, y, logY, wholeX, zeroX, zeroY}. Gives a figure.
+ * series: [{points: [[x, y], …], name, kind: 'line' | 'area' | 'points', fit: [[x, y], [x, y]], tone: 0 | 1}]; those
+ * without a point are not shown. what: {title, x, y, logX, logY, wholeX, zeroX, zeroY, legend}. Gives a figure.
  */
-export function chart(series, what) {
+export function chart(all, what) {
+  const series = all.filter((s) => s.points.length);
+  const tone = (s, k) => s.tone ?? k;
   const width = 344;
   const height = what.height ?? 176;
   const box = { left: 52, top: 10, right: width - 12, bottom: height - 34 };
@@ -63,7 +66,8 @@ export function chart(series, what) {
     figure.append(Object.assign(document.createElement('p'), { className: 'hint', textContent: 'nothing to show' }));
     return figure;
   }
-  const x = scale(points.map((p) => p[0]).concat(what.zeroX ? [0] : []), false);
+  if (what.legend) figure.append(legend(series, tone));
+  const x = scale(points.map((p) => p[0]).concat(what.zeroX ? [0] : []), what.logX);
   const y = scale(points.map((p) => p[1]).concat(what.zeroY ? [0] : []), what.logY);
   if (what.wholeX) {
     x.low -= 0.3;
@@ -94,13 +98,27 @@ export function chart(series, what) {
       const floor = y.low < 0 && y.high > 0 ? 0 : y.low;
       svg.append(element('path', { class: 'area', d: `${path(s.points)}L${place([s.points.at(-1)[0], floor]).join(' ')}L${place([s.points[0][0], floor]).join(' ')}Z` }));
     }
-    if (s.fit) svg.append(element('path', { class: `fit s${k}`, d: path(s.fit) }));
-    if (s.kind === 'points') s.points.forEach((p) => svg.append(element('circle', { class: `s${k}`, cx: place(p)[0], cy: place(p)[1], r: 3.5 })));
-    else svg.append(element('path', { class: `line s${k}`, d: path(s.points) }));
+    if (s.fit) svg.append(element('path', { class: `fit s${tone(s, k)}`, d: path(s.fit) }));
+    if (s.kind === 'points') s.points.forEach((p) => svg.append(element('circle', { class: `s${tone(s, k)}`, cx: place(p)[0], cy: place(p)[1], r: 3.5 })));
+    else svg.append(element('path', { class: `line s${tone(s, k)}`, d: path(s.points) }));
   });
   figure.append(svg);
   figure.append(reading(svg, series, what, { x, place, box, width }));
   return figure;
+}
+
+/** Which mark is whose. */
+function legend(series, tone) {
+  const line = document.createElement('p');
+  line.className = 'marks';
+  series.forEach((s, k) => {
+    const mark = element('svg', { viewBox: '0 0 10 10', 'aria-hidden': 'true' });
+    mark.append(element('circle', { class: `s${tone(s, k)}`, cx: 5, cy: 5, r: 3.5 }));
+    const words = document.createElement('span');
+    words.append(mark, s.name);
+    line.append(words);
+  });
+  return line;
 }
 
 /** What the series have where the pointer stands. */
@@ -113,8 +131,9 @@ function reading(svg, series, what, { x, place, box, width }) {
   svg.addEventListener('pointermove', (event) => {
     const frame = svg.getBoundingClientRect();
     const at = ((event.clientX - frame.left) / frame.width) * width;
-    const wanted = x.low + ((at - box.left) / (box.right - box.left)) * (x.high - x.low);
-    const nearest = series.map((s) => s.points.reduce((best, p) => (Math.abs(p[0] - wanted) < Math.abs(best[0] - wanted) ? p : best)));
+    const wanted = (at - box.left) / (box.right - box.left);
+    const off = (p) => Math.abs(x.share(p[0]) - wanted);
+    const nearest = series.map((s) => s.points.reduce((best, p) => (off(p) < off(best) ? p : best)));
     const [px] = place(nearest[0]);
     hair.setAttribute('x1', px);
     hair.setAttribute('x2', px);

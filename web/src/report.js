@@ -36,23 +36,52 @@ function increments(curve) {
   ];
 }
 
+/** Figures of the network and of the rivers its DEM draws, beside what is known of nature. */
+function lawTable(law) {
+  const sources = [...new Set(law.rows.map((r) => r.source).filter(Boolean))];
+  const sides = [['network', 'network'], ['DEM', 'dem']].filter(([, key]) => law.rows.some((r) => r[key]));
+  const figure = (of, unit) => make('span', {}, of.value === null ? '–' : `${number(of.value, 3)}${unit && unit !== '°' ? '\u00a0' : ''}${of.value === null ? '' : unit}`,
+    of.note && make('small', { textContent: of.note }));
+  const nature = (r) => (r.nature
+    ? make('span', {}, `${number(r.nature[0], 3)} to ${number(r.nature[1], 3)}`, make('sup', { textContent: ` ${sources.indexOf(r.source) + 1}` })) : '–');
+  const t = table(['law', ...sides.map(([head]) => head), 'in nature'],
+    law.rows.map((r) => [r.name, ...sides.map(([, key]) => figure(r[key], r.unit)), nature(r)]), 'Network laws');
+  t.className = 'laws';
+  return [t, make('ol', { className: 'sources' }, ...sources.map((text) => make('li', { textContent: text })))];
+}
+
+function support(law) {
+  if (!law.support) return null;
+  const { cells, km2, as_dense } = law.support;
+  return make('p', { className: 'hint', textContent: `DEM: the rivers where at least ${number(cells)} cells (${number(km2, 3)} km²) drain by D8` +
+    (as_dense ? ', so many that they are as long together as the network' : '') + '.' });
+}
+
 function laws(law) {
-  if (!law || law.orders.length === 0) return [];
-  const order = law.orders.map((o) => o.order);
-  const one = (pick, title, y) => {
-    const points = law.orders.map((o) => [o.order, pick(o)]).filter(([, v]) => v > 0);
-    return points.length ? chart([{ points, kind: 'points', fit: fit(points), name: y }],
-      { title, x: 'Strahler order', y, logY: true, wholeX: true, height: 150 }) : null;
+  if (!law || law.rows.length === 0) return [];
+  const names = [['network', 0], ['DEM', 1]];
+  const pair = (parts, what) => {
+    const series = parts.map((part, i) => ({ ...part, name: names[i][0], tone: names[i][1], kind: 'points' })).filter((s) => s.points.length);
+    if (!series.length) return null;
+    const figure = chart(series, { height: 150, logY: true, legend: true, ...what });
+    figure.classList.add('pair');
+    return figure;
   };
-  const ratio = (name, value) => [name, number(value, 3)];
+  const byOrder = (pick, title, y) => pair([law.orders, law.dem_orders].map((orders) => {
+    const points = orders.map((o) => [o.order, pick(o)]).filter(([, v]) => v > 0);
+    return { points, fit: fit(points) };
+  }), { title, x: 'Strahler order', y, wholeX: true });
+  const byArea = (power, title, y) => pair([power.network, power.dem].map((p) => ({ points: p ? p.bins.map(([a, v]) => [a, v]) : [], fit: p?.fit })),
+    { title, x: 'area [km²]', y, logX: true, height: 176 });
   return [
-    table(['order', 'streams', 'mean length [m]', 'mean area [km²]'],
-      law.orders.map((o) => [String(o.order), number(o.streams), number(o.length_m), number(o.area_m2 / 1e6)]), 'Streams by Strahler order'),
-    order.length > 1 ? table(['Horton’s ratios', ''], [ratio('R_B, bifurcation', law.bifurcation), ratio('R_L, length', law.length),
-      ratio('R_A, area', law.area)], 'Horton’s ratios') : null,
-    one((o) => o.streams, 'Law of stream numbers', 'streams'),
-    one((o) => o.length_m / 1000, 'Law of stream lengths', 'mean length [km]'),
-    one((o) => o.area_m2 / 1e6, 'Law of drainage areas', 'mean area [km²]'),
+    ...lawTable(law), support(law),
+    law.orders.length ? table(['order', 'streams', 'mean length [m]', 'mean area [km²]'],
+      law.orders.map((o) => [String(o.order), number(o.streams), number(o.length_m), number(o.area_m2 / 1e6)]), 'Streams by Strahler order') : null,
+    byOrder((o) => o.streams, 'Law of stream numbers', 'streams'),
+    byOrder((o) => o.length_m / 1000, 'Law of stream lengths', 'mean length [km]'),
+    byOrder((o) => o.area_m2 / 1e6, 'Law of drainage areas', 'mean area [km²]'),
+    byArea(law.concavity, 'Slope against area, means of bins', 'slope [m/m]'),
+    byArea(law.hack, 'Hack’s law: longest way of water against area', 'length [km]'),
   ];
 }
 

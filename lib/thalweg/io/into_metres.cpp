@@ -22,11 +22,16 @@ using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
 std::string zone_of(Vec2 at, OGRSpatialReference const& from, std::string const& name) {
     OGRSpatialReference const geographic = read_reference("EPSG:4326");
     Transformation const turn(OGRCreateCoordinateTransformation(&from, &geographic));
-    if (!turn || turn->Transform(1, &at.x, &at.y) == 0 || !std::isfinite(at.x) || !std::isfinite(at.y)) {
-        throw BadInput(fmt::format(
-            "io.into_metres: the middle of {} has no longitude and latitude; check its CRS and coordinates", name));
+    Vec2 turned = at;
+    bool const on_earth = turn && turn->Transform(1, &turned.x, &turned.y) != 0 && std::fabs(turned.x) <= 360.0 &&
+                          std::fabs(turned.y) <= 90.0;
+    if (!on_earth) {
+        throw BadInput(
+            fmt::format("io.into_metres: the middle of {}, at ({}, {}), has no longitude and latitude in its "
+                        "CRS, {}; check both",
+                        name, at.x, at.y, from.GetName()));
     }
-    return utm_zone(at.x, at.y);
+    return utm_zone(turned.x, turned.y);
 }
 
 // PROJ's last bits differ between machines: a millionth of a metre does not.

@@ -101,9 +101,10 @@ OGRLayer& create_layer(LayerTarget const& target, Table const& table) {
     CPLStringList options = options_of(target, table.shape != Table::Shape::none);
     OGRwkbGeometryType type = wkbNone;
     if (table.shape != Table::Shape::none) {
-        type = table.shape == Table::Shape::point  ? wkbPoint25D
-               : table.shape == Table::Shape::line ? wkbLineString25D
-                                                   : wkbPolygon25D;
+        type = table.shape == Table::Shape::point     ? wkbPoint25D
+               : table.shape == Table::Shape::line    ? wkbLineString25D
+               : table.shape == Table::Shape::polygon ? wkbPolygon25D
+                                                      : wkbMultiPolygon;
     }
     OGRLayer* const layer = target.dataset.CreateLayer(table.name.c_str(), type == wkbNone ? nullptr : target.reference,
                                                        type, options.List());
@@ -140,7 +141,29 @@ void set_field(OGRFeature& feature, int index, Column const& column, std::int64_
     }
 }
 
+void set_parts(OGRFeature& feature, Table const& table, std::int64_t row, LayerTarget const& target) {
+    OGRMultiPolygon parts;
+    for (Polygon const& part : table.parts_at(row)) {
+        OGRPolygon drawn;
+        for (auto const& positions : part.rings) {
+            OGRLinearRing ring;
+            ring.setNumPoints(static_cast<int>(positions.size()));
+            for (int i = 0; Vec2 const p : positions) {
+                ring.setPoint(i++, p.x, p.y);
+            }
+            ring.closeRings();
+            target.require(drawn.addRing(&ring) == OGRERR_NONE);
+        }
+        target.require(parts.addGeometry(&drawn) == OGRERR_NONE);
+    }
+    target.require(feature.SetGeometry(&parts) == OGRERR_NONE);
+}
+
 void set_shape(OGRFeature& feature, Table const& table, std::int64_t row, LayerTarget const& target) {
+    if (table.shape == Table::Shape::multi_polygon) {
+        set_parts(feature, table, row, target);
+        return;
+    }
     std::vector<Vec3> const positions = table.shape_at(row);
     for (Vec3 const& p : positions) {
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {

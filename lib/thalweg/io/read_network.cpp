@@ -164,6 +164,7 @@ NetworkFile read(std::string const& path, Wish const& wish, Run const& run) {
         link_by_nodes(file);
     }
     file.findings = notes.take();
+    place_findings(file);
     return file;
 }
 

@@ -183,17 +183,22 @@ private:
 
     void note_shape(DrawnLine const& drawn, std::int64_t id, OGRFeature const& feature) {
         auto const& first = drawn.parts.front();
-        Vec2 const where = first.empty() ? Vec2{} : Vec2{first.front().x, first.front().y};
         bool const joined = drawn.parts.size() == 1;
         if (drawn.drawn_parts > 1 && !(joined && table_.segment_parts)) {
             notes_.add(arcs_.what,
-                       {"multi_part", id, where, static_cast<double>(drawn.drawn_parts),
+                       {"multi_part",
+                        id,
+                        {},
+                        static_cast<double>(drawn.drawn_parts),
                         fmt::format("feature {} has {} parts{}", feature.GetFID(), drawn.drawn_parts,
                                     joined ? ", which join end to end: read as one line"
                                            : ": an arc is one line; each was read as an arc of the same id")});
         }
         if (drawn.curved) {
-            notes_.add(arcs_.what, {"curve", id, where, static_cast<double>(first.size()),
+            notes_.add(arcs_.what, {"curve",
+                                    id,
+                                    {},
+                                    static_cast<double>(first.size()),
                                     fmt::format("feature {} is a curve: read as a line of {} vertices",
                                                 feature.GetFID(), first.size())});
         }
@@ -281,11 +286,8 @@ void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_i
         }
         OGRPoint const& p = *shape->toPoint();
         if (p.Is3D() == FALSE && file.says.heights) {
-            notes.add(nodes.what, {"no_heights",
-                                   0,
-                                   {p.getX(), p.getY()},
-                                   1.0,
-                                   fmt::format("feature {} has no heights (Z)", feature.GetFID())});
+            notes.add(nodes.what,
+                      {"no_heights", 0, {}, 1.0, fmt::format("feature {} has no heights (Z)", feature.GetFID())});
         }
         file.nodes.push_back({Numbers(feature, nodes.what, notes).whole(id, 0, false),
                               {p.getX(), p.getY(), p.Is3D() == FALSE ? nan : p.getZ()}});

@@ -44,10 +44,6 @@ Vec2 plan(Vec3 const& p) {
     return {p.x, p.y};
 }
 
-Vec2 middle_of(FileArc const& arc) {
-    return arc.line.empty() ? Vec2{} : plan(arc.line[arc.line.size() / 2]);
-}
-
 // Bits order every place, NaN among them; 0 and -0 are one.
 std::uint64_t bits(double v) {
     return std::bit_cast<std::uint64_t>(v + 0.0);
@@ -81,8 +77,12 @@ void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes) {
         std::int64_t const below = arc.ds_arc < 0 ? -arc.ds_arc : arc.ds_arc - file.id_shift;
         std::int64_t const id = arc.id - file.id_shift;
         notes.add(what,
-                  {"cut_below", id, arc.line.empty() ? Vec2{} : plan(arc.line.back()), static_cast<double>(below),
+                  {"cut_below",
+                   id,
+                   {},
+                   static_cast<double>(below),
                    fmt::format("arc {} flows on into {}, which is not in the file: taken for an outlet", id, below)});
+        file.says.basin = false; // those of outlets beyond
         arc.ds_arc = 0;
     }
 }
@@ -110,8 +110,7 @@ void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& 
         std::string const text = fmt::format(
             "most lines are drawn {}, which is not what this schema does: all of {} were {}",
             upstream ? "upstream" : "downstream", file.arcs.size(), upstream ? "turned" : "left as they are drawn");
-        notes.add(what, {"turned", 0, file.arcs.empty() ? Vec2{} : middle_of(file.arcs.front()),
-                         static_cast<double>(file.arcs.size()), text});
+        notes.add(what, {"turned", 0, {}, static_cast<double>(file.arcs.size()), text});
     }
 }
 
@@ -194,6 +193,16 @@ void link_by_nodes(NetworkFile& file) {
     for (FileArc& arc : file.arcs) {
         auto const found = find(beginning, arc.to_node);
         arc.ds_arc = arc.to_node == 0 || found == beginning.end() ? 0 : file.arcs[found->second].id;
+    }
+}
+
+void place_findings(NetworkFile& file) {
+    auto const ids = by_id(file);
+    for (Finding& finding : file.findings) {
+        auto const found = find(ids, finding.feature + file.id_shift);
+        if (finding.feature != 0 && found != ids.end() && !file.arcs[found->second].line.empty()) {
+            finding.where = plan(file.arcs[found->second].line.front());
+        }
     }
 }
 

@@ -16,7 +16,7 @@ namespace thalweg::io {
 /// in ds_arc as the negative of itself, for drop_links_out.
 void link_by_keys(NetworkFile& file, std::vector<std::int64_t> const& keys, std::vector<std::int64_t> const& ds_keys);
 
-/// Makes an outlet of each arc whose ds_arc the file does not hold: an extract ends there.
+/// Makes an outlet of each arc whose ds_arc the file does not hold: an extract ends there; its basins go by others.
 void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes);
 
 /// Turns all lines when more linked arcs are drawn up than down; with as many of both, when drawn_upstream.
@@ -31,5 +31,8 @@ void place_nodes(NetworkFile& file);
 
 /// Sets ds_arc to the first arc that begins at the arc's end.
 void link_by_nodes(NetworkFile& file);
+
+/// Sets where the findings that name an arc are: where it begins.
+void place_findings(NetworkFile& file);
 
 } // namespace thalweg::io

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/read_network_source.hpp>
 
+#include <array>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -85,15 +86,14 @@ std::string impatient(std::string const& path) {
                                                                                         : path;
 }
 
-Dataset open(Undisturbed const& file, std::string const& path, std::string const& what, Driver const& driver) {
+Dataset open(std::string const& path, std::string const& what, Driver const& driver) {
     bool const database = is_database(path);
     if (std::error_code ignored; !database && !fs::exists(path, ignored)) {
         throw BadInput(what + " does not exist");
     }
-    static char const* const postgres[] = {"PostgreSQL", nullptr};
-    Dataset dataset(GDALDataset::Open((database ? impatient(path) : file.path()).c_str(),
-                                      GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                      database ? postgres : nullptr, file.options()));
+    static std::array<char const*, 2> constexpr postgres{"PostgreSQL", nullptr};
+    Dataset dataset =
+        open_undisturbed(database ? impatient(path) : path, GDAL_OF_VECTOR, database ? postgres.data() : nullptr);
     if (dataset == nullptr) {
         refuse(what, driver.take());
     }
@@ -132,7 +132,7 @@ NetworkPlace find_network(std::string const& path, bool whole) {
 }
 
 NetworkSource::NetworkSource(std::string const& path, Driver const& driver)
-    : what_("io.read_network: " + shown(path)), file_(path), dataset_(open(file_, path, what_, driver)) {}
+    : what_("io.read_network: " + shown(path)), dataset_(open(path, what_, driver)) {}
 
 OGRLayer* NetworkSource::layer(std::string const& name) const {
     return dataset_->GetLayerByName(name.c_str());

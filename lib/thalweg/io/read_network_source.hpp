@@ -7,7 +7,6 @@
 
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
-#include <thalweg/io/undisturbed.hpp>
 
 class OGRLayer;
 
@@ -23,7 +22,7 @@ struct NetworkPlace {
 /// Takes: see read_network. whole: a shapefile must be NAME_arcs.shp or NAME_nodes.shp. Throws: BadInput, IoError.
 NetworkPlace find_network(std::string const& path, bool whole);
 
-/// A file or database, opened to be read only and as if nobody had.
+/// A file or database, opened to be read only.
 class NetworkSource {
 public:
     /// Throws: BadInput, IoError like read_network.
@@ -37,8 +36,7 @@ public:
 
 private:
     std::string what_;
-    Undisturbed file_;
-    Dataset dataset_; // closed before file_ goes
+    Dataset dataset_;
 };
 
 /// Whether a layer's features may be lines.

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include <thalweg/core/polygons.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/vec.hpp>
 
@@ -25,7 +26,7 @@ struct Column {
 
 /// A layer of a vector file: its features are the rows [0, rows), numbered from 1.
 struct Table {
-    enum class Shape { none, point, line, polygon };
+    enum class Shape { none, point, line, polygon, multi_polygon };
 
     std::string name;
     Shape shape = Shape::none;
@@ -33,6 +34,8 @@ struct Table {
     std::vector<Column> columns;
     std::function<std::vector<Vec3>(std::int64_t row)>
         shape_at; ///< one position for a point; a closed ring for a polygon
+    std::function<std::vector<Polygon>(std::int64_t row)> parts_at =
+        {}; ///< of a multi_polygon, in plan: outer ring first; asked instead of shape_at
 };
 
 /// Writes tables as the layers of a new GeoPackage, those without shape as attribute tables.

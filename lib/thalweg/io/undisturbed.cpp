@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -95,9 +94,6 @@ Undisturbed::~Undisturbed() {
         fs::remove_all(copies_, ignored);
     }
 }
-
-Undisturbed::Undisturbed(Undisturbed&& other) noexcept
-    : path_(std::move(other.path_)), copies_(std::exchange(other.copies_, {})), immutable_(other.immutable_) {}
 
 char const* const* Undisturbed::options() const {
     static std::array<char const*, 2> constexpr immutable{"IMMUTABLE=YES", nullptr};

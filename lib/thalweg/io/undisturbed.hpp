@@ -16,9 +16,7 @@ public:
     /// Throws: IoError when a copy is needed and cannot be made, or the file is being written meanwhile.
     explicit Undisturbed(std::filesystem::path const& file);
     ~Undisturbed();
-    Undisturbed(Undisturbed&& other) noexcept;
     Undisturbed(Undisturbed const&) = delete;
-    Undisturbed& operator=(Undisturbed&&) = delete;
     Undisturbed& operator=(Undisturbed const&) = delete;
 
     /// What to open.

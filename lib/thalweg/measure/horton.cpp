@@ -10,6 +10,7 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/measure/compensated_sum.hpp>
+#include <thalweg/measure/line_fit.hpp>
 
 namespace thalweg::measure {
 
@@ -28,33 +29,19 @@ void require_all(std::size_t arcs, NetworkOrders const& orders, std::vector<doub
     }
 }
 
-/// Slope of the least-squares line through ln(value) over the order.
-template <class Value> std::optional<double> slope(std::vector<StreamOrder> const& orders, Value value) {
+/// The least-squares line through ln(value) over the order.
+template <class Value> std::optional<LineFit> fit(std::vector<StreamOrder> const& orders, Value value) {
     std::vector<Vec2> points;
     for (StreamOrder const& o : orders) {
         if (double const v = value(o); v > 0.0) {
             points.push_back({static_cast<double>(o.order), exact::log(v)});
         }
     }
-    if (points.size() < 2) {
-        return std::nullopt;
-    }
-    Vec2 mean;
-    for (Vec2 const p : points) {
-        mean.x += p.x / static_cast<double>(points.size());
-        mean.y += p.y / static_cast<double>(points.size());
-    }
-    double xy = 0.0;
-    double xx = 0.0;
-    for (Vec2 const p : points) {
-        xy += (p.x - mean.x) * (p.y - mean.y);
-        xx += (p.x - mean.x) * (p.x - mean.x);
-    }
-    return xy / xx;
+    return fit_line(points);
 }
 
-std::optional<double> ratio(std::optional<double> slope) {
-    return slope ? std::optional(exact::exp(*slope)) : std::nullopt;
+std::optional<HortonRatio> ratio(std::optional<LineFit> const& fit, double sign) {
+    return fit ? std::optional(HortonRatio{exact::exp(sign * fit->slope), fit->r2, fit->points}) : std::nullopt;
 }
 
 } // namespace
@@ -89,10 +76,10 @@ HortonLaws horton(StreamNetwork const& network, NetworkOrders const& orders, std
             o.area_m2 = area[k].value() / static_cast<double>(o.streams);
         }
     }
-    auto const fewer = slope(laws.orders, [](StreamOrder const& o) { return static_cast<double>(o.streams); });
-    laws.bifurcation = ratio(fewer ? std::optional(-*fewer) : std::nullopt);
-    laws.length = ratio(slope(laws.orders, [](StreamOrder const& o) { return o.length_m; }));
-    laws.area = ratio(slope(laws.orders, [](StreamOrder const& o) { return o.area_m2; }));
+    laws.bifurcation =
+        ratio(fit(laws.orders, [](StreamOrder const& o) { return static_cast<double>(o.streams); }), -1.0);
+    laws.length = ratio(fit(laws.orders, [](StreamOrder const& o) { return o.length_m; }), 1.0);
+    laws.area = ratio(fit(laws.orders, [](StreamOrder const& o) { return o.area_m2; }), 1.0);
     return laws;
 }
 

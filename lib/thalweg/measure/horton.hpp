@@ -18,12 +18,19 @@ struct StreamOrder {
     double area_m2 = 0.0;  ///< [m2] mean drainage area at the streams' downstream ends
 };
 
+/// By what factor something changes from an order to the next.
+struct HortonRatio {
+    double ratio = 0.0;
+    double r2 = 0.0;         ///< of the line through the logarithms; NaN of two, or where all are one
+    std::int64_t orders = 0; ///< that have a logarithm
+};
+
 /// The laws of drainage composition: by what factor streams change from an order to the next.
 struct HortonLaws {
-    std::vector<StreamOrder> orders;   ///< 1, 2, ... to the highest
-    std::optional<double> bifurcation; ///< R_B: streams of an order for one of the next
-    std::optional<double> length;      ///< R_L: mean length against that of the order below
-    std::optional<double> area;        ///< R_A: mean drainage area against that of the order below
+    std::vector<StreamOrder> orders;        ///< 1, 2, ... to the highest
+    std::optional<HortonRatio> bifurcation; ///< R_B: streams of an order for one of the next
+    std::optional<HortonRatio> length;      ///< R_L: mean length against that of the order below
+    std::optional<HortonRatio> area;        ///< R_A: mean drainage area against that of the order below
 };
 
 /// Counts, lengths and areas of streams by Strahler order, and their ratios.

@@ -72,4 +72,18 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
     return counts;
 }
 
+StreamCounts count_streams(StreamNetwork const& network) {
+    NetworkIndex const index(network);
+    std::vector<std::int64_t> place(index.arcs.size(), -1); // downstream before upstream
+    std::vector<std::int64_t> down;
+    for (NodeId const n : index.upstream_order) {
+        if (std::int64_t const arc = index.out[n]; arc >= 0) {
+            std::int64_t const below = index.out[index.to[z(arc)]];
+            place[z(arc)] = static_cast<std::int64_t>(down.size());
+            down.push_back(below < 0 ? -1 : place[z(below)]);
+        }
+    }
+    return count_streams(down);
+}
+
 } // namespace thalweg::network

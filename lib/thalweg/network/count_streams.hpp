@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/stream_network.hpp>
+
 namespace thalweg::network {
 
 /// Streams of a tree by Strahler order, and their side branches.
@@ -23,5 +25,8 @@ struct StreamCounts {
 /// Throws: BadInput when a link flows into one of a higher number.
 /// Source: Strahler 1957; Tokunaga 1978; Peckham 1995.
 StreamCounts count_streams(std::vector<std::int64_t> const& down);
+
+/// The same of a network of trees: its arcs are the links, whatever their order.
+StreamCounts count_streams(StreamNetwork const& network);
 
 } // namespace thalweg::network

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/page_data.hpp>
 
+#include <thalweg/pipeline/page_laws.hpp>
 #include <thalweg/pipeline/report.hpp>
 
 #include <fmt/format.h>
@@ -24,10 +25,6 @@ constexpr std::size_t most_shown = 50;
 double rounded(double metres) {
     constexpr double finest = 1e12; // beyond, a double has not much finer steps
     return std::fabs(metres) < finest ? std::floor(metres * 1000.0 + 0.5) / 1000.0 : metres;
-}
-
-ordered_json ratio(std::optional<double> const& value) {
-    return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
 /// At most so many of a list, evenly, the first and last among them.
@@ -166,20 +163,6 @@ ordered_json hypsometry_object(Terrain const& t) {
     return {{"integral", t.hypsometry->integral}, {"points", points}};
 }
 
-ordered_json laws_object(measure::HortonLaws const& laws) {
-    ordered_json orders = ordered_json::array();
-    for (measure::StreamOrder const& o : laws.orders) {
-        orders.push_back({{"order", o.order},
-                          {"streams", o.streams},
-                          {"length_m", rounded(o.length_m)},
-                          {"area_m2", rounded(o.area_m2)}});
-    }
-    return {{"orders", orders},
-            {"bifurcation", ratio(laws.bifurcation)},
-            {"length", ratio(laws.length)},
-            {"area", ratio(laws.area)}};
-}
-
 /// A list of figures: what was asked, where something was, and what came of it.
 class Figures {
 public:
@@ -240,7 +223,7 @@ void add_rivers(Terrain const& t, NetworkIndex const& index, std::vector<Profile
     }
     figures.add("arcs", index.arcs.size(), "");
     figures.add("outlets", index.outlets.size(), "");
-    figures.add("highest Strahler order", t.laws.orders.size(), "");
+    figures.add("highest Strahler order", t.laws.network ? t.laws.network->horton.orders.size() : 0, "");
     figures.add("length of all rivers", rounded(length / 1000.0), "km");
     figures.add("drainage density", length / 1000.0 / (land * t.grid.cell_m * t.grid.cell_m / 1e6), "km/km2");
     if (!stem.empty() && stem.front().to_outlet_m > 0.0) {
@@ -336,7 +319,7 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
                             {"profile", profile_array(stem)},
                             {"curve", curve_object(t)},
                             {"hypsometry", hypsometry_object(t)},
-                            {"laws", laws_object(t.laws)},
+                            {"laws", ordered_json::parse(page_laws(t.laws))},
                             {"statistics", figures.take()},
                             {"checks", checks_array(t.checks)},
                             {"timings", timings_array(t)},

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report.hpp>
 
+#include <thalweg/pipeline/check_files.hpp>
+
 #include <thalweg/core/memory.hpp>
 
 #include <thalweg/network/tokunaga_laws.hpp>
+#include <thalweg/pipeline/law_rows.hpp>
 
 #include <nlohmann/json.hpp>
 #include <toml++/toml.h>
@@ -77,8 +80,8 @@ ordered_json recipe_object(Recipe const& recipe) {
 }
 
 /// A ratio, or null where it is unknown.
-ordered_json ratio(std::optional<double> const& value) {
-    return value ? ordered_json(*value) : ordered_json(nullptr);
+ordered_json ratio(std::optional<measure::HortonRatio> const& law) {
+    return law ? ordered_json(law->ratio) : ordered_json(nullptr);
 }
 
 ordered_json horton(measure::HortonLaws const& laws) {
@@ -107,6 +110,29 @@ ordered_json tokunaga_object(Terrain const& t) {
         out["placed"] = t.story.tokunaga->placed;
         out["dropped"] = t.story.tokunaga->dropped;
     }
+    return out;
+}
+
+ordered_json laws_object(measure::NetworkLaws const& laws) {
+    ordered_json out = ordered_json::object();
+    for (LawRow const& row : law_rows(laws)) {
+        ordered_json& law = out[row.key];
+        law = {{"value", row.value ? ordered_json(*row.value) : ordered_json(nullptr)}, {"unit", row.unit}};
+        for (auto const& [name, figure] : row.details) {
+            law[name] = figure;
+        }
+        if (row.nature != nullptr) {
+            law["range"] = {row.nature->low, row.nature->high};
+            law["source"] = row.nature->source;
+        }
+    }
+    return out;
+}
+
+ordered_json dem_laws_object(DemLaws const& found) {
+    ordered_json out = laws_object(found.laws);
+    out["support"] = {
+        {"cells", found.support_cells}, {"area_m2", found.support_m2}, {"as_dense_as_the_network", found.as_dense}};
     return out;
 }
 
@@ -140,8 +166,43 @@ ordered_json network_object(Terrain const& t) {
             {"lifted", {{"count", h.lifted}, {"max_m", h.max_lift_m}, {"rms_m", h.rms_lift_m}}},
             {"lowered_cells", {{"count", t.story.lowered_cells}, {"max_m", t.story.max_lowered_m}}},
             {"area_from", t.areas.source},
-            {"horton", horton(t.laws)},
-            {"tokunaga", tokunaga_object(t)}};
+            {"horton", horton(t.laws.network ? t.laws.network->horton : measure::HortonLaws{})},
+            {"tokunaga", tokunaga_object(t)},
+            {"laws", t.laws.network ? laws_object(*t.laws.network) : ordered_json(nullptr)}};
+}
+
+ordered_json agreements_object(measure::Agreements const& agreements) {
+    ordered_json out = ordered_json::array();
+    for (std::size_t k = 0; k < agreements.size(); ++k) {
+        measure::Agreement const& a = agreements[k];
+        out.push_back({{"within_cells", k}, {"precision", a.precision}, {"recall", a.recall}, {"f", a.f()}});
+    }
+    return out;
+}
+
+ordered_json certificate_object(measure::Certificate const& c) {
+    double const cells = static_cast<double>(std::max<std::int64_t>(c.river_cells, 1));
+    return {{"depressions",
+             {{"count", c.depressions},
+              {"cells", c.pit_cells},
+              {"max_depth_m", c.max_depth_m},
+              {"volume_m3", c.pit_volume_m3}}},
+            {"river_cells", c.river_cells},
+            {"following_share", static_cast<double>(c.following_cells) / cells},
+            {"border_cells", c.border_cells},
+            {"sources", c.sources},
+            {"sources_arriving", c.arriving_sources},
+            {"traced", agreements_object(c.traced)},
+            {"extracted", {{"area_cells", c.threshold_cells}, {"agreement", agreements_object(c.extracted)}}},
+            {"areas",
+             {{"compared", c.compared_areas},
+              {"within_5_percent", c.close_areas},
+              {"max_difference", c.max_area_difference}}}};
+}
+
+ordered_json change_object(surface::LandChange const& c) {
+    return {{"raised_cells", c.raised_cells}, {"cut_cells", c.cut_cells}, {"max_raise_m", c.max_raise_m},
+            {"max_cut_m", c.max_cut_m},       {"raised_m3", c.raised_m3}, {"cut_m3", c.cut_m3}};
 }
 
 ordered_json statistics_object(detail::Projection const& p) {
@@ -195,6 +256,21 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
         }
         report["dem"]["pit_cells"] = t.pits;
         report["dem"]["pit_volume_m3"] = t.pit_volume_m3;
+        if (t.laws.dem) {
+            report["dem"]["laws"] = dem_laws_object(*t.laws.dem);
+        }
+    }
+    if (t.drained) {
+        report["drained"] = {{"banks", change_object(t.drained->banks)},
+                             {"depressions", change_object(t.drained->depressions)}};
+    }
+    if (t.certificate) {
+        report["certificate"] = certificate_object(*t.certificate);
+    }
+    if (t.catchments) {
+        auto const& cells = t.catchments->cells;
+        report["catchments"] = {{"count", std::count_if(cells.begin(), cells.end(), [](auto n) { return n > 0; })},
+                                {"cells_without", t.catchments->without}};
     }
     if (t.tin) {
         report["tin"] = {{"vertices", t.tin->vertices.size()}, {"triangles", t.tin->triangles.size()}};
@@ -234,13 +310,27 @@ std::vector<std::string> files_of_report(std::string const& json) {
     return files;
 }
 
-std::string statistics_json(measure::Statistics const& statistics) {
-    return dem(statistics).dump() + "\n";
+std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws) {
+    ordered_json out = dem(statistics);
+    if (laws != nullptr) {
+        out["laws"] = dem_laws_object(*laws);
+    }
+    return out.dump() + "\n";
 }
 
-std::string checks_json(std::vector<Check> const& checks, std::vector<Finding> const& findings) {
-    bool const ok = std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
-    ordered_json const out{{"ok", ok}, {"checks", checks_array(checks)}, {"findings", findings_array(findings)}};
+std::string as_json(CheckedFiles const& checked) {
+    ordered_json out{{"ok", checked.ok()},
+                     {"arcs", checked.arcs},
+                     {"nodes", checked.nodes},
+                     {"schema", checked.schema},
+                     {"checks", checks_array(checked.checks)},
+                     {"findings", findings_array(checked.findings)},
+                     {"notes", findings_array(checked.notes)},
+                     {"mended", findings_array(checked.mended)},
+                     {"written", checked.written}};
+    if (checked.certificate) {
+        out["certificate"] = certificate_object(*checked.certificate);
+    }
     return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -16,11 +16,8 @@ std::string write_report(Terrain const& terrain, std::vector<std::string> const&
 /// The files an earlier report.json lists; empty where the text is none.
 std::vector<std::string> files_of_report(std::string const& json);
 
-/// Statistics as one JSON object, as they stand under "dem" in report.json.
-std::string statistics_json(measure::Statistics const& statistics);
-
-/// Checks and findings as one JSON object, as `thalweg check --json` prints it.
-std::string checks_json(std::vector<Check> const& checks, std::vector<Finding> const& findings);
+/// Statistics as one JSON object, as they stand under "dem" in report.json; laws: of the DEM's rivers, or null.
+std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws = nullptr);
 
 /// The version of thalweg, "0.1.0".
 std::string version();

@@ -4,6 +4,7 @@
 
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/network/carry_outlets.hpp>
+#include <thalweg/network/count_streams.hpp>
 #include <thalweg/network/keep_heights.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/prune.hpp>
@@ -62,21 +63,6 @@ RaisedNetwork raise(Planned const& planned, Terrain& terrain, Run const& run) {
     return std::move(raised.network);
 }
 
-/// Streams and side branches of a network, whatever the order of its arcs.
-network::StreamCounts count(StreamNetwork const& plan) {
-    NetworkIndex const index(plan);
-    std::vector<std::int64_t> place(index.arcs.size(), -1); // downstream before upstream
-    std::vector<std::int64_t> down;
-    for (NodeId const n : index.upstream_order) {
-        if (std::int64_t const arc = index.out[n]; arc >= 0) {
-            std::int64_t const below = index.out[index.to[static_cast<std::size_t>(arc)]];
-            place[static_cast<std::size_t>(arc)] = static_cast<std::int64_t>(down.size());
-            down.push_back(below < 0 ? -1 : place[static_cast<std::size_t>(below)]);
-        }
-    }
-    return network::count_streams(down);
-}
-
 Planned plan(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     switch (recipe.network->source) {
     case Source::dla: return plan_dla(recipe, terrain, diary, run);
@@ -115,7 +101,7 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     assign_types(planned, terrain, run);
     terrain.network = diary.stage("raise", [&] { return raise(planned, terrain, run); });
     terrain.orders = network::order(terrain.network.plan);
-    terrain.streams = count(terrain.network.plan);
+    terrain.streams = network::count_streams(terrain.network.plan);
     network::Rasterised rasterised = network::rasterise(terrain.network, grid);
     terrain.valley = std::move(rasterised.valley);
     terrain.story.lowered_cells = rasterised.lowered_cells;

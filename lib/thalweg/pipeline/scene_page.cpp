@@ -52,11 +52,11 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
             terrain.areas.ds_area_m2.assign(arcs, 0.0);
             terrain.areas.node_m2.assign(boost::num_vertices(terrain.network.plan), 0.0);
         }
-        terrain.laws = measure::horton(terrain.network.plan, terrain.orders, terrain.areas.ds_area_m2);
-        auto const topology = measure::check_topology(measure::as_file(terrain.network, terrain.orders), run);
+        auto const topology = measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run);
         terrain.checks = topology.checks;
         terrain.findings = topology.findings;
     }
+    terrain.laws = laws_of_terrain(terrain, &drainage, run);
     double const relief = terrain.statistics->max.z - terrain.statistics->min.z;
     PageParams params;
     params.contour_interval_m = scene.contour_interval_m > 0.0 ? scene.contour_interval_m : round_interval(relief);

@@ -14,6 +14,7 @@
 #include <thalweg/io/write_tin.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/split_confluences.hpp>
+#include <thalweg/pipeline/catchment_rows.hpp>
 #include <thalweg/pipeline/page.hpp>
 #include <thalweg/pipeline/pictures.hpp>
 #include <thalweg/pipeline/report.hpp>
@@ -136,6 +137,17 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
     io::write_mask(cells, out.path("network.tif"), run);
 }
 
+void write_water(Terrain const& t, io::OutputFolder const& out, Run const& run) {
+    if (t.catchments) {
+        auto const rows = catchment_rows(measure::reaches_of(t.network.plan), t.orders.arc_basin, *t.catchments);
+        io::write_catchments({t.catchments->reach, rows}, out.path("catchments.gpkg"), run);
+    }
+    if (t.water_areas) {
+        io::write_field(t.water_areas->d8, out.path("area_d8.tif"), run);
+        io::write_field(t.water_areas->dinf, out.path("area_dinf.tif"), run);
+    }
+}
+
 void write_surface(Terrain const& t, std::string const& title, io::OutputFolder const& out, Run const& run) {
     Raster<float> const& dem = t.surface->dem;
     double const interval = contour_interval(t);
@@ -190,6 +202,7 @@ std::vector<std::string> write_terrain(Terrain const& terrain, std::string const
     std::string const title = title_of(terrain.recipe);
     if (terrain.surface) {
         write_surface(terrain, title, out, run);
+        write_water(terrain, out, run);
     }
     if (terrain.recipe.network) {
         draw::ProfileParams profile;

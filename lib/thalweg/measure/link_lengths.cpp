@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/measure/link_lengths.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <thalweg/measure/compensated_sum.hpp>
+
+namespace thalweg::measure {
+
+namespace {
+
+LengthSpread spread_of(std::vector<double> lengths) {
+    LengthSpread spread;
+    spread.links = static_cast<std::int64_t>(lengths.size());
+    if (lengths.empty()) {
+        return spread;
+    }
+    auto const n = static_cast<double>(lengths.size());
+    CompensatedSum sum;
+    for (double const l : lengths) {
+        sum.add(l);
+    }
+    spread.mean_m = sum.value() / n;
+    CompensatedSum squares;
+    for (double const l : lengths) {
+        squares.add((l - spread.mean_m) * (l - spread.mean_m));
+    }
+    spread.cv = std::sqrt(squares.value() / n) / spread.mean_m;
+    std::sort(lengths.begin(), lengths.end());
+    std::size_t const middle = lengths.size() / 2;
+    spread.median_m =
+        lengths.size() % 2 == 1 ? lengths[middle] : lengths[middle - 1] + 0.5 * (lengths[middle] - lengths[middle - 1]);
+    return spread;
+}
+
+} // namespace
+
+LinkLengths link_lengths(StreamNetwork const& network) {
+    NetworkIndex const index(network);
+    std::vector<double> exterior;
+    std::vector<double> interior;
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        std::size_t const above = index.in[index.from[a]].size();
+        if (above == 1) {
+            continue;
+        }
+        double length = index.length_m[a];
+        for (NodeId at = index.to[a]; index.in[at].size() == 1 && index.out[at] >= 0;) {
+            auto const next = static_cast<std::size_t>(index.out[at]);
+            length += index.length_m[next];
+            at = index.to[next];
+        }
+        (above == 0 ? exterior : interior).push_back(length);
+    }
+    LinkLengths lengths{spread_of(std::move(exterior)), spread_of(std::move(interior)), std::nullopt};
+    if (lengths.exterior.links > 0 && lengths.interior.links > 0 && lengths.interior.mean_m > 0.0) {
+        lengths.ratio = lengths.exterior.mean_m / lengths.interior.mean_m;
+    }
+    return lengths;
+}
+
+} // namespace thalweg::measure

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace thalweg::measure {
+
+/// T_k = a c^(k-1): side branches, of k orders less, of a stream.
+struct TokunagaLaw {
+    double a = 0.0;
+    double c = 0.0;
+    double r2 = 0.0;          ///< of the line through the logarithms of T_k; NaN of two, or where all are one
+    double log_c_error = 0.0; ///< standard error of ln c; NaN of two T_k
+    std::int64_t terms = 0;   ///< T_k that were fitted
+};
+
+/// Tokunaga's law as drawn rivers have it.
+/// Takes: side_branches: T_1, T_2, ..., means over the streams of all orders. Gives: the line of least squares through
+/// ln T_k over k - 1; a T_k of 0 has no logarithm and is left out, with fewer than two others there is no law.
+/// Source: Tokunaga 1978; Peckham 1995; the regression: Zanardo, Zaliapin and Foufoula-Georgiou 2013.
+std::optional<TokunagaLaw> tokunaga(std::vector<double> const& side_branches);
+
+} // namespace thalweg::measure
