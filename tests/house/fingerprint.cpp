@@ -24,6 +24,7 @@
 #include <thalweg/measure/flow_lengths.hpp>
 #include <thalweg/measure/statistics.hpp>
 #include <thalweg/network/assign_types.hpp>
+#include <thalweg/network/drape.hpp>
 #include <thalweg/network/embed_tree.hpp>
 #include <thalweg/network/grow_dla.hpp>
 #include <thalweg/network/grow_strokes.hpp>
@@ -36,6 +37,7 @@
 #include <thalweg/network/set_heights.hpp>
 #include <thalweg/network/set_heights_by_type.hpp>
 #include <thalweg/network/set_heights_graded.hpp>
+#include <thalweg/network/split_confluences.hpp>
 #include <thalweg/network/streams.hpp>
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
@@ -543,6 +545,8 @@ int main(int count, char** words) {
     print_rivers(pruned, skeleton.grid(), run);
     Valley const valley = network::rasterise(raised.network, skeleton.grid()).valley;
     print("rasterise", hash_of(valley.z));
+    print("split_confluences",
+          hash_of(network::split_confluences(raised.network, {.distance_m = cell_m}, run).network));
     print("expand", hash_of(surface::expand(valley, run)));
     print("expand, plain", hash_of(expand_plain(valley, run)));
     print("expand_frontier", hash_of(surface::expand_frontier(valley, Mask(skeleton.grid(), 1), run)));
@@ -559,6 +563,7 @@ int main(int count, char** words) {
     print("natural_neighbours", hash_of(geometry::natural_neighbours(points, grid, {}, run)));
     Raster<float> const land = surface::dilate(valley, {{"rise_fall"}, surface::Metric::euclid, 500.0}, run).dem;
     print("tin_of_dem", hash_of(geometry::tin_of_dem(land, {20.0}, run).tin));
+    print("drape", hash_of(network::drape(pruned, land)));
     for (char const* increment : {"uniform", "decreasing", "rise_fall", "2+sin(x/7)*exp(-x/50)+x^0.3"}) {
         for (auto const metric : {surface::Metric::cityblock, surface::Metric::euclid}) {
             surface::DilateParams const params{{increment}, metric, 500.0};

@@ -76,6 +76,7 @@ TEST(FromFile, BifurcationsAndCirclesAreNamed) {
     std::swap(two.arcs[2].from_node, two.arcs[2].to_node);
     std::ranges::reverse(two.arcs[2].line);
     expect_fault(two, "2 arcs leave the node at (0.000, 10.000)");
+    expect_fault(two, "thalweg check");
     NetworkFile circle = y_shape();
     circle.arcs[0].to_node = 8;
     circle.arcs[0].line.back() = {-5, 20, 2};
@@ -124,6 +125,27 @@ TEST(FromFile, EndsTakeTheHeightsOfNodesThatWereMade) {
     file.says.nodes = false;
     file.arcs[2].line.back().z = 1.25;
     EXPECT_EQ(from_file(file).network.arc_z[0].back(), 1.0);
+}
+
+TEST(FromFile, NodesThatNobodyNamesAreNumberedAlongTheArcs) {
+    NetworkFile file = y_shape();
+    file.says.nodes = file.says.ends = false;
+    NetworkFile shuffled = file; // as another format might order its features
+    std::ranges::reverse(shuffled.arcs);
+    std::ranges::reverse(shuffled.nodes);
+    for (auto& arc : shuffled.arcs) {
+        arc.from_node = 100 - arc.from_node;
+        arc.to_node = 100 - arc.to_node;
+    }
+    for (auto& node : shuffled.nodes) {
+        node.id = 100 - node.id;
+    }
+    NetworkIndex const one(from_file(file).network.plan);
+    NetworkIndex const other(from_file(shuffled).network.plan);
+    EXPECT_EQ(one.from, (std::vector<NodeId>{0, 2, 1}));
+    EXPECT_EQ(one.to, (std::vector<NodeId>{1, 1, 3}));
+    EXPECT_EQ(other.from, one.from);
+    EXPECT_EQ(other.to, one.to);
 }
 
 TEST(FromFile, AFileThatSaysNothingOfDownstreamArcsIsBelieved) {

@@ -64,7 +64,7 @@ void refused(Workplace const& place, std::string const& arguments, std::string c
     EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.err;
     EXPECT_NE(outcome.err.find(words), std::string::npos) << arguments << "\n" << outcome.err;
     EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(content(place.path()), before) << arguments;
+    EXPECT_TRUE(content(place.path()) == before) << arguments;
 }
 
 } // namespace
@@ -122,8 +122,8 @@ TEST(Convert, ForeignLinesBecomeEverySchemaAndFormat) {
     EXPECT_EQ(file_bytes(place / "rivers.geojson"), lines);
     // From whatever schema: the same network.
     EXPECT_EQ(thalweg_run("check back_native_gpkg.gpkg", place.path()).code, 0);
-    EXPECT_EQ(file_bytes(place / "back_taudem_gpkg.gpkg"), file_bytes(place / "back_taudem_fgb.gpkg"));
-    EXPECT_EQ(file_bytes(place / "back_grass_shp.gpkg"), file_bytes(place / "back_grass_geojson.gpkg"));
+    EXPECT_TRUE(file_bytes(place / "back_taudem_gpkg.gpkg") == file_bytes(place / "back_taudem_fgb.gpkg"));
+    EXPECT_TRUE(file_bytes(place / "back_grass_shp.gpkg") == file_bytes(place / "back_grass_geojson.gpkg"));
 }
 
 TEST(Convert, JsonTellsWhatBecameOfIt) {
@@ -166,9 +166,9 @@ TEST(Convert, OverwriteReplacesOnlyWhatItWrites) {
     place.write("a_arcs.txt", "mine");
     auto const before = content(place.path());
     EXPECT_EQ(thalweg_run(convert, place.path()).code, 2);
-    EXPECT_EQ(content(place.path()), before);
+    EXPECT_TRUE(content(place.path()) == before);
     EXPECT_EQ(thalweg_run(convert + " --overwrite", place.path()).code, 0);
-    EXPECT_EQ(content(place.path()), before);
+    EXPECT_TRUE(content(place.path()) == before);
 }
 
 TEST(Convert, WhatIsNoTreeIsSentToCheck) {

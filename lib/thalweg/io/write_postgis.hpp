@@ -24,7 +24,8 @@ bool is_postgis(std::string const& name);
 /// Gives: the names of what it made: in the network schema tables NAME_arcs and NAME_nodes, in another one table NAME;
 /// where the schema names nodes also the view NAME_edges (id, source, target, cost, reverse_cost, geom) as pgRouting
 /// takes it: cost is the arc's length in the schema's unit, and -1 upstream. Columns have the schema's names in small
-/// letters, and fid is their primary key. Throws: BadParameter when the name is none; BadInput when what it would make
+/// letters, and fid is their primary key. Lines are bit for bit those of the network, other numbers have the 15 digits
+/// in which GDAL hands them over. Throws: BadParameter when the name is none; BadInput when what it would make
 /// is there already and overwrite is not set, or there is no such schema in the database; IoError, also when no
 /// database answers or a view of somebody's needs what would be replaced; otherwise as write_network.
 std::vector<std::string> write_postgis(NetworkTables const& tables, std::string const& connection,

@@ -40,24 +40,58 @@ template <class Item> std::vector<std::size_t> by_id(std::vector<Item> const& it
     return order;
 }
 
-/// The nodes of a file by their ids.
+/// The nodes of a file: their numbers, and which they are by their ids.
 class Nodes {
 public:
-    explicit Nodes(NetworkFile const& file) : file_(file), order_(by_id(file.nodes, "node")) {}
+    explicit Nodes(NetworkFile const& file)
+        : file_(file), sorted_(by_id(file.nodes, "node")), number_(sorted_.size()), order_(sorted_) {
+        for (std::size_t i = 0; i < number_.size(); ++i) {
+            number_[i] = i;
+        }
+    }
 
+    /// Places of the nodes in the file, in the order of their numbers.
     std::vector<std::size_t> const& order() const { return order_; }
     /// The number of the node that an end of an arc names.
-    NodeId of(std::int64_t id, FileArc const& arc) const {
-        auto const at = std::ranges::lower_bound(order_, id, {}, [&](std::size_t i) { return file_.nodes[i].id; });
-        if (at == order_.end() || file_.nodes[*at].id != id) {
-            refuse(fmt::format("arc {} names node {}, which is missing", arc.id, id));
+    NodeId of(std::int64_t id, FileArc const& arc) const { return number_[place_of(id, arc)]; }
+
+    /// Numbers nodes as the arcs come to name them: ids that were made for places follow the order of features, which
+    /// is the format's own affair.
+    void number_by(std::vector<std::size_t> const& arcs) {
+        constexpr auto none = static_cast<std::size_t>(-1);
+        std::vector<std::size_t> number(sorted_.size(), none);
+        std::vector<std::size_t> order;
+        auto const name = [&](std::size_t place) {
+            if (number[place] == none) {
+                number[place] = order.size();
+                order.push_back(sorted_[place]);
+            }
+        };
+        for (std::size_t const i : arcs) {
+            name(place_of(file_.arcs[i].from_node, file_.arcs[i]));
+            name(place_of(file_.arcs[i].to_node, file_.arcs[i]));
         }
-        return static_cast<NodeId>(at - order_.begin());
+        for (std::size_t place = 0; place < sorted_.size(); ++place) {
+            name(place);
+        }
+        number_ = std::move(number);
+        order_ = std::move(order);
     }
 
 private:
+    /// The place of an id among all, sorted.
+    std::size_t place_of(std::int64_t id, FileArc const& arc) const {
+        auto const at = std::ranges::lower_bound(sorted_, id, {}, [&](std::size_t i) { return file_.nodes[i].id; });
+        if (at == sorted_.end() || file_.nodes[*at].id != id) {
+            refuse(fmt::format("arc {} names node {}, which is missing", arc.id, id));
+        }
+        return static_cast<std::size_t>(at - sorted_.begin());
+    }
+
     NetworkFile const& file_;
-    std::vector<std::size_t> order_;
+    std::vector<std::size_t> sorted_; ///< nodes of the file by their ids
+    std::vector<std::size_t> number_; ///< of the node at a place in sorted_
+    std::vector<std::size_t> order_;  ///< nodes of the file by their numbers
 };
 
 void require_line(FileArc const& arc, bool heights) {
@@ -102,7 +136,11 @@ FileNetwork from_file(NetworkFile const& file) {
     }
     bool const heights = file.says.heights;
     bool const foreign = file.schema != "native";
-    Nodes const nodes(file);
+    Nodes nodes(file);
+    std::vector<std::size_t> const order = by_id(file.arcs, "arc");
+    if (!file.says.ends) {
+        nodes.number_by(order);
+    }
     FileNetwork made;
     StreamNetwork& plan = made.network.plan;
     for (std::size_t const i : nodes.order()) {
@@ -110,7 +148,6 @@ FileNetwork from_file(NetworkFile const& file) {
         boost::add_vertex(Node{{at.x, at.y}}, plan);
         made.network.node_z.push_back(heights ? at.z : std::numeric_limits<double>::quiet_NaN());
     }
-    std::vector<std::size_t> const order = by_id(file.arcs, "arc");
     for (std::size_t const i : order) {
         FileArc const& arc = file.arcs[i];
         require_line(arc, heights);
@@ -141,7 +178,11 @@ FileNetwork from_file(NetworkFile const& file) {
                                plan[n].at.y));
         }
     }
-    require_trees(plan, index, "network.from_file");
+    try {
+        require_trees(plan, index, "network.from_file");
+    } catch (BadInput const& fault) {
+        throw BadInput(fmt::format("{}; {}", fault.what(), remedy));
+    }
     if (file.says.downstream) {
         require_downstream(file, order, index);
     }

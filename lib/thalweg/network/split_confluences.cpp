@@ -208,27 +208,25 @@ public:
 
     /// Moves one tributary away from a node. near: the arcs near it, of the network as it was.
     bool split(NodeId n, std::vector<std::size_t> const& near) const {
-        constexpr int gentle = 7;  // halvings before the other direction is tried
-        constexpr int enough = 48; // by then a distance is below what coordinates can tell apart
+        // Below it nodes would lie so close that a check takes them for ends that miss each other.
+        double const fair_m = distance_m_ / 128.0;
         std::vector<std::size_t> arcs = near;
         for (std::size_t i = 0; i < arcs.size(); ++i) {
             auto const& pieces = net_.cut_off(arcs[i]);
             arcs.insert(arcs.end(), pieces.begin(), pieces.end());
         }
-        return split(n, arcs, false, 0, gentle) || split(n, arcs, true, 0, gentle) ||
-               split(n, arcs, false, gentle, enough) || split(n, arcs, true, gentle, enough);
+        return split(n, arcs, false, fair_m) || split(n, arcs, true, fair_m) || split(n, arcs, false, 0.0) ||
+               split(n, arcs, true, 0.0);
     }
 
 private:
-    bool split(NodeId n, std::vector<std::size_t> const& arcs, bool upstream, int first, int last) const {
+    bool split(NodeId n, std::vector<std::size_t> const& arcs, bool upstream, double least_m) const {
+        constexpr int enough = 48;    // halvings: by then a distance is below what coordinates can tell apart
         constexpr double wide = -0.5; // cosine of an angle at which a straight way would come close to the node
         std::vector<Pair> const pairs = pairs_at(net_, n, upstream);
         auto const to_move = static_cast<double>(net_.arcs_into(n) - most_);
         double share = 1.0;
-        for (int halving = 0; halving < last; ++halving, share /= 2.0) {
-            if (halving < first) {
-                continue;
-            }
+        for (int halving = 0; halving < enough; ++halving, share /= 2.0) {
             for (Pair const& pair : pairs) {
                 Neighbours at{
                     net_.away_from(n, pair.trunk), net_.away_from(n, pair.tributary), pair.left, !upstream, {}};
@@ -240,6 +238,9 @@ private:
                 // The next one to be moved finds its place between this one and the node.
                 double const along_m =
                     share * std::min(distance_m_ * to_move, length_in_plan(at.trunk) * to_move / (to_move + 1.0));
+                if (along_m < least_m) {
+                    continue;
+                }
                 Shifted shifted;
                 bool const corner_first = pair.closeness < wide;
                 if (shift_tributary(at, along_m, corner_first, shifted) ||
