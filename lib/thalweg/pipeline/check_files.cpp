@@ -47,7 +47,7 @@ public:
                 }
             }
         } else {
-            throw BadParameter(fmt::format("check: {} {}: it must end in {}", option, path,
+            throw BadParameter(fmt::format("pipeline.check_files: {} {}: it must end in {}", option, path,
                                            may_be_shapefile ? ".gpkg or .shp" : ".gpkg"));
         }
         refuse_present(option, job);
@@ -61,7 +61,7 @@ public:
         write(folder.path(is_shapefile() ? stem_ : names_.front()));
         std::vector<std::string> written;
         for (std::string const& name : folder.files()) {
-            written.push_back((fs::path(folder_) / name).string());
+            written.push_back((fs::path(folder_) / name).lexically_normal().string());
         }
         folder.commit();
         return written;
@@ -72,20 +72,21 @@ private:
         std::error_code error;
         fs::path const input = job.network;
         for (std::string const& name : names_) {
-            fs::path const file = fs::path(folder_) / name;
+            fs::path const file = (fs::path(folder_) / name).lexically_normal();
             if (!fs::exists(file, error)) {
                 continue;
             }
             bool const in_input = fs::is_directory(input, error) && fs::equivalent(folder_, input, error);
             bool const of_input = input.has_filename() && fs::exists(input, error) &&
-                                  fs::equivalent(file.parent_path(), input.parent_path() / ".", error) &&
+                                  fs::equivalent(folder_, input.parent_path() / ".", error) &&
                                   stem_of(file) == stem_of(input);
             if (fs::equivalent(file, input, error) || in_input || of_input) {
-                throw BadParameter(
-                    fmt::format("check: {} {}: the input is not touched; name another file", option, file.string()));
+                throw BadParameter(fmt::format(
+                    "pipeline.check_files: {} {}: the input is not touched; name another file", option, file.string()));
             }
             if (!job.overwrite) {
-                throw BadInput(fmt::format("check: {} {}: it exists; --overwrite replaces it", option, file.string()));
+                throw BadInput(fmt::format("pipeline.check_files: {} {}: it exists; --overwrite replaces it", option,
+                                           file.string()));
             }
             present_.push_back(name);
         }

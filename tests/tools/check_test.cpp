@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command.hpp"
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <ogrsf_frmts.h>
+
+#include <io/sample_networks.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+/// Two tributaries and a river below them, as a GeoPackage and as shapefiles.
+void write_network(Workplace const& place) {
+    SampleNetwork net;
+    auto const west = net.node(500000.0, 4000200.0, 30.0);
+    auto const east = net.node(500200.0, 4000200.0, 28.0);
+    auto const joint = net.node(500100.0, 4000100.0, 20.0);
+    auto const mouth = net.node(500100.0, 4000000.0, 10.0);
+    net.arc(west, joint, {{500040.0, 4000150.0}});
+    net.arc(east, joint);
+    net.arc(joint, mouth, {{500110.0, 4000060.0}, {500095.0, 4000030.0}});
+    net.settle();
+    thalweg::io::write_geopackage(net.tables(), (place / "net.gpkg").string());
+    thalweg::io::write_shapefiles(net.tables(), (place / "net").string());
+}
+
+/// Runs SQL on a GeoPackage.
+void change(fs::path const& file, std::string const& sql) {
+    GDALAllRegister();
+    GDALDatasetUniquePtr const data(GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));
+    ASSERT_NE(data, nullptr);
+    if (OGRLayer* const result = data->ExecuteSQL(sql.c_str(), nullptr, nullptr)) {
+        data->ReleaseResultSet(result);
+    }
+}
+
+/// Every file of a folder with its bytes.
+std::map<std::string, std::string> all_of(fs::path const& folder) {
+    std::map<std::string, std::string> files;
+    for (auto const& entry : fs::directory_iterator(folder)) {
+        files[entry.path().filename().string()] = file_bytes(entry.path());
+    }
+    return files;
+}
+
+std::vector<std::string> kinds(json const& findings) {
+    std::vector<std::string> result;
+    for (auto const& f : findings) {
+        result.push_back(f["kind"]);
+    }
+    return result;
+}
+
+} // namespace
+
+TEST(Check, ACleanFileIsOk) {
+    Workplace const place;
+    write_network(place);
+    auto const before = all_of(place.path());
+    for (std::string const name : {"net.gpkg", "net_arcs.shp", "net_nodes.shp"}) {
+        Outcome const o = thalweg_run("check --json " + name, place.path());
+        EXPECT_EQ(o.code, 0) << o.out << o.err;
+        json const report = json::parse(o.out);
+        EXPECT_EQ(report["ok"], true);
+        EXPECT_EQ(report["arcs"], 3);
+        EXPECT_EQ(report["nodes"], 4);
+        EXPECT_EQ(report["schema"], "native");
+        EXPECT_TRUE(report["findings"].empty()) << report;
+        EXPECT_TRUE(report["written"].empty());
+    }
+    EXPECT_EQ(all_of(place.path()), before);
+}
+
+TEST(Check, AFaultIsToldMendedAndDrawn) {
+    Workplace const place;
+    write_network(place);
+    change(place / "net.gpkg", "UPDATE arcs SET strahler = 7 WHERE arc_id = 2");
+    auto const before = all_of(place.path());
+    Outcome const o = thalweg_run("check net.gpkg --json --fix sound.gpkg --findings check.gpkg", place.path());
+    EXPECT_EQ(o.code, 3) << o.err;
+    json const report = json::parse(o.out);
+    EXPECT_EQ(report["ok"], false);
+    EXPECT_EQ(kinds(report["findings"]), std::vector<std::string>{"strahler_mismatch"});
+    EXPECT_EQ(report["findings"][0]["feature"], 2);
+    EXPECT_EQ(report["findings"][0]["amount"], 1.0);
+    EXPECT_EQ(kinds(report["mended"]), std::vector<std::string>{"mended"});
+    EXPECT_EQ(report["written"].size(), 2U);
+    EXPECT_EQ(thalweg_run("check sound.gpkg", place.path()).code, 0);
+    auto after = all_of(place.path());
+    after.erase("sound.gpkg");
+    after.erase("check.gpkg");
+    EXPECT_EQ(after, before) << "the input is as it was, and nothing else is left";
+
+    GDALDatasetUniquePtr const layer(GDALDataset::Open((place / "check.gpkg").c_str(), GDAL_OF_VECTOR));
+    ASSERT_NE(layer, nullptr);
+    OGRLayer* const findings = layer->GetLayerByName("findings");
+    ASSERT_NE(findings, nullptr);
+    ASSERT_EQ(findings->GetFeatureCount(), 1);
+    OGRFeatureUniquePtr const f(findings->GetNextFeature());
+    EXPECT_STREQ(f->GetFieldAsString("kind"), "strahler_mismatch");
+    EXPECT_EQ(f->GetFieldAsInteger64("feature"), 2);
+    EXPECT_EQ(f->GetFieldAsDouble("amount"), 1.0);
+    EXPECT_STREQ(f->GetFieldAsString("text"), "arc 2: its strahler is 7 and should be 1");
+    EXPECT_EQ(f->GetGeometryRef()->toPoint()->getX(), 500200.0);
+    EXPECT_NE(findings->GetSpatialRef(), nullptr);
+}
+
+TEST(Check, AMendedShapefile) {
+    Workplace const place;
+    write_network(place);
+    change(place / "net.gpkg", "UPDATE arcs SET to_node = 1 WHERE arc_id = 3");
+    Outcome const o = thalweg_run("check net.gpkg --fix sound.shp", place.path());
+    EXPECT_EQ(o.code, 3) << o.err;
+    EXPECT_NE(o.out.find("FAILED"), std::string::npos) << o.out;
+    EXPECT_NE(o.out.find("mended: "), std::string::npos) << o.out;
+    EXPECT_NE(o.out.find("sound_arcs.shp"), std::string::npos) << o.out;
+    EXPECT_EQ(thalweg_run("check sound_arcs.shp", place.path()).code, 0);
+}
+
+TEST(Check, WhatCannotBeMendedIsNotWritten) {
+    Workplace const place;
+    write_network(place);
+    change(place / "net.gpkg", "DELETE FROM arcs");
+    Outcome const o = thalweg_run("check net.gpkg --json --fix sound.gpkg", place.path());
+    EXPECT_EQ(o.code, 3) << o.err;
+    json const report = json::parse(o.out);
+    EXPECT_EQ(kinds(report["mended"]), std::vector<std::string>{"not_mended"});
+    EXPECT_TRUE(report["written"].empty());
+    EXPECT_FALSE(fs::exists(place / "sound.gpkg"));
+}
+
+TEST(Check, TheInputIsNeverAnOutput) {
+    Workplace const place;
+    write_network(place);
+    place.write("there.gpkg", "mine");
+    auto const before = all_of(place.path());
+    for (std::string const arguments :
+         {"net.gpkg --fix net.gpkg --overwrite", "net.gpkg --findings net.gpkg --overwrite",
+          "net_arcs.shp --fix net.shp --overwrite", "net_nodes.shp --fix net_arcs.shp --overwrite",
+          "net.gpkg --fix there.gpkg", "net.gpkg --fix sound.tif", "net.gpkg --findings sound.shp",
+          "net.gpkg --near -1", "net.gpkg --schema wombat", "net.gpkg --field arc_id"}) {
+        Outcome const o = thalweg_run("check " + arguments, place.path());
+        EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
+        EXPECT_EQ(o.out, "") << arguments;
+        EXPECT_EQ(all_of(place.path()), before) << arguments;
+    }
+    change(place / "net.gpkg", "UPDATE arcs SET shreve = 7 WHERE arc_id = 2");
+    EXPECT_EQ(thalweg_run("check net.gpkg --fix there.gpkg --overwrite", place.path()).code, 3);
+    EXPECT_EQ(thalweg_run("check there.gpkg", place.path()).code, 0);
+}
