@@ -2,14 +2,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/measure/certificate.hpp>
+#include <thalweg/measure/drain_dinf.hpp>
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/measure/statistics.hpp>
+#include <thalweg/surface/drain.hpp>
 
 namespace {
 
@@ -50,7 +55,17 @@ void bench_drain_relief(benchmark::State& state) {
     }
     set_cells(state);
 }
-BENCHMARK(bench_drain_relief)->Name("drain/relief")->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(bench_drain_relief)->Name("drain/relief")->Arg(1024)->Arg(2048)->Arg(4096)->Unit(benchmark::kMillisecond);
+
+void bench_drain_dinf(benchmark::State& state) {
+    Raster<float> const dem = relief(state.range(0));
+    measure::Drainage const d8 = measure::drain(dem);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(measure::drain_dinf(dem, d8));
+    }
+    set_cells(state);
+}
+BENCHMARK(bench_drain_dinf)->Name("drain_dinf/relief")->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
 
 void bench_drain_noise(benchmark::State& state) {
     Raster<float> dem(Grid{state.range(0), state.range(0), 1.0, 0.0, 0.0, ""});
@@ -72,6 +87,73 @@ void bench_statistics(benchmark::State& state) {
     set_cells(state);
 }
 BENCHMARK(bench_statistics)->Name("statistics")->Arg(4096)->Unit(benchmark::kMillisecond);
+
+/// Against drain/relief: what making a land drain costs beside measuring it.
+void bench_carve_relief(benchmark::State& state) {
+    Raster<float> const dem = relief(state.range(0));
+    Valley const none{Raster<float>(dem.grid(), std::numeric_limits<float>::quiet_NaN())};
+    auto const method = state.range(1) == 0 ? surface::Drain::fill : surface::Drain::carve;
+    for (auto _ : state) {
+        surface::DrainedLand const land = surface::drain(dem, none, {method});
+        state.counters["volume_m3"] = land.depressions.volume_m3();
+    }
+    set_cells(state);
+}
+BENCHMARK(bench_carve_relief)
+    ->Name("carve/relief")
+    ->ArgsProduct({{1024, 2048, 4096}, {0, 1}})
+    ->ArgNames({"side", "carve"})
+    ->Unit(benchmark::kMillisecond);
+
+/// The streams of a DEM by area, a reach from each head or confluence to the next.
+std::vector<measure::Reach> streams(measure::Drainage const& drainage, std::int64_t area) {
+    Grid const& grid = drainage.direction.grid();
+    auto const next = [&](std::int64_t i) {
+        std::int8_t const k = drainage.direction[i];
+        return k < 0 ? std::int64_t{-1}
+                     : i + d8_steps[static_cast<std::size_t>(k)].row * grid.width +
+                           d8_steps[static_cast<std::size_t>(k)].col;
+    };
+    Raster<std::uint8_t> arriving(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (drainage.area_cells[i] >= area && next(i) >= 0) {
+            ++arriving[next(i)];
+        }
+    }
+    std::vector<measure::Reach> reaches;
+    Raster<std::int64_t> begins(grid, -1);
+    std::vector<std::int64_t> ends;
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (drainage.area_cells[i] >= area && arriving[i] != 1 && next(i) >= 0) {
+            begins[i] = static_cast<std::int64_t>(reaches.size());
+            std::vector<Vec2> line{grid.centre(grid.at(i))};
+            std::int64_t at = i;
+            do {
+                at = next(at);
+                line.push_back(grid.centre(grid.at(at)));
+            } while (arriving[at] == 1 && next(at) >= 0);
+            reaches.push_back({{line}, -1, begins[i] + 1});
+            ends.push_back(at);
+        }
+    }
+    for (std::size_t r = 0; r < reaches.size(); ++r) {
+        reaches[r].ds = begins[ends[r]];
+    }
+    return reaches;
+}
+
+/// The whole certificate: the DEM's drainage and what the network's say of it.
+void bench_certify(benchmark::State& state) {
+    Raster<float> const dem = relief(2048);
+    std::vector<measure::Reach> const reaches = streams(measure::drain(dem), 1000);
+    for (auto _ : state) {
+        measure::Drainage const drainage = measure::drain(dem);
+        benchmark::DoNotOptimize(measure::certify(dem, drainage, reaches));
+    }
+    state.counters["arcs"] = static_cast<double>(reaches.size());
+    state.SetItemsProcessed(state.iterations() * dem.cells());
+}
+BENCHMARK(bench_certify)->Name("certify/2048")->Unit(benchmark::kMillisecond);
 
 /// A hundred parallel rivers from north to south.
 void bench_areas_nearest(benchmark::State& state) {

@@ -45,5 +45,8 @@ function(thalweg_tests NAME)
     THALWEG_SOURCE_DIR="${PROJECT_SOURCE_DIR}" THALWEG_EXE="$<TARGET_FILE:thalweg_cli>" THALWEG_VERSION="${PROJECT_VERSION}")
   target_compile_options(test_${NAME} PRIVATE -O1) # what is tested keeps its own level; -O3 doubles the wait here
   target_link_libraries(test_${NAME} PRIVATE thalweg thalweg_options GTest::gtest GTest::gtest_main rapidcheck ${ARGN})
-  gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. PROPERTIES LABELS ${NAME} TIMEOUT 600 DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. TEST_FILTER -Large*
+    PROPERTIES LABELS ${NAME} TIMEOUT 600 DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. TEST_FILTER Large* TEST_LIST test_${NAME}_large
+    PROPERTIES LABELS "large" TIMEOUT 3600 PROCESSORS 2 DISCOVERY_TIMEOUT 60)
 endfunction()

@@ -30,6 +30,7 @@ struct Session {
 using Command = std::function<int()>;
 Command add_make(CLI::App& app, Session& session);
 Command add_check(CLI::App& app, Session& session);
+Command add_convert(CLI::App& app, Session& session);
 Command add_stats(CLI::App& app, Session& session);
 Command add_draw(CLI::App& app, Session& session);
 Command add_replay(CLI::App& app, Session& session);
@@ -38,6 +39,7 @@ Command add_tin(CLI::App& app, Session& session);
 Command add_points(CLI::App& app, Session& session);
 Command add_blend(CLI::App& app, Session& session);
 Command add_deform(CLI::App& app, Session& session);
+Command add_measure(CLI::App& app, Session& session);
 Command add_grow(CLI::App& app, Session& session);
 // Of the command line itself: they read the other commands.
 Command add_completion(CLI::App& app);

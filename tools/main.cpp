@@ -79,7 +79,9 @@ int main(int argc, char** argv) {
     };
     add("make", "Make a terrain from a recipe, or the sample valley without one.", add_make);
     add("check", "Check the topology of a network's files.", add_check);
+    add("convert", "Write a network in anyone's schema and format.", add_convert);
     add("stats", "Measure a DEM.", add_stats);
+    add("measure", "Measure where a DEM's water goes: contributing areas and catchments.", add_measure);
     add("draw", "Draw pictures of a DEM, or of what make left.", add_draw);
     add("tin", "Make a TIN of a DEM, of points or of a network.", add_tin);
     add("points", "Write the cells of a DEM as a cloud of points.", add_points);

@@ -10,28 +10,15 @@ Prints one JSON object and exits with 1 on any violation, 2 when there is nothin
 """
 import contextlib
 import io
-import json
 import sys
-from collections import Counter, defaultdict
 
 import numpy as np
 from osgeo import gdal, ogr
 from osgeo_utils.samples import validate_cloud_optimized_geotiff
+from report import Report
 
 gdal.UseExceptions()
 ogr.UseExceptions()
-
-
-class Report:
-    def __init__(self):
-        self.counts = Counter()
-        self.examples = defaultdict(list)
-
-    def unless(self, holds, kind, where):
-        if not holds:
-            self.counts[kind] += 1
-            if len(self.examples[kind]) < 5:
-                self.examples[kind].append(where)
 
 
 def bresenham(a, b):
@@ -107,10 +94,7 @@ def main(dem_path, mask_path, network_path):
         stray = np.argwhere((inside == 1) & ~drawn)
         report.unless(len(stray) == 0, "mask_cell_without_river", [[int(c), int(r)] for r, c in stray[:5]])
         answer.update(network_cells=int(drawn.sum()), steps=steps)
-    answer["violations"] = dict(report.counts)
-    answer["examples"] = report.examples
-    print(json.dumps(answer, indent=1, default=str))
-    return 1 if answer["violations"] else 0
+    return report.close(answer)
 
 
 if __name__ == "__main__":

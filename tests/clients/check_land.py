@@ -11,16 +11,16 @@ Prints one JSON object and exits with 1 on any violation, 2 when there is nothin
 import contextlib
 import csv
 import io
-import json
 import pathlib
 import sys
 import tomllib
 
 import meshio
 import numpy as np
-from check_dem import Report, check_format
+from check_dem import check_format
 from osgeo import gdal, ogr
 from osgeo_utils.samples import validate_cloud_optimized_geotiff
+from report import Report
 
 gdal.UseExceptions()
 ogr.UseExceptions()
@@ -121,10 +121,7 @@ def main(folder):
         answer["points"] = check_points(z, place, folder / points, report)
     if (folder / "tin.ply").exists() and (folder / "network.gpkg").exists():
         answer["segments"] = check_breaklines(folder / "tin.ply", folder / "network.gpkg", report)
-    answer["violations"] = dict(report.counts)
-    answer["examples"] = report.examples
-    print(json.dumps(answer, indent=1, default=str))
-    return 1 if answer["violations"] else 0
+    return report.close(answer)
 
 
 if __name__ == "__main__":

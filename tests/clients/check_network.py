@@ -7,15 +7,15 @@ NETWORK is a GeoPackage, one shapefile of a pair, or a folder with network.gpkg 
 (arcs.shp and nodes.shp do too). Nothing of thalweg is used: OGR reads, networkx walks, shapely finds crossings.
 Prints one JSON object and exits with 1 on any violation, 2 when there is nothing to check.
 """
-import json
 import math
 import pathlib
 import sys
 import warnings
-from collections import Counter, defaultdict
+from collections import Counter
 
 import networkx as nx
 from osgeo import ogr
+from report import Report
 from shapely.geometry import LineString
 from shapely.strtree import STRtree
 
@@ -33,22 +33,6 @@ NODE_FIELDS = {
 }
 RIDGE_FIELDS = {"int": "ridge_id left right".split(), "real": "length z_min z_max".split()}
 TYPES = {"int": {ogr.OFTInteger, ogr.OFTInteger64}, "real": {ogr.OFTReal}, "text": {ogr.OFTString}}
-EXAMPLES = 5
-
-
-class Report:
-    def __init__(self):
-        self.counts = Counter()
-        self.examples = defaultdict(list)
-
-    def fault(self, kind, where):
-        self.counts[kind] += 1
-        if len(self.examples[kind]) < EXAMPLES:
-            self.examples[kind].append(where)
-
-    def unless(self, holds, kind, where):
-        if not holds:
-            self.fault(kind, where)
 
 
 def near(a, b):
@@ -204,7 +188,7 @@ def check_graph(arcs, nodes, report):
         basins.update(names)
     report.unless(all(count == 1 for count in basins.values()), "basin_id_twice", [b for b in basins if basins[b] > 1][:4])
     if not nx.is_directed_acyclic_graph(graph):
-        report.fault("cycle", [str(edge[:2]) for edge in nx.find_cycle(graph)[:EXAMPLES]])
+        report.fault("cycle", [str(edge[:2]) for edge in nx.find_cycle(graph)[:5]])
         return {}
     if report.counts["several_outflows"]:
         return {}
@@ -285,10 +269,7 @@ def main(path):
         check_crossings(arcs, nodes, report)
         answer.update(check_graph(arcs, nodes, report))
         check_ridges(by_id(ridge_rows, "ridge_id", report), arcs, report)
-    answer["violations"] = {kind: count for kind, count in report.counts.items() if count}
-    answer["examples"] = report.examples
-    print(json.dumps(answer, indent=1))
-    return 1 if answer["violations"] else 0
+    return report.close(answer)
 
 
 if __name__ == "__main__":

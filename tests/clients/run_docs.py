@@ -6,8 +6,10 @@
 A command is a line that begins with "$ " in a fenced block marked sh. Each page runs in a folder of its own that
 holds a copy of samples/, with thalweg in PATH; what the commands of a page leave, later ones find. A command whose
 line ends in "# exit N" must exit with N, every other with 0. Commands of scripts/ and the compilers' build are run by
-scripts/test itself and only checked to exist.
+scripts/test itself and only checked to exist. python3 is Debian's, whose packages the pages speak of; psql, createdb and
+databases "PG:dbname=..." are those of a PostgreSQL of this run's own.
 """
+import contextlib
 import os
 import pathlib
 import re
@@ -16,8 +18,29 @@ import subprocess
 import sys
 import tempfile
 
+import cluster
+
 thalweg, source = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 elsewhere = re.compile(r"^(\./)?(scripts/|cmake |git clone|cd |ctest |build/)")
+databases = re.compile(r"\bPG:|\bpsql\b|\bcreatedb\b")
+
+
+@contextlib.contextmanager
+def server(wanted):
+    """The environment in which libpq finds a server, where one is wanted."""
+    if not wanted:
+        yield {}
+        return
+    with tempfile.TemporaryDirectory(prefix="thalweg-docs-") as place:
+        state = pathlib.Path(place) / "cluster.json"
+        try:
+            cluster.start(state)
+            found = cluster.connection(state)
+            yield {"PGHOST": found["host"], "PGUSER": found["user"]}
+        finally:
+            cluster.stop(state)
+
+
 pages = [source / "README.md", *sorted((source / "docs").rglob("*.md"))]
 run = failed = 0
 for page in pages:
@@ -25,12 +48,13 @@ for page in pages:
     commands = [line[2:] for block in blocks for line in block.splitlines() if line.startswith("$ ")]
     if not commands:
         continue
-    with tempfile.TemporaryDirectory(prefix="thalweg-docs-") as place:
+    with tempfile.TemporaryDirectory(prefix="thalweg-docs-") as place, server(any(map(databases.search, commands))) as found:
         shutil.copytree(source / "samples", pathlib.Path(place) / "samples")
         bin_dir = pathlib.Path(place) / ".bin"
         bin_dir.mkdir()
         (bin_dir / "thalweg").symlink_to(thalweg)
-        environment = dict(os.environ, PATH=f"{bin_dir}:{os.environ['PATH']}")
+        (bin_dir / "python3").symlink_to("/usr/bin/python3")
+        environment = dict(os.environ, PATH=f"{bin_dir}:{os.environ['PATH']}", **found)
         for command in commands:
             if elsewhere.match(command):
                 script = command.split()[0]

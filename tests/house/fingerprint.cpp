@@ -17,6 +17,8 @@
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
+#include <thalweg/measure/catchments.hpp>
+#include <thalweg/measure/drain_dinf.hpp>
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/measure/extract_streams.hpp>
 #include <thalweg/measure/flow_lengths.hpp>
@@ -484,6 +486,15 @@ Fnv hash_of(network::TokunagaTree const& tree) {
     return fnv;
 }
 
+void print_water(Raster<float> const& land, StreamNetwork const& rivers, Run const& run) {
+    measure::Drainage const d8 = measure::drain(land, run);
+    print("drain", hash_of(d8.area_cells));
+    measure::DinfDrainage const dinf = measure::drain_dinf(land, d8, run);
+    print("drain_dinf", hash_of(dinf.bearing));
+    print("drain_dinf, areas", hash_of(dinf.area_cells));
+    print("catchments", hash_of(measure::catchments(measure::reaches_of(rivers), d8, run).reach));
+}
+
 void print_trees(Run const& run) {
     network::TokunagaTree const tree = network::grow_tokunaga({.generator = 3, .order = 5}, run);
     print("grow_tokunaga", hash_of(tree));
@@ -561,5 +572,6 @@ int main(int count, char** words) {
     print_blend(land, tin, run);
     print_ridges(raised.network, grid, run);
     print_skeleton(valley, run);
+    print_water(land, raised.network.plan, run);
     print_trees(run);
 }

@@ -440,3 +440,31 @@ TEST(Contours, GeoPackageMarksEveryFifth) {
     std::ranges::sort(marked);
     EXPECT_EQ(marked, (std::vector<double>{-10.0, 0.0, 10.0}));
 }
+
+TEST(WriteField, WritesDoublesExactly) {
+    ScratchFolder const folder;
+    Raster<double> field(Grid{300, 280, 10.0, 500000.0, 4000000.0, "EPSG:32631"});
+    for (std::int64_t i = 0; i < field.cells(); ++i) {
+        field[i] = static_cast<double>(i) / 3.0;
+    }
+    field[5] = std::numeric_limits<double>::quiet_NaN();
+    thalweg::Run one;
+    one.threads = 1;
+    thalweg::Run two;
+    two.threads = 2;
+    io::write_field(field, folder / "field.tif", one);
+    io::write_field(field, folder / "again.tif", two);
+    EXPECT_TRUE(bytes_of(folder / "field.tif") == bytes_of(folder / "again.tif"));
+    auto const dataset = open(folder / "field.tif");
+    GDALRasterBand& band = *dataset->GetRasterBand(1);
+    EXPECT_EQ(band.GetRasterDataType(), GDT_Float64);
+    EXPECT_EQ(band.GetNoDataValue(), -9999.0);
+    std::vector<double> read(static_cast<std::size_t>(field.cells()));
+    ASSERT_EQ(band.RasterIO(GF_Read, 0, 0, 300, 280, read.data(), 300, 280, GDT_Float64, 0, 0, nullptr), CE_None);
+    field[5] = -9999.0;
+    EXPECT_TRUE(std::ranges::equal(read, field.values()));
+    EXPECT_THROW(io::write_field(field, folder / "third.tif"), BadInput);
+    EXPECT_THROW(io::write_field(Raster<double>{}, folder / "third.tif"), BadInput);
+    field[5] = 0.0;
+    EXPECT_THROW(io::write_field(field, folder / "again.tif"), IoError);
+}

@@ -114,9 +114,10 @@ void hold_to_contract(fs::path const& folder) {
 }
 
 void same_bytes(fs::path const& a, fs::path const& b) {
-    for (char const* name : {"dem.tif", "network.tif", "network.gpkg", "network_arcs.shp", "network_arcs.dbf",
-                             "network_arcs.shx", "network_nodes.shp", "network_nodes.dbf", "contours.gpkg", "map.png",
-                             "profile.svg", "curve.svg", "wireframe.svg", "sections.svg", "recipe.toml"}) {
+    for (char const* name :
+         {"dem.tif", "network.tif", "network.gpkg", "network_arcs.shp", "network_arcs.dbf", "network_arcs.shx",
+          "network_nodes.shp", "network_nodes.dbf", "contours.gpkg", "catchments.gpkg", "map.png", "profile.svg",
+          "curve.svg", "wireframe.svg", "sections.svg", "recipe.toml"}) {
         EXPECT_FALSE(file_bytes(a / name).empty()) << name;
         EXPECT_TRUE(file_bytes(a / name) == file_bytes(b / name)) << name;
     }

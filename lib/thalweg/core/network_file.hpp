@@ -48,8 +48,9 @@ struct NetworkFile {
     std::vector<FileNode> nodes;
     std::vector<FileArc> arcs;
     Says says = {};
-    std::string crs = {};               ///< of the coordinates, "" for none
-    std::string schema = "native";      ///< how its fields were understood
+    std::string crs = {};          ///< of the coordinates, "" for none
+    std::string schema = "native"; ///< how its fields were understood
+    std::int64_t id_shift = 0;     ///< arc ids here are the file's and this: TauDEM's begin at 0, which is none here
     std::vector<Finding> findings = {}; ///< of reading: what had to be bent to be held here
 };
 

@@ -3,113 +3,64 @@
 #include <thalweg/geometry/crossings.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <tuple>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Exact_rational.h>
-#include <CGAL/box_intersection_d.h>
-#include <fmt/format.h>
-
-#include <thalweg/core/error.hpp>
+#include <thalweg/geometry/exact_segments.hpp>
+#include <thalweg/geometry/segment_pairs.hpp>
 
 namespace thalweg::geometry {
 namespace {
 
-using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
-using Rational = CGAL::Exact_rational;
+using Lines = std::vector<std::vector<Vec2>>;
 
-struct Segment {
-    std::size_t line = 0;
-    std::size_t index = 0;
-    std::size_t rank = 0; // place among the segments of its line that have a length
-    Vec2 a;
-    Vec2 b;
-};
-
-std::vector<Segment> segments_of(std::vector<std::vector<Vec2>> const& lines) {
-    std::vector<Segment> segments;
-    for (std::size_t l = 0; l < lines.size(); ++l) {
-        auto const& line = lines[l];
-        for (std::size_t v = 0; v < line.size(); ++v) {
-            if (!std::isfinite(line[v].x) || !std::isfinite(line[v].y)) {
-                throw BadInput(fmt::format("geometry.crossings: vertex {} of line {} is not finite", v, l));
-            }
-        }
-        std::size_t rank = 0;
-        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-            if (line[i] != line[i + 1]) {
-                segments.push_back({l, i, rank++, line[i], line[i + 1]});
-            }
-        }
-        if (rank == 0 && line.size() > 1) {
-            segments.push_back({l, 0, 0, line[0], line[0]});
-        }
+// Whether the two follow one another in their line: nothing but repeated vertices lies between.
+bool are_neighbours(Lines const& lines, LineSegment s, LineSegment t) {
+    if (s.line != t.line) {
+        return false;
     }
-    return segments;
-}
-
-// The double nearest to q. CGAL::to_double only promises one beside it.
-double rounded(Rational const& q) {
-    double best = CGAL::to_double(q);
-    for (double const side : {-1.0, 1.0}) {
-        double const next = std::nextafter(best, side * std::numeric_limits<double>::infinity());
-        Rational const gain = CGAL::abs(Rational(best) - q) - CGAL::abs(Rational(next) - q);
-        if (gain > 0) {
-            best = next;
-        }
+    auto const& line = lines[s.line];
+    std::size_t const last = std::max(s.segment, t.segment);
+    std::size_t v = std::min(s.segment, t.segment) + std::size_t{1};
+    while (v < last && line[v] == line[v + 1]) {
+        ++v;
     }
-    return best + 0.0; // never minus zero: equal points have equal bits
-}
-
-int side(Vec2 a, Vec2 b, Vec2 p) {
-    return static_cast<int>(CGAL::orientation(Point(a.x, a.y), Point(b.x, b.y), Point(p.x, p.y)));
-}
-
-bool before(Vec2 a, Vec2 b) {
-    return std::tie(a.x, a.y) < std::tie(b.x, b.y);
-}
-
-// Place on s of a point that lies on it.
-double place(Segment const& s, Vec2 p) {
-    if (p == s.a) {
-        return 0.0;
-    }
-    if (p == s.b) {
-        return 1.0;
-    }
-    return s.a.x != s.b.x ? rounded((Rational(p.x) - Rational(s.a.x)) / (Rational(s.b.x) - Rational(s.a.x)))
-                          : rounded((Rational(p.y) - Rational(s.a.y)) / (Rational(s.b.y) - Rational(s.a.y)));
+    return v == last;
 }
 
 class Meetings {
 public:
-    void add(Segment const& s, Segment const& t) {
-        bool const neighbours = s.line == t.line && (s.rank + 1 == t.rank || t.rank + 1 == s.rank);
-        int const a = side(t.a, t.b, s.a);
-        int const b = side(t.a, t.b, s.b);
-        int const c = side(s.a, s.b, t.a);
-        int const d = side(s.a, s.b, t.b);
-        if (a == 0 && b == 0 && c == 0 && d == 0) {
-            add_overlap(s, t, neighbours);
-        } else if (a * b <= 0 && c * d <= 0 && !neighbours) {
-            if (a == 0 || b == 0) {
-                add_vertex(s, t, a == 0 ? s.a : s.b);
-            } else if (c == 0 || d == 0) {
-                add_vertex(s, t, c == 0 ? t.a : t.b);
-            } else {
-                add_proper(s, t);
+    explicit Meetings(Lines const& lines) : lines_(lines) {}
+
+    void add(LineSegment s, LineSegment t) {
+        Vec2 const a = lines_[s.line][s.segment];
+        Vec2 const b = lines_[s.line][s.segment + 1];
+        Vec2 const c = lines_[t.line][t.segment];
+        Vec2 const d = lines_[t.line][t.segment + 1];
+        SegmentMeeting const meeting = meeting_of(a, b, c, d);
+        switch (meeting.kind) {
+        case SegmentMeeting::Kind::none: break;
+        case SegmentMeeting::Kind::vertex:
+            if (!are_neighbours(lines_, s, t)) {
+                add_vertex(s, t, meeting.first);
             }
+            break;
+        case SegmentMeeting::Kind::stretch:
+            add_vertex(s, t, meeting.first);
+            add_vertex(s, t, meeting.last);
+            break;
+        case SegmentMeeting::Kind::proper:
+            ProperCrossing const crossing = crossing_of(a, b, c, d);
+            found_.push_back({s.line, s.segment, crossing.on_ab, crossing.at});
+            found_.push_back({t.line, t.segment, crossing.on_cd, crossing.at});
+            break;
         }
     }
 
-    std::vector<Crossing> sorted(std::vector<std::vector<Vec2>> const& lines) {
+    std::vector<Crossing> sorted() {
         // Places that round alike are told apart by how far along the segment's own direction they lie.
         auto const key = [&](Crossing const& c) {
-            Vec2 const a = lines[c.line][c.segment];
-            Vec2 const b = lines[c.line][c.segment + 1];
+            Vec2 const a = lines_[c.line][c.segment];
+            Vec2 const b = lines_[c.line][c.segment + 1];
             return std::tuple(c.line, c.segment, c.along, b.x < a.x ? -c.at.x : c.at.x, b.y < a.y ? -c.at.y : c.at.y);
         };
         std::ranges::sort(found_, {}, key);
@@ -118,63 +69,24 @@ public:
     }
 
 private:
-    void add_vertex(Segment const& s, Segment const& t, Vec2 p) {
-        p = {p.x + 0.0, p.y + 0.0};
-        found_.push_back({s.line, s.index, place(s, p), p});
-        found_.push_back({t.line, t.index, place(t, p), p});
-    }
-
-    void add_overlap(Segment const& s, Segment const& t, bool neighbours) {
-        Vec2 const first = std::max(std::min(s.a, s.b, before), std::min(t.a, t.b, before), before);
-        Vec2 const last = std::min(std::max(s.a, s.b, before), std::max(t.a, t.b, before), before);
-        if (before(last, first) || (neighbours && first == last)) {
-            return;
-        }
-        add_vertex(s, t, first);
-        if (first != last) {
-            add_vertex(s, t, last);
+    void add_vertex(LineSegment s, LineSegment t, Vec2 p) {
+        for (LineSegment const of : {s, t}) {
+            auto const& line = lines_[of.line];
+            found_.push_back({of.line, of.segment, place_on(line[of.segment], line[of.segment + 1], p), p});
         }
     }
 
-    void add_proper(Segment const& s, Segment const& t) {
-        Rational const sx = Rational(s.b.x) - Rational(s.a.x);
-        Rational const sy = Rational(s.b.y) - Rational(s.a.y);
-        Rational const tx = Rational(t.b.x) - Rational(t.a.x);
-        Rational const ty = Rational(t.b.y) - Rational(t.a.y);
-        Rational const ox = Rational(t.a.x) - Rational(s.a.x);
-        Rational const oy = Rational(t.a.y) - Rational(s.a.y);
-        Rational const area = sx * ty - sy * tx;
-        Rational const on_s = (ox * ty - oy * tx) / area;
-        Rational const on_t = (ox * sy - oy * sx) / area;
-        Vec2 const at{rounded(Rational(s.a.x) + on_s * sx), rounded(Rational(s.a.y) + on_s * sy)};
-        found_.push_back({s.line, s.index, rounded(on_s), at});
-        found_.push_back({t.line, t.index, rounded(on_t), at});
-    }
-
+    Lines const& lines_;
     std::vector<Crossing> found_;
 };
 
 } // namespace
 
-std::vector<Crossing> crossings(std::vector<std::vector<Vec2>> const& lines, Run const& run) {
-    using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 2, Segment const*>;
-    auto const segments = segments_of(lines);
-    std::vector<Box> boxes;
-    boxes.reserve(segments.size());
-    for (auto const& s : segments) {
-        double low[] = {std::min(s.a.x, s.b.x), std::min(s.a.y, s.b.y)};
-        double high[] = {std::max(s.a.x, s.b.x), std::max(s.a.y, s.b.y)};
-        boxes.emplace_back(low, high, &s);
-    }
-    Meetings meetings;
-    std::int64_t pairs = 0;
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](Box const& a, Box const& b) {
-        if ((++pairs & 0xfff) == 0) {
-            run.check();
-        }
-        meetings.add(*a.handle(), *b.handle());
-    });
-    return meetings.sorted(lines);
+std::vector<Crossing> crossings(Lines const& lines, Run const& run) {
+    Meetings meetings(lines);
+    each_close_pair(
+        lines, [&](LineSegment s, LineSegment t) { meetings.add(s, t); }, run);
+    return meetings.sorted();
 }
 
 } // namespace thalweg::geometry

@@ -14,11 +14,19 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/spatial_reference.hpp>
+#include <thalweg/io/undisturbed.hpp>
 
 namespace thalweg::io {
 
 void CloseDataset::operator()(GDALDataset* dataset) const {
     GDALClose(dataset);
+}
+
+Dataset open_undisturbed(std::string const& path, unsigned kinds, char const* const* drivers) {
+    auto const file = std::make_shared<Undisturbed const>(path);
+    return Dataset(GDALDataset::Open(file->path().c_str(), kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers,
+                                     file->options()),
+                   {file});
 }
 
 Dataset open_file(std::string const& path, unsigned kinds, char const* const* drivers, std::string const& what) {
@@ -27,7 +35,7 @@ Dataset open_file(std::string const& path, unsigned kinds, char const* const* dr
         throw BadInput(what + " does not exist");
     }
     CPLErrorReset();
-    Dataset dataset(GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers));
+    Dataset dataset = open_undisturbed(path, kinds, drivers);
     if (dataset == nullptr) {
         throw BadInput(fmt::format("{} cannot be read: {}", what, CPLGetLastErrorMsg()));
     }

@@ -12,6 +12,7 @@ class GDALDataset;
 namespace thalweg::io {
 
 struct CloseDataset {
+    std::shared_ptr<void const> keeps = {}; ///< goes after the data set is closed
     void operator()(GDALDataset* dataset) const;
 };
 /// A GDAL data set that closes with its scope; needs a Driver that outlives it.
@@ -19,6 +20,10 @@ using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 
 /// What stands for a cell without height in files.
 inline constexpr float nodata_height = -9999.0F;
+
+/// Opens a file or a database read-only, so that neither a file nor its folder is changed (see Undisturbed); null when
+/// no driver reads it, with the reason in GDAL's errors. Throws: IoError like Undisturbed.
+Dataset open_undisturbed(std::string const& path, unsigned kinds, char const* const* drivers);
 
 /// Opens an existing file, one of the given kinds (GDAL_OF_RASTER, ...), read-only, by the given drivers
 /// (null-terminated, nullptr for any). Throws: BadInput when there is none or no driver reads it.

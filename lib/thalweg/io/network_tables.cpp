@@ -33,16 +33,6 @@ std::size_t at(std::int64_t row) {
     return static_cast<std::size_t>(row);
 }
 
-double length_3d(std::vector<Vec2> const& line, std::vector<double> const& z) {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        double const plan = distance(line[i - 1], line[i]);
-        double const rise = z[i] - z[i - 1];
-        sum += std::sqrt(plan * plan + rise * rise);
-    }
-    return sum;
-}
-
 double length_in_plan(std::vector<Vec3> const& line) {
     double sum = 0.0;
     for (std::size_t i = 1; i < line.size(); ++i) {
@@ -52,6 +42,16 @@ double length_in_plan(std::vector<Vec3> const& line) {
 }
 
 } // namespace
+
+double length_in_space(std::vector<Vec2> const& line, std::vector<double> const& z) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        double const plan = distance(line[i - 1], line[i]);
+        double const rise = z[i] - z[i - 1];
+        sum += std::sqrt(plan * plan + rise * rise);
+    }
+    return sum;
+}
 
 Table arcs_table(NetworkTables const& tables, NetworkIndex const& index) {
     StreamNetwork const& plan = tables.network.plan;
@@ -82,7 +82,7 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index) {
         integer("hack", [&orders](auto row) { return orders.hack[at(row)]; }),
         real("length", length_decimals, [&index](auto row) { return index.length_m[at(row)]; }),
         real("length_3d", length_decimals,
-             [arc, &arc_z](auto row) { return length_3d(arc(row).line, arc_z[at(row)]); }),
+             [arc, &arc_z](auto row) { return length_in_space(arc(row).line, arc_z[at(row)]); }),
         real("straight", length_decimals,
              [arc](auto row) { return distance(arc(row).line.front(), arc(row).line.back()); }),
         real("z_up", length_decimals, [&arc_z](auto row) { return arc_z[at(row)].front(); }),

@@ -2,12 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/table.hpp>
 #include <thalweg/io/write_network.hpp>
 
 namespace thalweg::io {
+
+/// Length [m] of a line and the heights of its vertices.
+double length_in_space(std::vector<Vec2> const& line, std::vector<double> const& z);
 
 /// The layer arcs of the network schema. The arguments must outlive the table.
 Table arcs_table(NetworkTables const& tables, NetworkIndex const& index);

@@ -3,10 +3,10 @@
 #include <thalweg/io/read_network.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <filesystem>
-#include <string_view>
+#include <limits>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,205 +14,168 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/error.hpp>
-#include <thalweg/io/dataset.hpp>
+#include <thalweg/core/suggest.hpp>
 #include <thalweg/io/driver.hpp>
+#include <thalweg/io/into_metres.hpp>
+#include <thalweg/io/read_network_arcs.hpp>
+#include <thalweg/io/read_network_layers.hpp>
+#include <thalweg/io/read_network_links.hpp>
+#include <thalweg/io/read_network_notes.hpp>
+#include <thalweg/io/read_network_source.hpp>
+#include <thalweg/io/spatial_reference.hpp>
 
 namespace thalweg::io {
 
-namespace fs = std::filesystem;
-
 namespace {
 
-// The files of a network: a GeoPackage is both.
-struct Place {
-    fs::path arcs;
-    fs::path nodes;
-};
+using FileArc = NetworkFile::FileArc;
 
-bool is_shapefile(fs::path const& path) {
-    return path.extension() == ".shp" || path.extension() == ".SHP";
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Wish wish_of(ReadNetworkParams const& params) {
+    Wish wish{.schema = params.schema, .arcs_layer = params.arcs_layer, .nodes_layer = params.nodes_layer};
+    for (auto const& [quantity, field] : params.fields) {
+        if (quantity == "node_id") {
+            wish.node_id = field;
+            continue;
+        }
+        auto const known = quantity_of(quantity);
+        if (!known) {
+            std::vector<std::string> names{"node_id"};
+            for (std::size_t q = 0; q < static_cast<std::size_t>(Quantity::constant); ++q) {
+                names.emplace_back(name_of(static_cast<Quantity>(q)));
+            }
+            throw BadInput(fmt::format("io.read_network: '{}' is nothing that a field can tell.{} ({})", quantity,
+                                       did_you_mean(quantity, names), fmt::join(names, ", ")));
+        }
+        wish.fields[*known] = field;
+    }
+    return wish;
 }
 
-// "NAME_arcs" and "arcs" end in "arcs" and have their counterpart in "NAME_nodes" and "nodes".
-bool ends_as(fs::path const& path, std::string_view layer) {
-    std::string const stem = path.stem().string();
-    return stem == layer || stem.ends_with(fmt::format("_{}", layer));
+Vec2 middle_of(NetworkFile const& file) {
+    Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    Vec2 high{-low.x, -low.y};
+    for (FileArc const& arc : file.arcs) {
+        for (Vec3 const& p : arc.line) {
+            if (std::isfinite(p.x) && std::isfinite(p.y)) {
+                low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+                high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+            }
+        }
+    }
+    return {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)};
 }
 
-fs::path counterpart(fs::path const& path, std::string_view layer, std::string_view other) {
-    std::string const stem = path.stem().string();
-    return path.parent_path() /
-           fmt::format("{}{}{}", stem.substr(0, stem.size() - layer.size()), other, path.extension().string());
+void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes, Notes& notes, Run const& run) {
+    OGRSpatialReference const* const own = arcs.layer->GetSpatialRef();
+    if (nodes != nullptr) {
+        OGRSpatialReference const* const other = nodes->layer->GetSpatialRef();
+        if (!is_missing(own) && !is_missing(other) && own->IsSame(other) == FALSE && name_of(*own) != name_of(*other)) {
+            throw BadInput(fmt::format("{} is in {} and {} in {}: bring both into one CRS", arcs.what, own->GetName(),
+                                       nodes->what, other->GetName()));
+        }
+    }
+    if (is_missing(own)) {
+        if (file.schema != "native") {
+            notes.add(arcs.what, {"no_crs", 0, {}, 0.0, "no CRS: its coordinates are taken for metres"});
+        }
+        return;
+    }
+    Vec2 const middle = middle_of(file);
+    if (!std::isfinite(middle.x)) { // nothing is anywhere
+        file.crs = name_of(*own);
+        return;
+    }
+    IntoMetres const metres(*own, "", middle, arcs.what);
+    file.crs = metres.crs();
+    auto const move = [&](std::span<Vec3> points) {
+        auto const done = metres.apply(points);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            points[i].z *= metres.height_unit_m();
+            if (done[i] == 0) {
+                points[i].x = nan; // for the check to find
+                points[i].y = nan;
+            }
+        }
+    };
+    if (!metres.moves() && metres.height_unit_m() == 1.0) {
+        return;
+    }
+    for (FileArc& arc : file.arcs) {
+        run.check();
+        move(arc.line);
+    }
+    for (NetworkFile::FileNode& node : file.nodes) {
+        move({&node.at, 1});
+    }
+    if (metres.moves()) {
+        notes.add(arcs.what, {"reprojected",
+                              0,
+                              {},
+                              0.0,
+                              fmt::format("its coordinates, in {}, were brought into {}", own->GetName(), file.crs)});
+    }
 }
 
-Place pair_of(fs::path const& path) {
-    if (ends_as(path, "arcs")) {
-        return {path, counterpart(path, "arcs", "nodes")};
+void take_nodes(NetworkFile& file, std::optional<Layer> const& nodes, Layer const& arcs, std::string const& source_name,
+                Wish const& wish, Driver const& driver, Notes& notes, Run const& run) {
+    if (nodes) {
+        read_nodes(file, *nodes, wish.node_id, driver, notes, run);
+    } else if (file.schema == "native") {
+        notes.add(source_name, {"missing_nodes", 0, {}, 0.0, "has no layer nodes"});
     }
-    if (ends_as(path, "nodes")) {
-        return {counterpart(path, "nodes", "arcs"), path};
-    }
-    throw BadInput(fmt::format("io.read_network: {} is neither NAME_arcs.shp nor NAME_nodes.shp", path.string()));
+    bring_into_metres(file, arcs, nodes ? &*nodes : nullptr, notes, run);
 }
 
-Place find(fs::path const& path) {
-    std::error_code error;
-    if (!fs::is_directory(path, error)) {
-        return is_shapefile(path) ? pair_of(path) : Place{path, path};
-    }
-    if (fs::path const whole = path / "network.gpkg"; fs::exists(whole, error)) {
-        return {whole, whole};
-    }
-    std::vector<fs::path> found;
-    for (auto const& entry : fs::directory_iterator(path, error)) {
-        if (is_shapefile(entry.path()) && ends_as(entry.path(), "arcs")) {
-            found.push_back(entry.path());
+NetworkFile read(std::string const& path, Wish const& wish, Run const& run) {
+    Driver const driver;
+    NetworkPlace const place = find_network(path, wish.whole);
+    Notes notes(wish.whole);
+    NetworkSource const arcs_source(place.arcs, driver);
+    std::unique_ptr<NetworkSource> const own_nodes = place.nodes.empty() || place.nodes == place.arcs
+                                                         ? nullptr
+                                                         : std::make_unique<NetworkSource>(place.nodes, driver);
+    NetworkSource const* const nodes_source = place.nodes.empty() ? nullptr
+                                              : own_nodes         ? own_nodes.get()
+                                                                  : &arcs_source;
+
+    Layer const arcs = choose_arcs(arcs_source, wish);
+    auto const schema = choose_schema(arcs, wish);
+    auto const nodes = choose_nodes(nodes_source, arcs_source, arcs, schema, wish);
+    NetworkFile file;
+    read_arcs(file, arcs, schema, wish, driver, notes, run);
+    take_nodes(file, nodes, arcs, arcs_source.what(), wish, driver, notes, run);
+    SchemaTable const& table = table_of(schema.value_or(Schema::native));
+    if (schema != Schema::native) {
+        if (file.says.downstream) {
+            drop_links_out(file, arcs.what, notes);
         }
+        turn_downstream(file, table.drawn_upstream, arcs.what, notes);
     }
-    if (error) {
-        throw IoError(fmt::format("io.read_network: {}: {}", path.string(), error.message()));
+    if (!file.says.ends) {
+        name_ends(file);
+        file.says.nodes = false;
     }
-    if (found.size() != 1) {
-        throw BadInput(
-            fmt::format("io.read_network: {} holds {} files NAME_arcs.shp and no network.gpkg: name the file",
-                        path.string(), found.size()));
+    if (!file.says.nodes) {
+        place_nodes(file);
     }
-    return pair_of(found.front());
+    if (!file.says.downstream) {
+        link_by_nodes(file);
+    }
+    file.findings = notes.take();
+    place_findings(file);
+    return file;
 }
-
-class Layer {
-public:
-    Layer(fs::path const& path, char const* name, std::vector<char const*> const& fields)
-        : what_("io.read_network: " + path.string()) {
-        std::array<char const*, 3> constexpr drivers{"GPKG", "ESRI Shapefile", nullptr};
-        dataset_ = open_file(path.string(), GDAL_OF_VECTOR, drivers.data(), what_);
-        layer_ = is_shapefile(path) ? dataset_->GetLayer(0) : dataset_->GetLayerByName(name);
-        if (layer_ == nullptr) {
-            throw BadInput(fmt::format("{} has no layer {}", what_, name));
-        }
-        what_ += fmt::format(", layer {}", name);
-        std::vector<std::string> missing;
-        for (char const* const field : fields) {
-            int const index = layer_->GetLayerDefn()->GetFieldIndex(field);
-            columns_.push_back(index);
-            if (index < 0) {
-                missing.emplace_back(field);
-                continue;
-            }
-            OGRFieldType const type = layer_->GetLayerDefn()->GetFieldDefn(index)->GetType();
-            if (type != OFTInteger && type != OFTInteger64 && type != OFTReal) {
-                throw BadInput(fmt::format("{}: field {} does not hold numbers", what_, field));
-            }
-        }
-        if (!missing.empty()) {
-            throw BadInput(fmt::format("{}: no field {}", what_, fmt::join(missing, ", ")));
-        }
-    }
-
-    // Calls body(feature) for each feature of the layer, as many as its file announces.
-    template <class Body> void each(Driver const& driver, Run const& run, Body const& body) {
-        GIntBig const announced = layer_->GetFeatureCount();
-        GIntBig read = 0;
-        for (auto const& feature : *layer_) {
-            run.check();
-            body(*feature);
-            ++read;
-        }
-        driver.check(what_);
-        if (read != announced) {
-            throw IoError(
-                fmt::format("{}: {} of {} features could be read: the file is damaged", what_, read, announced));
-        }
-    }
-
-    // A whole number from the field that was named k-th.
-    std::int64_t number(OGRFeature const& feature, std::size_t k) const {
-        int const field = columns_[k];
-        char const* const name = feature.GetFieldDefnRef(field)->GetNameRef();
-        if (!feature.IsFieldSetAndNotNull(field)) {
-            refuse(feature, fmt::format("has no {}", name));
-        }
-        if (feature.GetFieldDefnRef(field)->GetType() == OFTReal) {
-            double const value = feature.GetFieldAsDouble(field);
-            constexpr double exact = 9007199254740992.0; // whole doubles are exact below 2^53
-            if (!(std::fabs(value) < exact) || value != std::floor(value)) {
-                refuse(feature, fmt::format("has {} {}, not a whole number", name, value));
-            }
-        }
-        return feature.GetFieldAsInteger64(field);
-    }
-
-    Vec3 point(OGRFeature const& feature) const {
-        auto const* const shape = feature.GetGeometryRef();
-        if (shape == nullptr || wkbFlatten(shape->getGeometryType()) != wkbPoint || shape->IsEmpty()) {
-            refuse(feature, "is not a point");
-        }
-        require_z(feature, *shape);
-        OGRPoint const& p = *shape->toPoint();
-        return {p.getX(), p.getY(), p.getZ()};
-    }
-
-    std::vector<Vec3> line(OGRFeature const& feature) const {
-        auto const* shape = feature.GetGeometryRef();
-        if (shape == nullptr) {
-            return {};
-        }
-        if (wkbFlatten(shape->getGeometryType()) == wkbMultiLineString) {
-            auto const& parts = *shape->toMultiLineString();
-            if (parts.getNumGeometries() > 1) {
-                refuse(feature, fmt::format("has {} parts: an arc is one line", parts.getNumGeometries()));
-            }
-            if (parts.IsEmpty()) {
-                return {};
-            }
-            shape = parts.getGeometryRef(0);
-        }
-        if (wkbFlatten(shape->getGeometryType()) != wkbLineString) {
-            refuse(feature, "is not a line");
-        }
-        if (!shape->IsEmpty()) {
-            require_z(feature, *shape);
-        }
-        std::vector<Vec3> vertices;
-        for (OGRPoint const& p : *shape->toLineString()) {
-            vertices.push_back({p.getX(), p.getY(), p.getZ()});
-        }
-        return vertices;
-    }
-
-private:
-    [[noreturn]] void refuse(OGRFeature const& feature, std::string const& why) const {
-        throw BadInput(fmt::format("{}: feature {} {}", what_, feature.GetFID(), why));
-    }
-    void require_z(OGRFeature const& feature, OGRGeometry const& shape) const {
-        if (shape.Is3D() == FALSE) {
-            refuse(feature, "has no heights (Z)");
-        }
-    }
-
-    std::string what_;
-    Dataset dataset_;
-    OGRLayer* layer_ = nullptr;
-    std::vector<int> columns_;
-};
 
 } // namespace
 
+NetworkFile read_network(std::string const& path, ReadNetworkParams const& params, Run const& run) {
+    return read(path, wish_of(params), run);
+}
+
 NetworkFile read_network(std::string const& path, Run const& run) {
-    Driver const driver;
-    Place const place = find(path);
-    NetworkFile file;
-    Layer nodes(place.nodes, "nodes", {"node_id"});
-    nodes.each(driver, run, [&](OGRFeature const& feature) {
-        file.nodes.push_back({nodes.number(feature, 0), nodes.point(feature)});
-    });
-    Layer arcs(place.arcs, "arcs", {"arc_id", "from_node", "to_node", "ds_arc", "strahler", "shreve", "basin_id"});
-    arcs.each(driver, run, [&](OGRFeature const& feature) {
-        auto const number = [&](std::size_t k) { return arcs.number(feature, k); };
-        file.arcs.push_back(
-            {number(0), number(1), number(2), number(3), number(4), number(5), number(6), arcs.line(feature)});
-    });
-    return file;
+    return read(path, {.schema = Schema::native, .whole = true}, run);
 }
 
 } // namespace thalweg::io

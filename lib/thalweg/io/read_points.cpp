@@ -23,8 +23,8 @@
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/files.hpp>
+#include <thalweg/io/into_metres.hpp>
 #include <thalweg/io/projection.hpp>
-#include <thalweg/io/spatial_reference.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -203,46 +203,10 @@ std::vector<Vec3> take(OGRLayer& layer, std::string const& z_field, std::string 
     return points;
 }
 
-// A GeoPackage without CRS has one of this name.
-bool is_missing(OGRSpatialReference const* reference) {
-    return reference == nullptr || reference->IsEmpty() != 0 ||
-           (reference->GetName() != nullptr && std::string_view(reference->GetName()).starts_with("Undefined"));
-}
-
-// The UTM zone of the middle.
-std::string zone_of(std::vector<Vec3> const& points, OGRSpatialReference const& from, std::string const& name) {
+Vec2 middle_of(std::vector<Vec3> const& points) {
     auto const [west, east] = std::ranges::minmax_element(points, {}, &Vec3::x);
     auto const [south, north] = std::ranges::minmax_element(points, {}, &Vec3::y);
-    double x = 0.5 * (west->x + east->x);
-    double y = 0.5 * (south->y + north->y);
-    OGRSpatialReference const geographic = read_reference("EPSG:4326");
-    std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &geographic));
-    if (!turn || turn->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y)) {
-        refuse("the middle of " + name + " has no longitude and latitude; check its CRS");
-    }
-    return utm_zone(x, y);
-}
-
-void reproject(std::vector<Vec3>& points, OGRSpatialReference const& from, std::string const& crs,
-               std::string const& name, Driver const& driver) {
-    OGRSpatialReference const to = read_reference(crs);
-    std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &to));
-    if (!turn) {
-        refuse(fmt::format("{} cannot be brought into {}: {}", name, crs, driver.take()));
-    }
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        Vec3 p = points[i];
-        if (turn->Transform(1, &p.x, &p.y) == 0 || !std::isfinite(p.x) || !std::isfinite(p.y)) {
-            refuse(fmt::format("point {} of {}, ({}, {}), cannot be brought into {}: {}", i + 1, name, points[i].x,
-                               points[i].y, crs, driver.take()));
-        }
-        points[i] = p;
-    }
-}
-
-// PROJ's last bits differ between machines: a millionth of a metre does not.
-double rounded(double v) {
-    return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0;
+    return {0.5 * (west->x + east->x), 0.5 * (south->y + north->y)};
 }
 
 FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name, Run const& run) {
@@ -263,21 +227,15 @@ FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name
         read.crs = projected_crs(params.crs);
         return read;
     }
-    OGRSpatialReference from(*own);
-    double const height_unit_m = from.IsCompound() != 0 ? from.GetTargetLinearUnits("VERT_CS") : 1.0;
-    from.StripVertical();
-    from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    read.crs = !params.crs.empty()            ? projected_crs(params.crs)
-               : is_projected_in_metres(from) ? name_of(from)
-                                              : zone_of(read.points, from, name);
-    if (read.crs != name_of(from)) {
-        reproject(read.points, from, read.crs, name, driver);
-        for (Vec3& p : read.points) {
-            p = {rounded(p.x), rounded(p.y), p.z};
+    IntoMetres const metres(*own, params.crs, middle_of(read.points), name);
+    read.crs = metres.crs();
+    auto const done = metres.apply(read.points);
+    for (std::size_t i = 0; i < done.size(); ++i) {
+        if (done[i] == 0) {
+            refuse(fmt::format("point {} of {}, ({}, {}), cannot be brought into {}: {}", i + 1, name, read.points[i].x,
+                               read.points[i].y, read.crs, driver.take()));
         }
-    }
-    for (Vec3& p : read.points) {
-        p.z *= height_unit_m;
+        read.points[i].z *= metres.height_unit_m();
     }
     return read;
 }

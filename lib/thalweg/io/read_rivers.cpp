@@ -19,9 +19,9 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/suggest.hpp>
+#include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
-#include <thalweg/io/projection.hpp>
-#include <thalweg/io/spatial_reference.hpp>
+#include <thalweg/io/into_metres.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -238,50 +238,27 @@ Box box_of(std::vector<RiverLine> const& lines) {
     return box;
 }
 
-// The UTM zone of the middle of the box.
-std::string zone_of(std::vector<RiverLine> const& lines, OGRSpatialReference const& from, std::string const& name) {
+Vec2 middle_of(std::vector<RiverLine> const& lines) {
     Box const box = box_of(lines);
-    double x = 0.5 * (box.west + box.east);
-    double y = 0.5 * (box.south + box.north);
-    OGRSpatialReference const geographic = read_reference("EPSG:4326");
-    std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &geographic));
-    if (!turn || turn->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y)) {
-        refuse("the middle of " + name + " has no longitude and latitude; check its CRS");
-    }
-    return utm_zone(x, y);
+    return {0.5 * (box.west + box.east), 0.5 * (box.south + box.north)};
 }
 
-void reproject(std::vector<RiverLine>& lines, OGRSpatialReference const& from, std::string const& crs,
-               std::string const& name, Driver const& driver, Run const& run) {
-    OGRSpatialReference const to = read_reference(crs);
-    std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &to));
-    if (!turn) {
-        refuse(fmt::format("{} cannot be brought into {}: {}", name, crs, driver.take()));
-    }
+void bring(std::vector<RiverLine>& lines, IntoMetres const& metres, std::string const& name, Driver const& driver,
+           Run const& run) {
     for (auto& line : lines) {
         run.check();
-        std::size_t const count = line.vertices.size();
-        std::vector<double> x(count);
-        std::vector<double> y(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            x[i] = line.vertices[i].x;
-            y[i] = line.vertices[i].y;
-        }
-        std::vector<int> done(count, 0);
-        turn->Transform(static_cast<int>(count), x.data(), y.data(), nullptr, done.data());
-        for (std::size_t i = 0; i < count; ++i) {
-            auto& v = line.vertices[i];
-            if (done[i] == 0 || !std::isfinite(x[i]) || !std::isfinite(y[i])) {
+        auto const done = metres.apply(line.vertices);
+        for (std::size_t i = 0; i < done.size(); ++i) {
+            auto const& v = line.vertices[i];
+            if (done[i] == 0) {
                 refuse(fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be brought into {}: {}", i + 1,
-                                   line.feature, name, v.x, v.y, crs, driver.take()));
+                                   line.feature, name, v.x, v.y, metres.crs(), driver.take()));
             }
-            v.x = x[i];
-            v.y = y[i];
         }
     }
 }
 
-// PROJ's last bits differ between machines: a millionth of a metre does not.
+// As coarse as what was projected: a millionth of a metre.
 double rounded(double v) {
     return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0;
 }
@@ -305,8 +282,7 @@ bool have_heights(std::vector<RiverLine> const& lines) {
 RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     Driver const driver;
     auto const name = std::filesystem::path(params.path).filename().string();
-    GDALDatasetUniquePtr const data(
-        GDALDataset::Open(params.path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+    Dataset const data = open_undisturbed(params.path, GDAL_OF_VECTOR, nullptr);
     if (!data) {
         auto const words = driver.take();
         VSIStatBufL status;
@@ -327,20 +303,12 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     if (own == nullptr || own->IsEmpty()) {
         refuse(fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
     }
-    OGRSpatialReference from(*own);
-    double const height_unit_m = from.IsCompound() != 0 ? from.GetTargetLinearUnits("VERT_CS") : 1.0;
-    from.StripVertical();
-    from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    bool const fits = is_projected_in_metres(from);
-    rivers.crs = !params.crs.empty() ? projected_crs(params.crs)
-                 : fits              ? name_of(from)
-                                     : zone_of(rivers.lines, from, name);
-    if (rivers.crs != name_of(from)) {
-        reproject(rivers.lines, from, rivers.crs, name, driver, run);
-    }
+    IntoMetres const metres(*own, params.crs, middle_of(rivers.lines), name);
+    rivers.crs = metres.crs();
+    bring(rivers.lines, metres, name, driver, run);
     for (auto& line : rivers.lines) {
         for (auto& v : line.vertices) {
-            v = {rounded(v.x), rounded(v.y), height_unit_m * v.z};
+            v = {rounded(v.x), rounded(v.y), metres.height_unit_m() * v.z};
         }
     }
     rivers.has_z = have_heights(rivers.lines);

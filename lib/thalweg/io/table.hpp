@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include <thalweg/core/polygons.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/vec.hpp>
 
@@ -17,7 +18,7 @@ namespace thalweg::io {
 struct Column {
     enum class Kind { integer, wide_integer, real, text };
 
-    std::string name; ///< at most 10 characters, so that a shapefile can hold it
+    std::string name; ///< in a shapefile at most 10 characters
     Kind kind = Kind::integer;
     int decimals = 0; ///< of a real in a shapefile, whose fields have 24 characters
     std::function<std::variant<std::int64_t, double, std::string>(std::int64_t row)> at; ///< of the kind's type
@@ -25,7 +26,7 @@ struct Column {
 
 /// A layer of a vector file: its features are the rows [0, rows), numbered from 1.
 struct Table {
-    enum class Shape { none, point, line, polygon };
+    enum class Shape { none, point, line, polygon, multi_polygon };
 
     std::string name;
     Shape shape = Shape::none;
@@ -33,6 +34,8 @@ struct Table {
     std::vector<Column> columns;
     std::function<std::vector<Vec3>(std::int64_t row)>
         shape_at; ///< one position for a point; a closed ring for a polygon
+    std::function<std::vector<Polygon>(std::int64_t row)> parts_at =
+        {}; ///< of a multi_polygon, in plan: outer ring first; asked instead of shape_at
 };
 
 /// Writes tables as the layers of a new GeoPackage, those without shape as attribute tables.
@@ -43,5 +46,12 @@ void write_tables(std::vector<Table> const& tables, std::string const& crs, std:
 
 /// Writes a table with shapes as a new shapefile PATH (ends in .shp), UTF-8. Gives and throws: like write_tables.
 void write_shapefile(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
+
+/// Writes a table with shapes as a new FlatGeobuf, with its spatial index. Gives and throws: like write_tables.
+void write_flatgeobuf(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
+
+/// Writes a table with shapes as new GeoJSON in its own coordinates, the CRS named as GeoJSON of 2008 does: RFC 7946
+/// would round them to degrees. Gives and throws: like write_tables; BadInput also when the CRS has no EPSG code.
+void write_geojson(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
 
 } // namespace thalweg::io

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <thalweg/core/raster.hpp>
@@ -16,5 +17,14 @@ void write_dem(Raster<float> const& dem, std::string const& path, Run const& run
 
 /// Writes a new Byte GeoTIFF (tiled, DEFLATE). Gives and throws: like write_dem.
 void write_mask(Mask const& mask, std::string const& path, Run const& run = {});
+
+inline constexpr std::uint8_t no_code = 255; ///< nodata of codes
+
+/// Writes codes by cell as a new Byte GeoTIFF (tiled, DEFLATE), nodata no_code. Gives and throws: like write_dem.
+void write_codes(Raster<std::uint8_t> const& codes, std::string const& path, Run const& run = {});
+
+/// Writes numbers by cell as a new Float64 GeoTIFF (tiled, DEFLATE with the floating-point predictor), nodata -9999 for
+/// NaN: contributing areas, which Float32 would round. Gives and throws: like write_dem.
+void write_field(Raster<double> const& field, std::string const& path, Run const& run = {});
 
 } // namespace thalweg::io

@@ -2,58 +2,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/write_network.hpp>
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
+#include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/io/format_of.hpp>
+#include <thalweg/io/network_layers.hpp>
 #include <thalweg/io/network_tables.hpp>
+#include <thalweg/io/write_dem.hpp>
+#include <thalweg/io/write_graph.hpp>
 
 namespace thalweg::io {
 
 namespace {
-
-// The tables are parallel vectors: a wrong one would write another arc's numbers without a sound.
-void require_whole(NetworkTables const& tables, NetworkIndex const& index, std::string const& what) {
-    StreamNetwork const& plan = tables.network.plan;
-    auto const& node_z = tables.network.node_z;
-    auto const& arc_z = tables.network.arc_z;
-    NetworkOrders const& orders = tables.orders;
-    std::size_t const arcs = index.arcs.size();
-    std::size_t const nodes = boost::num_vertices(plan);
-    if (arcs == 0) {
-        throw BadInput(what + ": the network has no arcs");
-    }
-    bool const by_arc = arc_z.size() == arcs && orders.strahler.size() == arcs && orders.shreve.size() == arcs &&
-                        orders.hack.size() == arcs && orders.topological.size() == arcs &&
-                        orders.arc_basin.size() == arcs && tables.us_area_m2.size() == arcs &&
-                        tables.ds_area_m2.size() == arcs &&
-                        (tables.braided == nullptr || tables.braided->size() == arcs);
-    bool const by_node = node_z.size() == nodes && orders.node_basin.size() == nodes &&
-                         orders.node_strahler.size() == nodes && orders.node_dist_out_m.size() == nodes &&
-                         tables.node_area_m2.size() == nodes;
-    if (!by_arc || !by_node) {
-        throw BadInput(fmt::format(
-            "{}: heights, orders, areas and what is braided do not have one value for each of {} arcs and {} nodes",
-            what, arcs, nodes));
-    }
-    for (std::size_t i = 0; i < arcs; ++i) {
-        auto const& line = plan[index.arcs[i]].line;
-        NodeId const from = index.from[i];
-        NodeId const to = index.to[i];
-        bool const meets = line.size() >= 2 && arc_z[i].size() == line.size() && line.front() == plan[from].at &&
-                           line.back() == plan[to].at && arc_z[i].front() == node_z[from] &&
-                           arc_z[i].back() == node_z[to];
-        if (!meets) {
-            throw BadInput(
-                fmt::format("{}: arc {} does not begin at node {} and end at node {}", what, i + 1, from + 1, to + 1));
-        }
-    }
-    for (NodeId n = 0; n < nodes; ++n) {
-        if (index.basin[n] == 0) {
-            throw BadInput(
-                fmt::format("{}: node {} at ({}, {}) reaches no outlet", what, n + 1, plan[n].at.x, plan[n].at.y));
-        }
-    }
-}
 
 void require_lines(RidgeLines const& ridges, std::string const& what) {
     for (std::size_t i = 0; i < ridges.lines.size(); ++i) {
@@ -95,6 +59,103 @@ void write_shapefiles(NetworkTables const& tables, std::string const& path, Run 
     require_whole(tables, index, "io.write_shapefiles: " + path);
     write_shapefile(arcs_table(tables, index), tables.crs, path + "_arcs.shp", run);
     write_shapefile(nodes_table(tables, index), tables.crs, path + "_nodes.shp", run);
+}
+
+namespace {
+
+/// PATH without its ending, which follows.
+std::pair<std::string, std::string> stem_and_ending(std::string const& path) {
+    std::string const ending = std::filesystem::path(path).extension().string();
+    return {path.substr(0, path.size() - ending.size()), ending};
+}
+
+bool is_a_file_a_layer(NetworkFormat format) {
+    return format == NetworkFormat::shapefile || format == NetworkFormat::flatgeobuf ||
+           format == NetworkFormat::geojson;
+}
+
+/// The file of a layer: one a layer where there are several.
+std::string file_of(std::string const& path, std::string const& layer, bool several) {
+    auto const [stem, ending] = stem_and_ending(path);
+    return several ? fmt::format("{}_{}{}", stem, layer, ending) : path;
+}
+
+Mask mask_of(StreamNetwork const& plan, NetworkIndex const& index, Grid const& grid) {
+    Mask cells(grid);
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        for (Cell const c : cells_along(plan[index.arcs[a]].line, grid, fmt::format("arc {}", a + 1))) {
+            cells[c] = 1;
+        }
+    }
+    return cells;
+}
+
+} // namespace
+
+std::vector<NetworkFormatName> const& network_formats() {
+    static std::vector<NetworkFormatName> const formats{
+        {NetworkFormat::geopackage, "gpkg", ".gpkg"},    {NetworkFormat::shapefile, "shp", ".shp"},
+        {NetworkFormat::flatgeobuf, "fgb", ".fgb"},      {NetworkFormat::geojson, "geojson", ".geojson"},
+        {NetworkFormat::graphml, "graphml", ".graphml"}, {NetworkFormat::csv, "csv", ".csv"},
+        {NetworkFormat::edges, "edges", ".edges"},       {NetworkFormat::mask, "tif", ".tif"}};
+    return formats;
+}
+
+NetworkFormat network_format(std::string const& name, std::string const& path) {
+    return format_of(network_formats(), name, path, "io.write_network");
+}
+
+std::vector<std::string> network_files(std::string const& path, WriteNetworkParams const& params) {
+    std::string const name = std::filesystem::path(path).filename().string();
+    if (!is_a_file_a_layer(params.format)) {
+        return {name};
+    }
+    std::vector<std::string> files{name};
+    if (params.schema == Schema::native) {
+        files = {file_of(name, "arcs", true), file_of(name, "nodes", true)};
+    }
+    if (params.format == NetworkFormat::shapefile) {
+        std::vector<std::string> const layers = files;
+        for (std::string const& layer : layers) {
+            for (char const* const ending : {".shx", ".dbf", ".prj", ".cpg"}) {
+                files.push_back(stem_and_ending(layer).first + ending);
+            }
+        }
+    }
+    return files;
+}
+
+void write_network(NetworkTables const& tables, std::string const& path, WriteNetworkParams const& params,
+                   Run const& run) {
+    NetworkIndex const index(tables.network.plan);
+    std::string const what = "io.write_network: " + path;
+    if (params.schema == Schema::native && params.format == NetworkFormat::geopackage) {
+        write_geopackage(tables, path, run);
+        return;
+    }
+    bool const is_shapefile = params.format == NetworkFormat::shapefile;
+    std::vector<Table> const layers = network_layers(tables, index, params.schema, is_shapefile, what);
+    auto const each = [&](auto const& write) {
+        for (Table const& layer : layers) {
+            write(layer, tables.crs, file_of(path, layer.name, layers.size() > 1), run);
+        }
+    };
+    switch (params.format) {
+    case NetworkFormat::geopackage: write_tables(layers, tables.crs, path, run); break;
+    case NetworkFormat::shapefile: each(write_shapefile); break;
+    case NetworkFormat::flatgeobuf: each(write_flatgeobuf); break;
+    case NetworkFormat::geojson: each(write_geojson); break;
+    case NetworkFormat::graphml:
+        write_graphml({layers.front(), nodes_table(tables, index), index, tables.crs}, path, run);
+        break;
+    case NetworkFormat::csv:
+        write_edge_table({layers.front(), nodes_table(tables, index), index, tables.crs}, path, run);
+        break;
+    case NetworkFormat::edges:
+        write_edge_list({layers.front(), nodes_table(tables, index), index, tables.crs}, path, run);
+        break;
+    case NetworkFormat::mask: write_mask(mask_of(tables.network.plan, index, params.grid), path, run); break;
+    }
 }
 
 } // namespace thalweg::io

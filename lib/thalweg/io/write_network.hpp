@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/core/network_file.hpp>
+#include <thalweg/core/grid.hpp>
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/io/schema.hpp>
 
 namespace thalweg::io {
 
@@ -18,13 +19,14 @@ namespace thalweg::io {
 struct NetworkTables {
     RaisedNetwork const& network;
     NetworkOrders const& orders;
-    std::vector<double> const& us_area_m2; ///< by arc
-    std::vector<double> const& ds_area_m2; ///< by arc
-    std::vector<double> const& node_area_m2;
+    std::vector<double> const& us_area_m2;   ///< by arc; -1 where it is not known
+    std::vector<double> const& ds_area_m2;   ///< by arc; likewise
+    std::vector<double> const& node_area_m2; ///< by node; likewise
     std::string crs;
     std::map<std::string, std::string> run;             ///< rows of the GeoPackage's run table
     std::vector<std::uint8_t> const* braided = nullptr; ///< by arc, 1 or 0; without it all are 0
     RidgeLines const* ridges = nullptr;                 ///< layer ridges of the GeoPackage; none when null or empty
+    bool heights = true;                                ///< else nobody knows them, and 0 stands for each
 };
 
 /// Writes PATH (.gpkg is added where it is missing): layers arcs (LineStringZ) and nodes (PointZ), table run, with the
@@ -42,5 +44,47 @@ void write_geopackage(NetworkTables const& tables, std::string const& path, Run 
 /// Writes the shapefiles PATH_arcs.* and PATH_nodes.* with the same fields, UTF-8: reals of 24 characters (9 decimals
 /// for lengths, 6 for areas, 15 for slopes). Gives and throws: like write_geopackage.
 void write_shapefiles(NetworkTables const& tables, std::string const& path, Run const& run = {});
+
+/// How a network is written.
+enum class NetworkFormat : std::uint8_t {
+    geopackage,
+    shapefile,
+    flatgeobuf,
+    geojson,
+    graphml, ///< a graph of nodes and edges, lines as well-known text
+    csv,     ///< edges, a header line first
+    edges,   ///< the edge list of NetworkX: two nodes and a dictionary a line
+    mask     ///< a raster of bytes, 1 in the cells that rivers run through
+};
+
+struct NetworkFormatName {
+    NetworkFormat format;
+    char const* name;   ///< "gpkg"
+    char const* ending; ///< ".gpkg"
+};
+std::vector<NetworkFormatName> const& network_formats();
+
+/// The format of a name, or where it is "" of a path's ending, in any case of letters.
+/// Throws: BadParameter that lists the names there are.
+NetworkFormat network_format(std::string const& name, std::string const& path);
+
+struct WriteNetworkParams {
+    NetworkFormat format = NetworkFormat::geopackage;
+    Schema schema = Schema::native;
+    Grid grid = {}; ///< of the mask
+};
+
+/// The files that a network written to a path has, PATH's folder left out: PATH itself, or in the network schema
+/// NAME_arcs and NAME_nodes of shapefile, FlatGeobuf and GeoJSON; of a shapefile all it may have, .shp first.
+std::vector<std::string> network_files(std::string const& path, WriteNetworkParams const& params);
+
+/// Writes a network in any format and anyone's schema: in the network schema both layers as write_geopackage has them,
+/// in another its layer of arcs alone (nodes too where it is a graph).
+/// Gives: the same bytes for the same network, on any day. Lines are bit for bit those of the network; numbers
+/// in text (GraphML, CSV, edge lists) are the shortest that read back the same. Quantities that are not known are
+/// what the schema has for them (schema.hpp). Throws: as write_geopackage; BadInput, naming the place, also when more
+/// arcs meet than the schema can name, or GeoJSON cannot name the CRS.
+void write_network(NetworkTables const& tables, std::string const& path, WriteNetworkParams const& params = {},
+                   Run const& run = {});
 
 } // namespace thalweg::io

@@ -3,16 +3,13 @@
 #include <thalweg/measure/drainage.hpp>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <deque>
-#include <limits>
-#include <vector>
 
 #include <fmt/format.h>
 
+#include <thalweg/core/d8.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/flood_queue.hpp>
 #include <thalweg/core/parallel.hpp>
 #include <thalweg/measure/compensated_sum.hpp>
 
@@ -23,88 +20,10 @@ namespace {
 constexpr std::int8_t unreached = -3;
 constexpr std::int64_t cells_between_checks = 1 << 18;
 
-/// Order of floats as unsigned numbers; both zeros are one.
-std::uint32_t rank_of(float z) {
-    auto const bits = std::bit_cast<std::uint32_t>(z + 0.0F);
-    constexpr std::uint32_t sign = 0x80000000U;
-    return (bits & sign) != 0 ? ~bits : bits | sign;
-}
-
-/// Cells by height, first in first out among equals. The flood never pushes below what it popped last: a radix heap.
-class FloodQueue {
-public:
-    void push(float z, std::int64_t cell) { put({rank_of(z), cell}); }
-
-    /// The lowest cell, or -1 when there is none.
-    std::int64_t pop() {
-        if (lowest_.empty() && !advance()) {
-            return -1;
-        }
-        std::int64_t const cell = lowest_.front();
-        lowest_.pop_front();
-        return cell;
-    }
-
-private:
-    struct Entry {
-        std::uint32_t rank;
-        std::int64_t cell;
-    };
-
-    void put(Entry entry) {
-        if (entry.rank == last_) {
-            lowest_.push_back(entry.cell);
-        } else {
-            above_[static_cast<std::size_t>(std::bit_width(entry.rank ^ last_)) - 1].push_back(entry);
-        }
-    }
-
-    bool advance() {
-        auto const bucket = std::find_if(above_.begin(), above_.end(), [](auto const& b) { return !b.empty(); });
-        if (bucket == above_.end()) {
-            return false;
-        }
-        moving_.swap(*bucket);
-        last_ =
-            std::min_element(moving_.begin(), moving_.end(), [](Entry a, Entry b) { return a.rank < b.rank; })->rank;
-        std::for_each(moving_.begin(), moving_.end(), [this](Entry e) { put(e); });
-        moving_.clear();
-        return true;
-    }
-
-    std::uint32_t last_ = 0;
-    std::deque<std::int64_t> lowest_;
-    std::vector<Entry> moving_;                ///< kept for its memory
-    std::array<std::vector<Entry>, 32> above_; ///< by the highest bit in which a rank differs from last_
-};
-
-/// Distance in a raster's values from a cell to its neighbour in each direction.
-std::array<std::int64_t, 8> offsets_in(Grid const& grid) {
-    std::array<std::int64_t, 8> offsets{};
-    for (std::size_t k = 0; k < offsets.size(); ++k) {
-        offsets[k] = d8_steps[k].row * grid.width + d8_steps[k].col;
-    }
-    return offsets;
-}
-
-/// The DEM in a frame of no data, one cell wide: then leaving the grid is entering no data, and every cell that has
-/// data has eight neighbours.
-Raster<float> framed(Raster<float> const& dem) {
-    Grid grid = dem.grid();
-    grid.width += 2;
-    grid.height += 2;
-    Raster<float> framed(grid, std::numeric_limits<float>::quiet_NaN());
-    for (std::int64_t r = 0; r < dem.height(); ++r) {
-        auto const row = dem.row(r);
-        std::copy(row.begin(), row.end(), framed.row(r + 1).begin() + 1);
-    }
-    return framed;
-}
-
 /// Raises depressions to the level at which they spill. Gives: the way back to where the flood came from.
 Raster<std::int8_t> flood(Raster<float>& level, Run const& run) {
     Raster<std::int8_t> direction(level.grid(), unreached);
-    auto const offsets = offsets_in(level.grid());
+    auto const offsets = d8_offsets(level.grid());
     FloodQueue queue;
     for (std::int64_t i = 0; i < level.cells(); ++i) {
         if (std::isnan(level[i])) {
@@ -135,8 +54,7 @@ Raster<std::int8_t> flood(Raster<float>& level, Run const& run) {
 /// Turns cells that have a lower neighbour towards the one down the steepest slope. With the flood's way for the others
 /// there is no cycle: each step leads lower, or level to a cell that the flood reached earlier.
 void descend(Raster<float> const& level, Raster<std::int8_t>& direction, Run const& run) {
-    constexpr double diagonal = 0.70710678118654752440;
-    auto const offsets = offsets_in(level.grid());
+    auto const offsets = d8_offsets(level.grid());
     parallel_ranges(run, level.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
             if (std::isnan(level[i])) {
@@ -145,7 +63,7 @@ void descend(Raster<float> const& level, Raster<std::int8_t>& direction, Run con
             double steepest = 0.0;
             for (std::size_t k = 0; k < offsets.size(); ++k) {
                 double const drop = static_cast<double>(level[i]) - level[i + offsets[k]];
-                double const slope = k % 2 == 0 ? drop : drop * diagonal;
+                double const slope = drop * d8_per_length[k];
                 if (slope > steepest) { // never towards NaN
                     steepest = slope;
                     direction[i] = static_cast<std::int8_t>(k);
@@ -158,7 +76,7 @@ void descend(Raster<float> const& level, Raster<std::int8_t>& direction, Run con
 void accumulate(Drainage& drainage, Run const& run) {
     Raster<std::int8_t> const& direction = drainage.direction;
     Raster<std::int64_t>& area = drainage.area_cells;
-    auto const offsets = offsets_in(direction.grid());
+    auto const offsets = d8_offsets(direction.grid());
     auto const below = [&](std::int64_t i) { return i + offsets[static_cast<std::size_t>(direction[i])]; };
     constexpr std::int8_t done = -1;
     Raster<std::int8_t> awaited(direction.grid()); // neighbours whose water has not arrived yet
@@ -186,6 +104,58 @@ void accumulate(Drainage& drainage, Run const& run) {
     }
 }
 
+/// The depressions of a DEM under its water, which is gone afterwards.
+std::vector<Depression> take_depressions(Raster<float> const& dem, Raster<float>& level, Run const& run) {
+    std::vector<Depression> found;
+    Grid const& grid = dem.grid();
+    auto const inner = [&](std::int64_t i) {
+        Cell const c = level.grid().at(i);
+        return Cell{c.col - 1, c.row - 1};
+    };
+    auto const offsets = d8_offsets(level.grid());
+    std::vector<std::int64_t> open;
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        run.check();
+        for (std::int64_t col = 0; col < grid.width; ++col) {
+            std::int64_t const first = level.grid().index({col + 1, row + 1});
+            if (!(level[first] > dem[Cell{col, row}])) {
+                continue;
+            }
+            Depression depression{{col, row}};
+            CompensatedSum depth_m;
+            auto const take = [&](std::int64_t i, Cell c) {
+                double const depth = static_cast<double>(level[i]) - static_cast<double>(dem[c]);
+                if (dem[c] < dem[depression.lowest] ||
+                    (dem[c] == dem[depression.lowest] && grid.index(c) < grid.index(depression.lowest))) {
+                    depression.lowest = c;
+                }
+                ++depression.cells;
+                depression.max_depth_m = std::max(depression.max_depth_m, depth);
+                depth_m.add(depth);
+                level[i] = dem[c];
+                open.push_back(i);
+            };
+            take(first, {col, row});
+            while (!open.empty()) {
+                std::int64_t const i = open.back();
+                open.pop_back();
+                for (std::int64_t const step : offsets) {
+                    std::int64_t const n = i + step;
+                    if (std::isnan(level[n])) {
+                        continue;
+                    }
+                    if (Cell const c = inner(n); level[n] > dem[c]) {
+                        take(n, c);
+                    }
+                }
+            }
+            depression.volume_m3 = depth_m.value() * grid.cell_m * grid.cell_m;
+            found.push_back(depression);
+        }
+    }
+    return found;
+}
+
 } // namespace
 
 Drainage drain(Raster<float> const& dem, Run const& run) {
@@ -201,7 +171,7 @@ Drainage drain(Raster<float> const& dem, Run const& run) {
             fmt::format("measure.drain: the height at column {}, row {} is infinite; mark cells without data as NaN",
                         cell.col, cell.row));
     }
-    Drainage result{Raster<std::int8_t>(grid), Raster<std::int64_t>(grid), 0, 0.0};
+    Drainage result{Raster<std::int8_t>(grid), Raster<std::int64_t>(grid)};
     {
         Raster<float> level = framed(dem);
         Raster<std::int8_t> direction = flood(level, run);
@@ -220,6 +190,7 @@ Drainage drain(Raster<float> const& dem, Run const& run) {
             std::copy(ways.begin(), ways.end(), result.direction.row(r).begin());
         }
         result.pit_volume_m3 = raised_m.value() * grid.cell_m * grid.cell_m;
+        result.depressions = take_depressions(dem, level, run);
     }
     accumulate(result, run);
     return result;

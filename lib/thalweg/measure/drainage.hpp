@@ -2,28 +2,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/d8.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 namespace thalweg::measure {
 
-/// Steps of the D8 directions 0..7, clockwise from the east: E, SE, S, SW, W, NW, N, NE (rows count to the south).
-inline constexpr std::array<Cell, 8> d8_steps = {
-    {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+using thalweg::d8_steps;
+
 inline constexpr std::int8_t d8_leaves = -1;  ///< water leaves the grid, or enters no data, from this cell
 inline constexpr std::int8_t d8_no_data = -2; ///< the cell has no height
 
+/// Cells, side by side or by their corners, that lie below the level at which their water spills.
+struct Depression {
+    Cell lowest; ///< ties: the first in row order
+    std::int64_t cells = 0;
+    double max_depth_m = 0.0;
+    double volume_m3 = 0.0; ///< of the water that would fill it
+};
+
 /// Where the water of each cell goes (D8).
 struct Drainage {
-    Raster<std::int8_t> direction;   ///< 0..7 as d8_steps, d8_leaves or d8_no_data
-    Raster<std::int64_t> area_cells; ///< cells that drain through a cell, itself included; 0 without data
-    std::int64_t pits = 0;           ///< cells in depressions (below the level at which they spill)
-    double pit_volume_m3 = 0.0;      ///< of the water that would fill them
+    Raster<std::int8_t> direction;            ///< 0..7 as d8_steps, d8_leaves or d8_no_data
+    Raster<std::int64_t> area_cells;          ///< cells that drain through a cell, itself included; 0 without data
+    std::int64_t pits = 0;                    ///< cells in depressions (below the level at which they spill)
+    double pit_volume_m3 = 0.0;               ///< of the water that would fill them
+    std::vector<Depression> depressions = {}; ///< by their first cell
 };
 
 /// D8 directions and contributing areas of any DEM: steepest descent, through depressions and flats by priority-flood.

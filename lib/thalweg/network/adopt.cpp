@@ -159,8 +159,8 @@ std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
     return result;
 }
 
-void add_arcs(Adopted& adopted, Flow const& flow, std::vector<double> const& node_z) {
-    auto const inner = vanishing(flow, adopted.repairs);
+void add_arcs(Adopted& adopted, Flow const& flow, std::vector<double> const& node_z, bool join) {
+    auto const inner = join ? vanishing(flow, adopted.repairs) : std::vector<char>(flow.leaves.size(), 0);
     auto const heads = [&] {
         std::vector<std::size_t> by_piece; // arcs are numbered in the order of the file
         for (std::size_t n = 0; n < flow.leaves.size(); ++n) {
@@ -243,7 +243,7 @@ Adopted adopt(RiverLines const& file, AdoptParams const& params, Run const& run)
     run.at(0.7, "adopt");
     auto const pieces = adopt_steps::cut(lines, file.name, repairs);
     Flow const flow{pieces, lines, adopt_steps::orient(pieces, lines, file, params.orientation, repairs)};
-    add_arcs(adopted, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>());
+    add_arcs(adopted, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join);
     run.at(1.0, "adopt");
     return adopted;
 }

@@ -14,17 +14,19 @@ namespace thalweg::network {
 
 /// What says which way the rivers of a component run: which of its ends is the outlet.
 enum class Orientation : std::uint8_t {
-    automatic, ///< by height where every line has Z, else by rank where the file gives one, else the end of the
-               ///< component that turns the least length of the drawn direction round (ties: as topology)
-    height,    ///< downstream is down
-    rank,      ///< downstream is where the rank falls
-    as_drawn,  ///< the file's direction
-    topology   ///< towards the end of the component nearest the border of the box
+    automatic,    ///< by height where every line has Z, else by rank where the file gives one, else the end of the
+                  ///< component that turns the least length of the drawn direction round (ties: as topology)
+    height,       ///< downstream is down
+    rank,         ///< downstream is where the rank falls
+    as_drawn,     ///< the file's direction
+    least_turned, ///< the end of the component that turns the least length of the drawn direction round
+    topology      ///< towards the end of the component nearest the border of the box
 };
 
 struct AdoptParams {
     double snap_m = 0.0; ///< [m] >= 0, ends closer than this are joined; 0 takes 1e-6 of the box's diagonal
     Orientation orientation = Orientation::automatic;
+    bool join = true; ///< lines that meet end to end become one arc
 };
 
 struct Adopted {
@@ -38,11 +40,11 @@ struct Adopted {
 
 /// Makes a network of lines somebody drew: snaps ends, splits at crossings (exact), drops duplicates, orients
 /// downstream. An end within snap_m of another line is joined to its nearest vertex there, else to the nearest place of
-/// its segment. Lines that meet end to end become one arc, of the feature of its longest piece, unless their types
-/// differ. Gives: trees; every vertex of every kept line stays, in its order and within 1e-6 m (snapped ends within
-/// snap_m, each reported); only crossings are added. Throws: BadInput naming the feature and its place: NaN, a line of
-/// no length, a cycle of rivers, a bifurcation (under automatic by height or rank only); BadInput when there is no line
-/// or what orientation asks for is not in the file; BadParameter; Cancelled.
+/// its segment. Lines that meet end to end become one arc (join), of the feature of its longest piece, unless their
+/// types differ. Gives: trees; every vertex of every kept line stays, in its order and within 1e-6 m (snapped ends
+/// within snap_m, each reported); only crossings are added. Throws: BadInput naming the feature and its place: NaN, a
+/// line of no length, a cycle of rivers, a bifurcation (under automatic by height or rank only); BadInput when there is
+/// no line or what orientation asks for is not in the file; BadParameter; Cancelled.
 Adopted adopt(RiverLines const& lines, AdoptParams const& params = {}, Run const& run = {});
 
 /// The heights the file gave, as those of the network.

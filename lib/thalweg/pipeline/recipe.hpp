@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <thalweg/detail/midpoint.hpp>
+#include <thalweg/io/schema.hpp>
 #include <thalweg/network/adopt.hpp>
 #include <thalweg/network/grow_dla.hpp>
 #include <thalweg/network/grow_tokunaga.hpp>
@@ -21,6 +22,7 @@
 #include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/surface/diffuse.hpp>
 #include <thalweg/surface/dilate.hpp>
+#include <thalweg/surface/drain.hpp>
 
 namespace thalweg::pipeline {
 
@@ -102,6 +104,7 @@ struct SurfaceRecipe {
     std::string mask; ///< raster on the grid: cells with 0 or no data are left out; "" for none
     Interpolation interpolation = Interpolation::linear; ///< of a TIN
     skeleton::RegressParams regress;
+    std::optional<surface::Drain> drain; ///< none: carve where there are rivers, else surface::Drain::none
 };
 
 /// The land that the statistics are brought to.
@@ -146,8 +149,11 @@ struct PatchRecipe {
 };
 
 struct OutputRecipe {
-    std::string title;               ///< of the pictures and the page; "" names the seed
-    double contour_interval_m = 0.0; ///< [m] 0 chooses a round number
+    std::string title;                      ///< of the pictures and the page; "" names the seed
+    double contour_interval_m = 0.0;        ///< [m] 0 chooses a round number
+    bool catchments = true;                 ///< of the arcs, where there are rivers and a surface
+    bool accumulation = false;              ///< contributing areas by cell, where there is a surface
+    io::Schema schema = io::Schema::native; ///< another one: a network file more, in its words
 };
 
 /// Everything that decides a result, as one plain value.

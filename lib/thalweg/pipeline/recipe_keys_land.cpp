@@ -105,6 +105,15 @@ void add_surface_keys(std::vector<Key>& keys) {
                in_surface<bool>([](SurfaceRecipe& s) -> bool& { return s.dilate.increment.allow_negative; })));
     keys.push_back(text("surface.mask", "file name", "raster on the grid: cells with 0 or no data are left out",
                         in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.mask; })));
+    using MaybeDrain = std::optional<surface::Drain>;
+    keys.push_back(choice<MaybeDrain>("surface.drain",
+                                      {{"auto", std::nullopt},
+                                       {"carve", surface::Drain::carve},
+                                       {"fill", surface::Drain::fill},
+                                       {"none", surface::Drain::none}},
+                                      "rivers keep their water, and depressions are cut or filled, or filled only; "
+                                      "auto: carve where there are rivers, else none",
+                                      in_surface<MaybeDrain>([](SurfaceRecipe& s) -> MaybeDrain& { return s.drain; })));
     add_diffusion_keys(keys);
     keys.push_back(choice<Interpolation>(
         "surface.interpolation", {{"linear", Interpolation::linear}, {"natural", Interpolation::natural}},

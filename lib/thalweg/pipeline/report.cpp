@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report.hpp>
 
+#include <thalweg/pipeline/check_files.hpp>
+
 #include <thalweg/core/memory.hpp>
 
 #include <thalweg/network/tokunaga_laws.hpp>
@@ -169,6 +171,40 @@ ordered_json network_object(Terrain const& t) {
             {"laws", t.laws.network ? laws_object(*t.laws.network) : ordered_json(nullptr)}};
 }
 
+ordered_json agreements_object(measure::Agreements const& agreements) {
+    ordered_json out = ordered_json::array();
+    for (std::size_t k = 0; k < agreements.size(); ++k) {
+        measure::Agreement const& a = agreements[k];
+        out.push_back({{"within_cells", k}, {"precision", a.precision}, {"recall", a.recall}, {"f", a.f()}});
+    }
+    return out;
+}
+
+ordered_json certificate_object(measure::Certificate const& c) {
+    double const cells = static_cast<double>(std::max<std::int64_t>(c.river_cells, 1));
+    return {{"depressions",
+             {{"count", c.depressions},
+              {"cells", c.pit_cells},
+              {"max_depth_m", c.max_depth_m},
+              {"volume_m3", c.pit_volume_m3}}},
+            {"river_cells", c.river_cells},
+            {"following_share", static_cast<double>(c.following_cells) / cells},
+            {"border_cells", c.border_cells},
+            {"sources", c.sources},
+            {"sources_arriving", c.arriving_sources},
+            {"traced", agreements_object(c.traced)},
+            {"extracted", {{"area_cells", c.threshold_cells}, {"agreement", agreements_object(c.extracted)}}},
+            {"areas",
+             {{"compared", c.compared_areas},
+              {"within_5_percent", c.close_areas},
+              {"max_difference", c.max_area_difference}}}};
+}
+
+ordered_json change_object(surface::LandChange const& c) {
+    return {{"raised_cells", c.raised_cells}, {"cut_cells", c.cut_cells}, {"max_raise_m", c.max_raise_m},
+            {"max_cut_m", c.max_cut_m},       {"raised_m3", c.raised_m3}, {"cut_m3", c.cut_m3}};
+}
+
 ordered_json statistics_object(detail::Projection const& p) {
     ordered_json residuals = ordered_json::array();
     for (detail::Residual const& r : p.residuals) {
@@ -224,6 +260,18 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
             report["dem"]["laws"] = dem_laws_object(*t.laws.dem);
         }
     }
+    if (t.drained) {
+        report["drained"] = {{"banks", change_object(t.drained->banks)},
+                             {"depressions", change_object(t.drained->depressions)}};
+    }
+    if (t.certificate) {
+        report["certificate"] = certificate_object(*t.certificate);
+    }
+    if (t.catchments) {
+        auto const& cells = t.catchments->cells;
+        report["catchments"] = {{"count", std::count_if(cells.begin(), cells.end(), [](auto n) { return n > 0; })},
+                                {"cells_without", t.catchments->without}};
+    }
     if (t.tin) {
         report["tin"] = {{"vertices", t.tin->vertices.size()}, {"triangles", t.tin->triangles.size()}};
     }
@@ -270,9 +318,19 @@ std::string statistics_json(measure::Statistics const& statistics, DemLaws const
     return out.dump() + "\n";
 }
 
-std::string checks_json(std::vector<Check> const& checks, std::vector<Finding> const& findings) {
-    bool const ok = std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
-    ordered_json const out{{"ok", ok}, {"checks", checks_array(checks)}, {"findings", findings_array(findings)}};
+std::string as_json(CheckedFiles const& checked) {
+    ordered_json out{{"ok", checked.ok()},
+                     {"arcs", checked.arcs},
+                     {"nodes", checked.nodes},
+                     {"schema", checked.schema},
+                     {"checks", checks_array(checked.checks)},
+                     {"findings", findings_array(checked.findings)},
+                     {"notes", findings_array(checked.notes)},
+                     {"mended", findings_array(checked.mended)},
+                     {"written", checked.written}};
+    if (checked.certificate) {
+        out["certificate"] = certificate_object(*checked.certificate);
+    }
     return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -19,9 +19,6 @@ std::vector<std::string> files_of_report(std::string const& json);
 /// Statistics as one JSON object, as they stand under "dem" in report.json; laws: of the DEM's rivers, or null.
 std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws = nullptr);
 
-/// Checks and findings as one JSON object, as `thalweg check --json` prints it.
-std::string checks_json(std::vector<Check> const& checks, std::vector<Finding> const& findings);
-
 /// The version of thalweg, "0.1.0".
 std::string version();
 

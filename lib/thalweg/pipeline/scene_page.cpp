@@ -52,7 +52,7 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
             terrain.areas.ds_area_m2.assign(arcs, 0.0);
             terrain.areas.node_m2.assign(boost::num_vertices(terrain.network.plan), 0.0);
         }
-        auto const topology = measure::check_topology(measure::as_file(terrain.network, terrain.orders), run);
+        auto const topology = measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run);
         terrain.checks = topology.checks;
         terrain.findings = topology.findings;
     }

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/terrain.hpp>
 
+#include <thalweg/measure/drain_dinf.hpp>
 #include <thalweg/measure/topology.hpp>
 #include <thalweg/pipeline/around_rivers.hpp>
+#include <thalweg/pipeline/catchment_rows.hpp>
 #include <thalweg/pipeline/diary.hpp>
 #include <thalweg/pipeline/land.hpp>
 #include <thalweg/pipeline/paste_patches.hpp>
@@ -14,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace thalweg::pipeline {
@@ -34,8 +37,45 @@ std::int64_t valley_cells_moved(Valley const& valley, Raster<float> const& dem) 
     return moved;
 }
 
+/// Whether rivers keep their heights under every patch.
+bool honours_rivers(Recipe const& recipe) {
+    return recipe.network && std::none_of(recipe.patches.begin(), recipe.patches.end(),
+                                          [](PatchRecipe const& p) { return p.rivers == PatchRivers::replace; });
+}
+
+/// Makes the land drain, as the recipe wants it.
+void drain_land(Terrain& terrain, Diary& diary, Run const& run) {
+    if (!terrain.surface || !terrain.recipe.surface) {
+        return;
+    }
+    std::optional<surface::Drain>& method = terrain.recipe.surface->drain;
+    method = method.value_or(terrain.recipe.network ? surface::Drain::carve : surface::Drain::none);
+    if (*method == surface::Drain::none) {
+        return;
+    }
+    Valley const none{Raster<float>(terrain.grid, std::numeric_limits<float>::quiet_NaN())};
+    surface::DrainedLand land = diary.stage("carve", [&] {
+        return surface::drain(std::move(terrain.surface->dem), honours_rivers(terrain.recipe) ? terrain.valley : none,
+                              {*method}, run);
+    });
+    terrain.surface->dem = std::move(land.dem);
+    terrain.drained = {land.banks, land.depressions};
+    diary.say(fmt::format("banks {:.3g} m3, depressions {:.3g} m3 up, {:.3g} m3 down", land.banks.raised_m3,
+                          land.depressions.raised_m3, land.depressions.cut_m3));
+}
+
 Check none_of(char const* name, std::int64_t count) {
     return {name, static_cast<double>(count), 0.0, count == 0};
+}
+
+/// Of a land that was made to drain: whether it does, by its rivers where it honours them.
+void check_drainage(Terrain& terrain, std::int64_t depressions) {
+    if (!terrain.certificate || !honours_rivers(terrain.recipe)) {
+        terrain.checks.push_back(none_of("depressions", depressions));
+        return;
+    }
+    std::vector<Check> const checks = terrain.certificate->checks();
+    terrain.checks.insert(terrain.checks.end(), checks.begin(), checks.end());
 }
 
 void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
@@ -53,21 +93,43 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.pit_volume_m3 = drainage.pit_volume_m3;
     if (terrain.recipe.network) {
         terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
-        bool const patched = std::any_of(terrain.recipe.patches.begin(), terrain.recipe.patches.end(),
-                                         [](PatchRecipe const& p) { return p.rivers == PatchRivers::replace; });
-        if (!patched) { // else they were asked to move
+        if (terrain.recipe.output.catchments) {
+            terrain.catchments = diary.stage("catchments", [&] {
+                return measure::catchments(measure::reaches_of(terrain.network.plan), drainage, run);
+            });
+        }
+        if (honours_rivers(terrain.recipe)) { // else they were asked to move
             terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
         }
+        terrain.certificate = diary.stage("certify", [&] {
+            return measure::certify(dem, drainage, measure::reaches_of(terrain.network.plan), terrain.areas.ds_area_m2,
+                                    run);
+        });
+    }
+    if (terrain.drained) {
+        check_drainage(terrain, static_cast<std::int64_t>(drainage.depressions.size()));
+    }
+    if (terrain.recipe.output.accumulation) {
+        terrain.water_areas = diary.stage("areas", [&] {
+            return WaterAreas{areas_m2(drainage), areas_m2(measure::drain_dinf(dem, drainage, run).area_cells)};
+        });
     }
     terrain.laws = diary.stage("laws", [&] { return laws_of_terrain(terrain, &drainage, run); });
 }
 
 void check_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     measure::TopologyReport topology = diary.stage(
-        "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), run); });
+        "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run); });
     terrain.checks.insert(terrain.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
     terrain.checks.insert(terrain.checks.end(), topology.checks.begin(), topology.checks.end());
     terrain.findings = std::move(topology.findings);
+    if (terrain.drained && terrain.certificate && honours_rivers(terrain.recipe)) {
+        std::vector<Check> const checks = terrain.certificate->checks();
+        if (!std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; })) { // else nobody looks
+            std::vector<Finding> const& more = terrain.certificate->findings;
+            terrain.findings.insert(terrain.findings.end(), more.begin(), more.end());
+        }
+    }
 }
 
 } // namespace
@@ -101,6 +163,7 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
         draw_around_rivers(terrain, points, diary, run);
     }
     paste_patches(terrain, diary, run);
+    drain_land(terrain, diary, run);
     if (keep && terrain.surface) {
         keep("surface", terrain.surface->dem);
     }

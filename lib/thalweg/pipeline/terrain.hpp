@@ -17,6 +17,8 @@
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/detail/project.hpp>
+#include <thalweg/measure/catchments.hpp>
+#include <thalweg/measure/certificate.hpp>
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/measure/hypsometry.hpp>
 #include <thalweg/measure/statistics.hpp>
@@ -62,6 +64,18 @@ struct PatchStory {
     double seam_rms_m = 0.0;
 };
 
+/// What it took to make the land drain.
+struct DrainStory {
+    surface::LandChange banks;
+    surface::LandChange depressions;
+};
+
+/// Contributing areas [m2] by cell, NaN without data.
+struct WaterAreas {
+    Raster<double> d8;
+    Raster<double> dinf;
+};
+
 /// A terrain with all that led to it.
 struct Terrain {
     Recipe recipe; ///< every default resolved: made again, it gives the same terrain
@@ -77,6 +91,7 @@ struct Terrain {
     std::optional<surface::Dilated> surface;
     std::optional<SolverStory> diffusion;         ///< how the surface was solved for, where it was diffused
     std::vector<PatchStory> patches;              ///< in the recipe's order
+    std::optional<DrainStory> drained;            ///< where the recipe wants the land to drain
     std::optional<Tin> tin;                       ///< of rivers and points, where the land is drawn over one
     std::optional<detail::Projection> projection; ///< how the statistics came out; its dem is moved to surface
     double fine_forms_cells = 0.0; ///< [cells] below which forms had to come from a Gaussian land to meet them; 0: none
@@ -84,6 +99,9 @@ struct Terrain {
     std::optional<measure::Hypsometry> hypsometry; ///< likewise
     std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
     double pit_volume_m3 = 0.0;
+    std::optional<measure::Certificate> certificate; ///< of rivers and surface, where both are there
+    std::optional<measure::Catchments> catchments;   ///< of the arcs on the surface, where they are asked for
+    std::optional<WaterAreas> water_areas;           ///< by cell of the surface, where they are asked for
     NetworkStory story;
     std::vector<Check> checks;
     std::vector<Finding> findings;                         ///< of the checks

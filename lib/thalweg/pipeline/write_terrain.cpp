@@ -12,9 +12,13 @@
 #include <thalweg/io/read_points.hpp>
 #include <thalweg/io/write_network.hpp>
 #include <thalweg/io/write_tin.hpp>
+#include <thalweg/network/order.hpp>
+#include <thalweg/network/split_confluences.hpp>
+#include <thalweg/pipeline/catchment_rows.hpp>
 #include <thalweg/pipeline/page.hpp>
 #include <thalweg/pipeline/pictures.hpp>
 #include <thalweg/pipeline/report.hpp>
+#include <thalweg/pipeline/split_areas.hpp>
 
 #include <fmt/format.h>
 
@@ -93,6 +97,22 @@ Recipe keep_inputs(Terrain const& terrain, io::OutputFolder const& out) {
     return recipe;
 }
 
+/// The network in another schema, its confluences split where that cannot name so many arcs.
+void write_in_schema(Terrain const& t, io::OutputFolder const& out, Run const& run) {
+    io::SchemaTable const& schema = io::table_of(t.recipe.output.schema);
+    network::Split split{t.network, {}};
+    if (schema.most_upstream > 0) {
+        split = network::split_confluences(t.network, {schema.most_upstream, t.grid.cell_m}, run);
+    }
+    std::vector<double> us_area_m2 = t.areas.us_area_m2;
+    std::vector<double> ds_area_m2 = t.areas.ds_area_m2;
+    add_pieces(split.pieces, us_area_m2, ds_area_m2);
+    NetworkOrders const orders = network::order(split.network.plan);
+    std::vector<double> const node_area_m2 = node_areas(split.network.plan, us_area_m2, ds_area_m2);
+    io::NetworkTables const tables{split.network, orders, us_area_m2, ds_area_m2, node_area_m2, t.grid.crs, {}};
+    io::write_network(tables, out.path(fmt::format("network_{}.gpkg", schema.name)), {.schema = schema.schema}, run);
+}
+
 void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run) {
     std::map<std::string, std::string> const about = {
         {"version", version()}, {"seed", fmt::format("{}", t.recipe.seed)}, {"area_from", t.areas.source}};
@@ -107,11 +127,25 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
                                    &t.ridges};
     io::write_geopackage(tables, out.path("network"), run);
     io::write_shapefiles(tables, out.path("network"), run);
+    if (t.recipe.output.schema != io::Schema::native) {
+        write_in_schema(t, out, run);
+    }
     Mask cells(t.grid);
     for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
         cells[i] = !std::isnan(t.valley.z[i]);
     }
     io::write_mask(cells, out.path("network.tif"), run);
+}
+
+void write_water(Terrain const& t, io::OutputFolder const& out, Run const& run) {
+    if (t.catchments) {
+        auto const rows = catchment_rows(measure::reaches_of(t.network.plan), t.orders.arc_basin, *t.catchments);
+        io::write_catchments({t.catchments->reach, rows}, out.path("catchments.gpkg"), run);
+    }
+    if (t.water_areas) {
+        io::write_field(t.water_areas->d8, out.path("area_d8.tif"), run);
+        io::write_field(t.water_areas->dinf, out.path("area_dinf.tif"), run);
+    }
 }
 
 void write_surface(Terrain const& t, std::string const& title, io::OutputFolder const& out, Run const& run) {
@@ -168,6 +202,7 @@ std::vector<std::string> write_terrain(Terrain const& terrain, std::string const
     std::string const title = title_of(terrain.recipe);
     if (terrain.surface) {
         write_surface(terrain, title, out, run);
+        write_water(terrain, out, run);
     }
     if (terrain.recipe.network) {
         draw::ProfileParams profile;

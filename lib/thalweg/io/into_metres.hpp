@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <thalweg/core/vec.hpp>
+
+class OGRSpatialReference;
+
+/// What a file's coordinates are in, and the way from there to metres. Private to this room.
+namespace thalweg::io {
+
+/// Whether a layer has no CRS, or one that says so (a GeoPackage without CRS has one that is named "Undefined").
+bool is_missing(OGRSpatialReference const* reference);
+
+/// A projection from a file's CRS into one in metres. Needs a Driver that outlives it.
+class IntoMetres {
+public:
+    /// Takes: the file's CRS; the one wanted, "" for the file's own when it is projected in metres, else the UTM zone
+    /// of a position in the middle, in the file's coordinates. Throws: BadInput when there is none: "io.into_metres:
+    /// name ...".
+    IntoMetres(OGRSpatialReference const& own, std::string const& wanted, Vec2 middle, std::string const& name);
+    ~IntoMetres();
+    IntoMetres(IntoMetres const&) = delete;
+    IntoMetres& operator=(IntoMetres const&) = delete;
+
+    std::string const& crs() const { return crs_; }
+    /// Whether apply() changes anything in plan.
+    bool moves() const;
+    /// What 1 in the file's heights is.
+    double height_unit_m() const { return height_unit_m_; }
+    /// Projects positions in plan, to 1e-6 m; heights stay. Gives: by point 1 where it could be projected, else 0, and
+    /// the point keeps its place.
+    std::vector<int> apply(std::span<Vec3> points) const;
+
+private:
+    struct Turn;
+    std::unique_ptr<Turn> turn_;
+    std::string crs_;
+    double height_unit_m_ = 1.0;
+};
+
+} // namespace thalweg::io

@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a check says: figures as one JSON line on stdout, faults in words on stderr, exit 1 where there is one."""
+import json
+import pathlib
+import sys
+from collections import Counter, defaultdict
+
+EXAMPLES = 5
+
+
+class Report:
+    def __init__(self):
+        self.counts = Counter()
+        self.examples = defaultdict(list)
+
+    def fault(self, kind, where):
+        self.counts[kind] += 1
+        if len(self.examples[kind]) < EXAMPLES:
+            self.examples[kind].append(where)
+
+    def unless(self, holds, kind, where):
+        if not holds:
+            self.fault(kind, where)
+
+    def equal(self, kind, found, wanted):
+        self.unless(found == wanted, kind, f"{found}, not {wanted}")
+
+    def at_least(self, kind, found, least):
+        self.unless(found >= least, kind, f"{found}, less than {least}")
+
+    def close(self, figures):
+        for kind, count in self.counts.items():
+            told = "; ".join(str(example) for example in self.examples[kind])
+            print(f"{pathlib.Path(sys.argv[0]).name}: {kind} ({count}): {told}", file=sys.stderr)
+        print(json.dumps({**figures, "violations": self.counts, "examples": self.examples}, default=str))
+        return 1 if self.counts else 0

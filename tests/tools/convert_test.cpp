@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Three rivers that meet, without heights; a fourth joins below. Drawn by hand, known to nobody's schema.
+char const* const lines = R"({"type": "FeatureCollection",
+"crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32631"}}, "features": [
+{"type": "Feature", "properties": {"nr": 11, "into": 14}, "geometry": {"type": "LineString", "coordinates": [[400, 900], [500, 500]]}},
+{"type": "Feature", "properties": {"nr": 12, "into": 14}, "geometry": {"type": "LineString", "coordinates": [[500, 900], [500, 500]]}},
+{"type": "Feature", "properties": {"nr": 13, "into": 14}, "geometry": {"type": "LineString", "coordinates": [[600, 900], [500, 500]]}},
+{"type": "Feature", "properties": {"nr": 14, "into": 16}, "geometry": {"type": "LineString", "coordinates": [[500, 500], [500, 300]]}},
+{"type": "Feature", "properties": {"nr": 15, "into": 16}, "geometry": {"type": "LineString", "coordinates": [[800, 500], [500, 300]]}},
+{"type": "Feature", "properties": {"nr": 16, "into": 0}, "geometry": {"type": "LineString", "coordinates": [[500, 300], [500, 100]]}}]})";
+
+std::string const read_lines = "rivers.geojson --field arc_id=nr --field ds_arc=into ";
+
+/// The bytes of every file below a folder.
+std::map<std::string, std::string> content(fs::path const& folder) {
+    std::map<std::string, std::string> files;
+    for (auto const& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.is_regular_file()) {
+            files[entry.path().lexically_relative(folder).string()] = file_bytes(entry.path());
+        }
+    }
+    return files;
+}
+
+/// A plane that falls to the south, a metre a row.
+std::string plane() {
+    std::string text = "ncols 100\nnrows 100\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999\n";
+    for (int row = 0; row < 100; ++row) {
+        for (int col = 0; col < 100; ++col) {
+            text += std::to_string(100 - row) + " ";
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+void write_plane(Workplace const& place) {
+    place.write("dem.asc", plane());
+    place.write("dem.prj",
+                "PROJCS[\"WGS 84 / UTM zone 31N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
+                "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION["
+                "\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],PARAMETER[\"central_meridian\",3],"
+                "PARAMETER[\"scale_factor\",0.9996],PARAMETER[\"false_easting\",500000],PARAMETER[\"false_northing\",0]"
+                ",UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"32631\"]]");
+}
+
+void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
+    auto const before = content(place.path());
+    Outcome const outcome = thalweg_run("convert " + arguments, place.path());
+    EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << arguments << "\n" << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(content(place.path()), before) << arguments;
+}
+
+} // namespace
+
+TEST(Convert, RefusesWhatCannotBeAndLeavesNothing) {
+    Workplace const place;
+    place.write("rivers.geojson", lines);
+    place.write("taken.gpkg", "mine");
+    refused(place, "", "NETWORK");
+    refused(place, "rivers.geojson", "--output");
+    refused(place, "nowhere.gpkg -o a.gpkg", "nowhere.gpkg");
+    refused(place, read_lines + "-o a.kml", "gpkg");
+    refused(place, read_lines + "-o none/a.gpkg", "there is no folder");
+    refused(place, read_lines + "-o taken.gpkg", "already exists");
+    refused(place, read_lines + "-o a.gpkg --schema taudems", "taudem");
+    refused(place, read_lines + "-o a.gpkg --schema taudem", "--max-upstream 2");
+    refused(place, read_lines + "-o a.gpkg --max-upstream 1", "--max-upstream");
+    refused(place, read_lines + "-o a.tif", "a mask needs its cells");
+    refused(place, read_lines + "-o rivers.geojson --schema grass --overwrite", "may be what is read");
+    fs::create_directory(place / "folder");
+    refused(place, "folder/arcs.shp -o folder/nodes.shp --schema grass", "folder/arcs.shp");
+    refused(place, "PG:dbname=x -o PG:dbname=x --overwrite", "is the one that is read");
+    refused(place, "rivers.geojson --field nr -o a.gpkg", "QUANTITY=NAME");
+    refused(place, read_lines + "-o PG:dbname=x --table 'a; drop table b'", "is no name for tables");
+}
+
+TEST(Convert, ForeignLinesBecomeEverySchemaAndFormat) {
+    Workplace const place;
+    place.write("rivers.geojson", lines);
+    for (std::string const schema : {"native", "taudem", "nhdplus", "hydrorivers", "grass"}) {
+        for (std::string const ending : {"gpkg", "shp", "fgb", "geojson", "graphml", "csv", "edges", "tif"}) {
+            std::string const name = schema + "." + ending;
+            Outcome const outcome = thalweg_run("convert " + read_lines + "-o " + name + " --schema " + schema +
+                                                    " --max-upstream 2 --cell 10 -q",
+                                                place.path());
+            ASSERT_EQ(outcome.code, 0) << name << outcome.err;
+            EXPECT_EQ(outcome.err, "");
+            bool const two_files = schema == "native" && (ending == "shp" || ending == "fgb" || ending == "geojson");
+            std::string const first = two_files ? schema + "_arcs." + ending : name;
+            EXPECT_NE(outcome.out.find(first + "\n"), std::string::npos) << outcome.out;
+            if (ending == "graphml" || ending == "csv" || ending == "edges" || ending == "tif") {
+                continue;
+            }
+            // And back: the numbers of the lines are known as features no more, but the network is the same.
+            Outcome const back =
+                thalweg_run("convert " + first + " -o back_" + schema + "_" + ending + ".gpkg --json -q", place.path());
+            ASSERT_EQ(back.code, 0) << name << back.err;
+            auto const json = nlohmann::json::parse(back.out);
+            EXPECT_EQ(json.at("schema"), schema);
+            EXPECT_EQ(json.at("arcs"), 7);
+            EXPECT_EQ(json.at("nodes"), 8);
+            EXPECT_EQ(json.at("crs"), "EPSG:32631");
+        }
+    }
+    EXPECT_EQ(file_bytes(place / "rivers.geojson"), lines);
+    // From whatever schema: the same network.
+    EXPECT_EQ(thalweg_run("check back_native_gpkg.gpkg", place.path()).code, 0);
+    EXPECT_EQ(file_bytes(place / "back_taudem_gpkg.gpkg"), file_bytes(place / "back_taudem_fgb.gpkg"));
+    EXPECT_EQ(file_bytes(place / "back_grass_shp.gpkg"), file_bytes(place / "back_grass_geojson.gpkg"));
+}
+
+TEST(Convert, JsonTellsWhatBecameOfIt) {
+    Workplace const place;
+    place.write("rivers.geojson", lines);
+    Outcome const outcome = thalweg_run("convert " + read_lines + "-o a.gpkg --max-upstream 2 --json", place.path());
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    auto const json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json.at("written"), (std::vector<std::string>{"a.gpkg"}));
+    EXPECT_EQ(json.at("split"), 1);
+    EXPECT_EQ(json.at("arcs"), 7);
+    EXPECT_EQ(json.at("heights"), "none");
+    EXPECT_EQ(json.at("areas"), "none");
+    EXPECT_NE(outcome.err.find("--dem"), std::string::npos);
+}
+
+TEST(Convert, HeightsAndAreasComeFromADem) {
+    Workplace const place;
+    place.write("rivers.geojson", lines);
+    write_plane(place);
+    Outcome const outcome = thalweg_run("convert " + read_lines + "-o a.csv --dem dem.asc --json", place.path());
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    auto const json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json.at("heights"), "dem");
+    EXPECT_EQ(json.at("areas"), "d8");
+    std::string const csv = file_bytes(place / "a.csv");
+    EXPECT_NE(csv.find("LINESTRING Z (500 300 30, 500 100 10)"), std::string::npos) << csv;
+    ASSERT_EQ(thalweg_run("convert " + read_lines + "-o a.gpkg --dem dem.asc", place.path()).code, 0);
+    EXPECT_EQ(thalweg_run("check a.gpkg", place.path()).code, 0);
+    ASSERT_EQ(thalweg_run("convert " + read_lines + "-o a.tif --dem dem.asc", place.path()).code, 0);
+    place.write("dem.prj", "");
+    refused(place, read_lines + "-o b.gpkg --dem dem.asc", "dem.asc");
+}
+
+TEST(Convert, OverwriteReplacesOnlyWhatItWrites) {
+    Workplace const place;
+    place.write("rivers.geojson", lines);
+    std::string const convert = "convert " + read_lines + "-o a.shp";
+    ASSERT_EQ(thalweg_run(convert, place.path()).code, 0);
+    place.write("a_arcs.txt", "mine");
+    auto const before = content(place.path());
+    EXPECT_EQ(thalweg_run(convert, place.path()).code, 2);
+    EXPECT_EQ(content(place.path()), before);
+    EXPECT_EQ(thalweg_run(convert + " --overwrite", place.path()).code, 0);
+    EXPECT_EQ(content(place.path()), before);
+}
+
+TEST(Convert, WhatIsNoTreeIsSentToCheck) {
+    Workplace const place;
+    std::string two_ways(lines);
+    two_ways.replace(two_ways.find("[[500, 300], [500, 100]]"), 24, "[[500, 500], [500, 100]]");
+    place.write("rivers.geojson", two_ways);
+    refused(place, "rivers.geojson --field arc_id=nr --field ds_arc=into -o a.gpkg", "thalweg check");
+}
+
+TEST(Convert, ADatabaseThatDoesNotAnswerIsAFailure) {
+    Workplace const place;
+    place.write("rivers.geojson", lines);
+    Outcome const outcome = thalweg_run(
+        "convert " + read_lines + "-o \"PG:host='" + place.path().string() + "' dbname=none\"", place.path());
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("cannot be reached"), std::string::npos) << outcome.err;
+}

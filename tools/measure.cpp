@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "network_options.hpp"
+
+#include <thalweg/pipeline/make_measures.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+namespace thalweg::tools {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Options {
+    pipeline::MakeMeasuresParams params;
+    NetworkOptions network;
+    std::string folder;
+    bool overwrite = false;
+};
+
+ordered_json json_of(pipeline::MadeMeasures const& made) {
+    ordered_json json{{"files", made.files},
+                      {"notes", made.notes},
+                      {"cells", made.cells},
+                      {"area_m2", made.area_m2},
+                      {"pit_cells", made.pits}};
+    if (made.d8_m2) {
+        json["d8"] = {{"greatest_m2", *made.d8_m2}};
+    }
+    if (made.dinf_m2) {
+        json["dinf"] = {{"greatest_m2", *made.dinf_m2}};
+    }
+    if (made.catchments) {
+        pipeline::MeasuredCatchments const& c = *made.catchments;
+        json["catchments"] = {{"count", c.count.catchments},     {"parts", c.count.parts},
+                              {"basins", c.count.basins},        {"arcs", c.arcs},
+                              {"arcs_cut", c.arcs_cut},          {"arcs_outside", c.arcs_outside},
+                              {"cells_without", c.cells_without}};
+    }
+    return json;
+}
+
+int measure(Options& options, Session const& session) {
+    options.params.network = options.network.path;
+    options.params.read = options.network.params();
+    auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
+    pipeline::MadeMeasures const made = pipeline::make_measures(options.params, options.folder, existing, session.run);
+    for (std::string const& note : made.notes) {
+        session.run.say("note   " + note);
+    }
+    if (session.json) {
+        fmt::print("{}\n", json_of(made).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+        return Exit::done;
+    }
+    for (std::string const& file : made.files) {
+        fmt::print("{}\n", file);
+    }
+    return Exit::done;
+}
+
+} // namespace
+
+Command add_measure(CLI::App& app, Session& session) {
+    auto const options = std::make_shared<Options>();
+    app.add_option("DEM", options->params.dem, "A folder that make left, or any raster of heights that GDAL reads.")
+        ->type_name("FILE")
+        ->required();
+    add_network_options(app, options->network);
+    app.get_option("NETWORK")->required(false)->description(
+        "Rivers for the catchments: a network that GDAL reads, in anyone's schema. Without it, those of the folder.");
+    app.add_option("-o,--output", options->folder, "Write into this folder.")->type_name("DIR")->required();
+    app.add_option("--what", options->params.what,
+                   "Measure these, with commas between: d8 and dinf, contributing areas; directions, of both; "
+                   "catchments, one outline an arc. Without it, the areas and, with rivers, the catchments.")
+        ->type_name("LIST")
+        ->delimiter(',')
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_flag("--overwrite", options->overwrite, "Replace files of the same names. Other files stay.");
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    app.footer("Writes area_d8.tif and area_dinf.tif (contributing areas in m2, as D8 and D-infinity have them), "
+               "direction_d8.tif (1 to 128 clockwise from the east, 0 where water leaves), direction_dinf.tif (radians "
+               "counterclockwise from the east, -1 where water leaves) and catchments.gpkg (layers catchments and "
+               "basins). Water is led through depressions and flats; the DEM stays as it is. A catchment holds the "
+               "cells whose water meets a river first in a cell of its arc; together they tile all land that drains "
+               "to a river.\n\n"
+               "Examples:\n"
+               "  thalweg measure valley -o measures\n"
+               "  thalweg measure dem.tif rivers.gpkg --what catchments -o measures\n"
+               "  thalweg measure dem.tif --what d8,dinf,directions -o measures --json\n");
+    return [options, &session] { return measure(*options, session); };
+}
+
+} // namespace thalweg::tools
