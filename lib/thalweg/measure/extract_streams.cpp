@@ -3,8 +3,12 @@
 #include <thalweg/measure/extract_streams.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -56,6 +60,20 @@ std::vector<std::int64_t> node_cells(Drainage const& drainage, Ways const& ways,
     }
     return nodes;
 }
+
+/// So many steps of water from cell to cell.
+struct Steps {
+    std::int64_t straight = 0;
+    std::int64_t diagonal = 0;
+
+    void add(std::int8_t way) { ++(way % 2 == 0 ? straight : diagonal); }
+    void add(Steps const& more) {
+        straight += more.straight;
+        diagonal += more.diagonal;
+    }
+    /// Their length in sides of cells.
+    double cells() const { return static_cast<double>(straight) + static_cast<double>(diagonal) * std::sqrt(2.0); }
+};
 
 /// What outlets drain beside the arcs that end in them goes to the first of these, as areas_d8 has it.
 void give_outlets(StreamNetwork const& plan, ContributingAreas& areas) {
@@ -130,26 +148,44 @@ std::int64_t support_for_length(Drainage const& drainage, double length_m, Run c
         throw BadParameter(fmt::format("measure.support_for_length: the length is {} m; it must be above 0", length_m));
     }
     Raster<std::int64_t> const& area = drainage.area_cells;
-    auto const reaches = [&](std::int64_t support) {
-        run.check();
-        std::int64_t straight = 0;
-        std::int64_t diagonal = 0;
-        for (std::int64_t i = 0; i < area.cells(); ++i) {
-            std::int8_t const way = drainage.direction[i];
-            bool const river = area[i] >= support && way >= 0;
-            straight += river && way % 2 == 0;
-            diagonal += river && way % 2 == 1;
-        }
-        double const length = static_cast<double>(straight) + static_cast<double>(diagonal) * std::sqrt(2.0);
-        return length * area.grid().cell_m >= length_m;
+    auto const octave_of = [&](std::int64_t cell) {
+        return static_cast<std::size_t>(std::bit_width(static_cast<std::uint64_t>(area[cell]))) - 1;
     };
-    std::int64_t enough = 1;
-    std::int64_t beyond = area.cells() + 1;
-    while (beyond - enough > 1) {
-        std::int64_t const middle = enough + (beyond - enough) / 2;
-        (reaches(middle) ? enough : beyond) = middle;
+    std::array<Steps, 64> octaves{}; // by the highest bit of the area
+    for (std::int64_t i = 0; i < area.cells(); ++i) {
+        if (i % cells_between_checks == 0) {
+            run.check();
+        }
+        if (drainage.direction[i] >= 0) {
+            octaves[octave_of(i)].add(drainage.direction[i]);
+        }
     }
-    return enough;
+    double const enough = length_m / area.grid().cell_m;
+    Steps larger; // those of areas above the octave in which the support lies
+    std::size_t octave = octaves.size();
+    for (Steps with = larger; octave-- > 0; larger = with) {
+        with.add(octaves[octave]);
+        if (with.cells() >= enough) {
+            break;
+        }
+    }
+    if (octave >= octaves.size()) {
+        return 1;
+    }
+    std::vector<std::pair<std::int64_t, std::int8_t>> within;
+    for (std::int64_t i = 0; i < area.cells(); ++i) {
+        if (drainage.direction[i] >= 0 && octave_of(i) == octave) {
+            within.emplace_back(area[i], drainage.direction[i]);
+        }
+    }
+    std::sort(within.begin(), within.end(), std::greater<>());
+    for (auto const& [support, way] : within) {
+        larger.add(way);
+        if (larger.cells() >= enough) {
+            return support;
+        }
+    }
+    return 1;
 }
 
 } // namespace thalweg::measure
