@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "network_options.hpp"
 #include "terminal.hpp"
 
 #include <thalweg/io/files.hpp>
@@ -29,6 +30,7 @@ struct Options {
     std::string folder = "valley";
     std::vector<std::string> set;
     std::optional<std::uint64_t> seed;
+    std::string schema;
     bool overwrite = false;
 };
 
@@ -43,6 +45,9 @@ pipeline::Recipe recipe_of(Options const& options) {
     }
     if (options.seed) {
         pipeline::set_key(recipe, fmt::format("seed={}", *options.seed));
+    }
+    if (!options.schema.empty()) {
+        pipeline::set_key(recipe, fmt::format("output.schema={}", options.schema));
     }
     return recipe;
 }
@@ -90,6 +95,10 @@ Command add_make(CLI::App& app, Session& session) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--seed", options->seed, "Set the seed of every chance: the same as --set seed=N.");
+    app.add_option("--schema", options->schema,
+                   "Write the rivers in the words of this schema too, as network_SCHEMA.gpkg: the same as --set "
+                   "output.schema=SCHEMA.")
+        ->check(CLI::IsMember(schema_names()));
     app.add_flag("--json", session.json, "Print report.json to stdout instead of the folder's name.");
     app.add_flag("--overwrite", options->overwrite,
                  "Replace what an earlier make left in the folder. Files of others stay.");

@@ -40,6 +40,7 @@ Rows const made{
     {"dem.tif", "Heights: a cloud-optimised GeoTIFF of 32-bit floats with its CRS and no-data value."},
     {"network.gpkg", "The layers arcs (lines with heights, drawn downstream) and nodes, and the table run."},
     {"network_arcs.shp, network_nodes.shp", "The same as shapefiles."},
+    {"network_SCHEMA.gpkg", "The arcs in the words of another schema, where the recipe names one."},
     {"network.tif", "The cells in which rivers run."},
     {"contours.gpkg", "Contour lines."},
     {"catchments.gpkg", "The land that each arc drains, and each basin, as outlines."},

@@ -108,9 +108,11 @@ Command add_stats(CLI::App& app, Session& session) {
     auto const options = std::make_shared<Options>();
     app.add_option("DEM", options->path, "Any raster of heights that GDAL reads.")->type_name("FILE")->required();
     app.add_flag("--json", session.json, "Print one JSON object.");
-    app.add_flag("--recipe", options->recipe, "Print a recipe of other land with the same statistics, for make.");
+    CLI::Option* const recipe =
+        app.add_flag("--recipe", options->recipe, "Print a recipe of other land with the same statistics, for make.");
     CLI::Option* const laws = app.add_flag("--laws", options->laws,
-                                           "Print the laws of the rivers that the DEM's water draws, beside nature's.");
+                                           "Print the laws of the rivers that the DEM's water draws, beside nature's.")
+                                  ->excludes(recipe);
     app.add_option("--support", options->support_cells, "Cells that drain through the first cell of a river.")
         ->type_name("CELLS")
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))

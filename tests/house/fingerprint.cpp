@@ -20,6 +20,8 @@
 #include <thalweg/measure/catchments.hpp>
 #include <thalweg/measure/drain_dinf.hpp>
 #include <thalweg/measure/drainage.hpp>
+#include <thalweg/measure/extract_streams.hpp>
+#include <thalweg/measure/flow_lengths.hpp>
 #include <thalweg/measure/statistics.hpp>
 #include <thalweg/network/assign_types.hpp>
 #include <thalweg/network/embed_tree.hpp>
@@ -38,6 +40,8 @@
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
 #include <thalweg/pipeline/frame.hpp>
+#include <thalweg/pipeline/law_rows.hpp>
+#include <thalweg/pipeline/laws.hpp>
 #include <thalweg/skeleton/attract.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/grf.hpp>
@@ -59,6 +63,7 @@
 #include <thalweg/surface/rasterise_tin.hpp>
 #include <thalweg/surface/separable.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -215,6 +220,24 @@ Raster<solver::Complex> transformed(Run const& run) {
     return solver::fft(std::move(values), solver::Direction::forward, run);
 }
 
+/// The rivers that a DEM draws by itself, and their laws.
+void print_laws(Raster<float> const& dem, Run const& run) {
+    measure::Drainage const drainage = measure::drain(dem, run);
+    Raster<float> const flow_length = measure::flow_lengths(drainage, run);
+    print("flow_lengths", hash_of(flow_length));
+    print("extract_streams", hash_of(measure::extract_streams(drainage, dem, {.support_cells = 20}, run).network));
+    Fnv fnv;
+    auto const found = pipeline::laws_of_dem(dem, drainage, flow_length, {.network_m = 400.0 * dem.grid().cell_m}, run);
+    fnv.add(found.support_cells);
+    for (pipeline::LawRow const& row : pipeline::law_rows(found.laws)) {
+        fnv.add(row.value.value_or(0.0));
+        for (auto const& [name, figure] : row.details) {
+            fnv.add(std::isnan(figure) ? 0.0 : figure); // a NaN has many bits
+        }
+    }
+    print("network_laws", fnv);
+}
+
 void print_lands_of_statistics(Run const& run) {
     print("fft", hash_of(transformed(run)));
     Grid const grid{130, 40, 300.0, 0.0, 0.0, ""};
@@ -240,6 +263,7 @@ void print_lands_of_statistics(Run const& run) {
     auto const projected = detail::project(land, targets, {{{20, 20}, 500.0}}, {.prior = prior}, run);
     print("project", hash_of(projected.dem));
     print("statistics", hash_of(measure::statistics(projected.dem, run)));
+    print_laws(projected.dem, run);
 }
 
 void print_points(Run const& run) {

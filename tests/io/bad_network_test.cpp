@@ -305,7 +305,7 @@ TEST(BadNetwork, ShapefileInPieces) {
         auto const before = state_of(folder);
         std::string const words = refusal(path);
         EXPECT_TRUE(says(words, "r.shp")) << ending;
-        EXPECT_TRUE(says(words, ending == ".dbf" ? "(none)" : ending == ".shx" ? "shx" : "does not exist"));
+        EXPECT_TRUE(says(words, ending == ".dbf" ? "lost its .dbf" : ending == ".shx" ? "shx" : "does not exist"));
         EXPECT_EQ(state_of(folder), before) << ending;
     }
     for (std::string const ending : {".shx", ".dbf", ".shp"}) {

@@ -256,7 +256,7 @@ TEST(WriteSchemas, GrassHasItsNames) {
                          {"drwal_old", "2"}});
     EXPECT_EQ(rows[0].at("horton"), "2"); // the main stem has the order of its mouth up to its source
     io::write_network(sample.tables(), folder / "net.shp", {NetworkFormat::shapefile, Schema::grass});
-    EXPECT_EQ(rows_of(folder / "net.shp")[2].at("outlet_ele"), rows_of(folder / "net.shp")[2].at("outlet_ele"));
+    EXPECT_EQ(std::stod(rows_of(folder / "net.shp")[2].at("outlet_ele")), 2.0);
     EXPECT_EQ(std::stod(rows_of(folder / "net.shp")[2].at("next_strea")), -1.0);
 }
 

@@ -73,6 +73,33 @@ TEST(Land, RealReliefGivesARecipeThatHasItsStatistics) {
     EXPECT_EQ(thalweg_run("stats " + samples + "jacksboro_srtm3.tif --recipe --json", place.path()).code, 2);
 }
 
+TEST(Land, StatsTellsTheLawsOfADemsRiversBesideNature) {
+    Workplace const place;
+    std::string const stats = "stats " + samples + "jacksboro_srtm3.tif ";
+    Outcome const words = thalweg_run(stats + "--laws", place.path());
+    ASSERT_EQ(words.code, 0) << words.err;
+    for (char const* part : {"rivers where at least 200 cells (1.38 km²) drain", "bifurcation ratio R_B", "3 to 5",
+                             "Hack’s exponent h", "junction angle, mean", "45 to 72"}) {
+        EXPECT_NE(words.out.find(part), std::string::npos) << part << "\n" << words.out;
+    }
+    auto const plain = nlohmann::json::parse(thalweg_run(stats + "--json", place.path()).out);
+    EXPECT_FALSE(plain.contains("laws"));
+    Outcome const o = thalweg_run(stats + "--json --laws --support 100", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    auto const laws = nlohmann::json::parse(o.out)["laws"];
+    EXPECT_EQ(laws["support"]["cells"], 100);
+    EXPECT_EQ(laws["support"]["as_dense_as_the_network"], false);
+    EXPECT_EQ(laws["hack"]["range"], (nlohmann::json{0.52, 0.60}));
+    EXPECT_NE(laws["hack"]["source"].get<std::string>().find("1957"), std::string::npos);
+    EXPECT_GT(laws["hack"]["r2"], 0.98);
+    EXPECT_GT(laws["concavity"]["value"], 0.3);
+    EXPECT_FALSE(laws["link_ratio"].contains("range")); // none is known well enough
+
+    EXPECT_EQ(thalweg_run(stats + "--support 100", place.path()).code, 2);
+    EXPECT_EQ(thalweg_run(stats + "--laws --support 0", place.path()).code, 2);
+    EXPECT_EQ(thalweg_run(stats + "--laws --recipe", place.path()).code, 2);
+}
+
 TEST(Land, ARecipeOfLandThatIsHardlyLand) {
     Workplace const place;
     std::string const in = "cd '" + place.path().string() + "' && ";

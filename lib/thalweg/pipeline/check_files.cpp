@@ -14,6 +14,7 @@
 #include <thalweg/io/write_findings.hpp>
 #include <thalweg/io/write_network.hpp>
 #include <thalweg/measure/topology.hpp>
+#include <thalweg/pipeline/certify_files.hpp>
 #include <thalweg/pipeline/mend_network.hpp>
 #include <thalweg/pipeline/report.hpp>
 
@@ -121,6 +122,13 @@ void write_copy(MendedNetwork const& mended, std::string const& crs, Output cons
     }));
 }
 
+/// Whether it is plain where each arc runs and what it runs into.
+bool has_direction(measure::TopologyReport const& topology) {
+    return std::none_of(topology.findings.begin(), topology.findings.end(), [](Finding const& f) {
+        return f.kind == "cycle" || f.kind == "duplicate_arc_id" || f.kind == "nan";
+    });
+}
+
 } // namespace
 
 bool CheckedFiles::ok() const {
@@ -147,7 +155,19 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
     append(checked.checks, topology.checks);
     append(checked.findings, topology.findings);
 
-    // With a DEM: its drainage certificate, which the network's cells and this DEM's give.
+    if (!job.dem.empty() && has_direction(topology)) {
+        checked.certificate = certify_files(network, job.dem, run);
+        append(checked.checks, checked.certificate->checks());
+        append(checked.findings, checked.certificate->findings);
+    } else if (!job.dem.empty()) {
+        checked.notes.push_back(
+            {"no_certificate",
+             0,
+             {},
+             0.0,
+             "the DEM was not looked at: rivers run in circles, share ids or have vertices that are "
+             "no numbers"});
+    }
 
     for (Output const& output : fix) {
         MendedNetwork const mended = mend_network(network, topology, {job.near_m}, run);

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/io/read_network.hpp>
+#include <thalweg/measure/certificate.hpp>
 
 namespace thalweg::pipeline {
 
@@ -32,6 +34,7 @@ struct CheckedFiles {
     std::vector<Finding> notes;    ///< of reading: what had to be bent to be checked
     std::vector<Finding> mended;   ///< what the mended copy has changed, or why there is none; empty without fix
     std::vector<std::string> written;
+    std::optional<measure::Certificate> certificate = {}; ///< with a DEM
 
     bool ok() const; ///< every check is
 };
@@ -42,7 +45,7 @@ struct CheckedFiles {
 /// for an output that is the input or no .gpkg or .shp; IoError; Cancelled.
 CheckedFiles check_files(CheckJob const& job, Run const& run = {});
 
-/// As one JSON object: ok, arcs, nodes, schema, checks, findings, notes, mended, written.
+/// As one JSON object: ok, arcs, nodes, schema, checks, findings, notes, mended, written; certificate with a DEM.
 std::string as_json(CheckedFiles const& checked);
 
 } // namespace thalweg::pipeline

@@ -14,7 +14,6 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/io/dataset_files.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/io/same_frame.hpp>
 #include <thalweg/io/write_network.hpp>
@@ -45,23 +44,6 @@ bool is_known(std::vector<double> const& areas) {
     return std::ranges::all_of(areas, [](double a) { return a >= 0.0; }); // NaN and -1 are not
 }
 
-/// Areas of the nodes as those of the arcs have them: of the arc that leaves, or of all that come to an outlet.
-std::vector<double> node_areas(network::FileNetwork const& source, bool known) {
-    NetworkIndex const index(source.network.plan);
-    std::vector<double> areas(index.out.size(), -1.0);
-    for (NodeId n = 0; known && n < areas.size(); ++n) {
-        if (index.out[n] >= 0) {
-            areas[n] = source.us_area_m2[static_cast<std::size_t>(index.out[n])];
-            continue;
-        }
-        areas[n] = 0.0;
-        for (std::int64_t const a : index.in[n]) {
-            areas[n] += source.ds_area_m2[static_cast<std::size_t>(a)];
-        }
-    }
-    return areas;
-}
-
 Raster<float> read_dem(ConvertParams const& params, std::string const& crs, Run const& run) {
     Raster<float> dem = io::read_dem(params.dem, run);
     if (!io::same_crs(dem.grid().crs, crs, "pipeline.convert: " + params.dem, params.path)) {
@@ -86,7 +68,7 @@ void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, C
         }
     }
     if (is_known(source.us_area_m2) && is_known(source.ds_area_m2)) {
-        ready.node_area_m2 = node_areas(source, true);
+        ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
     } else if (dem != nullptr) {
         converted.areas = "d8";
         measure::ContributingAreas areas = measure::areas_d8(source.network.plan, measure::drain(*dem, run), run);
@@ -97,7 +79,7 @@ void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, C
         converted.areas = "none";
         std::ranges::fill(source.us_area_m2, -1.0);
         std::ranges::fill(source.ds_area_m2, -1.0);
-        ready.node_area_m2 = node_areas(source, false);
+        ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
     }
 }
 
@@ -111,7 +93,7 @@ void split(Ready& ready, ConvertParams const& params, Converted& converted, Run 
         source.braided.push_back(source.braided[piece.of]);
     }
     source.network = std::move(made.network);
-    ready.node_area_m2 = node_areas(source, std::string(converted.areas) != "none");
+    ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
 }
 
 /// The grid of a mask: that of the DEM, or around the network.
@@ -136,18 +118,44 @@ Grid grid_of(StreamNetwork const& plan, ConvertParams const& params, Raster<floa
     return frame_lines(lines, wanted);
 }
 
-/// Throws BadInput where an output would replace a file that the source consists of.
-void require_other(std::vector<std::string> const& files, fs::path const& folder, std::string const& source) {
-    std::error_code ignored;
-    if (!fs::exists(source, ignored)) { // a database
-        return;
+/// A name of which the files of one network differ by their endings: NAME of NAME_arcs.dbf.
+std::string common_name(fs::path const& file) {
+    std::string const stem = file.stem().string();
+    for (std::string const layer : {"_arcs", "_nodes"}) {
+        if (stem.ends_with(layer)) {
+            return stem.substr(0, stem.size() - layer.size());
+        }
     }
+    return stem;
+}
+
+/// Whether a file that is there may belong to the network that is read. It is not asked of GDAL: opening some formats
+/// leaves files beside them.
+bool may_be_read(fs::path const& file, fs::path const& source) {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored) || !fs::exists(source, ignored)) { // or it is a database
+        return false;
+    }
+    fs::path const folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    if (fs::is_directory(source, ignored)) {
+        return fs::equivalent(folder, source, ignored);
+    }
+    fs::path const own = source.has_parent_path() ? source.parent_path() : fs::path(".");
+    auto const kind = [](fs::path const& f) {
+        std::string const ending = f.extension().string();
+        return ending == ".shx" || ending == ".dbf" || ending == ".prj" || ending == ".cpg" ? ".shp" : ending;
+    };
+    return fs::equivalent(file, source, ignored) ||
+           (fs::equivalent(folder, own, ignored) && common_name(file) == common_name(source) &&
+            kind(file) == kind(source));
+}
+
+/// Throws BadInput where an output would replace what is read.
+void require_other(std::vector<std::string> const& files, fs::path const& folder, std::string const& source) {
     for (std::string const& file : files) {
-        for (std::string const& read : io::dataset_files(source)) {
-            if (fs::equivalent(folder / file, read, ignored)) {
-                throw BadInput(
-                    fmt::format("pipeline.convert: {} is what is read: name another output", (folder / file).string()));
-            }
+        if (may_be_read(folder / file, source)) {
+            throw BadInput(
+                fmt::format("pipeline.convert: {} may be what is read: name another output", (folder / file).string()));
         }
     }
 }
@@ -157,6 +165,11 @@ public:
     Output(ConvertParams const& params, std::string const& output, io::Existing existing)
         : params_(params), output_(output), existing_(existing), database_(io::is_postgis(output)) {
         if (database_) {
+            if (output == params.path && existing == io::Existing::replace) {
+                throw BadInput(
+                    "pipeline.convert: the database is the one that is read, where nothing is replaced: name "
+                    "another table without --overwrite");
+            }
             return;
         }
         write_ = {io::network_format(params.format, output), params.schema, {}};

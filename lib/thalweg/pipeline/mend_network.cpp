@@ -3,10 +3,8 @@
 #include <thalweg/pipeline/mend_network.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,16 +18,20 @@
 namespace thalweg::pipeline {
 namespace {
 
-double diagonal_of(RiverLines const& rivers) {
-    Vec3 low = rivers.lines.front().vertices.front();
-    Vec3 high = low;
-    for (auto const& river : rivers.lines) {
-        for (Vec3 const p : river.vertices) {
-            low = {std::min(low.x, p.x), std::min(low.y, p.y), 0.0};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y), 0.0};
+/// Of the vertices that are places.
+double diagonal_of(NetworkFile const& file) {
+    constexpr double greatest_coordinate = 1e18; // beyond, measure::check_topology takes it for none
+    Vec2 low{greatest_coordinate, greatest_coordinate};
+    Vec2 high{-greatest_coordinate, -greatest_coordinate};
+    for (auto const& arc : file.arcs) {
+        for (Vec3 const p : arc.line) {
+            if (std::fabs(p.x) < greatest_coordinate && std::fabs(p.y) < greatest_coordinate) {
+                low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+                high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+            }
         }
     }
-    return distance({low.x, low.y}, {high.x, high.y});
+    return low.x > high.x ? 0.0 : distance(low, high);
 }
 
 /// What the file knows of the rivers' lines, by feature; of several of one id, of the first.
@@ -92,19 +94,15 @@ void take_words(Known const& known, MendedNetwork& mended) {
     }
 }
 
-void say_numbers(measure::TopologyReport const& found, std::vector<Finding>& mended) {
-    constexpr std::array<std::string_view, 9> of_numbers = {"bad_arc_id",      "duplicate_arc_id", "duplicate_node_id",
-                                                            "missing_node",    "ds_arc_mismatch",  "strahler_mismatch",
-                                                            "shreve_mismatch", "basin_mismatch",   "isolated_node"};
-    for (std::string_view const kind : of_numbers) {
-        auto const of_kind = [&](Finding const& f) { return f.kind == kind; };
-        auto const count = std::count_if(found.findings.begin(), found.findings.end(), of_kind);
-        if (count > 0) {
-            auto const& first = *std::find_if(found.findings.begin(), found.findings.end(), of_kind);
-            mended.push_back({"renumbered", first.feature, first.where, static_cast<double>(count),
-                              fmt::format("{} findings {} are gone: arcs, nodes, orders and basins are numbered anew",
-                                          count, kind)});
-        }
+/// One finding for each kind that the check found, so that nothing is mended in silence.
+void say_mended(measure::TopologyReport const& found, std::vector<Finding>& mended) {
+    for (auto first = found.findings.begin(); first != found.findings.end();) {
+        auto const last =
+            std::find_if(first, found.findings.end(), [&](Finding const& f) { return f.kind != first->kind; });
+        mended.push_back(
+            {"mended", first->feature, first->where, static_cast<double>(last - first),
+             fmt::format("{} of kind {}: mended, the first of them {}", last - first, first->kind, first->text)});
+        first = last;
     }
 }
 
@@ -132,12 +130,12 @@ MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport cons
         mended.mended.push_back({"not_mended", 0, {}, 0.0, why});
         return mended;
     };
-    MendedLines lines = mend_lines(file, found, params.near_m);
+    double const near_m = params.near_m > 0.0 ? params.near_m : 1e-6 * diagonal_of(file);
+    MendedLines lines = mend_lines(file, found, near_m);
     mended.mended = std::move(lines.mended);
     if (lines.rivers.lines.empty()) {
         return give_up("no arc is left that has a line");
     }
-    double const near_m = params.near_m > 0.0 ? params.near_m : 1e-6 * diagonal_of(lines.rivers);
     network::Adopted adopted;
     try {
         adopted = network::adopt(
@@ -157,7 +155,7 @@ MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport cons
     Known const known(file, lines);
     take_areas(known, near_m, mended);
     take_words(known, mended);
-    say_numbers(found, mended.mended);
+    say_mended(found, mended.mended);
 
     auto const left = measure::check_topology(measure::as_file(mended.network, mended.orders), {near_m}, run);
     if (!left.findings.empty()) {

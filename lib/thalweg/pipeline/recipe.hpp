@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <thalweg/detail/midpoint.hpp>
+#include <thalweg/io/schema.hpp>
 #include <thalweg/network/adopt.hpp>
 #include <thalweg/network/grow_dla.hpp>
 #include <thalweg/network/grow_tokunaga.hpp>
@@ -148,10 +149,11 @@ struct PatchRecipe {
 };
 
 struct OutputRecipe {
-    std::string title;               ///< of the pictures and the page; "" names the seed
-    double contour_interval_m = 0.0; ///< [m] 0 chooses a round number
-    bool catchments = true;          ///< of the arcs, where there are rivers and a surface
-    bool accumulation = false;       ///< contributing areas by cell, where there is a surface
+    std::string title;                      ///< of the pictures and the page; "" names the seed
+    double contour_interval_m = 0.0;        ///< [m] 0 chooses a round number
+    bool catchments = true;                 ///< of the arcs, where there are rivers and a surface
+    bool accumulation = false;              ///< contributing areas by cell, where there is a surface
+    io::Schema schema = io::Schema::native; ///< another one: a network file more, in its words
 };
 
 /// Everything that decides a result, as one plain value.

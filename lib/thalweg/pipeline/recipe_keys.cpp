@@ -64,6 +64,13 @@ std::vector<Key> make_keys() {
                           in_recipe<bool>([](Recipe& r) -> bool& { return r.output.catchments; })));
     keys.push_back(yes_no("output.accumulation", "write contributing areas by cell: area_d8.tif, area_dinf.tif",
                           in_recipe<bool>([](Recipe& r) -> bool& { return r.output.accumulation; })));
+    Choices<io::Schema> schemas;
+    for (io::SchemaTable const& table : io::all_schemas()) {
+        schemas.emplace_back(table.name, table.schema);
+    }
+    keys.push_back(choice<io::Schema>("output.schema", schemas,
+                                      "another than native: also network_SCHEMA.gpkg in its words",
+                                      in_recipe<io::Schema>([](Recipe& r) -> io::Schema& { return r.output.schema; })));
 
     Recipe standard;
     standard.network.emplace();

@@ -319,15 +319,18 @@ std::string statistics_json(measure::Statistics const& statistics, DemLaws const
 }
 
 std::string as_json(CheckedFiles const& checked) {
-    ordered_json const out{{"ok", checked.ok()},
-                           {"arcs", checked.arcs},
-                           {"nodes", checked.nodes},
-                           {"schema", checked.schema},
-                           {"checks", checks_array(checked.checks)},
-                           {"findings", findings_array(checked.findings)},
-                           {"notes", findings_array(checked.notes)},
-                           {"mended", findings_array(checked.mended)},
-                           {"written", checked.written}};
+    ordered_json out{{"ok", checked.ok()},
+                     {"arcs", checked.arcs},
+                     {"nodes", checked.nodes},
+                     {"schema", checked.schema},
+                     {"checks", checks_array(checked.checks)},
+                     {"findings", findings_array(checked.findings)},
+                     {"notes", findings_array(checked.notes)},
+                     {"mended", findings_array(checked.mended)},
+                     {"written", checked.written}};
+    if (checked.certificate) {
+        out["certificate"] = certificate_object(*checked.certificate);
+    }
     return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -20,11 +20,11 @@
 #include <thalweg/measure/catchments.hpp>
 #include <thalweg/measure/certificate.hpp>
 #include <thalweg/measure/drainage.hpp>
+#include <thalweg/measure/horton.hpp>
 #include <thalweg/measure/hypsometry.hpp>
 #include <thalweg/measure/statistics.hpp>
 #include <thalweg/network/assign_types.hpp>
 #include <thalweg/network/count_streams.hpp>
-#include <thalweg/pipeline/laws.hpp>
 #include <thalweg/pipeline/recipe.hpp>
 
 namespace thalweg::pipeline {
@@ -85,7 +85,7 @@ struct Terrain {
     network::StreamCounts streams; ///< side branches, as drawn
     network::RiverTypes types;     ///< by arc, where rivers have types; else empty
     measure::ContributingAreas areas;
-    RiverLaws laws;
+    measure::HortonLaws laws;
     Valley valley;
     RidgeLines ridges; ///< between streams, where they are asked for
     std::optional<surface::Dilated> surface;
@@ -100,8 +100,8 @@ struct Terrain {
     std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
     double pit_volume_m3 = 0.0;
     std::optional<measure::Certificate> certificate; ///< of rivers and surface, where both are there
-    std::optional<measure::Catchments> catchments; ///< of the arcs on the surface, where they are asked for
-    std::optional<WaterAreas> water_areas;         ///< by cell of the surface, where they are asked for
+    std::optional<measure::Catchments> catchments;   ///< of the arcs on the surface, where they are asked for
+    std::optional<WaterAreas> water_areas;           ///< by cell of the surface, where they are asked for
     NetworkStory story;
     std::vector<Check> checks;
     std::vector<Finding> findings;                         ///< of the checks

@@ -12,10 +12,13 @@
 #include <thalweg/io/read_points.hpp>
 #include <thalweg/io/write_network.hpp>
 #include <thalweg/io/write_tin.hpp>
+#include <thalweg/network/order.hpp>
+#include <thalweg/network/split_confluences.hpp>
 #include <thalweg/pipeline/catchment_rows.hpp>
 #include <thalweg/pipeline/page.hpp>
 #include <thalweg/pipeline/pictures.hpp>
 #include <thalweg/pipeline/report.hpp>
+#include <thalweg/pipeline/split_areas.hpp>
 
 #include <fmt/format.h>
 
@@ -94,6 +97,22 @@ Recipe keep_inputs(Terrain const& terrain, io::OutputFolder const& out) {
     return recipe;
 }
 
+/// The network in another schema, its confluences split where that cannot name so many arcs.
+void write_in_schema(Terrain const& t, io::OutputFolder const& out, Run const& run) {
+    io::SchemaTable const& schema = io::table_of(t.recipe.output.schema);
+    network::Split split{t.network, {}};
+    if (schema.most_upstream > 0) {
+        split = network::split_confluences(t.network, {schema.most_upstream, t.grid.cell_m}, run);
+    }
+    std::vector<double> us_area_m2 = t.areas.us_area_m2;
+    std::vector<double> ds_area_m2 = t.areas.ds_area_m2;
+    add_pieces(split.pieces, us_area_m2, ds_area_m2);
+    NetworkOrders const orders = network::order(split.network.plan);
+    std::vector<double> const node_area_m2 = node_areas(split.network.plan, us_area_m2, ds_area_m2);
+    io::NetworkTables const tables{split.network, orders, us_area_m2, ds_area_m2, node_area_m2, t.grid.crs, {}};
+    io::write_network(tables, out.path(fmt::format("network_{}.gpkg", schema.name)), {.schema = schema.schema}, run);
+}
+
 void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run) {
     std::map<std::string, std::string> const about = {
         {"version", version()}, {"seed", fmt::format("{}", t.recipe.seed)}, {"area_from", t.areas.source}};
@@ -108,6 +127,9 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
                                    &t.ridges};
     io::write_geopackage(tables, out.path("network"), run);
     io::write_shapefiles(tables, out.path("network"), run);
+    if (t.recipe.output.schema != io::Schema::native) {
+        write_in_schema(t, out, run);
+    }
     Mask cells(t.grid);
     for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
         cells[i] = !std::isnan(t.valley.z[i]);

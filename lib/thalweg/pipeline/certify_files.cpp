@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/certify_files.hpp>
+
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/io/raster_files.hpp>
+#include <thalweg/io/same_frame.hpp>
+#include <thalweg/measure/drainage.hpp>
+#include <thalweg/pipeline/reaches_of_file.hpp>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+/// By reach, the contributing area the file gives its lower end.
+std::vector<double> areas_of(NetworkFile const& file, std::vector<measure::Reach> const& reaches) {
+    std::unordered_map<std::int64_t, double> by_id;
+    for (NetworkFile::FileArc const& arc : file.arcs) {
+        by_id.try_emplace(arc.id, arc.ds_area_m2);
+    }
+    std::vector<double> areas;
+    areas.reserve(reaches.size());
+    for (measure::Reach const& reach : reaches) {
+        areas.push_back(file.says.areas ? by_id.at(reach.id) : std::numeric_limits<double>::quiet_NaN());
+    }
+    return areas;
+}
+
+} // namespace
+
+measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, Run const& run) {
+    Raster<float> const land = io::read_dem(dem);
+    if (!io::same_crs(network.crs, land.grid().crs, "the network", dem)) {
+        throw BadInput(fmt::format("pipeline.certify_files: the network is in {}, {} in {}; bring one into the other's "
+                                   "CRS (ogr2ogr -t_srs, gdalwarp -t_srs)",
+                                   network.crs.substr(0, 60), dem, land.grid().crs.substr(0, 60)));
+    }
+    FileReaches const found = reaches_of_file(network, land.grid());
+    measure::Certificate certificate =
+        measure::certify(land, measure::drain(land, run), found.reaches, areas_of(network, found.reaches), run);
+    for (measure::Reach const& reach : found.reaches) {
+        if (reach.lines.empty()) {
+            certificate.findings.push_back(
+                {"outside_dem", reach.id, {}, 0.0, fmt::format("arc {} lies outside the DEM", reach.id)});
+        }
+    }
+    return certificate;
+}
+
+} // namespace thalweg::pipeline
