@@ -20,11 +20,11 @@
 #include <thalweg/measure/catchments.hpp>
 #include <thalweg/measure/certificate.hpp>
 #include <thalweg/measure/drainage.hpp>
-#include <thalweg/measure/horton.hpp>
 #include <thalweg/measure/hypsometry.hpp>
 #include <thalweg/measure/statistics.hpp>
 #include <thalweg/network/assign_types.hpp>
 #include <thalweg/network/count_streams.hpp>
+#include <thalweg/pipeline/laws.hpp>
 #include <thalweg/pipeline/recipe.hpp>
 
 namespace thalweg::pipeline {
@@ -85,7 +85,7 @@ struct Terrain {
     network::StreamCounts streams; ///< side branches, as drawn
     network::RiverTypes types;     ///< by arc, where rivers have types; else empty
     measure::ContributingAreas areas;
-    measure::HortonLaws laws;
+    RiverLaws laws;
     Valley valley;
     RidgeLines ridges; ///< between streams, where they are asked for
     std::optional<surface::Dilated> surface;
