@@ -73,7 +73,7 @@ Command add_measure(CLI::App& app, Session& session) {
     app.add_option("DEM", options->params.dem, "A folder that make left, or any raster of heights that GDAL reads.")
         ->type_name("FILE")
         ->required();
-    add_network_options(app, options->network);
+    add_network_options(app, options->network, "--schema,--from");
     app.get_option("NETWORK")->required(false)->description(
         "Rivers for the catchments: a network that GDAL reads, in anyone's schema. Without it, those of the folder.");
     app.add_option("-o,--output", options->folder, "Write into this folder.")->type_name("DIR")->required();

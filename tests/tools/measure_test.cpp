@@ -106,6 +106,17 @@ TEST(Measure, CatchmentsOfAnyonesRivers) {
     }
     EXPECT_EQ(rows[7], (std::vector<double>{9, 300, 300, 300}));
     EXPECT_EQ(rows[9], (std::vector<double>{0, 800, 1100, 800}));
+    // In another projection they are brought into the DEM's.
+    ASSERT_EQ(
+        std::system(
+            ("cd " + place.path().string() + " && ogr2ogr -t_srs EPSG:3857 mercator.gpkg rivers.geojson").c_str()),
+        0);
+    Outcome const far = thalweg_run("measure dem.tif mercator.gpkg --field arc_id=line --field ds_arc=next --what "
+                                    "catchments -o far --json",
+                                    place.path());
+    ASSERT_EQ(far.code, 0) << far.err;
+    EXPECT_EQ(nlohmann::json::parse(far.out)["catchments"], json);
+    EXPECT_NE(nlohmann::json::parse(far.out)["notes"].dump().find("were brought into EPSG:32631"), std::string::npos);
 }
 
 TEST(Measure, CatchmentsOfAFolderAreThoseThatMakeLeft) {

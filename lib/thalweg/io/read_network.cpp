@@ -33,7 +33,8 @@ using FileArc = NetworkFile::FileArc;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Wish wish_of(ReadNetworkParams const& params) {
-    Wish wish{.schema = params.schema, .arcs_layer = params.arcs_layer, .nodes_layer = params.nodes_layer};
+    Wish wish{
+        .schema = params.schema, .arcs_layer = params.arcs_layer, .nodes_layer = params.nodes_layer, .crs = params.crs};
     for (auto const& [quantity, field] : params.fields) {
         if (quantity == "node_id") {
             wish.node_id = field;
@@ -67,7 +68,8 @@ Vec2 middle_of(NetworkFile const& file) {
     return {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)};
 }
 
-void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes, Notes& notes, Run const& run) {
+void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes, std::string const& wanted,
+                       Notes& notes, Run const& run) {
     OGRSpatialReference const* const own = arcs.layer->GetSpatialRef();
     if (nodes != nullptr) {
         OGRSpatialReference const* const other = nodes->layer->GetSpatialRef();
@@ -87,7 +89,7 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes,
         file.crs = name_of(*own);
         return;
     }
-    IntoMetres const metres(*own, "", middle, arcs.what);
+    IntoMetres const metres(*own, wanted, middle, arcs.what);
     file.crs = metres.crs();
     auto const move = [&](std::span<Vec3> points) {
         auto const done = metres.apply(points);
@@ -125,7 +127,7 @@ void take_nodes(NetworkFile& file, std::optional<Layer> const& nodes, Layer cons
     } else if (file.schema == "native") {
         notes.add(source_name, {"missing_nodes", 0, {}, 0.0, "has no layer nodes"});
     }
-    bring_into_metres(file, arcs, nodes ? &*nodes : nullptr, notes, run);
+    bring_into_metres(file, arcs, nodes ? &*nodes : nullptr, wish.crs, notes, run);
 }
 
 NetworkFile read(std::string const& path, Wish const& wish, Run const& run) {

@@ -17,6 +17,7 @@ struct ReadNetworkParams {
     std::map<std::string, std::string> fields = {}; ///< a quantity (name_of), or node_id, to the field that holds it
     std::string arcs_layer = {};  ///< "" takes the layer arcs, else the only layer of lines that is understood
     std::string nodes_layer = {}; ///< "" takes the layer nodes of a network in the native schema, if it is there
+    std::string crs = {};         ///< to bring it into, projected in metres; "" for its own, or its UTM zone
 };
 
 /// Reads anyone's network as it stands: ids may repeat, links lead nowhere, lines be empty or wrong.

@@ -24,6 +24,7 @@ struct Wish {
     std::string node_id = "node_id";
     std::string arcs_layer = {};
     std::string nodes_layer = {};
+    std::string crs = {};
     bool whole = false; ///< every layer, field and value of the native schema, or an error
 };
 

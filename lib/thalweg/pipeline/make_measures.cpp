@@ -16,7 +16,6 @@
 #include <thalweg/core/suggest.hpp>
 #include <thalweg/io/ground_cell.hpp>
 #include <thalweg/io/raster_files.hpp>
-#include <thalweg/io/same_frame.hpp>
 #include <thalweg/measure/drain_dinf.hpp>
 #include <thalweg/pipeline/catchment_rows.hpp>
 #include <thalweg/pipeline/reaches_of_file.hpp>
@@ -163,8 +162,12 @@ MeasuredCatchments write_catchments(NetworkFile const& file, measure::Drainage c
     FileReaches const rivers = reaches_of_file(file, drainage.direction.grid());
     measure::Catchments const catchments = measure::catchments(rivers.reaches, drainage, run);
     auto const rows = catchment_rows(rivers.reaches, rivers.basins, catchments);
-    return {io::write_catchments({catchments.reach, rows}, path, run), static_cast<std::int64_t>(rows.size()),
-            rivers.cut, rivers.outside, catchments.without};
+    return {io::write_catchments({catchments.reach, rows}, path, run),
+            static_cast<std::int64_t>(rows.size()),
+            rivers.cut,
+            rivers.outside,
+            rivers.nowhere,
+            catchments.without};
 }
 
 std::vector<std::string> notes_on(NetworkFile const& file, MeasuredCatchments const& c) {
@@ -178,6 +181,9 @@ std::vector<std::string> notes_on(NetworkFile const& file, MeasuredCatchments co
     if (c.arcs_cut + c.arcs_outside > 0) {
         notes.push_back(
             fmt::format("{} of {} arcs leave the DEM and {} lie outside it", c.arcs_cut, c.arcs, c.arcs_outside));
+    }
+    if (c.arcs_nowhere > 0) {
+        notes.push_back(fmt::format("{} arcs have a vertex that is no number, and were left out", c.arcs_nowhere));
     }
     if (std::int64_t const idle = c.arcs - c.arcs_outside - c.count.catchments; idle > 0) {
         notes.push_back(fmt::format("{} arcs have no catchment: other arcs own their cells", idle));
@@ -203,12 +209,13 @@ MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& 
     require_metres(dem.grid(), source.dem);
     NetworkFile network;
     if (wanted.count(outlines) != 0) {
-        network = io::read_network(source.network, params.read, run);
-        if (!network.crs.empty() &&
-            !io::same_crs(network.crs, dem.grid().crs, "pipeline.make_measures: " + source.network, source.dem)) {
-            throw BadInput(fmt::format("pipeline.make_measures: {} is in {:.60}, {} in {:.60}: bring one into the "
-                                       "other's CRS first (ogr2ogr -t_srs, gdalwarp -t_srs)",
-                                       source.network, network.crs, source.dem, dem.grid().crs));
+        io::ReadNetworkParams how = params.read;
+        how.crs = dem.grid().crs;
+        network = io::read_network(source.network, how, run);
+        if (!network.crs.empty() && dem.grid().crs.empty()) {
+            throw BadInput(fmt::format("pipeline.make_measures: {} has no CRS, {} is in {:.60}: give the DEM its CRS "
+                                       "first (gdal_translate -a_srs)",
+                                       source.dem, source.network, network.crs));
         }
     }
 

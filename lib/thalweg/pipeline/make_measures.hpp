@@ -17,7 +17,7 @@ namespace thalweg::pipeline {
 struct MakeMeasuresParams {
     std::string dem;               ///< a folder that make left, or any raster of heights
     std::string network;           ///< "" takes that of the folder, if there is one
-    io::ReadNetworkParams read;    ///< how the network is understood
+    io::ReadNetworkParams read;    ///< how the network is understood; it is brought into the DEM's CRS
     std::vector<std::string> what; ///< names of measures; none takes d8, dinf and, with a network, catchments
 };
 
@@ -30,6 +30,7 @@ struct MeasuredCatchments {
     std::int64_t arcs = 0;          ///< of the network
     std::int64_t arcs_cut = 0;      ///< that leave the DEM
     std::int64_t arcs_outside = 0;  ///< that have no part on it
+    std::int64_t arcs_nowhere = 0;  ///< of these, with a vertex that is no number
     std::int64_t cells_without = 0; ///< whose water leaves the DEM before it meets a river
 };
 
@@ -50,8 +51,8 @@ struct MadeMeasures {
 /// where water leaves), catchments.gpkg (of anyone's network). Depressions stay: water is led through them.
 /// Takes: output: a folder, which may hold other things. existing: under replace a file of the same name is replaced,
 /// and nothing else. Throws: BadParameter: a name that is none (did you mean); BadInput: catchments without a network,
-/// a DEM that is not in metres, a network in another CRS or beside the DEM, one whose ids repeat or rivers run in a
-/// circle, a file that is there already; IoError; Cancelled.
+/// a DEM that is not in metres or has no CRS where the network has one, a network beside the DEM or whose rivers run
+/// in a circle, a file that is there already; IoError; Cancelled.
 MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& output,
                            io::Existing existing = io::Existing::refuse, Run const& run = {});
 

@@ -39,16 +39,14 @@ std::vector<Vec2> in_plan(std::vector<Vec3> const& line) {
     return plan;
 }
 
-std::vector<std::vector<Vec2>> parts_in(NetworkFile::FileArc const& arc, Grid const& grid) {
-    std::vector<Vec3> const& line = arc.line;
-    if (line.empty()) {
+bool is_somewhere(std::vector<Vec3> const& line) {
+    return std::all_of(line.begin(), line.end(),
+                       [](Vec3 const& v) { return std::isfinite(v.x) && std::isfinite(v.y); });
+}
+
+std::vector<std::vector<Vec2>> parts_in(std::vector<Vec3> const& line, Grid const& grid) {
+    if (line.empty() || !is_somewhere(line)) {
         return {};
-    }
-    if (!std::all_of(line.begin(), line.end(),
-                     [](Vec3 const& v) { return std::isfinite(v.x) && std::isfinite(v.y); })) {
-        throw BadInput(fmt::format("pipeline.reaches_of_file: arc {} has a vertex that is no number; see what thalweg "
-                                   "check says",
-                                   arc.id));
     }
     if (inside(line, grid)) { // bit for bit
         return {in_plan(line)};
@@ -114,7 +112,8 @@ FileReaches reaches_of_file(NetworkFile const& file, Grid const& grid) {
                                        arc.id));
         }
         auto& lines = result.reaches[static_cast<std::size_t>(place->second)].lines;
-        auto parts = parts_in(arc, grid);
+        auto parts = parts_in(arc.line, grid);
+        result.nowhere += is_somewhere(arc.line) ? 0 : 1;
         std::move(parts.begin(), parts.end(), std::back_inserter(lines));
     }
     std::vector<bool> leaves(result.reaches.size(), false);

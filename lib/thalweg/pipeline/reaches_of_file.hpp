@@ -18,6 +18,7 @@ struct FileReaches {
     std::vector<std::int64_t> basins;    ///< by reach: that of the file, else 1, 2, ... by outlet
     std::int64_t cut = 0;                ///< reaches that leave the grid
     std::int64_t outside = 0;            ///< reaches that have no part in it
+    std::int64_t nowhere = 0;            ///< lines with a vertex that is no number, which count as outside
 };
 
 /// The reaches of anyone's network. It need not be a set of trees: only ids and arcs downstream are asked for. One
