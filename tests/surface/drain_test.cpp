@@ -183,14 +183,17 @@ TEST(DrainLand, FillsOrCutsWhicheverMovesLess) {
     dem[{3, 2}] = 8.0F;
     DrainedLand const cut = drain(dem, no_rivers(grid), {Drain::carve});
     EXPECT_EQ(cut.depressions.raised_cells, 0);
-    EXPECT_EQ(cut.depressions.cut_cells, 1);
-    EXPECT_EQ(cut.dem[(Cell{2, 2})], 7.0F);
-    EXPECT_EQ(cut.dem[(Cell{3, 2})], surface::just_below(7.0F));
-    EXPECT_NEAR(cut.depressions.cut_m3, 100.0, 0.01);
+    EXPECT_EQ(cut.depressions.cut_cells, 2);
+    EXPECT_EQ(cut.dem[(Cell{1, 2})], 7.0F);
+    EXPECT_EQ(cut.dem[(Cell{2, 2})], surface::just_below(7.0F)); // a small step on the way
+    EXPECT_EQ(cut.dem[(Cell{3, 2})], surface::just_below(surface::just_below(7.0F)));
+    EXPECT_NEAR(cut.depressions.cut_m3, 100.0, 0.02);
     DrainedLand const filled = drain(dem, no_rivers(grid), {Drain::fill});
     EXPECT_EQ(filled.depressions.cut_cells, 0);
     EXPECT_EQ(filled.dem[(Cell{2, 2})], surface::just_above(8.0F));
-    dem[{1, 2}] = 9.0F; // as much to fill as to cut
+    dem[{1, 2}] = 9.0F; // half a metre to fill, twice that to cut
+    dem[{2, 2}] = 8.0F;
+    dem[{3, 2}] = dem[{4, 2}] = 8.5F;
     EXPECT_EQ(drain(dem, no_rivers(grid), {Drain::carve}).depressions.cut_cells, 0);
 }
 
@@ -276,7 +279,7 @@ TEST(DrainLand, CarveDrainsAndKeepsRivers) {
 }
 
 TEST(DrainLand, OneBowlTakesTheCheapestWay) {
-    rc::check("the volume of the cheapest of all simple ways out, or of filling", [] {
+    rc::check("no more than the cheapest of all simple ways out, or filling", [] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
         auto const rings = *rc::gen::inRange<std::int64_t>(2, 4).as("rings");
         std::int64_t const side = 2 * rings + 1;
@@ -292,7 +295,7 @@ TEST(DrainLand, OneBowlTakesTheCheapestWay) {
         }
         DrainedLand const land = drain(bowl, no_rivers(bowl.grid()));
         double const least = std::min(plain::fill_volume(bowl), plain::cheapest_way_out(bowl, {rings, rings}));
-        RC_ASSERT(std::abs(land.depressions.volume_m3() - least) < 1e-3);
+        RC_ASSERT(land.depressions.volume_m3() <= least + 1e-3);
     });
 }
 

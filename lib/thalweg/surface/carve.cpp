@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -14,6 +16,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/surface/flood.hpp>
+#include <thalweg/surface/land_change.hpp>
 #include <thalweg/surface/small_step.hpp>
 
 namespace thalweg::surface {
@@ -33,10 +36,11 @@ using Lowest =
 
 class Carver {
 public:
-    Carver(Raster<float> const& dem, Raster<float> const& valley, Raster<float> const& least, Run const& run)
-        : land_(framed(dem)), level_(land_), rivers_(framed(valley)), least_(framed(least)), run_(run),
-          offsets_(d8_offsets(land_.grid())), seen_(land_.grid()), cost_(land_.grid()), height_(land_.grid()),
-          back_(land_.grid()) {
+    Carver(Raster<float> const& dem, Raster<float> const& valley, Raster<float> const& least, int heights,
+           Run const& run)
+        : heights_(heights), land_(framed(dem)), level_(land_), rivers_(framed(valley)), least_(framed(least)),
+          run_(run), offsets_(d8_offsets(land_.grid())), seen_(land_.grid()), cost_(land_.grid()),
+          height_(land_.grid()), back_(land_.grid()) {
         flood(level_, rivers_, Lakes::level, run_);
     }
 
@@ -150,6 +154,48 @@ private:
         }
     }
 
+    double volume_below(Lake const& lake, float height) const {
+        double volume = 0.0;
+        for (std::int64_t const i : lake.cells) {
+            volume += std::max(0.0, static_cast<double>(height) - static_cast<double>(land_[i]));
+        }
+        return volume;
+    }
+
+    double raise_to(Lake const& lake, float height) {
+        double const volume = volume_below(lake, height);
+        for (std::int64_t const i : lake.cells) {
+            if (land_[i] < height) {
+                set(i, height, level_[i]);
+            }
+        }
+        return volume;
+    }
+
+    /// Of cuts from the pit's own height and from some between it and the water's, where that of the one begins which
+    /// moves the least: where a river's bank must not be cut, a pit below it is better filled as far as the bank.
+    std::optional<float> cheapest_cut(Lake const& lake, double full) {
+        std::optional<float> best;
+        float const bottom = land_[pit_of(lake)];
+        double bound = full;
+        for (int k = 0; k < heights_; ++k) {
+            float const share = static_cast<float>(k) / static_cast<float>(heights_);
+            float const from = bottom + (lake.level - bottom) * share;
+            double const filled = volume_below(lake, from);
+            if (!(filled < bound)) {
+                break;
+            }
+            std::size_t const mark = changes_.size();
+            raise_to(lake, from);
+            if (std::int64_t const end = way_out(pit_of(lake), bound - filled); end != nowhere) {
+                best = from;
+                bound = filled + cost_[end];
+            }
+            take_back(mark);
+        }
+        return best;
+    }
+
     /// Fills a lake or cuts it. Gives: the volume moved, in metres times cells.
     double drain(Lake const& lake, int depth) {
         double full = 0.0;
@@ -157,9 +203,9 @@ private:
             full += static_cast<double>(lake.level) - static_cast<double>(land_[i]);
         }
         std::size_t const mark = changes_.size();
-        std::int64_t const end = depth < deepest ? way_out(pit_of(lake), full) : nowhere;
-        if (end != nowhere) {
-            double moved = cut_back_from(end);
+        if (auto const from = depth < deepest ? cheapest_cut(lake, full) : std::nullopt) {
+            double moved = raise_to(lake, *from);
+            moved += cut_back_from(way_out(pit_of(lake), full));
             flood_again(lake.cells);
             for (Lake const& rest : lakes_among(lake.cells)) {
                 moved += drain(rest, depth + 1);
@@ -250,6 +296,7 @@ private:
     }
 
     static constexpr std::int64_t nowhere = -1;
+    int heights_;                      ///< at which a cut may begin, the pit's own the first
     static constexpr int deepest = 64; ///< lakes in lakes; what lies deeper is filled
 
     Raster<float> land_;
@@ -275,9 +322,20 @@ Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float
                                    "on one grid",
                                    least.width(), least.height(), dem.width(), dem.height()));
     }
-    Raster<float> cut = Carver(dem, valley.z, least, run).cut();
-    flood(cut, framed(valley.z), Lakes::slope, run);
-    return unframed(cut, dem.grid());
+    // A cut that is the better one for its lake may leave others more to do: the better of both ways of the whole land.
+    std::optional<Raster<float>> best;
+    double moved = 0.0;
+    for (int const heights : {1, 8}) {
+        Raster<float> cut = Carver(dem, valley.z, least, heights, run).cut();
+        flood(cut, framed(valley.z), Lakes::slope, run);
+        Raster<float> drained = unframed(cut, dem.grid());
+        double const volume = change_between(dem, drained).volume_m3();
+        if (!best || volume < moved) {
+            best = std::move(drained);
+            moved = volume;
+        }
+    }
+    return *std::move(best);
 }
 
 } // namespace thalweg::surface
