@@ -197,18 +197,19 @@ TEST(TokunagaLaws, AreThePapersTable) {
 }
 
 TEST(CountStreams, CountsByHand) {
-    EXPECT_EQ(network::count_streams({}).links, 0);
-    EXPECT_EQ(network::count_streams({}).order, 0);
+    using Down = std::vector<std::int64_t>;
+    EXPECT_EQ(network::count_streams(Down{}).links, 0);
+    EXPECT_EQ(network::count_streams(Down{}).order, 0);
     // A stream of order 2 with one side branch, and beside it a lone link.
-    auto const counts = network::count_streams({-1, 0, 0, 1, 1, -1});
+    auto const counts = network::count_streams(Down{-1, 0, 0, 1, 1, -1});
     EXPECT_EQ(counts.links, 6);
     EXPECT_EQ(counts.sources, 4);
     EXPECT_EQ(counts.order, 2);
     EXPECT_EQ(counts.streams, (std::vector<std::int64_t>{4, 1}));
     EXPECT_EQ(counts.branches[1], std::vector<std::int64_t>{1});
     EXPECT_EQ(counts.side, std::vector<double>{1.0});
-    EXPECT_THROW(network::count_streams({0}), BadInput);
-    EXPECT_THROW(network::count_streams({1, -1}), BadInput);
+    EXPECT_THROW(network::count_streams(Down{0}), BadInput);
+    EXPECT_THROW(network::count_streams(Down{1, -1}), BadInput);
 }
 
 } // namespace
