@@ -157,7 +157,8 @@ inline double breach_volume(Raster<float> dem) {
         queue.emplace(0.0, pit);
         std::int64_t end = -1;
         while (end < 0) {
-            auto const [c, i] = queue.top();
+            double const c = queue.top().first;
+            std::int64_t const i = queue.top().second;
             queue.pop();
             if (i != pit && (dem[i] < dem[pit] || is_way_out(dem, i))) {
                 end = i;

@@ -322,10 +322,16 @@ Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float
                                    "on one grid",
                                    least.width(), least.height(), dem.width(), dem.height()));
     }
-    // A cut that is the better one for its lake may leave others more to do: the better of both ways of the whole land.
+    // Pits below a river's banks want to be filled before they are cut. A cut that is the better one for its lake may
+    // leave others more to do: so the better of both ways of the whole land.
+    bool const banks =
+        std::any_of(least.values().begin(), least.values().end(), [](float z) { return !std::isnan(z); });
     std::optional<Raster<float>> best;
     double moved = 0.0;
     for (int const heights : {1, 8}) {
+        if (heights > 1 && !banks) {
+            break;
+        }
         Raster<float> cut = Carver(dem, valley.z, least, heights, run).cut();
         flood(cut, framed(valley.z), Lakes::slope, run);
         Raster<float> drained = unframed(cut, dem.grid());
