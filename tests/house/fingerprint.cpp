@@ -60,6 +60,7 @@
 #include <thalweg/solver/fft.hpp>
 #include <thalweg/surface/diffuse.hpp>
 #include <thalweg/surface/dilate.hpp>
+#include <thalweg/surface/drain.hpp>
 #include <thalweg/surface/harmonic.hpp>
 #include <thalweg/surface/problem_through.hpp>
 #include <thalweg/surface/rasterise_tin.hpp>
@@ -577,6 +578,8 @@ int main(int count, char** words) {
     print_blend(land, tin, run);
     print_ridges(raised.network, grid, run);
     print_skeleton(valley, run);
+    print("fill", hash_of(surface::drain(land, valley, {surface::Drain::fill}, run).dem));
+    print("carve", hash_of(surface::drain(land, valley, {surface::Drain::carve}, run).dem));
     print_water(land, raised.network.plan, run);
     print_trees(run);
 }

@@ -39,7 +39,7 @@ for command in spoken.commands():
     assert f"thalweg-{command}(1)" in shown["thalweg.1"], command
     tags = shown[f"thalweg-{command}.1"]
     for option in spoken.options(command):
-        assert re.search(rf"^ +(-\w, )?{option}\b", tags, re.M), (command, option)
+        assert re.search(rf"^ +(-\w, )?(--[\w-]+, )*{option}\b", tags, re.M), (command, option)
 for option in spoken.options():
     assert option in shown["thalweg.1"], option
 for key in spoken.keys():

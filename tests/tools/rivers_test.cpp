@@ -317,7 +317,14 @@ TEST(Rivers, LinksWithoutRoomAreWarnedOfOrRefused) {
     made(place, base + "1 --set grid.width=2 --set grid.height=2", "two");
     made(place, base + "1 --set grid.width=1 --set grid.height=1", "one");
 
-    made(place, base + "2 --set grid.width=1 --set grid.height=300", "column");
+    // Every cell of a single column lies on the border: the river is drawn, and the certificate tells.
+    Outcome const column =
+        thalweg_run("make " + base + "2 --set grid.width=1 --set grid.height=300 -q -o column", place.path());
+    EXPECT_EQ(column.code, 3) << column.err;
+    json const columns = report_of(place / "column");
+    for (auto const& check : columns["checks"]) {
+        EXPECT_EQ(check["ok"].get<bool>(), check["name"] != "border_cells") << check;
+    }
     refused(place, base + "2 --set grid.width=300 --set grid.height=1", "4 of 7 links found no room on 300 x 1 cells");
 
     // A stroke so short that its many branches have no room beside it.
