@@ -187,3 +187,22 @@ TEST(Convert, ADatabaseThatDoesNotAnswerIsAFailure) {
     EXPECT_EQ(outcome.code, 1) << outcome.err;
     EXPECT_NE(outcome.err.find("cannot be reached"), std::string::npos) << outcome.err;
 }
+
+TEST(Convert, MakeLeavesItsRiversInAnotherSchemaToo) {
+    Workplace const place;
+    std::string const small =
+        std::string(THALWEG_SOURCE_DIR) +
+        "/samples/tokunaga.toml --set network.tokunaga.order=3 --set grid.width=100 --set grid.height=100";
+    for (std::string const schema : {"taudem", "nhdplus", "hydrorivers", "grass"}) {
+        Outcome const made = thalweg_run("make " + small + " -q --schema " + schema + " -o " + schema, place.path());
+        ASSERT_EQ(made.code, 0) << made.err;
+        std::string const file = schema + "/network_" + schema + ".gpkg";
+        Outcome const checked = thalweg_run("check " + file + " --json", place.path());
+        EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
+        auto const report = nlohmann::json::parse(checked.out);
+        EXPECT_EQ(report["schema"], schema);
+        auto const native = nlohmann::json::parse(file_bytes(place / (schema + "/report.json")));
+        EXPECT_GE(report["arcs"], native["network"]["arcs"]); // taudem splits confluences of three
+        EXPECT_EQ(thalweg_run("replay " + schema + " --verify", place.path()).code, 0) << schema;
+    }
+}

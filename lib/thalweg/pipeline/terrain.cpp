@@ -60,7 +60,7 @@ void drain_land(Terrain& terrain, Diary& diary, Run const& run) {
     });
     terrain.surface->dem = std::move(land.dem);
     terrain.drained = {land.banks, land.depressions};
-    diary.say(fmt::format("banks {:.3g} m3, depressions {:.3g} m3 up, {:.3g} m3 down", land.banks.raised_m3,
+    diary.say(fmt::format("banks raised {:.0f} m3; depressions filled {:.0f} m3, cut {:.0f} m3", land.banks.raised_m3,
                           land.depressions.raised_m3, land.depressions.cut_m3));
 }
 
