@@ -59,7 +59,12 @@ void print_table(pipeline::CheckedFiles const& checked) {
     if (checked.certificate) {
         print_certificate(*checked.certificate);
     }
-    print_some(checked.findings, "");
+    if (!checked.ok()) {
+        print_some(checked.findings, "");
+    } else if (!checked.findings.empty()) {
+        fmt::print("{} places at which no check fails: --findings FILE or --json tells them\n",
+                   checked.findings.size());
+    }
     print_some(checked.notes, "note: ");
     print_some(checked.mended, "mended: ");
     for (std::string const& file : checked.written) {
