@@ -108,7 +108,7 @@ public:
         case is_outlet: return down(a) < 0 ? 1 : 0;
         case horton: return orders.strahler[at(mouth_[at(a)])]; // orders never fall downstream
         case scheidegger: return 2 * orders.shreve[at(a)];
-        case drwal: return std::bit_width(static_cast<std::uint64_t>(orders.shreve[at(a)]));
+        case drwal: return static_cast<std::int64_t>(std::bit_width(static_cast<std::uint64_t>(orders.shreve[at(a)])));
         default: return 0;
         }
     }
