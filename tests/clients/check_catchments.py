@@ -10,12 +10,11 @@ Prints one JSON object and exits with 1 on any violation, 2 when there is nothin
 """
 import json
 import pathlib
-import sys
 from collections import defaultdict
 
 import numpy as np
 from osgeo import gdal, ogr
-from report import Report
+from report import Report, run
 
 gdal.UseExceptions()
 ogr.UseExceptions()
@@ -138,10 +137,4 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    try:
-        sys.exit(main(sys.argv[1]))
-    except RuntimeError as error:
-        print(f"check_catchments.py: {error}", file=sys.stderr)
-        sys.exit(2)
+    run(main, __doc__, 1)

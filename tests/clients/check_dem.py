@@ -10,12 +10,11 @@ Prints one JSON object and exits with 1 on any violation, 2 when there is nothin
 """
 import contextlib
 import io
-import sys
 
 import numpy as np
 from osgeo import gdal, ogr
 from osgeo_utils.samples import validate_cloud_optimized_geotiff
-from report import Report
+from report import Report, run
 
 gdal.UseExceptions()
 ogr.UseExceptions()
@@ -98,10 +97,4 @@ def main(dem_path, mask_path, network_path):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
-        sys.exit(__doc__)
-    try:
-        sys.exit(main(*sys.argv[1:]))
-    except RuntimeError as error:
-        print(f"check_dem.py: {error}", file=sys.stderr)
-        sys.exit(2)
+    run(main, __doc__, 3)

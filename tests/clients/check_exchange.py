@@ -11,7 +11,6 @@ NetworkX reads the graphs as a forest in which every source has an outlet. A net
 Prints one JSON line and exits with 1 on any violation, 2 when there is nothing to check."""
 import pathlib
 import subprocess
-import sys
 import tempfile
 
 import cluster
@@ -19,7 +18,7 @@ import networkx as nx
 import numpy as np
 from check_postgis import psql
 from osgeo import gdal, ogr
-from report import Report
+from report import Report, run
 
 gdal.UseExceptions()
 ogr.UseExceptions()
@@ -193,10 +192,4 @@ def main(executable, folder, state):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
-        sys.exit(__doc__)
-    try:
-        sys.exit(main(*sys.argv[1:]))
-    except (OSError, RuntimeError) as error:
-        print(f"check_exchange.py: {error}", file=sys.stderr)
-        sys.exit(2)
+    run(main, __doc__, 3)

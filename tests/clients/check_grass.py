@@ -16,7 +16,7 @@ import tempfile
 
 import numpy as np
 from osgeo import gdal
-from report import Report
+from report import Report, run
 from scipy.ndimage import distance_transform_edt
 
 gdal.UseExceptions()
@@ -141,10 +141,4 @@ def main(dem, mask, network):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
-        sys.exit(__doc__)
-    try:
-        sys.exit(main(*sys.argv[1:]))
-    except (OSError, RuntimeError) as error:
-        print(f"check_grass.py: {error}", file=sys.stderr)
-        sys.exit(2)
+    run(main, __doc__, 3)

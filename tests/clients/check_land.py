@@ -12,7 +12,6 @@ import contextlib
 import csv
 import io
 import pathlib
-import sys
 import tomllib
 
 import meshio
@@ -20,7 +19,7 @@ import numpy as np
 from check_dem import check_format
 from osgeo import gdal, ogr
 from osgeo_utils.samples import validate_cloud_optimized_geotiff
-from report import Report
+from report import Report, run
 
 gdal.UseExceptions()
 ogr.UseExceptions()
@@ -125,10 +124,4 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    try:
-        sys.exit(main(pathlib.Path(sys.argv[1])))
-    except (RuntimeError, OSError) as error:
-        print(f"check_land.py: {error}", file=sys.stderr)
-        sys.exit(2)
+    run(lambda folder: main(pathlib.Path(folder)), __doc__, 1)

@@ -9,13 +9,12 @@ Prints one JSON object and exits with 1 on any violation, 2 when there is nothin
 """
 import math
 import pathlib
-import sys
 import warnings
 from collections import Counter
 
 import networkx as nx
 from osgeo import ogr
-from report import Report
+from report import Report, run
 from shapely.geometry import LineString
 from shapely.strtree import STRtree
 
@@ -273,10 +272,4 @@ def main(path):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    try:
-        sys.exit(main(sys.argv[1]))
-    except (FileNotFoundError, RuntimeError) as error:
-        print(f"check_network.py: {error}", file=sys.stderr)
-        sys.exit(2)
+    run(main, __doc__, 1)

@@ -7,12 +7,11 @@ SAGA's Fill Sinks (Wang & Liu 2006) with no slope forced on what it fills raises
 raised, not by the last bit of a Float32. Prints one JSON line and exits with 1 on any violation, 2 when there is nothing to check."""
 import pathlib
 import subprocess
-import sys
 import tempfile
 
 import numpy as np
 from osgeo import gdal
-from report import Report
+from report import Report, run
 from scipy.ndimage import label, maximum, minimum_position, sum_labels
 
 gdal.UseExceptions()
@@ -46,10 +45,4 @@ def main(path):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    try:
-        sys.exit(main(sys.argv[1]))
-    except (OSError, RuntimeError) as error:
-        print(f"check_saga.py: {error}", file=sys.stderr)
-        sys.exit(2)
+    run(main, __doc__, 1)

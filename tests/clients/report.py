@@ -35,3 +35,16 @@ class Report:
             print(f"{pathlib.Path(sys.argv[0]).name}: {kind} ({count}): {told}", file=sys.stderr)
         print(json.dumps({**figures, "violations": self.counts, "examples": self.examples}, default=str))
         return 1 if self.counts else 0
+
+
+def run(main, usage, *counts):
+    """Calls main with the words of the command line and exits with what it gives: 2 where a file cannot be read.
+    counts: how many words there may be."""
+    words = sys.argv[1:]
+    if len(words) not in counts:
+        sys.exit(usage)
+    try:
+        sys.exit(main(*words))
+    except (OSError, RuntimeError) as error:
+        print(f"{pathlib.Path(sys.argv[0]).name}: {error}", file=sys.stderr)
+        sys.exit(2)

@@ -6,16 +6,13 @@
 #include <cmath>
 #include <utility>
 
+#include <thalweg/io/decimals.hpp>
+
 namespace thalweg::io {
 
 namespace {
 
 using Kind = Column::Kind;
-
-// Decimals in a shapefile: more than a double at 1e6 m carries, few enough for 1e13 m or 1e16 m2.
-constexpr int length_decimals = 9;
-constexpr int area_decimals = 6;
-constexpr int slope_decimals = 15;
 
 template <class Get> Column integer(char const* name, Get get) {
     return {name, Kind::integer, 0, [get](std::int64_t row) { return static_cast<std::int64_t>(get(row)); }};

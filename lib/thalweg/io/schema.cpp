@@ -12,6 +12,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/suggest.hpp>
+#include <thalweg/io/decimals.hpp>
 
 namespace thalweg::io {
 
@@ -24,10 +25,7 @@ constexpr double km = 1e3;
 constexpr double km2 = 1e6;
 constexpr double cm = 0.01;
 
-// Decimals in a shapefile: more than a double at 1e6 m carries, few enough for 1e13 m or 1e16 m2.
-constexpr int length_decimals = 9;
-constexpr int area_decimals = 6;
-constexpr int slope_decimals = 15;
+// In the units of others: as fine as those in metres.
 constexpr int km_decimals = 12;
 constexpr int km2_decimals = 12;
 constexpr int cm_decimals = 7;

@@ -9,7 +9,7 @@
 
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
-#include <thalweg/measure/compensated_sum.hpp>
+#include <thalweg/measure/mean_and_deviation.hpp>
 
 namespace thalweg::measure {
 
@@ -70,17 +70,9 @@ JunctionAngles junction_angles(StreamNetwork const& network, double reach_m) {
     if (degrees.empty()) {
         return angles;
     }
-    auto const n = static_cast<double>(degrees.size());
-    CompensatedSum sum;
-    for (double const d : degrees) {
-        sum.add(d);
-    }
-    angles.mean_deg = sum.value() / n;
-    CompensatedSum squares;
-    for (double const d : degrees) {
-        squares.add((d - angles.mean_deg) * (d - angles.mean_deg));
-    }
-    angles.std_deg = std::sqrt(squares.value() / n);
+    auto const [mean, deviation] = mean_and_deviation(degrees);
+    angles.mean_deg = mean;
+    angles.std_deg = deviation;
     return angles;
 }
 

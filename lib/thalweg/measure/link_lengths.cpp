@@ -3,9 +3,8 @@
 #include <thalweg/measure/link_lengths.hpp>
 
 #include <algorithm>
-#include <cmath>
 
-#include <thalweg/measure/compensated_sum.hpp>
+#include <thalweg/measure/mean_and_deviation.hpp>
 
 namespace thalweg::measure {
 
@@ -17,17 +16,9 @@ LengthSpread spread_of(std::vector<double> lengths) {
     if (lengths.empty()) {
         return spread;
     }
-    auto const n = static_cast<double>(lengths.size());
-    CompensatedSum sum;
-    for (double const l : lengths) {
-        sum.add(l);
-    }
-    spread.mean_m = sum.value() / n;
-    CompensatedSum squares;
-    for (double const l : lengths) {
-        squares.add((l - spread.mean_m) * (l - spread.mean_m));
-    }
-    spread.cv = std::sqrt(squares.value() / n) / spread.mean_m;
+    auto const [mean, deviation] = mean_and_deviation(lengths);
+    spread.mean_m = mean;
+    spread.cv = deviation / mean;
     std::sort(lengths.begin(), lengths.end());
     std::size_t const middle = lengths.size() / 2;
     spread.median_m =
