@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/dataset_files.hpp>
 #include <thalweg/io/write_network.hpp>
 
 #include "sample_networks.hpp"
@@ -356,6 +357,7 @@ TEST(BadNetwork, AGeoPackageInWriteAheadModeIsNotWritten) {
     execute(*opened_to_change(path), "PRAGMA journal_mode = WAL");
     auto const closed = state_of(folder);
     EXPECT_EQ(io::read_network(path, io::ReadNetworkParams{}).arcs.size(), 3U);
+    EXPECT_EQ(io::dataset_files(path), std::vector{path});
     EXPECT_EQ(state_of(folder), closed);
 
     auto const writer = opened_to_change(path); // another program that has it open, with changes
@@ -365,6 +367,7 @@ TEST(BadNetwork, AGeoPackageInWriteAheadModeIsNotWritten) {
     NetworkFile const file = io::read_network(path, io::ReadNetworkParams{});
     EXPECT_EQ(file.arcs.size(), 3U);
     EXPECT_EQ(file.arcs[0].id, 7);
+    EXPECT_EQ(io::dataset_files(path), (std::vector{path, path + "-wal"})); // the changes belong to it
     EXPECT_EQ(state_of(folder), open);
 }
 

@@ -3,6 +3,7 @@
 #include <thalweg/io/dataset_files.hpp>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
 
 #include <cpl_string.h>
@@ -14,8 +15,7 @@ namespace thalweg::io {
 
 std::vector<std::string> dataset_files(std::string const& path) {
     Driver const driver;
-    GDALDatasetUniquePtr const source(
-        GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY));
+    Dataset const source = open_undisturbed(path, GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr);
     if (!source) {
         throw BadInput("io.dataset_files: " + path + " is no vector or raster source");
     }
@@ -23,6 +23,9 @@ std::vector<std::string> dataset_files(std::string const& path) {
     std::vector<std::string> files;
     for (int i = 0; i < list.size(); ++i) {
         files.emplace_back(list[i]);
+    }
+    if (!files.empty() && source->GetDescription() != path) { // a copy was read, because changes stand beside the file
+        files = {path, path + "-wal"};
     }
     std::sort(files.begin(), files.end());
     return files;
