@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/grid.hpp>
+
+namespace thalweg {
+
+/// The cells in which rivers run and where the water of each goes: what a land is brought into equilibrium with.
+/// Law: every cell is there once; receiver[i] < i, so downstream comes first, or -1 where the water leaves the land
+/// (on the grid's border or the coast) or ends in a sink; a cell and its receiver are neighbours, by side or corner.
+/// The vectors are parallel.
+struct Channels {
+    Grid grid;
+    std::vector<std::int64_t> cell;     ///< index in the grid
+    std::vector<std::int64_t> receiver; ///< number in these lists, -1 for none
+    std::vector<float> z;               ///< [m] heights that are asked, NaN for none; empty: none at all
+    std::vector<std::uint8_t> level;    ///< 1: a lake's, which stands as high as its receiver; empty: none
+};
+
+} // namespace thalweg
