@@ -188,6 +188,7 @@ StreamNetwork kept_network(StreamNetwork const& network, NetworkIndex const& ind
         }
         arc.feature = network[index.arcs[longest]].feature;
         arc.type = network[index.arcs[longest]].type;
+        arc.given = network[index.arcs[longest]].given;
         add_arc(out, node[index.from[a]], node[index.to[piece]], std::move(arc));
     }
     return out;
