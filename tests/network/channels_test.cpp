@@ -152,7 +152,7 @@ TEST(Channels, AStubBelowACrossingIsLeftOut) {
 }
 
 TEST(Channels, KeepTheirLawWhateverIsDrawn) {
-    rc::check("of rivers that pay no heed to one another, with loops", [] {
+    ASSERT_TRUE(rc::check("of rivers that pay no heed to one another, with loops", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         auto const nodes = *rc::gen::inRange<std::size_t>(0, 30);
         auto const basins = *rc::gen::inRange<std::size_t>(1, 4);
@@ -186,11 +186,11 @@ TEST(Channels, KeepTheirLawWhateverIsDrawn) {
         for (std::int64_t const cell : out.channels.cell) {
             RC_ASSERT(drawn_cells.contains(cell));
         }
-    });
+    }));
 }
 
 TEST(Channels, RiversOnALatticeKeepTheirWay) {
-    rc::check("each arc's cells lead down to its outlet, and sources stay", [] {
+    ASSERT_TRUE(rc::check("each arc's cells lead down to its outlet, and sources stay", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         StreamNetwork const net = test::random_skeleton(seed, 48);
         Grid const grid = test::grid_of(48, 48);
@@ -207,7 +207,7 @@ TEST(Channels, RiversOnALatticeKeepTheirWay) {
             }
             RC_ASSERT(std::is_sorted(out.of_arc[a].rbegin(), out.of_arc[a].rend()));
         }
-    });
+    }));
 }
 
 } // namespace

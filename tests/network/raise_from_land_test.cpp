@@ -69,7 +69,7 @@ TEST(RaiseFromLand, VerticesTakeTheirCellsHeightsAndShareADrop) {
 }
 
 TEST(RaiseFromLand, ArcsFallWhereTheLandDoes) {
-    rc::check("on a lattice", [] {
+    ASSERT_TRUE(rc::check("on a lattice", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         StreamNetwork const net = test::random_skeleton(seed, 40);
         Grid const grid = test::grid_of(40, 40);
@@ -79,8 +79,8 @@ TEST(RaiseFromLand, ArcsFallWhereTheLandDoes) {
         for (auto const& z : raised.arc_z) {
             RC_ASSERT(z.front() > z.back());
         }
-    });
-    rc::check("never rise and stay between the land's heights, whatever is drawn", [] {
+    }));
+    ASSERT_TRUE(rc::check("never rise and stay between the land's heights, whatever is drawn", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         StreamNetwork const net = test::random_forest(seed, *rc::gen::inRange<std::size_t>(0, 30), 2);
         Grid grid = test::grid_of(50, 50);
@@ -89,7 +89,7 @@ TEST(RaiseFromLand, ArcsFallWhereTheLandDoes) {
         auto const drawn = channels(net, grid);
         Raster<float> land = land_around(drawn.channels, seed, 0.2);
         require_consistent(raise_from_land(net, drawn.channels, land), net);
-    });
+    }));
 }
 
 TEST(RaiseFromLand, LevelChannelsMakeLevelRivers) {
@@ -102,7 +102,7 @@ TEST(RaiseFromLand, LevelChannelsMakeLevelRivers) {
 }
 
 TEST(ChannelHeights, NeverRiseDownstream) {
-    rc::check("also where rivers share cells", [] {
+    ASSERT_TRUE(rc::check("also where rivers share cells", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         StreamNetwork const net = test::random_forest(seed, *rc::gen::inRange<std::size_t>(0, 30), 2);
         Grid grid = test::grid_of(50, 50);
@@ -118,7 +118,7 @@ TEST(ChannelHeights, NeverRiseDownstream) {
                 RC_ASSERT(z[i] >= z[static_cast<std::size_t>(rivers.receiver[i])]);
             }
         }
-    });
+    }));
 }
 
 } // namespace

@@ -178,7 +178,7 @@ public:
     }
 
     std::vector<Finding> notes() {
-        std::sort(notes_.begin(), notes_.end(), [](auto const& p, auto const& q) { return p.first < q.first; });
+        std::stable_sort(notes_.begin(), notes_.end(), [](auto const& p, auto const& q) { return p.first < q.first; });
         std::vector<Finding> out;
         for (std::size_t k = 0; k < notes_.size(); ++k) {
             // The first place downstream is the last that was found.
