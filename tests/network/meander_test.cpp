@@ -207,6 +207,9 @@ TEST(Meander, TheSameTreeOfRiversThatDoNotMeet) {
             return;
         }
         RC_ASSERT(out.max_shift_m <= 15.0 + 1e-5);
+        for (NodeId n = 0; n < boost::num_vertices(net); ++n) {
+            RC_ASSERT(out.network[n].at == net[n].at);
+        }
         for (std::size_t a = 0; a < after.arcs.size(); ++a) {
             for (std::size_t b = 0; b < after.arcs.size(); ++b) {
                 if (a != b && least_distance(net[before.arcs[a]].line, net[before.arcs[b]].line) >= 45.0 &&

@@ -192,6 +192,11 @@ std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, dou
         double const share = rounding == Rounding::half_a_cell && far > most ? most / far : 1.0;
         out[i] = {share * (mean.x - at[i].x), share * (mean.y - at[i].y)};
     }
+    if (rounding == Rounding::half_a_cell) {
+        for (std::size_t const node : stems.node_point) { // what follows a node would move by more
+            out[node] = {};
+        }
+    }
     return out;
 }
 

@@ -16,7 +16,7 @@ namespace thalweg::network {
 /// moved; a place on the edge stays bit for bit.
 std::vector<Vec2> bend_plain(std::vector<Vec2> at, Grid const& grid, double gain, std::uint64_t seed);
 
-/// How far lines are smoothed: as a river's size allows, or within half a cell.
+/// How far lines are smoothed: as a river's size allows, or within half a cell between nodes that stay.
 enum class Rounding : std::uint8_t { river, half_a_cell };
 
 /// How far each point shall move [m] to a smoothed line. Gives: by point; 0 at the ends of rivers.

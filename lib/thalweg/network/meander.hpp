@@ -13,7 +13,7 @@ namespace thalweg::network {
 
 struct MeanderParams {
     double gain = 1.0;      ///< [0, 2] how far rivers wander; 0: corners and lattice steps are rounded within half a
-                            ///< cell, no more
+                            ///< cell, nodes stay
     double gap_cells = 1.5; ///< [0.5, 4] rivers that are farther apart than this stay so
     std::uint64_t seed = 7;
 };
