@@ -65,15 +65,11 @@ template <class Visit> void around(Grid const& grid, Cell c, std::int64_t reach,
 
 ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, std::int64_t step)
     : grid_(region.grid()), step_(step), land_(reached_from(seeds, region)), walk_(land_), nearest_(grid_, -1),
-      first_(blocks_of(grid_, step), -1), state_(grid_, State::far) {
+      first_(blocks_of(grid_, step), -1), state_(grid_, State::far), fertile_(grid_, 0) {
     for (std::int64_t i = 0; i < grid_.cells(); ++i) {
-        if (land_[i] != 0) {
-            births_.push_back(i);
-        } else {
-            state_[i] = State::barren;
-        }
+        cells_ += land_[i];
+        state_[i] = land_[i] != 0 ? State::far : State::barren;
     }
-    cells_ = static_cast<std::int64_t>(births_.size());
     for (Cell const s : seeds) {
         bool const alone = all_near(s, [](std::int32_t) { return false; });
         if (!alone) {
@@ -85,6 +81,7 @@ ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, s
     for (Cell const s : seeds) {
         look_around(s);
     }
+    find_births();
 }
 
 template <class Visit> bool ForestGrowth::all_near(Cell c, Visit visit) const {
@@ -102,14 +99,14 @@ template <class Visit> bool ForestGrowth::all_near(Cell c, Visit visit) const {
 
 Cell ForestGrowth::birth(ChanceStream& chance) const {
     auto const k = static_cast<std::size_t>(chance.real() * static_cast<double>(births_.size()));
-    return grid_.at(births_[k]);
+    return births_[k];
 }
 
 void ForestGrowth::add(Cell c) {
     place(c, nearest_[c]);
     look_around(c);
-    if (++since_ > static_cast<std::int64_t>(births_.size()) / (8 * step_ * step_) + 16) {
-        drop_barren();
+    if (++outdated_ > static_cast<std::int64_t>(births_.size()) / (8 * step_ * step_) + 64) {
+        find_births();
     }
 }
 
@@ -166,13 +163,36 @@ bool ForestGrowth::may_hold(Cell c) const {
 
 void ForestGrowth::set(Cell c, State state) {
     open_cells_ += static_cast<int>(state == State::open) - static_cast<int>(state_[c] == State::open);
+    if (state == State::open && state_[c] != State::open) {
+        opened_.push_back(c);
+        if (fertile_[c] == 0) {
+            outdated_ = grid_.cells(); // walkers come from a pocket out of which there was no way
+        }
+    }
     state_[c] = state;
 }
 
-/// Walkers that start on barren cells come to nothing: they need not be released.
-void ForestGrowth::drop_barren() {
-    since_ = 0;
-    std::erase_if(births_, [&](std::int64_t i) { return state_[i] == State::barren; });
+/// Walkers from elsewhere come to nothing: they need not be released. In a region that is nearly full they would be
+/// most of all.
+void ForestGrowth::find_births() {
+    for (Cell const c : births_) {
+        fertile_[c] = 0;
+    }
+    std::erase_if(opened_, [&](Cell c) { return state_[c] != State::open; });
+    births_ = opened_;
+    for (Cell const c : births_) {
+        fertile_[c] = 1;
+    }
+    for (std::size_t k = 0; k < births_.size(); ++k) {
+        for (Site const o : neighbour_offsets) {
+            Cell const next = moved(births_[k], o);
+            if (grid_.contains(next) && state_[next] == State::far && fertile_[next] == 0) {
+                fertile_[next] = 1;
+                births_.push_back(next);
+            }
+        }
+    }
+    outdated_ = 0;
 }
 
 } // namespace thalweg::network

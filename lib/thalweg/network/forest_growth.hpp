@@ -26,7 +26,7 @@ public:
     /// Whether a walker that starts there comes to anything.
     bool free(Cell c) const { return state_[c] != State::barren; }
 
-    /// A cell where a walker starts, each as likely.
+    /// A cell where a walker starts, each as likely: those from which it could not come to an open cell are left out.
     Cell birth(ChanceStream& chance) const;
 
     /// A particle holds at an open cell.
@@ -43,7 +43,7 @@ private:
     void look_around(Cell c);
     bool may_hold(Cell c) const;
     void set(Cell c, State state);
-    void drop_barren();
+    void find_births();
     /// Calls visit(particle) for those less than two steps away, until it says no; whether it never did.
     template <class Visit> bool all_near(Cell c, Visit visit) const;
 
@@ -59,8 +59,10 @@ private:
     std::vector<std::int32_t> next_; ///< by particle: the one before it in its block
     Raster<State> state_;
     std::int64_t open_cells_ = 0;
-    std::vector<std::int64_t> births_;
-    std::int64_t since_ = 0; ///< particles since barren cells were dropped
+    std::vector<Cell> opened_; ///< every open cell, and some that are so no more
+    std::vector<Cell> births_; ///< from where a walker can come to an open cell
+    Mask fertile_;             ///< 1 on births
+    std::int64_t outdated_ = 0; ///< particles since births were found
 };
 
 } // namespace thalweg::network
