@@ -39,7 +39,7 @@ std::string unknown_key(std::string const& path) {
     if (near.empty()) { // the right word in the wrong section
         std::string const word = path.substr(path.rfind('.') + 1);
         for (std::string const& p : paths) {
-            if (p.substr(p.rfind('.') + 1) == word) {
+            if (near.empty() && p.substr(p.rfind('.') + 1) == word) {
                 near = p;
             }
         }
