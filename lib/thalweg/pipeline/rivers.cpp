@@ -10,6 +10,7 @@
 #include <thalweg/network/prune.hpp>
 #include <thalweg/network/rasterise.hpp>
 #include <thalweg/network/set_heights_graded.hpp>
+#include <thalweg/pipeline/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/plan_rivers.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 
@@ -82,7 +83,7 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     take_frame(terrain, planned.grid);
     Grid const& grid = terrain.grid;
     if (rivers.heights == Heights::automatic) {
-        rivers.heights = Heights::straight_repaired;
+        rivers.heights = in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;
     }
     if (!rivers.prune_cells) {
         bool const all_over = rivers.source == Source::dla || rivers.source == Source::forest;
@@ -100,15 +101,20 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     if (rivers.source == Source::forest) { // its rivers end where the land does
         std::vector<Finding> const gone = pruned_outlets(planned.plan, pruned.network);
         repairs.insert(repairs.end(), gone.begin(), gone.end());
-        planned.plan = std::move(pruned.network);
-    } else {
-        network::Carried carried = network::carry_outlets(pruned.network, grid);
+    }
+    terrain.land = std::move(planned.land);
+    planned.plan = std::move(pruned.network);
+    if (rivers.inland == InlandEnds::carry && rivers.source != Source::forest) {
+        network::Carried carried = network::carry_outlets(planned.plan, grid);
         repairs.insert(repairs.end(), carried.notes.begin(), carried.notes.end());
         planned.plan = std::move(carried.network);
     }
-    terrain.land = std::move(planned.land);
 
     assign_types(planned, terrain, run);
+    if (in_equilibrium(recipe) && rivers.heights == Heights::graded) { // their heights are the land's
+        terrain.network.plan = std::move(planned.plan);
+        return;
+    }
     terrain.network = diary.stage("raise", [&] { return raise(planned, terrain, run); });
     terrain.orders = network::order(terrain.network.plan);
     terrain.streams = network::count_streams(terrain.network.plan);
