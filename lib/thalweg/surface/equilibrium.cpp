@@ -96,6 +96,15 @@ void check_drained(LandLevel const& level, Mask const& land, std::int64_t margin
     }
 }
 
+/// Leaves what the next level or the written land need.
+void drop_what_is_done(LandLevel& level) {
+    level.erodibility = {};
+    level.cap = {};
+    level.uplift = {};
+    level.shift = {};
+    level.area = {};
+}
+
 /// The heights of a level, from those of the coarser one.
 class Solver {
 public:
@@ -113,10 +122,11 @@ public:
                 set_edge_heights(level, edge);
                 steepest_ways(level, per_length_, run_);
             }
-            order_cells(level);
             if (number == 0 && round == floors_after && params_.floor_width > 0.0) {
+                level.order = {}; // made anew: its memory is wanted meanwhile
                 valley_floors(level, params_.floor_width);
             }
+            order_cells(level);
             if (number == 0 && round == rounds - 2) {
                 shortened_ = give_up_tips(level, perched_tangent);
             }
@@ -167,6 +177,7 @@ EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fie
     for (std::size_t number = levels.size(); number-- > 0;) {
         level = prepared(std::move(levels[number]), number, level, land.fields, params, run);
         solver.solve(level, number, levels.size());
+        drop_what_is_done(level);
     }
     check_drained(level, fields.land, land.margin, rivers.grid);
     return written_land(std::move(level), rivers, fields.land, params, land.margin, solver.shortened(), run);
