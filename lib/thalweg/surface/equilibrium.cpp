@@ -123,7 +123,6 @@ public:
                 steepest_ways(level, per_length_, run_);
             }
             if (number == 0 && round == floors_after && params_.floor_width > 0.0) {
-                level.order = {}; // made anew: its memory is wanted meanwhile
                 valley_floors(level, params_.floor_width);
             }
             order_cells(level);
