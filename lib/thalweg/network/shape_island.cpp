@@ -145,12 +145,18 @@ Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) 
     auto const height = static_cast<double>(grid.height);
     double const shorter = std::min(width, height);
     double const margin = std::max(1.0, shorter / 40.0);
-    double const shortest = 8.0;
+    constexpr double shortest = 8.0; // cells
     double const span = 0.5 * std::sqrt(width * width + height * height) + shorter;
-    std::vector<Octave> const moves = octaves(0.5 * shorter, shortest, params.seed, 0, span);
-    std::vector<Octave> const bends_x = octaves(0.4 * shorter, 2.0 * shortest, params.seed, 32, span);
-    std::vector<Octave> const bends_y = octaves(0.4 * shorter, 2.0 * shortest, params.seed, 64, span);
-    double const bend = 0.22 * params.ruggedness * shorter;
+    std::vector<Octave> const moves = octaves(0.6 * shorter, shortest, params.seed, 0, span);
+    std::vector<Octave> const bends_x = octaves(0.7 * shorter, 0.05 * shorter, params.seed, 32, span);
+    std::vector<Octave> const bends_y = octaves(0.7 * shorter, 0.05 * shorter, params.seed, 64, span);
+    double const bend = 0.35 * params.ruggedness * shorter;
+    Vec2 const middle{sum(bends_x, 0.0, 0.0), sum(bends_y, 0.0, 0.0)};
+    // Islands are longer than wide, in any direction.
+    auto const words = chance_block(params.seed, island_stage, 96);
+    double const turn = exact::pi * unit(words[0]);
+    double const slender = 1.0 + 0.5 * unit(words[1]) * params.ruggedness;
+    Vec2 const along{exact::cos(turn), exact::sin(turn)};
 
     Mask land(grid, 0);
     parallel_ranges(run, grid.height, 16, [&](std::int64_t begin, std::int64_t end) {
@@ -162,14 +168,17 @@ Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) 
                 if (to_edge < margin) {
                     continue;
                 }
-                double const bent_x = x + bend * sum(bends_x, x, y);
-                double const bent_y = y + bend * sum(bends_y, x, y);
-                double const u = bent_x / (0.5 * width);
-                double const v = bent_y / (0.5 * height);
+                double const bent_x = x + bend * (sum(bends_x, x, y) - middle.x);
+                double const bent_y = y + bend * (sum(bends_y, x, y) - middle.y);
+                double const u = 2.0 * bent_x / width;
+                double const v = 2.0 * bent_y / height;
+                double const length = along.x * u + along.y * v;
+                double const breadth = slender * (along.x * v - along.y * u);
+                double const oval = std::sqrt(length * length + breadth * breadth);
                 // Towards the margin the sea wins, so that no coast is cut straight by it.
-                double const sea = 1.0 - std::min(1.0, (to_edge - margin) / (0.12 * shorter));
+                double const sea = 1.0 - std::min(1.0, (to_edge - margin) / (0.15 * shorter));
                 double const height_there =
-                    0.75 - std::sqrt(u * u + v * v) + params.ruggedness * sum(moves, bent_x, bent_y) - 1.2 * sea * sea;
+                    0.78 - oval + params.ruggedness * sum(moves, bent_x, bent_y) - 0.6 * sea * sea * sea;
                 land[Cell{col, row}] = height_there > 0.0 ? 1 : 0;
             }
         }

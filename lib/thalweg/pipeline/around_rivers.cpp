@@ -170,6 +170,7 @@ std::string about(Terrain const& terrain) {
     case Method::dilate:
         return fmt::format("{}, {} levels", wanted.dilate.increment.increment, terrain.surface->levels);
     case Method::diffuse: return fmt::format("diffused, {} iterations", terrain.diffusion->iterations);
+    case Method::equilibrium:
     case Method::tin:
     case Method::regress: break;
     }
