@@ -41,10 +41,10 @@ std::vector<Cell> random_seeds(Mask const& region, std::int64_t step, std::size_
     std::vector<Cell> seeds;
     ChanceStream words(seed, 77, 0);
     for (int tries = 0; tries < 4000 && seeds.size() < most; ++tries) {
-        Cell const c = region.grid().at(
-            static_cast<std::int64_t>(words.word() % static_cast<std::uint64_t>(region.cells())));
-        bool const alone = std::ranges::all_of(
-            seeds, [&](Cell s) { return plain_forest::squared_distance(s, c) >= 4 * step * step; });
+        Cell const c =
+            region.grid().at(static_cast<std::int64_t>(words.word() % static_cast<std::uint64_t>(region.cells())));
+        bool const alone =
+            std::ranges::all_of(seeds, [&](Cell s) { return plain_forest::squared_distance(s, c) >= 4 * step * step; });
         if (region[c] != 0 && alone) {
             seeds.push_back(c);
         }
@@ -64,8 +64,8 @@ Shape shape(Forest const& forest) {
     }
     auto const [west, east] = std::ranges::minmax(forest.cells, {}, &Cell::col);
     auto const [north, south] = std::ranges::minmax(forest.cells, {}, &Cell::row);
-    return {static_cast<std::int64_t>(forest.cells.size()), std::ranges::count(children, 0),
-            (east.col - west.col) / 4, (south.row - north.row) / 4};
+    return {static_cast<std::int64_t>(forest.cells.size()), std::ranges::count(children, 0), (east.col - west.col) / 4,
+            (south.row - north.row) / 4};
 }
 
 } // namespace
@@ -130,8 +130,7 @@ TEST(GrowForest, laws_of_a_forest) {
                                         *rc::gen::inRange(1, 9), *rc::gen::inRange(1, 20));
         auto const seeds = random_seeds(region, step, *rc::gen::inRange<std::size_t>(1, 6), seed);
         RC_PRE(!seeds.empty());
-        ForestParams const params =
-            growth(step, seed, *rc::gen::element(1.0, 0.85, 0.3), *rc::gen::inRange(1, 5));
+        ForestParams const params = growth(step, seed, *rc::gen::element(1.0, 0.85, 0.3), *rc::gen::inRange(1, 5));
         Forest const f = grow_forest(region, seeds, params);
         RC_ASSERT(f.stop == ForestStop::full);
         RC_ASSERT(f.parent.size() == f.cells.size());
@@ -225,9 +224,9 @@ TEST(RegionWalk, arrivals_have_the_distribution_of_unit_steps) {
 // Law: forests come out in each shape as often as by the rules written out over unit steps and all pairs of particles,
 // with walkers from everywhere.
 TEST(GrowForest, shapes_come_as_often_as_by_unit_steps) {
-    Mask const land = mask_of(
-        {"############.....", "############.....", "#################", "#####...#########", "#####...#########",
-         "#################", "#################", "....#############", "....#############", "#################"});
+    Mask const land = mask_of({"############.....", "############.....", "#################", "#####...#########",
+                               "#####...#########", "#################", "#################", "....#############",
+                               "....#############", "#################"});
     for (auto const& [sticking, visits] : {std::pair{1.0, 1}, {0.4, 1}, {0.6, 2}}) {
         std::vector<Shape> fast;
         std::vector<Shape> slow;

@@ -106,8 +106,7 @@ TEST(PlantForest, laws_of_a_planted_forest) {
         Mask const land = random_blob(seed, *rc::gen::inRange(40, 160), *rc::gen::inRange(40, 160),
                                       *rc::gen::inRange(1, 9), *rc::gen::inRange(14, 50));
         std::vector<Cell> const coast = coast_cells(land);
-        std::vector<Cell> const outlets =
-            spread_outlets(land, coast, {*rc::gen::inRange(1, 30), 60.0, seed});
+        std::vector<Cell> const outlets = spread_outlets(land, coast, {*rc::gen::inRange(1, 30), 60.0, seed});
         PlantedForest f;
         try {
             f = plant_forest(land, outlets, growth(step, seed));

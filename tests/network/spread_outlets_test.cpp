@@ -90,7 +90,8 @@ TEST(SpreadOutlets, bays_have_more_than_capes) {
     auto const wedge = [](Cell c, std::int64_t tip) { return 40 - std::abs(c.col - tip); };
     for (std::int64_t i = 0; i < land.cells(); ++i) {
         Cell const c = land.grid().at(i);
-        std::int64_t const shore = 60 + std::max<std::int64_t>(wedge(c, 50), 0) - std::max<std::int64_t>(wedge(c, 150), 0);
+        std::int64_t const shore =
+            60 + std::max<std::int64_t>(wedge(c, 50), 0) - std::max<std::int64_t>(wedge(c, 150), 0);
         land[i] = c.row < shore ? 1 : 0;
     }
     std::vector<Cell> coast = coast_cells(land);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ namespace thalweg::network {
 namespace {
 
 constexpr std::uint64_t island_stage = 0x69736c616e643031; // "island01"
+constexpr double share_of_land = 0.42;                     // of the grid
 
 /// One octave of gradient noise, its lattice turned and moved by chance.
 class Octave {
@@ -109,6 +111,18 @@ std::vector<std::int64_t> patch_from(std::int64_t start, Mask const& land, Mask&
     return cells;
 }
 
+/// The cells of a share of the grid that stand highest.
+Mask highest(Raster<float> const& heights, double share) {
+    std::vector<float> sorted(heights.values().begin(), heights.values().end());
+    auto const level = sorted.begin() + static_cast<std::ptrdiff_t>((1.0 - share) * static_cast<double>(sorted.size()));
+    std::ranges::nth_element(sorted, level);
+    Mask found(heights.grid());
+    for (std::int64_t i = 0; i < heights.cells(); ++i) {
+        found[i] = heights[i] >= *level && std::isfinite(heights[i]) ? 1 : 0;
+    }
+    return found;
+}
+
 /// Makes lagoons land and small islets sea.
 void tidy(Mask& land) {
     Grid const& grid = land.grid();
@@ -158,7 +172,7 @@ Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) 
     double const slender = 1.0 + 0.5 * unit(words[1]) * params.ruggedness;
     Vec2 const along{exact::cos(turn), exact::sin(turn)};
 
-    Mask land(grid, 0);
+    Raster<float> above(grid, -std::numeric_limits<float>::infinity());
     parallel_ranges(run, grid.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             for (std::int64_t col = 0; col < grid.width; ++col) {
@@ -177,12 +191,12 @@ Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) 
                 double const oval = std::sqrt(length * length + breadth * breadth);
                 // Towards the margin the sea wins, so that no coast is cut straight by it.
                 double const sea = 1.0 - std::min(1.0, (to_edge - margin) / (0.15 * shorter));
-                double const height_there =
-                    0.78 - oval + params.ruggedness * sum(moves, bent_x, bent_y) - 0.6 * sea * sea * sea;
-                land[Cell{col, row}] = height_there > 0.0 ? 1 : 0;
+                above[Cell{col, row}] =
+                    static_cast<float>(params.ruggedness * sum(moves, bent_x, bent_y) - oval - 0.8 * sea * sea * sea);
             }
         }
     });
+    Mask land = highest(above, share_of_land);
     tidy(land);
     return land;
 }
