@@ -84,10 +84,7 @@ void add_network_keys(std::vector<Key>& keys) {
     using network::VisitRule;
     keys.push_back(choice<Source>(
         "network.source",
-        {{"dla", Source::dla},
-         {"tokunaga", Source::tokunaga},
-         {"forest", Source::forest},
-         {"lines", Source::lines}},
+        {{"dla", Source::dla}, {"tokunaga", Source::tokunaga}, {"forest", Source::forest}, {"lines", Source::lines}},
         "where the rivers come from: grown as a cluster, by branching rules, or from a coast all over the land; or a "
         "file's lines",
         in_network<Source>([](NetworkRecipe& n) -> Source& { return n.source; })));
