@@ -115,13 +115,15 @@ TEST(Geomorphons, RefusesNonsense) {
 
 TEST(Geomorphons, FormsOfSimpleLand) {
     EXPECT_EQ(middle_form([](double, double) { return 7.0; }), Form::flat);
-    EXPECT_EQ(middle_form([](double x, double y) { return -std::sqrt(x * x + y * y); }), Form::peak);
-    EXPECT_EQ(middle_form([](double x, double y) { return std::sqrt(x * x + y * y); }), Form::pit);
-    EXPECT_EQ(middle_form([](double x, double) { return -std::fabs(x); }), Form::ridge);
-    EXPECT_EQ(middle_form([](double x, double) { return std::fabs(x); }), Form::valley);
-    EXPECT_EQ(middle_form([](double x, double) { return x; }), Form::slope);
-    EXPECT_EQ(middle_form([](double x, double) { return std::min(x, 0.0); }), Form::shoulder);
-    EXPECT_EQ(middle_form([](double x, double) { return std::max(x, 0.0); }), Form::footslope);
+    EXPECT_EQ(middle_form([](double x, double y) { return -x * x - y * y; }), Form::peak);
+    EXPECT_EQ(middle_form([](double x, double y) { return x * x + y * y; }), Form::pit);
+    EXPECT_EQ(middle_form([](double x, double) { return -x * x; }), Form::ridge);
+    EXPECT_EQ(middle_form([](double x, double) { return x * x; }), Form::valley);
+    EXPECT_EQ(middle_form([](double x, double) { return x + 0.01 * x * x; }), Form::slope);
+    EXPECT_EQ(middle_form([](double x, double) { return x < 0.0 ? -x * x : 0.0; }), Form::shoulder);
+    EXPECT_EQ(middle_form([](double x, double) { return x > 0.0 ? x * x : 0.0; }), Form::footslope);
+    // All sights of a straight slope are as steep as one another: none is the steepest.
+    EXPECT_EQ(middle_form([](double x, double) { return x; }), Form::flat);
 }
 
 // The border has no forms, and everything inside has one.
@@ -170,9 +172,9 @@ TEST(Geomorphons, TurnedOverValleysAreRidges) {
 
 TEST(Geomorphons, SameBytesForAnyThreads) {
     Raster<float> const dem = rough_dem(frame(300, 300), 11);
-    Run one;
+    thalweg::Run one;
     one.threads = 1;
-    Run five;
+    thalweg::Run five;
     five.threads = 5;
     Geomorphons const a = geomorphons(dem, {}, one);
     Geomorphons const b = geomorphons(dem, {}, five);

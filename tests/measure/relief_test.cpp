@@ -180,9 +180,9 @@ TEST(Relief, TotalVariation) {
 
 TEST(Relief, SameBitsForAnyThreads) {
     Raster<float> const dem = rough_dem(frame(260, 300), 11);
-    Run one;
+    thalweg::Run one;
     one.threads = 1;
-    Run five;
+    thalweg::Run five;
     five.threads = 5;
     Relief const a = relief_of(dem, one);
     Relief const b = relief_of(dem, five);

@@ -58,7 +58,7 @@ TEST(SlopeArea, RecoversTheta) {
     ASSERT_TRUE(rc::check("theta within 0.01, k within 5 %, chi straight", [] {
         double const theta = *rc::gen::element(0.2, 0.35, 0.45, 0.55, 0.8);
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
-        GradedLand const land = graded_land(cells_of_30_m(200, 260), seed, theta, 20.0);
+        GradedLand const land = graded_land(cells_of_30_m(120, 160), seed, theta, 20.0);
         auto const law = slope_area(land.dem, land.drainage, {.support_cells = 20});
         RC_ASSERT(law.has_value());
         RC_ASSERT(std::fabs(-law->exponent - theta) < 0.01);

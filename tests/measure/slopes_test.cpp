@@ -153,9 +153,9 @@ TEST(Slopes, AConeFacesEveryWay) {
 
 TEST(Slopes, SameBitsForAnyThreads) {
     Raster<float> const dem = rough_dem(frame(300, 500), 11);
-    Run one;
+    thalweg::Run one;
     one.threads = 1;
-    Run five;
+    thalweg::Run five;
     five.threads = 5;
     Slopes const a = slopes(dem, one);
     Slopes const b = slopes(dem, five);

@@ -37,9 +37,9 @@ struct Relief {
 };
 
 struct ReliefParams {
-    GeomorphonParams geomorphons;
-    SlopeAreaParams slope_area;
-    ChiParams chi;
+    GeomorphonParams geomorphons = {};
+    SlopeAreaParams slope_area = {};
+    ChiParams chi = {};
     std::int64_t support_cells = 200; ///< [1, ...] for the drainage density
 };
 
