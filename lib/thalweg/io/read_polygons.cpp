@@ -100,8 +100,34 @@ void add_parts(OGRGeometry const& geometry, std::int64_t feature, std::string co
     polygons.push_back(std::move(polygon));
 }
 
-std::vector<Polygon> take(OGRLayer& layer, std::string const& name, Run const& run) {
+/// Number of a field by name in any case; -1 for "". Throws where there is none of numbers.
+int field_in(OGRLayer& layer, std::string const& name, std::string const& field) {
+    int const at = field.empty() ? -1 : layer.GetLayerDefn()->GetFieldIndex(field.c_str());
+    if (field.empty()) {
+        return at;
+    }
+    OGRFieldType const type = at < 0 ? OFTString : layer.GetLayerDefn()->GetFieldDefn(at)->GetType();
+    if (type != OFTReal && type != OFTInteger && type != OFTInteger64) {
+        refuse(fmt::format("layer {} of {} has no field {} of numbers; add one", layer.GetName(), name, field));
+    }
+    return at;
+}
+
+double value_in(OGRFeature const& feature, int field, std::string const& name) {
+    if (field < 0) {
+        return 0.0;
+    }
+    double const value = feature.IsFieldSetAndNotNull(field) ? feature.GetFieldAsDouble(field) : std::nan("");
+    if (!std::isfinite(value)) {
+        refuse(fmt::format("feature {} of {} has no finite value in the field {}", feature.GetFID(), name,
+                           feature.GetFieldDefnRef(field)->GetNameRef()));
+    }
+    return value;
+}
+
+std::vector<Polygon> take(OGRLayer& layer, std::string const& name, std::string const& field, Run const& run) {
     std::vector<Polygon> polygons;
+    int const valued = field_in(layer, name, field);
     for (auto const& feature : layer) {
         run.check();
         OGRGeometry const* const drawn = feature->GetGeometryRef();
@@ -109,7 +135,11 @@ std::vector<Polygon> take(OGRLayer& layer, std::string const& name, Run const& r
             refuse(fmt::format("feature {} of {} has no polygon; remove it", feature->GetFID(), name));
         }
         std::unique_ptr<OGRGeometry> const straight(drawn->getLinearGeometry());
+        std::size_t const first = polygons.size();
         add_parts(*straight, feature->GetFID(), name, polygons);
+        for (std::size_t p = first; p < polygons.size(); ++p) {
+            polygons[p].value = value_in(*feature, valued, name);
+        }
     }
     return polygons;
 }
@@ -149,11 +179,15 @@ bool holds_polygons(std::string const& path) {
 }
 
 Polygons read_polygons(std::string const& path, std::string const& crs, Run const& run) {
+    return read_polygons(path, crs, "", run);
+}
+
+Polygons read_polygons(std::string const& path, std::string const& crs, std::string const& field, Run const& run) {
     auto const name = std::filesystem::path(path).filename().string();
     Driver const driver;
     Dataset const data = open_file(path, GDAL_OF_VECTOR, nullptr, "io.read_polygons: " + path);
     OGRLayer& layer = choose_layer(*data, name);
-    Polygons read{take(layer, name, run), crs, name};
+    Polygons read{take(layer, name, field, run), crs, name};
     driver.check("io.read_polygons: " + path);
     if (read.polygons.empty()) {
         refuse(fmt::format("layer {} of {} is empty", layer.GetName(), name));

@@ -20,4 +20,8 @@ bool holds_polygons(std::string const& path);
 /// (naming both); IoError when the file cannot be read to its end; Cancelled.
 Polygons read_polygons(std::string const& path, std::string const& crs, Run const& run = {});
 
+/// The same, each with the value of a numeric field. Throws: also BadInput when the layer has no such field, or a
+/// feature no finite value in it.
+Polygons read_polygons(std::string const& path, std::string const& crs, std::string const& field, Run const& run = {});
+
 } // namespace thalweg::io

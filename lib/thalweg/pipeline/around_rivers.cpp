@@ -8,6 +8,7 @@
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/network/streams.hpp>
 #include <thalweg/pipeline/land.hpp>
+#include <thalweg/pipeline/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>
@@ -174,6 +175,9 @@ std::string about(Terrain const& terrain) {
 void draw_around_rivers(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
     Recipe const& recipe = terrain.recipe;
     SurfaceRecipe const& wanted = *recipe.surface;
+    if (in_equilibrium(recipe)) { // whose rivers have their heights from it
+        draw_in_equilibrium(terrain, diary, run);
+    }
     if (recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
         make_ridges(terrain, diary, run);
     }
@@ -181,8 +185,10 @@ void draw_around_rivers(Terrain& terrain, FeaturePoints const& points, Diary& di
     if (over_tin || (recipe.skeleton && recipe.skeleton->tin)) {
         make_skeleton_tin(terrain, points, diary, run);
     }
-    terrain.surface = diary.stage("fill", [&] { return draw(terrain, points, run); });
-    diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height, about(terrain)));
+    if (!in_equilibrium(recipe)) {
+        terrain.surface = diary.stage("fill", [&] { return draw(terrain, points, run); });
+        diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height, about(terrain)));
+    }
     add_detail(terrain, terrain.surface->dem, run);
 }
 

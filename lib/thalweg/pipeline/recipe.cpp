@@ -164,6 +164,7 @@ Recipe default_recipe() {
     recipe.network->branch = network::BranchChoice::south;
     recipe.network->slope = 0.02;
     recipe.surface.emplace();
+    recipe.surface->method = Method::dilate;
     recipe.surface->dilate.metric = surface::Metric::euclid;
     recipe.surface->dilate.relief_m = 900.0;
     return recipe;
@@ -321,6 +322,44 @@ std::string title_of(Recipe const& recipe) {
 
 namespace {
 
+/// What goes with a land in equilibrium only, and what does not.
+void check_equilibrium(Recipe const& recipe, std::vector<std::string>& faults) {
+    NetworkRecipe const& n = *recipe.network;
+    bool const in_equilibrium = recipe.surface && recipe.surface->method == Method::equilibrium;
+    if (!in_equilibrium) {
+        char const* const needs = " needs surface.method = \"equilibrium\"";
+        if (n.heights == Heights::soft || n.heights == Heights::fixed || n.heights == Heights::ends) {
+            faults.push_back(fmt::format("network.heights = \"{}\"{}",
+                                         n.heights == Heights::soft    ? "soft"
+                                         : n.heights == Heights::fixed ? "fixed"
+                                                                       : "ends",
+                                         needs));
+        }
+        if (n.fill_space) {
+            faults.push_back(fmt::format("network.fill_space{}: other lands grow no side valleys", needs));
+        }
+        if (n.inland == InlandEnds::sink) {
+            faults.push_back(fmt::format("network.inland = \"sink\"{}", needs));
+        }
+        return;
+    }
+    EquilibriumRecipe const& e = recipe.surface->equilibrium;
+    if (n.concavity < 0.1 || n.concavity > 0.9) {
+        faults.push_back(fmt::format("network.concavity = {}: land in equilibrium wants 0.1 to 0.9", n.concavity));
+    }
+    if (e.mean_slope_deg && recipe.surface->dilate.relief_m > 0.0) {
+        faults.emplace_back("surface.relief and surface.mean_slope do not go together: one follows from the other");
+    }
+    if (!e.lakes.empty() && e.lake_share > 0.0) {
+        faults.emplace_back(
+            "surface.lakes and surface.lake_share do not go together: lakes come from a file or chance");
+    }
+    if (recipe.skeleton && (recipe.skeleton->ridges != Ridges::none || !recipe.skeleton->points.empty())) {
+        faults.emplace_back("[skeleton] does not go with surface.method = \"equilibrium\": its ridges and heights "
+                            "follow from the rivers");
+    }
+}
+
 void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
     NetworkRecipe const& n = *recipe.network;
     if (n.source == Source::lines && n.lines.path.empty()) {
@@ -334,6 +373,9 @@ void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
     }
     if (!n.tokunaga.strokes.empty() && !n.tokunaga.region.empty()) {
         faults.emplace_back("network.tokunaga.strokes and region do not go together: strokes fill the grid");
+    }
+    if (n.source == Source::lines && n.rotate_deg.value_or(0.0) != 0.0) {
+        faults.emplace_back("network.rotate turns grown rivers: those of a file lie where they lie");
     }
     if (n.source != Source::lines && n.heights == Heights::file) {
         faults.emplace_back("network.heights = \"file\" needs source = \"lines\"");
@@ -353,6 +395,7 @@ void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
     if (recipe.surface && recipe.surface->method == Method::regress) {
         faults.emplace_back("surface.method = \"regress\" does not keep rivers: use tin or dilate");
     }
+    check_equilibrium(recipe, faults);
 }
 
 void check_land(Recipe const& recipe, bool has_points, std::vector<std::string>& faults) {
@@ -367,8 +410,9 @@ void check_land(Recipe const& recipe, bool has_points, std::vector<std::string>&
         faults.emplace_back("nothing tells what the land is like: give [network], [statistics], skeleton.points or "
                             "skeleton.scatter");
     }
-    if (method == Method::dilate && recipe.surface) {
-        faults.emplace_back("surface.method = \"dilate\" needs [network]: use diffuse, tin or regress");
+    if ((method == Method::dilate || method == Method::equilibrium) && recipe.surface) {
+        faults.push_back(fmt::format("surface.method = \"{}\" needs [network]: use diffuse, tin or regress",
+                                     method == Method::dilate ? "dilate" : "equilibrium"));
     }
     if (recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
         faults.emplace_back("skeleton.ridges lie between rivers: they need [network]");

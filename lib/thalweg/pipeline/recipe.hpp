@@ -23,6 +23,7 @@
 #include <thalweg/surface/diffuse.hpp>
 #include <thalweg/surface/dilate.hpp>
 #include <thalweg/surface/drain.hpp>
+#include <thalweg/surface/equilibrium.hpp>
 
 namespace thalweg::pipeline {
 
@@ -37,7 +38,20 @@ struct GridRecipe {
 };
 
 enum class Source : std::uint8_t { dla, tokunaga, lines };
-enum class Heights : std::uint8_t { automatic, straight, straight_repaired, along_stream, rosgen, graded, file };
+enum class Heights : std::uint8_t {
+    automatic,
+    straight,
+    straight_repaired,
+    along_stream,
+    rosgen,
+    graded,
+    file,
+    soft,  ///< those of the file, or straight_repaired, as upper bounds of a land in equilibrium
+    fixed, ///< likewise, kept
+    ends   ///< likewise those of sources and outlets, kept; graded between
+};
+/// What becomes of rivers that end inside the grid.
+enum class InlandEnds : std::uint8_t { carry, sink };
 enum class Side : std::uint8_t { north, east, south, west };
 
 struct LinesRecipe {
@@ -68,7 +82,13 @@ struct NetworkRecipe {
     double concavity = 0.45;               ///< [0, 1] theta of graded heights
     std::optional<network::Rosgen> rosgen; ///< type of arcs without one; none: by Strahler order
     network::SlopeDraw rosgen_slope = network::SlopeDraw::middle;
-    double coast_m = 0.0; ///< [m] >= 0: nearer to the outlet along the stream rivers are braided
+    std::optional<double> rotate_deg; ///< [degrees] counterclockwise; none: by chance where rivers are grown for a land
+                                      ///< in equilibrium, else 0
+    std::optional<double> meander;    ///< [0, 3] of nature's amplitude; none: 1 where rivers are grown likewise, else 0
+    InlandEnds inland = InlandEnds::carry;
+    bool fill_space = false;          ///< the land's own side valleys become arcs
+    std::int64_t support_cells = 200; ///< [cells] that drain through where a side valley begins
+    double coast_m = 0.0;             ///< [m] >= 0: nearer to the outlet along the stream rivers are braided
     network::DlaParams dla;
     network::BranchChoice branch = network::BranchChoice::largest;
     LinesRecipe lines;
@@ -92,12 +112,26 @@ struct SkeletonRecipe {
     bool tin = false; ///< write the skeleton's TIN
 };
 
-enum class Method : std::uint8_t { dilate, diffuse, tin, regress };
+enum class Method : std::uint8_t { equilibrium, dilate, diffuse, tin, regress };
 enum class Base : std::uint8_t { harmonic, paper, tin };
 enum class Interpolation : std::uint8_t { linear, natural };
 
+/// What a land in equilibrium is like, beside surface.relief and network.concavity.
+struct EquilibriumRecipe {
+    std::optional<double> mean_slope_deg; ///< none: 25, where no relief is asked
+    double hillslope_m = 0.0;             ///< [m] 0: 1.3 cells
+    double floor_width = 0.04;            ///< as surface::EquilibriumParams
+    double roughness = 0.4;
+    surface::Edge edge = surface::Edge::open;
+    std::string uplift;      ///< raster on the grid; "" for none
+    std::string erodibility; ///< raster on the grid, or polygons with a field of that name; "" for none
+    std::string lakes;       ///< polygons; "" for none
+    double lake_share = 0.0; ///< [0, 1] of the confluences, at which there is a lake by chance
+};
+
 struct SurfaceRecipe {
-    Method method = Method::dilate;
+    Method method = Method::equilibrium;
+    EquilibriumRecipe equilibrium;
     Base base = Base::harmonic;
     surface::DilateParams dilate;
     surface::DiffuseParams diffuse;

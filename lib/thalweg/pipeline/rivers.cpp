@@ -10,6 +10,7 @@
 #include <thalweg/network/prune.hpp>
 #include <thalweg/network/rasterise.hpp>
 #include <thalweg/network/set_heights_graded.hpp>
+#include <thalweg/pipeline/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/plan_rivers.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 
@@ -81,7 +82,7 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     take_frame(terrain, planned.grid);
     Grid const& grid = terrain.grid;
     if (rivers.heights == Heights::automatic) {
-        rivers.heights = Heights::straight_repaired;
+        rivers.heights = in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;
     }
     if (!rivers.prune_cells) {
         rivers.prune_cells = rivers.source == Source::dla ? 20.0 : 0.0;
@@ -94,11 +95,18 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.story.arcs_kept = static_cast<std::int64_t>(boost::num_edges(pruned.network));
     diary.say(
         fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, terrain.story.arcs_kept, pruned.arcs_before));
-    network::Carried carried = network::carry_outlets(pruned.network, grid);
-    terrain.story.repairs.insert(terrain.story.repairs.end(), carried.notes.begin(), carried.notes.end());
-    planned.plan = std::move(carried.network);
+    planned.plan = std::move(pruned.network);
+    if (rivers.inland == InlandEnds::carry) {
+        network::Carried carried = network::carry_outlets(planned.plan, grid);
+        terrain.story.repairs.insert(terrain.story.repairs.end(), carried.notes.begin(), carried.notes.end());
+        planned.plan = std::move(carried.network);
+    }
 
     assign_types(planned, terrain, run);
+    if (in_equilibrium(recipe) && rivers.heights == Heights::graded) { // their heights are the land's
+        terrain.network.plan = std::move(planned.plan);
+        return;
+    }
     terrain.network = diary.stage("raise", [&] { return raise(planned, terrain, run); });
     terrain.orders = network::order(terrain.network.plan);
     terrain.streams = network::count_streams(terrain.network.plan);

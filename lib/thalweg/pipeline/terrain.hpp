@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <thalweg/core/channels.hpp>
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/run.hpp>
@@ -77,6 +78,18 @@ struct WaterAreas {
     Raster<double> dinf;
 };
 
+/// How a land came into equilibrium with its rivers.
+struct EquilibriumStory {
+    std::int64_t channel_cells = 0;   ///< in which rivers run
+    std::int64_t shortened_cells = 0; ///< of perched tips that are rivers no more
+    std::int64_t walled_cells = 0;    ///< of rivers whose given heights only walls hold up
+    double max_lowered_m = 0.0;       ///< soft: below the given heights
+    double p95_lowered_m = 0.0;
+    double rise = 0.0;             ///< as surface::EquilibriumLand
+    std::int64_t side_valleys = 0; ///< arcs that the land has grown, where they are asked for
+    std::int64_t side_valleys_left_out = 0;
+};
+
 /// A terrain with all that led to it.
 struct Terrain {
     Recipe recipe; ///< every default resolved: made again, it gives the same terrain
@@ -90,6 +103,8 @@ struct Terrain {
     Valley valley;
     RidgeLines ridges; ///< between streams, where they are asked for
     std::optional<surface::Dilated> surface;
+    Channels channels;                            ///< of rivers with which the land is in equilibrium
+    std::optional<EquilibriumStory> equilibrium;  ///< of a land that is
     std::optional<SolverStory> diffusion;         ///< how the surface was solved for, where it was diffused
     std::vector<PatchStory> patches;              ///< in the recipe's order
     std::optional<DrainStory> drained;            ///< where the recipe wants the land to drain
