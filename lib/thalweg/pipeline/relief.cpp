@@ -25,7 +25,9 @@ LandRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
 LandRelief relief_of_terrain(Terrain const& terrain, measure::Drainage const& drainage, Run const& run) {
     Raster<float> const& dem = terrain.surface->dem;
     LandRelief found{measure::relief(dem, drainage, *terrain.statistics, {}, run), std::nullopt};
-    double const mean_slope = found.land.slopes.mean_deg * (exact::pi / 180.0);
+    double const asked =
+        terrain.recipe.surface ? terrain.recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;
+    double const mean_slope = (asked > 0.0 ? asked : found.land.slopes.mean_deg) * (exact::pi / 180.0);
     if (terrain.recipe.network && !std::isnan(mean_slope)) {
         std::vector<std::int64_t> cells;
         for (std::int64_t i = 0; i < terrain.valley.z.cells(); ++i) {

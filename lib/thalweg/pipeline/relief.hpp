@@ -29,7 +29,7 @@ LandRelief relief_of_dem(Raster<float> const& dem, Run const& run = {});
 struct Terrain;
 
 /// Relief of a terrain with a surface and its statistics.
-/// Gives: perched where it has rivers: by the mean slope of the land.
+/// Gives: perched where it has rivers: by the mean slope that the recipe asks for, else that of the land.
 LandRelief relief_of_terrain(Terrain const& terrain, measure::Drainage const& drainage, Run const& run = {});
 
 /// A figure as report.json and the page tell it.
