@@ -14,6 +14,7 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
+#include <thalweg/io/into_metres.hpp>
 #include <thalweg/io/same_frame.hpp>
 #include <thalweg/io/spatial_reference.hpp>
 
@@ -176,6 +177,20 @@ bool holds_polygons(std::string const& path) {
     Driver const driver;
     Dataset const data = open_file(path, GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr, "io.holds_polygons: " + path);
     return data->GetRasterCount() == 0 && !polygon_layers(*data).empty();
+}
+
+std::string crs_for_polygons(std::string const& path) {
+    auto const name = std::filesystem::path(path).filename().string();
+    Driver const driver;
+    Dataset const data = open_file(path, GDAL_OF_VECTOR, nullptr, "io.read_polygons: " + path);
+    OGRLayer& layer = choose_layer(*data, name);
+    OGREnvelope box;
+    if (is_missing(layer.GetSpatialRef()) || layer.GetExtent(&box) != OGRERR_NONE) {
+        refuse(fmt::format("layer {} of {} has no CRS or no polygons; assign one (ogr2ogr -a_srs EPSG:n)",
+                           layer.GetName(), name));
+    }
+    Vec2 const middle{0.5 * (box.MinX + box.MaxX), 0.5 * (box.MinY + box.MaxY)};
+    return IntoMetres(*layer.GetSpatialRef(), "", middle, name).crs();
 }
 
 Polygons read_polygons(std::string const& path, std::string const& crs, Run const& run) {

@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace thalweg::pipeline {
@@ -63,10 +64,10 @@ void make_skeleton_tin(Terrain& terrain, FeaturePoints const& points, Diary& dia
     diary.say(fmt::format("{} triangles of {} vertices", terrain.tin->triangles.size(), terrain.tin->vertices.size()));
 }
 
-/// The cells the land has: those of the recipe's mask, or all.
-Mask inside_of(Recipe const& recipe, Valley const& valley) {
+/// The cells the land has: those of the recipe's mask, or all; without the sea.
+Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
     if (recipe.surface->mask.empty()) {
-        return Mask(valley.z.grid(), 1);
+        return land.values().empty() ? Mask(valley.z.grid(), 1) : land;
     }
     Raster<float> const given = io::read_dem(file_in(recipe, recipe.surface->mask));
     Grid const& grid = valley.z.grid();
@@ -76,7 +77,7 @@ Mask inside_of(Recipe const& recipe, Valley const& valley) {
     }
     Mask inside(grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        inside[i] = !std::isnan(given[i]) && given[i] != 0.0F;
+        inside[i] = !std::isnan(given[i]) && given[i] != 0.0F && (land.values().empty() || land[i] != 0);
         if (inside[i] == 0 && !std::isnan(valley.z[i])) {
             Cell const c = grid.at(i);
             throw BadInput(fmt::format("surface.mask: {} leaves out cell ({}, {}), where a river runs",
@@ -98,7 +99,7 @@ Raster<float> over_triangles(Terrain const& terrain, Run const& run) {
 
 surface::Dilated dilated(Terrain const& terrain, Mask const& inside, Run const& run) {
     SurfaceRecipe const& wanted = *terrain.recipe.surface;
-    bool const whole = wanted.mask.empty();
+    bool const whole = wanted.mask.empty() && terrain.land.values().empty();
     if (wanted.base == Base::paper) { // without a mask by the closed form
         return whole ? surface::dilate(terrain.valley, wanted.dilate, run)
                      : surface::dilate(terrain.valley, inside, wanted.dilate, run);
@@ -152,9 +153,14 @@ surface::Dilated draw(Terrain& terrain, FeaturePoints const& points, Run const& 
     if (wanted.method == Method::tin) {
         surface::Dilated drawn;
         drawn.dem = over_triangles(terrain, run);
+        for (std::int64_t i = 0; i < static_cast<std::int64_t>(terrain.land.values().size()); ++i) {
+            if (terrain.land[i] == 0) {
+                drawn.dem[i] = std::numeric_limits<float>::quiet_NaN();
+            }
+        }
         return drawn;
     }
-    Mask const inside = inside_of(terrain.recipe, terrain.valley);
+    Mask const inside = inside_of(terrain.recipe, terrain.land, terrain.valley);
     return wanted.method == Method::diffuse ? diffused(terrain, points, inside, run) : dilated(terrain, inside, run);
 }
 
@@ -164,6 +170,7 @@ std::string about(Terrain const& terrain) {
     case Method::dilate:
         return fmt::format("{}, {} levels", wanted.dilate.increment.increment, terrain.surface->levels);
     case Method::diffuse: return fmt::format("diffused, {} iterations", terrain.diffusion->iterations);
+    case Method::equilibrium:
     case Method::tin:
     case Method::regress: break;
     }

@@ -64,10 +64,29 @@ std::vector<float> asked_heights(RaisedNetwork const& rivers, Channels const& ch
     return z;
 }
 
-surface::EquilibriumFields fields_of(Recipe const& recipe, Grid const& grid, Run const& run) {
+/// Cells that are land by both masks, of which either may be empty; and those of rivers.
+Mask land_of(Mask one, Mask const& other, Channels const& channels) {
+    if (one.values().empty()) {
+        one = other;
+    } else if (!other.values().empty()) {
+        for (std::int64_t i = 0; i < one.cells(); ++i) {
+            one[i] = one[i] != 0 && other[i] != 0 ? 1 : 0;
+        }
+    }
+    if (!one.values().empty()) {
+        for (std::int64_t const cell : channels.cell) {
+            one[cell] = 1;
+        }
+    }
+    return one;
+}
+
+surface::EquilibriumFields fields_of(Terrain const& terrain, Channels const& channels, Run const& run) {
+    Recipe const& recipe = terrain.recipe;
+    Grid const& grid = terrain.grid;
     SurfaceRecipe const& wanted = *recipe.surface;
     surface::EquilibriumFields fields;
-    fields.land = read_part(file_in(recipe, wanted.mask), grid, run);
+    fields.land = land_of(read_part(file_in(recipe, wanted.mask), grid, run), terrain.land, channels);
     fields.uplift = read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run);
     fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
     return fields;
@@ -109,7 +128,7 @@ void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run) {
     if (recipe.network->heights != Heights::graded) {
         rivers.channels.z = asked_heights(terrain.network, rivers.channels, recipe.network->heights);
     }
-    surface::EquilibriumFields const fields = fields_of(recipe, terrain.grid, run);
+    surface::EquilibriumFields const fields = fields_of(terrain, rivers.channels, run);
     run.at(0.0, fmt::format("fill {} cells", terrain.grid.cells()).c_str());
     surface::EquilibriumLand land =
         diary.stage("fill", [&] { return surface::equilibrium(rivers.channels, fields, params_of(recipe), run); });

@@ -221,6 +221,9 @@ void add_rivers(Terrain const& t, NetworkIndex const& index, std::vector<Profile
     if (wanted && wanted->source == Source::dla) {
         figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.story.particles, "");
     }
+    if (wanted && wanted->source == Source::forest) {
+        figures.add("particles of the forest", t.story.particles, "");
+    }
     figures.add("arcs", index.arcs.size(), "");
     figures.add("outlets", index.outlets.size(), "");
     figures.add("highest Strahler order", t.laws.network ? t.laws.network->horton.orders.size() : 0, "");

@@ -39,7 +39,7 @@ std::string unknown_key(std::string const& path) {
     if (near.empty()) { // the right word in the wrong section
         std::string const word = path.substr(path.rfind('.') + 1);
         for (std::string const& p : paths) {
-            if (p.substr(p.rfind('.') + 1) == word) {
+            if (near.empty() && p.substr(p.rfind('.') + 1) == word) {
                 near = p;
             }
         }
@@ -285,7 +285,10 @@ std::string keys_of_patch(PatchRecipe const& patch) {
 /// Keys of a source of rivers that is not used would only confuse.
 bool of_unused_source(Recipe const& recipe, std::string const& section) {
     static std::map<Source, std::string> const sections = {
-        {Source::dla, "network.dla"}, {Source::tokunaga, "network.tokunaga"}, {Source::lines, "network.lines"}};
+        {Source::dla, "network.dla"},
+        {Source::tokunaga, "network.tokunaga"},
+        {Source::forest, "network.forest"},
+        {Source::lines, "network.lines"}};
     return recipe.network && section.substr(0, 8) == "network." && section != sections.at(recipe.network->source);
 }
 
@@ -360,6 +363,23 @@ void check_equilibrium(Recipe const& recipe, std::vector<std::string>& faults) {
     }
 }
 
+void check_forest(Recipe const& recipe, std::vector<std::string>& faults) {
+    NetworkRecipe const& n = *recipe.network;
+    ForestRecipe const& f = n.forest;
+    if (n.source != Source::forest) {
+        if (!(f.region.empty() && f.outlets.empty())) {
+            faults.emplace_back("network.forest names a file but source is not \"forest\"");
+        }
+        return;
+    }
+    if (f.shape == LandShape::island && !f.region.empty()) {
+        faults.emplace_back("network.forest.shape and region do not go together: the region is the land");
+    }
+    if (n.rotate_deg.value_or(0.0) != 0.0) {
+        faults.emplace_back("network.rotate does not go with source = \"forest\": its rivers fill the land as it lies");
+    }
+}
+
 void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
     NetworkRecipe const& n = *recipe.network;
     if (n.source == Source::lines && n.lines.path.empty()) {
@@ -395,6 +415,7 @@ void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
     if (recipe.surface && recipe.surface->method == Method::regress) {
         faults.emplace_back("surface.method = \"regress\" does not keep rivers: use tin or dilate");
     }
+    check_forest(recipe, faults);
     check_equilibrium(recipe, faults);
 }
 
@@ -447,7 +468,10 @@ void check_recipe(Recipe const& recipe) {
     if ((recipe.grid.width > 0) != (recipe.grid.height > 0)) {
         faults.emplace_back("grid.width and grid.height go together: give both or neither");
     }
-    bool const framed = recipe.network || (recipe.skeleton && !recipe.skeleton->points.empty());
+    bool const fills_a_frame =
+        recipe.network && recipe.network->source == Source::forest && recipe.network->forest.region.empty();
+    bool const framed =
+        (recipe.network && !fills_a_frame) || (recipe.skeleton && !recipe.skeleton->points.empty() && !fills_a_frame);
     if (recipe.grid.width == 0 && !framed) {
         faults.emplace_back("grid.width and grid.height are missing: nothing else tells how large the land is");
     }

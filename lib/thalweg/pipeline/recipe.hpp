@@ -12,6 +12,7 @@
 #include <thalweg/io/schema.hpp>
 #include <thalweg/network/adopt.hpp>
 #include <thalweg/network/grow_dla.hpp>
+#include <thalweg/network/grow_forest.hpp>
 #include <thalweg/network/grow_tokunaga.hpp>
 #include <thalweg/network/pick_branch.hpp>
 #include <thalweg/network/rosgen.hpp>
@@ -37,7 +38,7 @@ struct GridRecipe {
     bool clip = false;                           ///< cut rivers at the grid's edge instead of refusing them
 };
 
-enum class Source : std::uint8_t { dla, tokunaga, lines };
+enum class Source : std::uint8_t { dla, tokunaga, forest, lines };
 enum class Heights : std::uint8_t {
     automatic,
     straight,
@@ -74,9 +75,23 @@ struct TokunagaRecipe {
     double spacing_cells = 3.0; ///< [cells] >= 0: links closer than this to others are left out
 };
 
+/// The land of a forest that no region is given for.
+enum class LandShape : std::uint8_t { grid, island };
+
+/// Rivers that grow inland from a coast or border until the land is full of them.
+struct ForestRecipe {
+    LandShape shape = LandShape::grid;
+    double ruggedness = 0.5;         ///< [0, 1] of an island's coast
+    std::string region;              ///< polygons that are land; "": the shape
+    std::string outlets;             ///< points; or lines or polygons along whose coast outlets lie; "": all of it
+    std::int64_t seeds = 0;          ///< [0, ...] outlets; 0: one for every six spacings of coast
+    std::int64_t spacing_cells = 10; ///< [8, 200] between rivers that do not meet
+    network::ForestParams growth;    ///< its step and seed follow from the recipe
+};
+
 struct NetworkRecipe {
     Source source = Source::dla;
-    std::optional<double> prune_cells; ///< [cells] default 20 for dla, 0 for lines
+    std::optional<double> prune_cells; ///< [cells] default 20 for dla and forest, else 0
     Heights heights = Heights::automatic;
     double slope = 0.087;                  ///< [m/m] > 0
     double concavity = 0.45;               ///< [0, 1] theta of graded heights
@@ -93,6 +108,7 @@ struct NetworkRecipe {
     network::BranchChoice branch = network::BranchChoice::largest;
     LinesRecipe lines;
     TokunagaRecipe tokunaga;
+    ForestRecipe forest;
 };
 
 /// What ridges lie midway between: points along the rivers, or the rivers themselves.

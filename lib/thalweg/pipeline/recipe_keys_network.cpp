@@ -83,8 +83,13 @@ void add_network_keys(std::vector<Key>& keys) {
     using network::Orientation;
     using network::VisitRule;
     keys.push_back(choice<Source>(
-        "network.source", {{"dla", Source::dla}, {"tokunaga", Source::tokunaga}, {"lines", Source::lines}},
-        "where the rivers come from: grown as a cluster or by branching rules, or a file's lines",
+        "network.source",
+        {{"dla", Source::dla},
+         {"tokunaga", Source::tokunaga},
+         {"forest", Source::forest},
+         {"lines", Source::lines}},
+        "where the rivers come from: grown as a cluster, by branching rules, or from a coast all over the land; or a "
+        "file's lines",
         in_network<Source>([](NetworkRecipe& n) -> Source& { return n.source; })));
     {
         Key key = number("network.prune", "cells", {0, 1e7}, "L: no leaf arc shorter than this is left",
@@ -147,6 +152,7 @@ void add_network_keys(std::vector<Key>& keys) {
                              in_network<BranchChoice>([](NetworkRecipe& n) -> BranchChoice& { return n.branch; })));
 
     add_tokunaga_keys(keys);
+    add_forest_keys(keys);
 
     keys.push_back(text("network.lines.path", "file name", "any OGR source of lines",
                         in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.lines.path; })));

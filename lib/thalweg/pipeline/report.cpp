@@ -159,6 +159,7 @@ ordered_json network_object(Terrain const& t) {
             {"particles", t.story.particles},
             {"walkers", t.story.walkers},
             {"stopped_at", t.story.particles == 0 ? ""
+                           : t.story.full         ? "full"
                            : t.story.cut          ? "margin"
                                                   : "particles"},
             {"uphill_before_repair",

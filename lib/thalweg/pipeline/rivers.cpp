@@ -68,6 +68,7 @@ Planned plan(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     switch (recipe.network->source) {
     case Source::dla: return plan_dla(recipe, terrain, diary, run);
     case Source::tokunaga: return plan_tokunaga(recipe, terrain, diary, run);
+    case Source::forest: return plan_forest(recipe, terrain, diary, run);
     case Source::lines: break;
     }
     return plan_lines(recipe, terrain, diary, run);
@@ -85,7 +86,8 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
         rivers.heights = in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;
     }
     if (!rivers.prune_cells) {
-        rivers.prune_cells = rivers.source == Source::dla ? 20.0 : 0.0;
+        bool const all_over = rivers.source == Source::dla || rivers.source == Source::forest;
+        rivers.prune_cells = all_over ? 20.0 : 0.0;
     }
 
     network::Pruned pruned = diary.stage("prune", [&] {
@@ -95,10 +97,16 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.story.arcs_kept = static_cast<std::int64_t>(boost::num_edges(pruned.network));
     diary.say(
         fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, terrain.story.arcs_kept, pruned.arcs_before));
+    std::vector<Finding>& repairs = terrain.story.repairs;
+    if (rivers.source == Source::forest) { // its rivers end where the land does
+        std::vector<Finding> const gone = pruned_outlets(planned.plan, pruned.network);
+        repairs.insert(repairs.end(), gone.begin(), gone.end());
+    }
+    terrain.land = std::move(planned.land);
     planned.plan = std::move(pruned.network);
-    if (rivers.inland == InlandEnds::carry) {
+    if (rivers.inland == InlandEnds::carry && rivers.source != Source::forest) {
         network::Carried carried = network::carry_outlets(planned.plan, grid);
-        terrain.story.repairs.insert(terrain.story.repairs.end(), carried.notes.begin(), carried.notes.end());
+        repairs.insert(repairs.end(), carried.notes.begin(), carried.notes.end());
         planned.plan = std::move(carried.network);
     }
 

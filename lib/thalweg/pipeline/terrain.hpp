@@ -40,9 +40,10 @@ struct TokunagaStory {
 
 /// What the network went through, for the report.
 struct NetworkStory {
-    std::int64_t particles = 0; ///< of the cluster (dla)
+    std::int64_t particles = 0; ///< of the cluster (dla) or the forest
     std::int64_t walkers = 0;   ///< released for it
     std::optional<TokunagaStory> tokunaga;
+    bool full = false;              ///< the forest stopped where no particle found room
     bool cut = false;               ///< the branch reached the grid's margin before the last particle
     std::int64_t arcs_traced = 0;   ///< before pruning
     std::int64_t arcs_kept = 0;     ///< by pruning; merged ones count once
@@ -95,6 +96,7 @@ struct Terrain {
     Recipe recipe; ///< every default resolved: made again, it gives the same terrain
     Grid grid;
     RaisedNetwork network;
+    Mask land; ///< 0: sea, which has no heights; without cells: all is land
     NetworkOrders orders;
     network::StreamCounts streams; ///< side branches, as drawn
     network::RiverTypes types;     ///< by arc, where rivers have types; else empty

@@ -79,6 +79,9 @@ void set_edge_heights(LandLevel& level, EdgeCells const& edge) {
     for (std::size_t k = 0; k < edge.inner.size(); ++k) {
         level.z[edge.inner[k]] = above_rivers(level, edge.inner[k], river_height(edge.inner_river[k]));
     }
+    if (edge.ring.empty()) {
+        return;
+    }
     std::vector<double> heights(edge.ring.size());
     std::transform(edge.ring_river.begin(), edge.ring_river.end(), heights.begin(),
                    [&](std::int32_t river) { return static_cast<double>(river_height(river)); });

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/relax_land.hpp>
 
+#include <thalweg/surface/beside_rivers.hpp>
+
 #include <algorithm>
-#include <limits>
 
 namespace thalweg::surface {
 
@@ -35,16 +36,6 @@ Creep creep_at_rim(LandLevel const& level, std::size_t i, std::array<std::int64_
         }
     }
     return creep;
-}
-
-float highest_river(LandLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
-    float highest = -std::numeric_limits<float>::infinity();
-    for (std::int64_t const offset : offsets) {
-        if (std::size_t const n = moved(i, offset); level.cover[n] == Cover::river) {
-            highest = std::max(highest, level.z[n]);
-        }
-    }
-    return highest;
 }
 
 } // namespace

@@ -4,28 +4,31 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace thalweg::surface {
 
 namespace {
 
 constexpr float source_area = 200.0F; // [finest cells]: a drawn source drains something already
-constexpr float share_of_cap = 0.7F;
-constexpr float perch = 0.02F; // [cells of the level]
+// Of the cap: two steps by corners must rise by less than land of the mean slope does in one by a side.
+constexpr float share_of_cap = 0.3F;
+constexpr float above_land = 0.02F;  // [cells of the level] that a river may stand above the land two cells away
+constexpr float above_river = 0.25F; // [cells of the level] and above another river there
+constexpr float kept_share = 0.3F;   // of its fall, which a reach keeps when it is lowered for what lies upstream
 
-/// The lowest land two cells away, or infinity.
-float second_ring(LandLevel const& level, std::uint32_t cell) {
-    float low = std::numeric_limits<float>::infinity();
+/// The greatest height of a river cell that does not leave it perched: by the second ring of cells around it.
+float height_by_ring(LandLevel const& level, std::uint32_t cell) {
+    float most = std::numeric_limits<float>::infinity();
     std::int64_t const col = cell % level.width;
     std::int64_t const row = cell / level.width;
     if (col < 2 || row < 2 || col + 2 >= level.width || row + 2 >= level.height) {
-        return low;
+        return most;
     }
     auto const take = [&](std::int64_t east, std::int64_t south) {
         std::size_t const n = moved(cell, south * level.width + east);
-        if (level.cover[n] == Cover::land || level.cover[n] == Cover::rim) {
-            low = std::min(low, level.z[n]);
-        }
+        bool const land = level.cover[n] == Cover::land || level.cover[n] == Cover::rim;
+        most = std::min(most, level.z[n] + (land ? above_land : above_river) * level.side);
     };
     for (std::int64_t d = -2; d <= 2; ++d) {
         take(d, -2);
@@ -33,14 +36,42 @@ float second_ring(LandLevel const& level, std::uint32_t cell) {
         take(-2, d);
         take(2, d);
     }
-    return low;
+    return most;
+}
+
+float graded_tangent(LandLevel const& level, EquilibriumLaw const& law, std::uint32_t i) {
+    float const area = static_cast<float>(level.area[i]) * level.side * level.side + source_area;
+    float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
+    float const graded = uplift / (level.erodibility[i] * law.power(area));
+    return std::min(graded, share_of_cap * std::min(level.cap[i], steepest_tangent));
+}
+
+/// The greatest heights of river cells that leave neither them nor, within one reach, what lies upstream perched.
+std::vector<float> greatest_heights(LandLevel const& level, EquilibriumLaw const& law) {
+    RiverCells const& rivers = level.rivers;
+    std::vector<float> most(rivers.cell.size());
+    std::transform(rivers.cell.begin(), rivers.cell.end(), most.begin(),
+                   [&](std::uint32_t i) { return height_by_ring(level, i); });
+    for (std::size_t n = most.size(); n-- > 0;) {
+        if (rivers.receiver[n] < 0) {
+            continue;
+        }
+        auto const r = static_cast<std::size_t>(rivers.receiver[n]);
+        // A great river is not lowered for a brook.
+        if (level.area[rivers.cell[r]] <= 4 * level.area[rivers.cell[n]]) {
+            float const fall = graded_tangent(level, law, rivers.cell[n]) * level.side *
+                               step_lengths[static_cast<std::size_t>(rivers.way[n])];
+            most[r] = std::min(most[r], most[n] - kept_share * fall);
+        }
+    }
+    return most;
 }
 
 } // namespace
 
 void relax_rivers(LandLevel& level, EquilibriumLaw const& law) {
     RiverCells const& rivers = level.rivers;
-    float const side = level.side;
+    std::vector<float> const most = greatest_heights(level, law);
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
         if (rivers.receiver[n] < 0) {
             continue; // an end keeps its height
@@ -51,12 +82,8 @@ void relax_rivers(LandLevel& level, EquilibriumLaw const& law) {
             level.z[i] = below;
             continue;
         }
-        float const length = side * step_lengths[static_cast<std::size_t>(rivers.way[n])];
-        float const area = static_cast<float>(level.area[i]) * side * side + source_area;
-        float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
-        float const graded = uplift / (level.erodibility[i] * law.power(area));
-        float const tangent = std::min(graded, share_of_cap * std::min(level.cap[i], steepest_tangent));
-        float const z = std::min(below + tangent * length, second_ring(level, i) + perch * side);
+        float const length = level.side * step_lengths[static_cast<std::size_t>(rivers.way[n])];
+        float const z = std::min(below + graded_tangent(level, law, i) * length, most[n]);
         level.z[i] = std::max(z, below + least_tangent * length);
     }
 }

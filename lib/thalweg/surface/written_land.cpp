@@ -100,7 +100,8 @@ EquilibriumLand written_land(LandLevel level, Channels const& rivers, Mask const
     for (float& z : level.z) {
         z = static_cast<float>((static_cast<double>(z) - base) * metres);
     }
-    settle_land(level);
+    // Less than the solver keeps, so that nothing is touched but what floats have lost.
+    settle_land(level, static_cast<float>(0.25 * static_cast<double>(least_tangent) * metres));
     crop(level, land, margin, out.dem);
     level = {};
     out.direction = directions(out.dem, rivers, run);
