@@ -11,13 +11,14 @@ namespace thalweg::surface {
 
 namespace {
 
-constexpr float source_area = 200.0F; // [finest cells]: a drawn source drains something already
+constexpr float source_area = 100.0F; // [finest cells]: a drawn source drains something already
 // Of the cap: two steps by corners must rise by less than land of the mean slope does in one by a side.
 constexpr float share_of_cap = 0.3F;
 constexpr float above_land = 0.02F;  // [cells of the level] that a river may stand above the land two cells away
 constexpr float above_river = 0.25F; // [cells of the level] and above another river there
 constexpr float kept_share = 0.3F;   // of its fall, which a reach keeps when it is lowered for what lies upstream
 
+constexpr std::uint32_t great = 16; // times the area of a brook: no river is lowered for it
 /// The greatest height of a river cell that does not leave it perched: by the second ring of cells around it.
 float height_by_ring(LandLevel const& level, std::uint32_t cell) {
     float most = std::numeric_limits<float>::infinity();
@@ -42,16 +43,20 @@ std::vector<float> greatest_heights(LandLevel const& level, EquilibriumLaw const
     std::vector<float> most(rivers.cell.size());
     std::transform(rivers.cell.begin(), rivers.cell.end(), most.begin(),
                    [&](std::uint32_t i) { return height_by_ring(level, i); });
+    std::vector<std::uint32_t> area(most.size()); // of the cell for which one is lowered
+    std::transform(rivers.cell.begin(), rivers.cell.end(), area.begin(),
+                   [&](std::uint32_t i) { return level.area[i]; });
     for (std::size_t n = most.size(); n-- > 0;) {
         if (rivers.receiver[n] < 0) {
             continue;
         }
         auto const r = static_cast<std::size_t>(rivers.receiver[n]);
-        // A great river is not lowered for a brook.
-        if (level.area[rivers.cell[r]] <= 4 * level.area[rivers.cell[n]]) {
-            float const fall = graded_tangent(level, law, rivers.cell[n]) * level.side *
-                               step_lengths[static_cast<std::size_t>(rivers.way[n])];
-            most[r] = std::min(most[r], most[n] - kept_share * fall);
+        float const fall = graded_tangent(level, law, rivers.cell[n]) * level.side *
+                           step_lengths[static_cast<std::size_t>(rivers.way[n])];
+        float const below = most[n] - kept_share * fall;
+        if (below < most[r] && level.area[rivers.cell[r]] / great <= area[n]) {
+            most[r] = below;
+            area[r] = area[n];
         }
     }
     return most;
