@@ -5,6 +5,8 @@
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/surface/nearest_river.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -13,8 +15,10 @@ namespace thalweg::surface {
 namespace {
 
 constexpr double growth = 0.4;
-constexpr float least_width = 0.5F; // [cells]: what is narrower shows as nothing
-constexpr float flat_share = 0.15F; // of the cap, on the floor
+constexpr float least_width = 0.5F;  // [cells]: what is narrower shows as nothing
+constexpr float core_widths = 0.25F; // what is flat, and
+constexpr float reach_widths = 2.0F; // where the foot ends
+constexpr float flat_share = 0.15F;  // of the cap, on the floor
 
 } // namespace
 
@@ -24,7 +28,7 @@ void valley_floors(LandLevel& level, double floor_width) {
     std::vector<float> reach(widths.size());
     for (std::size_t n = 0; n < widths.size(); ++n) {
         widths[n] = static_cast<float>(floor_width * exact::pow(level.area[rivers.cell[n]], growth));
-        reach[n] = 2.0F * widths[n];
+        reach[n] = reach_widths * widths[n];
     }
     NearestRiver near = nearest_river(level, reach, std::move(level.order));
     each_inner(level, [&](std::size_t i) {
@@ -35,8 +39,9 @@ void valley_floors(LandLevel& level, double floor_width) {
         if (width < least_width) {
             return;
         }
-        float const up = near.distance[i] <= -width ? 0.0F : (near.distance[i] + width) / width;
-        level.cap[i] *= flat_share + (1.0F - flat_share) * up;
+        float const far = near.distance[i] / width + reach_widths; // from the river, in widths
+        float const up = std::max(0.0F, (far - core_widths) / (reach_widths - core_widths));
+        level.cap[i] *= flat_share + (1.0F - flat_share) * up * std::sqrt(up);
     });
     level.order = std::move(near.number);
 }
