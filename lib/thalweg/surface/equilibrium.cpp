@@ -127,7 +127,7 @@ public:
                 steepest_ways(level, per_length_, run_);
             }
             if (number == 0 && round == floors_after && params_.floor_width > 0.0) {
-                valley_floors(level, params_.floor_width);
+                valley_floors(level, params_.floor_width, params_.seed);
             }
             order_cells(level);
             if (number == 0 && round == rounds - 2 && !given) {
