@@ -44,6 +44,7 @@ KeptArcs keep_arcs(StreamNetwork const& network, NetworkIndex const& index, std:
         }
         arc.feature = network[index.arcs[longest]].feature;
         arc.type = network[index.arcs[longest]].type;
+        arc.given = network[index.arcs[longest]].given;
         add_arc(out.network, node[index.from[a]], node[index.to[piece]], std::move(arc));
     }
     return out;

@@ -10,6 +10,7 @@
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
 #include <thalweg/pipeline/frame.hpp>
+#include <thalweg/pipeline/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 
 #include <fmt/format.h>
@@ -71,9 +72,10 @@ Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& ru
     Planned planned{std::move(adopted.network), grid, {}};
     Heights& heights = recipe.network->heights;
     if (heights == Heights::automatic) {
-        heights = lines.has_z ? Heights::file : Heights::straight_repaired;
+        heights = lines.has_z ? Heights::file : in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;
     }
-    if (heights == Heights::file) {
+    bool const or_straight = heights == Heights::soft || heights == Heights::fixed || heights == Heights::ends;
+    if (heights == Heights::file || (or_straight && lines.has_z)) {
         if (!lines.has_z) {
             throw BadInput(fmt::format("network.heights: 'file' is asked, but {} has lines without Z. Choose another.",
                                        lines.name));

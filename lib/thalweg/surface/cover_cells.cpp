@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/cover_cells.hpp>
+
+#include <algorithm>
+
+namespace thalweg::surface {
+
+namespace {
+
+bool beside(LandLevel const& level, std::size_t i, Cover what) {
+    auto const offsets = level.offsets();
+    return std::any_of(offsets.begin(), offsets.end(),
+                       [&](std::int64_t offset) { return level.cover[moved(i, offset)] == what; });
+}
+
+void cover_banks(LandLevel& level) {
+    for (std::uint32_t const river : level.rivers.cell) {
+        for (std::int64_t const offset : level.offsets()) {
+            Cover& near = level.cover[moved(river, offset)];
+            near = near == Cover::land ? Cover::bank : near == Cover::rim ? Cover::rim_bank : near;
+        }
+    }
+}
+
+} // namespace
+
+Mask coarsened(Mask const& land) {
+    Grid grid = land.grid();
+    grid.width = (land.width() + 1) / 2;
+    grid.height = (land.height() + 1) / 2;
+    Mask coarse(grid);
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        for (std::int64_t col = 0; col < grid.width; ++col) {
+            int all = 0;
+            int dry = 0;
+            for (std::int64_t r = 2 * row; r < std::min(2 * row + 2, land.height()); ++r) {
+                for (std::int64_t c = 2 * col; c < std::min(2 * col + 2, land.width()); ++c) {
+                    ++all;
+                    dry += land[Cell{c, r}] != 0 ? 1 : 0;
+                }
+            }
+            coarse[Cell{col, row}] = 2 * dry >= all ? 1 : 0;
+        }
+    }
+    return coarse;
+}
+
+void cover_cells(LandLevel& level, Mask const& land, Edge edge, RiverBanks banks) {
+    Cover const rest = edge == Edge::coast ? Cover::sea : Cover::outside;
+    level.cover.assign(static_cast<std::size_t>(level.cells()), edge == Edge::open ? Cover::edge : rest);
+    for (std::int64_t row = 1; row + 1 < level.height; ++row) {
+        for (std::int64_t col = 1; col + 1 < level.width; ++col) {
+            bool const dry = land.cells() == 0 || land[Cell{col - 1, row - 1}] != 0;
+            level.cover[static_cast<std::size_t>(row * level.width + col)] = dry ? Cover::land : rest;
+        }
+    }
+    for (std::uint32_t const river : level.rivers.cell) {
+        level.cover[river] = Cover::river;
+    }
+    if (edge != Edge::coast) {
+        each_inner(level, [&](std::size_t i) {
+            if (level.cover[i] == Cover::land && beside(level, i, Cover::outside)) {
+                level.cover[i] = edge == Edge::open ? Cover::edge : Cover::rim;
+            }
+        });
+    }
+    if (banks == RiverBanks::kept) {
+        cover_banks(level);
+    }
+}
+
+} // namespace thalweg::surface

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/equilibrium.hpp>
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/surface/check_equilibrium.hpp>
+#include <thalweg/surface/cover_cells.hpp>
+#include <thalweg/surface/edge_heights.hpp>
+#include <thalweg/surface/equilibrium_law.hpp>
+#include <thalweg/surface/flood_land.hpp>
+#include <thalweg/surface/give_up_tips.hpp>
+#include <thalweg/surface/jitter.hpp>
+#include <thalweg/surface/keep_to_receivers.hpp>
+#include <thalweg/surface/nearest_river.hpp>
+#include <thalweg/surface/order_cells.hpp>
+#include <thalweg/surface/relax_land.hpp>
+#include <thalweg/surface/relax_rivers.hpp>
+#include <thalweg/surface/rock.hpp>
+#include <thalweg/surface/start_land.hpp>
+#include <thalweg/surface/steepest_ways.hpp>
+#include <thalweg/surface/valley_floors.hpp>
+#include <thalweg/surface/widen.hpp>
+#include <thalweg/surface/written_land.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace thalweg::surface {
+
+namespace {
+
+constexpr int fine_rounds = 5;
+constexpr int coarse_rounds = 30;
+constexpr float perched_tangent = 0.6F; // twice that of most land: what will not come down by itself
+constexpr int floors_after = 2;      // rounds: areas are near enough by then
+
+/// What lies in the frame of a level, before it is solved.
+struct Plan {
+    std::int64_t width;  ///< without the frame
+    std::int64_t height; ///< without the frame
+    RiverCells rivers;
+    Mask land;
+};
+
+/// Levels from the finest to one of about forty cells a side.
+std::vector<Plan> plans(WidenedLand& land) {
+    constexpr std::int64_t short_side = 8;
+    constexpr std::int64_t long_side = 40;
+    std::vector<Plan> levels;
+    levels.push_back({land.grid.width, land.grid.height, std::move(land.rivers), std::move(land.land)});
+    for (;;) {
+        Plan const& fine = levels.back();
+        Plan coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}, {}};
+        if (std::min(coarse.width, coarse.height) < short_side || std::max(coarse.width, coarse.height) < long_side) {
+            return levels;
+        }
+        coarse.rivers = coarsened(fine.rivers, fine.width + 2, coarse.width + 2, coarse.height + 2);
+        coarse.land = fine.land.cells() == 0 ? Mask{} : coarsened(fine.land);
+        levels.push_back(std::move(coarse));
+    }
+}
+
+/// Everything that a level's rounds need, before the first.
+LandLevel prepared(Plan&& plan, std::size_t number, LandLevel const& coarser, RockFields const& fields,
+                   EquilibriumParams const& params, Run const& run) {
+    LandLevel level;
+    level.width = plan.width + 2;
+    level.height = plan.height + 2;
+    level.side = static_cast<float>(std::int64_t{1} << number);
+    level.rivers = std::move(plan.rivers);
+    cover_cells(level, plan.land, params.edge, number == 0 ? RiverBanks::kept : RiverBanks::none);
+    set_rock(level, fields, params, run);
+    jitter(level, params.seed, run);
+    if (coarser.z.empty()) {
+        start_from_nothing(level, nearest_river(level), params.seed, run);
+    } else {
+        start_from(level, coarser, params.seed, run);
+    }
+    start_rivers(level);
+    return level;
+}
+
+void check_drained(LandLevel const& level, Mask const& land, std::int64_t margin, Grid const& grid) {
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        Cell const c = grid.at(i);
+        bool const dry = land.cells() == 0 || land[i] != 0;
+        auto const at = static_cast<std::size_t>((c.row + margin + 1) * level.width + c.col + margin + 1);
+        if (dry && level.cover[at] == Cover::outside) {
+            throw BadInput(fmt::format("surface.equilibrium: no river drains the closed land at column {}, row {}; let "
+                                       "one run there, or leave the edge open",
+                                       c.col, c.row));
+        }
+    }
+}
+
+/// Leaves what the next level or the written land need.
+void drop_what_is_done(LandLevel& level) {
+    level.erodibility = {};
+    level.cap = {};
+    level.uplift = {};
+    level.shift = {};
+    level.area = {};
+}
+
+/// The heights of a level, from those of the coarser one.
+class Solver {
+public:
+    Solver(EquilibriumParams const& params, Run const& run)
+        : params_(params), run_(run), law_(params), per_length_(jittered_per_length()) {}
+
+    void solve(LandLevel& level, std::size_t number, std::size_t levels) {
+        EdgeCells const edge = params_.edge == Edge::open ? edge_cells(level, nearest_river(level)) : EdgeCells{};
+        set_edge_heights(level, edge);
+        flood_land(level);
+        int const rounds = rounds_of(number, levels);
+        for (int round = 0; round < rounds; ++round) {
+            run_.at(share_done(number, round, rounds), "equilibrium");
+            if (round > 0) {
+                set_edge_heights(level, edge);
+                steepest_ways(level, per_length_, run_);
+            }
+            if (number == 0 && round == floors_after && params_.floor_width > 0.0) {
+                valley_floors(level, params_.floor_width);
+            }
+            order_cells(level);
+            if (number == 0 && round == rounds - 2) {
+                shortened_ = give_up_tips(level, perched_tangent);
+            }
+            relax_rivers(level, law_);
+            if (number == 0) {
+                keep_to_receivers(level);
+            }
+            relax_land(level, law_);
+        }
+    }
+
+    std::vector<std::int64_t> const& shortened() const { return shortened_; }
+
+private:
+    /// From few at the finest level to many at the coarsest.
+    static int rounds_of(std::size_t number, std::size_t levels) {
+        return levels == 1 ? coarse_rounds
+                           : fine_rounds + (coarse_rounds - fine_rounds) * static_cast<int>(number) /
+                                               static_cast<int>(levels - 1);
+    }
+
+    /// A level takes a quarter of what the finer one takes.
+    static double share_done(std::size_t number, int round, int rounds) {
+        double below = 1.0;
+        for (std::size_t k = 0; k < number; ++k) {
+            below *= 0.25;
+        }
+        return below * (0.25 + 0.75 * static_cast<double>(round) / static_cast<double>(rounds));
+    }
+
+    EquilibriumParams const& params_;
+    Run const& run_;
+    EquilibriumLaw law_;
+    JitteredPerLength per_length_;
+    std::vector<std::int64_t> shortened_;
+};
+
+} // namespace
+
+EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+                            Run const& run) {
+    check_equilibrium(rivers, fields, params);
+    run.check();
+    WidenedLand land = widened(rivers, fields, params);
+    std::vector<Plan> levels = plans(land);
+    Solver solver(params, run);
+    LandLevel level;
+    for (std::size_t number = levels.size(); number-- > 0;) {
+        level = prepared(std::move(levels[number]), number, level, land.fields, params, run);
+        solver.solve(level, number, levels.size());
+        drop_what_is_done(level);
+    }
+    check_drained(level, fields.land, land.margin, rivers.grid);
+    return written_land(std::move(level), rivers, fields.land, params, land.margin, solver.shortened(), run);
+}
+
+} // namespace thalweg::surface

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/settle_land.hpp>
+
+#include <thalweg/surface/beside_rivers.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace thalweg::surface {
+
+void settle_land(LandLevel& level, float step) {
+    auto const above = [step](float z) {
+        return std::max(z + step, std::nextafter(z, std::numeric_limits<float>::infinity()));
+    };
+    RiverCells const& rivers = level.rivers;
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        if (rivers.receiver[n] >= 0) {
+            float& z = level.z[rivers.cell[n]];
+            float const below = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]];
+            z = rivers.level[n] != 0 ? below : std::max(z, above(below));
+        }
+    }
+    auto const offsets = level.offsets();
+    each_inner(level, [&](std::size_t i) {
+        if (level.cover[i] == Cover::edge) {
+            level.z[i] = std::max(level.z[i], above(highest_river(level, i, offsets)));
+        }
+    });
+    for (std::size_t at = level.order.size(); at-- > 0;) {
+        std::size_t const i = level.order[at];
+        float least = above(level.z[moved(i, offsets[static_cast<std::size_t>(level.way[i])])]);
+        if (is_bank(level.cover[i])) {
+            least = std::max(least, above(highest_river(level, i, offsets)));
+        }
+        level.z[i] = std::max(level.z[i], least);
+    }
+}
+
+} // namespace thalweg::surface

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <thalweg/surface/equilibrium.hpp>
+#include <thalweg/surface/river_cells.hpp>
+#include <thalweg/surface/rock.hpp>
+
+/// Private to this room.
+namespace thalweg::surface {
+
+/// What the solver works on: the caller's grid with a margin around it, in which an open land goes on.
+struct WidenedLand {
+    Grid grid;           ///< without the frame
+    std::int64_t margin; ///< [cells] on each side
+    RiverCells rivers; ///< in the frame of that grid; those that leave by the border go straight on through the margin
+    Mask land;         ///< without cells: all
+    RockFields fields;
+};
+WidenedLand widened(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params);
+
+} // namespace thalweg::surface

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <thalweg/core/chance.hpp>
+#include <thalweg/core/channels.hpp>
+#include <thalweg/core/d8.hpp>
+#include <thalweg/core/raster.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+/// Rivers by chance, for whatever is drawn around them.
+namespace channel_trees {
+
+using namespace thalweg;
+
+inline Grid frame(std::int64_t width, std::int64_t height, double cell_m = 10.0) {
+    return {width, height, cell_m, 0.0, static_cast<double>(height) * cell_m, ""};
+}
+
+inline std::vector<std::int64_t> beside(Grid const& grid, std::int64_t cell) {
+    std::vector<std::int64_t> out;
+    Cell const at = grid.at(cell);
+    for (Cell const step : d8_steps) {
+        if (Cell const n{at.col + step.col, at.row + step.row}; grid.contains(n)) {
+            out.push_back(grid.index(n));
+        }
+    }
+    return out;
+}
+
+/// How closely rivers may lie together.
+enum class Room {
+    apart, ///< a cell touches its receiver and its donors only
+    crowd  ///< any cell may be taken
+};
+
+/// Grows trees from their ends by chance until they have so many cells, or no room is left.
+inline Channels grown(Grid const& grid, std::vector<std::int64_t> const& ends, Mask const& land, std::int64_t cells,
+                      Room room, std::uint64_t seed) {
+    Channels rivers{grid, {}, {}, {}, {}};
+    std::vector<std::int64_t> number(static_cast<std::size_t>(grid.cells()), -1);
+    auto const number_of = [&](std::int64_t cell) -> std::int64_t& { return number[static_cast<std::size_t>(cell)]; };
+    auto const neighbours = [&](std::int64_t cell) {
+        auto const near = beside(grid, cell);
+        return std::count_if(near.begin(), near.end(), [&](std::int64_t n) { return number_of(n) >= 0; });
+    };
+    auto const put = [&](std::int64_t cell, std::int64_t receiver) {
+        number_of(cell) = static_cast<std::int64_t>(rivers.cell.size());
+        rivers.cell.push_back(cell);
+        rivers.receiver.push_back(receiver);
+    };
+    for (std::int64_t const end : ends) {
+        if (number_of(end) < 0 && (room == Room::crowd || neighbours(end) == 0)) {
+            put(end, -1);
+        }
+    }
+    for (std::uint64_t draw = 0; draw < 40 * static_cast<std::uint64_t>(cells); ++draw) {
+        if (static_cast<std::int64_t>(rivers.cell.size()) >= cells) {
+            break;
+        }
+        auto const from = chance(seed, 11, draw) % rivers.cell.size();
+        auto const near = beside(grid, rivers.cell[from]);
+        if (near.empty()) {
+            break;
+        }
+        std::int64_t const to = near[chance(seed, 12, draw) % near.size()];
+        bool const dry = land.cells() == 0 || land[to] != 0;
+        if (dry && number_of(to) < 0 && (room == Room::crowd || neighbours(to) == 1)) {
+            put(to, static_cast<std::int64_t>(from));
+        }
+    }
+    return rivers;
+}
+
+} // namespace channel_trees
