@@ -23,7 +23,7 @@ std::string const forest = "[network]\nsource = \"forest\"\n";
 std::string const small_grid = "[grid]\nwidth = 200\nheight = 160\n";
 std::string const dilated = "[surface]\nmethod = \"dilate\"\n";
 
-/// A folder with regions and outlets near 0.3 east, 0.3 north of 500000, 5000000 in EPSG:32631, in metres.
+/// A folder with regions and outlets near (500000, 5000000) in EPSG:32631.
 class Files {
 public:
     Files() : folder_(std::filesystem::temp_directory_path() / "thalweg-forest-test") {
@@ -151,14 +151,16 @@ TEST(PlanForest, AnIslandComesIntoEquilibrium) {
 
 TEST(PlanForest, ARegionsPolygonsAreTheLandAndFrameTheGrid) {
     Files const files;
-    Terrain const t = made(forest + "[network.forest]\nregion = \"region.geojson\"\n" + dilated, files.folder());
+    Terrain const t =
+        made(forest + "prune = 0\n[network.forest]\nregion = \"region.geojson\"\n" + dilated, files.folder());
     expect_lawful(t);
     EXPECT_EQ(t.grid.crs, "EPSG:32631");
     // The lagoon is sea, the islet is land.
     EXPECT_EQ(t.land[t.grid.cell_of({502500, 5002000})], 0);
     EXPECT_EQ(t.land[t.grid.cell_of({505300, 5000300})], 1);
-    EXPECT_EQ(std::ranges::count(t.land.values(), std::uint8_t{1}), 150 * 120 - 33 * 33 + 20 * 20);
-    EXPECT_EQ(t.grid.width, static_cast<std::int64_t>(std::ceil(5600.0 * 1.1 / 30.0)) + 1);
+    auto const land = static_cast<double>(std::ranges::count(t.land.values(), std::uint8_t{1}));
+    EXPECT_NEAR(land * 900.0, 4500.0 * 3600.0 - 1000.0 * 1000.0 + 600.0 * 600.0, 40.0 * 900.0);
+    EXPECT_EQ(t.grid.width, 206); // 5600 m and 5 % on both sides
 }
 
 TEST(PlanForest, ARegionThatLeavesTheGridIsRefusedOrCut) {
