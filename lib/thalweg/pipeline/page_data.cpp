@@ -323,6 +323,7 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
                             {"curve", curve_object(t)},
                             {"hypsometry", hypsometry_object(t)},
                             {"laws", ordered_json::parse(page_laws(t.laws))},
+                            {"relief", t.relief ? ordered_json::parse(relief_json(*t.relief)) : ordered_json(nullptr)},
                             {"statistics", figures.take()},
                             {"checks", checks_array(t.checks)},
                             {"timings", timings_array(t)},

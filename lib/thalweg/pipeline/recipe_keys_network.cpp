@@ -62,7 +62,7 @@ void add_course_keys(std::vector<Key>& keys) {
     keys.push_back(maybe("network.rotate", "degrees", {-360, 360},
                          "turn of grown rivers, counterclockwise; left out: by chance under equilibrium, else 0",
                          in_network<MaybeNumber>([](NetworkRecipe& n) -> MaybeNumber& { return n.rotate_deg; })));
-    keys.push_back(maybe("network.meander", "", {0, 3},
+    keys.push_back(maybe("network.meander", "", {0, 2},
                          "how much rivers wind, 1 as in nature; left out: 1 for grown rivers under equilibrium, else 0",
                          in_network<MaybeNumber>([](NetworkRecipe& n) -> MaybeNumber& { return n.meander; })));
     keys.push_back(

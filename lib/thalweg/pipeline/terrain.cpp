@@ -117,6 +117,7 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
         });
     }
     terrain.laws = diary.stage("laws", [&] { return laws_of_terrain(terrain, &drainage, run); });
+    terrain.relief = diary.stage("relief", [&] { return relief_of_terrain(terrain, drainage, run); });
 }
 
 void check_rivers(Terrain& terrain, Diary& diary, Run const& run) {

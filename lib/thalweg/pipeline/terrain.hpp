@@ -27,6 +27,7 @@
 #include <thalweg/network/count_streams.hpp>
 #include <thalweg/pipeline/laws.hpp>
 #include <thalweg/pipeline/recipe.hpp>
+#include <thalweg/pipeline/relief.hpp>
 
 namespace thalweg::pipeline {
 
@@ -114,6 +115,7 @@ struct Terrain {
     double fine_forms_cells = 0.0; ///< [cells] below which forms had to come from a Gaussian land to meet them; 0: none
     std::optional<measure::Statistics> statistics; ///< of the surface
     std::optional<measure::Hypsometry> hypsometry; ///< likewise
+    std::optional<LandRelief> relief;              ///< likewise, with the rivers
     std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
     double pit_volume_m3 = 0.0;
     std::optional<measure::Certificate> certificate; ///< of rivers and surface, where both are there
