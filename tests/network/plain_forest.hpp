@@ -67,8 +67,7 @@ public:
 
     /// Beside the cells of the region that lie within a tree.
     bool arrived(Cell c) const {
-        return !within(c) &&
-               std::ranges::any_of(neighbours(c), [&](Cell n) { return is_land(n) && within(n); });
+        return !within(c) && std::ranges::any_of(neighbours(c), [&](Cell n) { return is_land(n) && within(n); });
     }
 
     std::int64_t nearest(Cell c) const {
@@ -84,10 +83,10 @@ public:
         for (std::size_t p = 0; p < cells_.size(); ++p) {
             auto const far = static_cast<double>(squared_distance(cells_[p], c));
             auto const step2 = static_cast<double>(step_ * step_);
-            double const keeps = p == on                                              ? 1.0
-                                 : parents_[on] == static_cast<std::int64_t>(p)       ? 2.5
-                                 : parents_[p] == static_cast<std::int64_t>(on)       ? 1.5
-                                                                                      : 4.0;
+            double const keeps = p == on                                        ? 1.0
+                                 : parents_[on] == static_cast<std::int64_t>(p) ? 2.5
+                                 : parents_[p] == static_cast<std::int64_t>(on) ? 1.5
+                                                                                : 4.0;
             if (far < keeps * step2) {
                 return false;
             }
@@ -138,8 +137,7 @@ inline Forest grow(Mask const& region, std::vector<Cell> const& seeds, ForestPar
                 step(at, trees, chance);
                 continue;
             }
-            if (!trees.may_hold(at) ||
-                ++visits[static_cast<std::size_t>(region.grid().index(at))] < params.visits) {
+            if (!trees.may_hold(at) || ++visits[static_cast<std::size_t>(region.grid().index(at))] < params.visits) {
                 break;
             }
             if (chance.real() < params.sticking) {

@@ -68,8 +68,8 @@ std::optional<double> number(std::string_view text) {
 }
 
 // Where x, y and z stand in a first line of names; nothing when it is one of numbers.
-std::optional<std::array<std::size_t, 3>> columns_of(std::vector<std::string_view> const& names,
-                                                     std::size_t wanted, std::string const& name) {
+std::optional<std::array<std::size_t, 3>> columns_of(std::vector<std::string_view> const& names, std::size_t wanted,
+                                                     std::string const& name) {
     if (std::ranges::all_of(names, [](std::string_view f) { return number(f).has_value(); })) {
         return std::nullopt;
     }

@@ -13,8 +13,9 @@ namespace thalweg::io {
 /// cannot read it.
 bool holds_polygons(std::string const& path);
 
-/// The CRS in metres in which a file's polygons are read where none is asked for: the file's own when it is projected in
-/// metres, else the UTM zone of the middle of its box. Throws: BadInput as read_polygons, and for a file without CRS.
+/// The CRS in metres in which a file's polygons are read where none is asked for: the file's own when it is projected
+/// in metres, else the UTM zone of the middle of its box. Throws: BadInput as read_polygons, and for a file without
+/// CRS.
 std::string crs_for_polygons(std::string const& path);
 
 /// Reads the polygons of any OGR source, multi-part ones part by part, curves as OGR linearises them.

@@ -143,8 +143,7 @@ void ForestGrowth::place(Cell c, std::int64_t parent) {
 void ForestGrowth::look_around(Cell c) {
     std::int64_t const new_reach = (step_ + 1) * (step_ + 1);
     around(grid_, c, 2 * step_, [&](Cell at) {
-        bool const begins = state_[at] == State::far && squared_distance(at, c) <= new_reach &&
-                            walk_.beside_a_tree(at);
+        bool const begins = state_[at] == State::far && squared_distance(at, c) <= new_reach && walk_.beside_a_tree(at);
         if (begins || state_[at] == State::open) {
             set(at, may_hold(at) ? State::open : State::barren);
         }

@@ -54,14 +54,14 @@ private:
     std::int64_t cells_ = 0;
     std::vector<Cell> particles_;
     std::vector<std::int64_t> parents_;
-    Raster<std::int32_t> nearest_; ///< by cell: the nearest particle, within s + 1; -1 for none
-    Raster<std::int32_t> first_;   ///< by block of s x s cells: its last particle, -1 for none
+    Raster<std::int32_t> nearest_;   ///< by cell: the nearest particle, within s + 1; -1 for none
+    Raster<std::int32_t> first_;     ///< by block of s x s cells: its last particle, -1 for none
     std::vector<std::int32_t> next_; ///< by particle: the one before it in its block
     Raster<State> state_;
     std::int64_t open_cells_ = 0;
-    std::vector<Cell> opened_; ///< every open cell, and some that are so no more
-    std::vector<Cell> births_; ///< from where a walker can come to an open cell
-    Mask fertile_;             ///< 1 on births
+    std::vector<Cell> opened_;  ///< every open cell, and some that are so no more
+    std::vector<Cell> births_;  ///< from where a walker can come to an open cell
+    Mask fertile_;              ///< 1 on births
     std::int64_t outdated_ = 0; ///< particles since births were found
 };
 

@@ -28,8 +28,7 @@ void check(Mask const& region, std::vector<Cell> const& seeds, ForestParams cons
                                        params.particles));
     }
     if (!(params.sticking > 0.0 && params.sticking <= 1.0)) {
-        throw BadParameter(
-            fmt::format("network.grow_forest: sticking is {}, it must lie in (0, 1]", params.sticking));
+        throw BadParameter(fmt::format("network.grow_forest: sticking is {}, it must lie in (0, 1]", params.sticking));
     }
     if (params.visits < 1 || params.visits > 255) {
         throw BadParameter(fmt::format("network.grow_forest: visits is {}, it must lie in [1, 255]", params.visits));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 
-
 namespace thalweg::network {
 
 RegionWalk::RegionWalk(Mask const& region) : room_(room_in(region)), middle_{region.width() / 2, region.height() / 2} {
@@ -14,8 +13,9 @@ RegionWalk::RegionWalk(Mask const& region) : room_(room_in(region)), middle_{reg
 }
 
 bool RegionWalk::beside_a_tree(Cell c) const {
-    return std::any_of(std::begin(neighbour_offsets), std::end(neighbour_offsets),
-                       [&](Site o) { return trees_.occupied({site(c).x + o.x, site(c).y + o.y}); });
+    return std::any_of(std::begin(neighbour_offsets), std::end(neighbour_offsets), [&](Site o) {
+        return trees_.occupied({site(c).x + o.x, site(c).y + o.y});
+    });
 }
 
 bool RegionWalk::approach(Cell& at, ChanceStream& chance) const {

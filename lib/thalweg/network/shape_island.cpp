@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ namespace thalweg::network {
 namespace {
 
 constexpr std::uint64_t island_stage = 0x69736c616e643031; // "island01"
+constexpr double share_of_land = 0.42;                     // of the grid
 
 /// One octave of gradient noise, its lattice turned and moved by chance.
 class Octave {
@@ -109,6 +111,18 @@ std::vector<std::int64_t> patch_from(std::int64_t start, Mask const& land, Mask&
     return cells;
 }
 
+/// The cells of a share of the grid that stand highest.
+Mask highest(Raster<float> const& heights, double share) {
+    std::vector<float> sorted(heights.values().begin(), heights.values().end());
+    auto const level = sorted.begin() + static_cast<std::ptrdiff_t>((1.0 - share) * static_cast<double>(sorted.size()));
+    std::ranges::nth_element(sorted, level);
+    Mask found(heights.grid());
+    for (std::int64_t i = 0; i < heights.cells(); ++i) {
+        found[i] = heights[i] >= *level && std::isfinite(heights[i]) ? 1 : 0;
+    }
+    return found;
+}
+
 /// Makes lagoons land and small islets sea.
 void tidy(Mask& land) {
     Grid const& grid = land.grid();
@@ -145,14 +159,20 @@ Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) 
     auto const height = static_cast<double>(grid.height);
     double const shorter = std::min(width, height);
     double const margin = std::max(1.0, shorter / 40.0);
-    double const shortest = 8.0;
+    constexpr double shortest = 8.0; // cells
     double const span = 0.5 * std::sqrt(width * width + height * height) + shorter;
-    std::vector<Octave> const moves = octaves(0.5 * shorter, shortest, params.seed, 0, span);
-    std::vector<Octave> const bends_x = octaves(0.4 * shorter, 2.0 * shortest, params.seed, 32, span);
-    std::vector<Octave> const bends_y = octaves(0.4 * shorter, 2.0 * shortest, params.seed, 64, span);
-    double const bend = 0.22 * params.ruggedness * shorter;
+    std::vector<Octave> const moves = octaves(0.6 * shorter, shortest, params.seed, 0, span);
+    std::vector<Octave> const bends_x = octaves(0.7 * shorter, 0.05 * shorter, params.seed, 32, span);
+    std::vector<Octave> const bends_y = octaves(0.7 * shorter, 0.05 * shorter, params.seed, 64, span);
+    double const bend = 0.35 * params.ruggedness * shorter;
+    Vec2 const middle{sum(bends_x, 0.0, 0.0), sum(bends_y, 0.0, 0.0)};
+    // Islands are longer than wide, in any direction.
+    auto const words = chance_block(params.seed, island_stage, 96);
+    double const turn = exact::pi * unit(words[0]);
+    double const slender = 1.0 + 0.5 * unit(words[1]) * params.ruggedness;
+    Vec2 const along{exact::cos(turn), exact::sin(turn)};
 
-    Mask land(grid, 0);
+    Raster<float> above(grid, -std::numeric_limits<float>::infinity());
     parallel_ranges(run, grid.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             for (std::int64_t col = 0; col < grid.width; ++col) {
@@ -162,18 +182,21 @@ Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) 
                 if (to_edge < margin) {
                     continue;
                 }
-                double const bent_x = x + bend * sum(bends_x, x, y);
-                double const bent_y = y + bend * sum(bends_y, x, y);
-                double const u = bent_x / (0.5 * width);
-                double const v = bent_y / (0.5 * height);
+                double const bent_x = x + bend * (sum(bends_x, x, y) - middle.x);
+                double const bent_y = y + bend * (sum(bends_y, x, y) - middle.y);
+                double const u = 2.0 * bent_x / width;
+                double const v = 2.0 * bent_y / height;
+                double const length = along.x * u + along.y * v;
+                double const breadth = slender * (along.x * v - along.y * u);
+                double const oval = std::sqrt(length * length + breadth * breadth);
                 // Towards the margin the sea wins, so that no coast is cut straight by it.
-                double const sea = 1.0 - std::min(1.0, (to_edge - margin) / (0.12 * shorter));
-                double const height_there =
-                    0.75 - std::sqrt(u * u + v * v) + params.ruggedness * sum(moves, bent_x, bent_y) - 1.2 * sea * sea;
-                land[Cell{col, row}] = height_there > 0.0 ? 1 : 0;
+                double const sea = 1.0 - std::min(1.0, (to_edge - margin) / (0.15 * shorter));
+                above[Cell{col, row}] =
+                    static_cast<float>(params.ruggedness * sum(moves, bent_x, bent_y) - oval - 0.8 * sea * sea * sea);
             }
         }
     });
+    Mask land = highest(above, share_of_land);
     tidy(land);
     return land;
 }

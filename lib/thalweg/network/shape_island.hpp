@@ -14,12 +14,11 @@ struct IslandParams {
     std::uint64_t seed = 7;
 };
 
-/// Draws an island: an oval as large as the grid less a margin, its coast moved in and out by noise of all wavelengths
-/// from half the grid's side to 8 cells.
-/// Takes: a grid of at least 16 x 16 cells.
-/// Gives: 1 on land, without lagoons, islets of less than a thousandth of the grid or land nearer to the grid's border
-/// than a fortieth of its shorter side; the same mask for any number of threads. Throws: BadParameter; BadInput for a
-/// grid that is too small; Cancelled. Source: gradient noise (Perlin 1985), each octave turned.
+/// Draws an island: an oval that is bent, its coast moved in and out by noise of all wavelengths from the grid's side
+/// to 8 cells. About two fifths of the grid are land. Takes: a grid of at least 16 x 16 cells. Gives: 1 on land,
+/// without lagoons, islets of less than a thousandth of the grid or land nearer to the grid's border than a fortieth of
+/// its shorter side; the same mask for any number of threads. Throws: BadParameter; BadInput for a grid that is too
+/// small; Cancelled. Source: gradient noise (Perlin 1985), each octave turned.
 Mask shape_island(Grid const& grid, IslandParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

@@ -49,8 +49,8 @@ std::vector<Candidate> candidates(Mask const& land, std::vector<Cell> const& coa
     std::vector<Candidate> all;
     all.reserve(coast.size());
     for (Cell const c : coast) {
-        auto const words = chance_block(seed, outlet_stage, static_cast<std::uint64_t>(c.col),
-                                        static_cast<std::uint64_t>(c.row));
+        auto const words =
+            chance_block(seed, outlet_stage, static_cast<std::uint64_t>(c.col), static_cast<std::uint64_t>(c.row));
         double const around = land_around(land, c);
         double const weight = around * around * around;
         all.push_back({-exact::log(1.0 - unit(words[0])) / weight, 0.3 + 0.6 * unit(words[1]), c});
@@ -71,8 +71,7 @@ public:
         for (std::int64_t row = c.row / side_ - 1; row <= c.row / side_ + 1; ++row) {
             for (std::int64_t col = c.col / side_ - 1; col <= c.col / side_ + 1; ++col) {
                 auto const at = blocks_.find(key(col, row));
-                if (at != blocks_.end() &&
-                    std::ranges::any_of(at->second, [&](Candidate const& o) {
+                if (at != blocks_.end() && std::ranges::any_of(at->second, [&](Candidate const& o) {
                         auto const dx = static_cast<double>(o.cell.col - c.col);
                         auto const dy = static_cast<double>(o.cell.row - c.row);
                         double const apart = std::max(mean * std::max(wanted.keeps, o.keeps), nearest_cells);

@@ -15,8 +15,8 @@ namespace thalweg::network {
 std::vector<Cell> coast_cells(Mask const& land);
 
 struct SpreadOutletsParams {
-    std::int64_t count = 0;      ///< [0, ...] of outlets; 0: one for every every_cells of the coast
-    double every_cells = 60.0;   ///< [cells] > 0
+    std::int64_t count = 0;    ///< [0, ...] of outlets; 0: one for every every_cells of the coast
+    double every_cells = 60.0; ///< [cells] > 0
     std::uint64_t seed = 7;
 };
 

@@ -32,9 +32,8 @@ Mask land_of(Recipe& recipe, Run const& run) {
     if (wanted.region.empty()) {
         recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
         Grid const grid = frame_tree(1, recipe.grid);
-        return wanted.shape == LandShape::island
-                   ? network::shape_island(grid, {wanted.ruggedness, recipe.seed}, run)
-                   : Mask(grid, 1);
+        return wanted.shape == LandShape::island ? network::shape_island(grid, {wanted.ruggedness, recipe.seed}, run)
+                                                 : Mask(grid, 1);
     }
     std::string const path = file_in(recipe, wanted.region);
     recipe.grid.crs = recipe.grid.crs.empty() ? io::crs_for_polygons(path) : io::projected_crs(recipe.grid.crs);

@@ -284,11 +284,10 @@ std::string keys_of_patch(PatchRecipe const& patch) {
 
 /// Keys of a source of rivers that is not used would only confuse.
 bool of_unused_source(Recipe const& recipe, std::string const& section) {
-    static std::map<Source, std::string> const sections = {
-        {Source::dla, "network.dla"},
-        {Source::tokunaga, "network.tokunaga"},
-        {Source::forest, "network.forest"},
-        {Source::lines, "network.lines"}};
+    static std::map<Source, std::string> const sections = {{Source::dla, "network.dla"},
+                                                           {Source::tokunaga, "network.tokunaga"},
+                                                           {Source::forest, "network.forest"},
+                                                           {Source::lines, "network.lines"}};
     return recipe.network && section.substr(0, 8) == "network." && section != sections.at(recipe.network->source);
 }
 

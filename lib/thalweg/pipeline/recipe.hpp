@@ -99,7 +99,7 @@ struct NetworkRecipe {
     network::SlopeDraw rosgen_slope = network::SlopeDraw::middle;
     std::optional<double> rotate_deg; ///< [degrees] counterclockwise; none: by chance where rivers are grown for a land
                                       ///< in equilibrium, else 0
-    std::optional<double> meander;    ///< [0, 3] of nature's amplitude; none: 1 where rivers are grown likewise, else 0
+    std::optional<double> meander;    ///< [0, 2] of nature's amplitude; none: 1 where rivers are grown likewise, else 0
     InlandEnds inland = InlandEnds::carry;
     bool fill_space = false;          ///< the land's own side valleys become arcs
     std::int64_t support_cells = 200; ///< [cells] that drain through where a side valley begins

@@ -19,10 +19,10 @@ void add_forest_keys(std::vector<Key>& keys) {
                         "points; lines, along which the coast has outlets; or polygons of water that outlets lie on; "
                         "\"\": all of the coast has some",
                         in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.forest.outlets; })));
-    keys.push_back(
-        integer<std::int64_t>("network.forest.seeds", "", {0, 1e6},
-                              "outlets, spread along the coast by chance; 0: one for every six spacings of it",
-                              in_network<std::int64_t>([](NetworkRecipe& n) -> std::int64_t& { return n.forest.seeds; })));
+    keys.push_back(integer<std::int64_t>(
+        "network.forest.seeds", "", {0, 1e6},
+        "outlets, spread along the coast by chance; 0: one for every six spacings of it",
+        in_network<std::int64_t>([](NetworkRecipe& n) -> std::int64_t& { return n.forest.seeds; })));
     keys.push_back(integer<std::int64_t>(
         "network.forest.spacing", "cells", {8, 200}, "rivers that do not meet keep this distance",
         in_network<std::int64_t>([](NetworkRecipe& n) -> std::int64_t& { return n.forest.spacing_cells; })));

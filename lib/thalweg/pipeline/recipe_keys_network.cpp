@@ -62,7 +62,7 @@ void add_course_keys(std::vector<Key>& keys) {
     keys.push_back(maybe("network.rotate", "degrees", {-360, 360},
                          "turn of grown rivers, counterclockwise; left out: by chance under equilibrium, else 0",
                          in_network<MaybeNumber>([](NetworkRecipe& n) -> MaybeNumber& { return n.rotate_deg; })));
-    keys.push_back(maybe("network.meander", "", {0, 3},
+    keys.push_back(maybe("network.meander", "", {0, 2},
                          "how much rivers wind, 1 as in nature; left out: 1 for grown rivers under equilibrium, else 0",
                          in_network<MaybeNumber>([](NetworkRecipe& n) -> MaybeNumber& { return n.meander; })));
     keys.push_back(
@@ -84,10 +84,7 @@ void add_network_keys(std::vector<Key>& keys) {
     using network::VisitRule;
     keys.push_back(choice<Source>(
         "network.source",
-        {{"dla", Source::dla},
-         {"tokunaga", Source::tokunaga},
-         {"forest", Source::forest},
-         {"lines", Source::lines}},
+        {{"dla", Source::dla}, {"tokunaga", Source::tokunaga}, {"forest", Source::forest}, {"lines", Source::lines}},
         "where the rivers come from: grown as a cluster, by branching rules, or from a coast all over the land; or a "
         "file's lines",
         in_network<Source>([](NetworkRecipe& n) -> Source& { return n.source; })));

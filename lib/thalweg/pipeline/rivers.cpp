@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/rivers.hpp>
 
+#include <thalweg/core/error.hpp>
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/network/carry_outlets.hpp>
 #include <thalweg/network/count_streams.hpp>
 #include <thalweg/network/keep_heights.hpp>
+#include <thalweg/network/meander.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/prune.hpp>
 #include <thalweg/network/rasterise.hpp>
@@ -64,6 +66,27 @@ RaisedNetwork raise(Planned const& planned, Terrain& terrain, Run const& run) {
     return std::move(raised.network);
 }
 
+/// Bends rivers, where the recipe wants it, once it is said how much.
+void let_wander(Planned& planned, Terrain& terrain, Diary& diary, Run const& run) {
+    NetworkRecipe& rivers = *terrain.recipe.network;
+    bool const grown_for_land = rivers.source != Source::lines && in_equilibrium(terrain.recipe);
+    rivers.meander = rivers.meander.value_or(grown_for_land ? 1.0 : 0.0);
+    if (*rivers.meander == 0.0 && !grown_for_land) {
+        return;
+    }
+    if (planned.file_heights) {
+        throw BadParameter("network.meander: rivers whose file gives their heights stay where they are; set "
+                           "network.heights = \"graded\" or leave meander out");
+    }
+    measure::ContributingAreas const areas = measure::areas_nearest(planned.plan, terrain.grid, run);
+    network::Meandered bent = diary.stage("meander", [&] {
+        return network::meander(planned.plan, terrain.grid, areas.ds_area_m2,
+                                {.gain = *rivers.meander, .seed = terrain.recipe.seed}, run);
+    });
+    diary.say(fmt::format("{} vertices, at most {:.0f} m aside", bent.vertices, bent.max_shift_m));
+    planned.plan = std::move(bent.network);
+}
+
 Planned plan(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     switch (recipe.network->source) {
     case Source::dla: return plan_dla(recipe, terrain, diary, run);
@@ -109,6 +132,8 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
         repairs.insert(repairs.end(), carried.notes.begin(), carried.notes.end());
         planned.plan = std::move(carried.network);
     }
+
+    let_wander(planned, terrain, diary, run);
 
     assign_types(planned, terrain, run);
     if (in_equilibrium(recipe) && rivers.heights == Heights::graded) { // their heights are the land's

@@ -73,8 +73,8 @@ EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near) {
 }
 
 void set_edge_heights(LandLevel& level, EdgeCells const& edge) {
-    auto const river_height = [&](std::int32_t river) {
-        return level.z[level.rivers.cell[static_cast<std::size_t>(river)]];
+    auto const river_height = [&](std::uint32_t river) {
+        return level.z[level.rivers.cell[river]];
     };
     for (std::size_t k = 0; k < edge.inner.size(); ++k) {
         level.z[edge.inner[k]] = above_rivers(level, edge.inner[k], river_height(edge.inner_river[k]));
@@ -84,7 +84,7 @@ void set_edge_heights(LandLevel& level, EdgeCells const& edge) {
     }
     std::vector<double> heights(edge.ring.size());
     std::transform(edge.ring_river.begin(), edge.ring_river.end(), heights.begin(),
-                   [&](std::int32_t river) { return static_cast<double>(river_height(river)); });
+                   [&](std::uint32_t river) { return static_cast<double>(river_height(river)); });
     auto const reach = std::max<std::int64_t>(2, static_cast<std::int64_t>(half_stretch / level.side));
     heights = ring_means(ring_means(heights, reach), reach);
     for (std::size_t k = 0; k < heights.size(); ++k) {

@@ -14,9 +14,9 @@ namespace thalweg::surface {
 /// The cells at which an open land ends: the frame, once round, and land beside what is masked out.
 struct EdgeCells {
     std::vector<std::uint32_t> ring;      ///< clockwise from the north-west corner
-    std::vector<std::int32_t> ring_river; ///< number of the nearest river cell
+    std::vector<std::uint32_t> ring_river; ///< number of the nearest river cell
     std::vector<std::uint32_t> inner;
-    std::vector<std::int32_t> inner_river;
+    std::vector<std::uint32_t> inner_river;
 };
 EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near);
 

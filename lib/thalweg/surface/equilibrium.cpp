@@ -8,7 +8,9 @@
 #include <thalweg/surface/edge_heights.hpp>
 #include <thalweg/surface/equilibrium_law.hpp>
 #include <thalweg/surface/flood_land.hpp>
+#include <thalweg/surface/give_up_tips.hpp>
 #include <thalweg/surface/jitter.hpp>
+#include <thalweg/surface/keep_to_receivers.hpp>
 #include <thalweg/surface/nearest_river.hpp>
 #include <thalweg/surface/order_cells.hpp>
 #include <thalweg/surface/relax_land.hpp>
@@ -32,7 +34,8 @@ namespace {
 
 constexpr int fine_rounds = 5;
 constexpr int coarse_rounds = 30;
-constexpr int floors_after = 2; // rounds: areas are near enough by then
+constexpr float perched_tangent = 0.6F; // twice that of most land: what will not come down by itself
+constexpr int floors_after = 2;      // rounds: areas are near enough by then
 
 /// What lies in the frame of a level, before it is solved.
 struct Plan {
@@ -93,6 +96,15 @@ void check_drained(LandLevel const& level, Mask const& land, std::int64_t margin
     }
 }
 
+/// Leaves what the next level or the written land need.
+void drop_what_is_done(LandLevel& level) {
+    level.erodibility = {};
+    level.cap = {};
+    level.uplift = {};
+    level.shift = {};
+    level.area = {};
+}
+
 /// The heights of a level, from those of the coarser one.
 class Solver {
 public:
@@ -110,14 +122,22 @@ public:
                 set_edge_heights(level, edge);
                 steepest_ways(level, per_length_, run_);
             }
-            order_cells(level);
             if (number == 0 && round == floors_after && params_.floor_width > 0.0) {
                 valley_floors(level, params_.floor_width);
             }
+            order_cells(level);
+            if (number == 0 && round == rounds - 2) {
+                shortened_ = give_up_tips(level, perched_tangent);
+            }
             relax_rivers(level, law_);
+            if (number == 0) {
+                keep_to_receivers(level);
+            }
             relax_land(level, law_);
         }
     }
+
+    std::vector<std::int64_t> const& shortened() const { return shortened_; }
 
 private:
     /// From few at the finest level to many at the coarsest.
@@ -140,6 +160,7 @@ private:
     Run const& run_;
     EquilibriumLaw law_;
     JitteredPerLength per_length_;
+    std::vector<std::int64_t> shortened_;
 };
 
 } // namespace
@@ -155,9 +176,10 @@ EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fie
     for (std::size_t number = levels.size(); number-- > 0;) {
         level = prepared(std::move(levels[number]), number, level, land.fields, params, run);
         solver.solve(level, number, levels.size());
+        drop_what_is_done(level);
     }
     check_drained(level, fields.land, land.margin, rivers.grid);
-    return written_land(std::move(level), rivers, fields.land, params, land.margin, run);
+    return written_land(std::move(level), rivers, fields.land, params, land.margin, solver.shortened(), run);
 }
 
 } // namespace thalweg::surface

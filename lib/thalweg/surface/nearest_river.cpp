@@ -3,6 +3,7 @@
 #include <thalweg/surface/nearest_river.hpp>
 
 #include <limits>
+#include <utility>
 
 namespace thalweg::surface {
 
@@ -20,12 +21,14 @@ void take_nearer(NearestRiver& near, std::size_t i, std::size_t from, float leng
 
 } // namespace
 
-NearestRiver nearest_river(LandLevel const& level, std::vector<float> const& head_start) {
+NearestRiver nearest_river(LandLevel const& level, std::vector<float> const& head_start,
+                           Cells<std::uint32_t> memory) {
     auto const cells = static_cast<std::size_t>(level.cells());
-    NearestRiver near{Cells<float>(cells, std::numeric_limits<float>::infinity()), Cells<std::int32_t>(cells, -1)};
+    NearestRiver near{Cells<float>(cells, std::numeric_limits<float>::infinity()), std::move(memory)};
+    near.number.assign(cells, NearestRiver::none);
     for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
         near.distance[level.rivers.cell[n]] = head_start.empty() ? 0.0F : -head_start[n];
-        near.number[level.rivers.cell[n]] = static_cast<std::int32_t>(n);
+        near.number[level.rivers.cell[n]] = static_cast<std::uint32_t>(n);
     }
     auto const offsets = level.offsets();
     auto const width = static_cast<std::size_t>(level.width);

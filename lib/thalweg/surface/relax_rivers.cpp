@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/relax_rivers.hpp>
 
+#include <thalweg/surface/second_ring.hpp>
+
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -20,22 +22,10 @@ constexpr float kept_share = 0.3F;   // of its fall, which a reach keeps when it
 /// The greatest height of a river cell that does not leave it perched: by the second ring of cells around it.
 float height_by_ring(LandLevel const& level, std::uint32_t cell) {
     float most = std::numeric_limits<float>::infinity();
-    std::int64_t const col = cell % level.width;
-    std::int64_t const row = cell / level.width;
-    if (col < 2 || row < 2 || col + 2 >= level.width || row + 2 >= level.height) {
-        return most;
-    }
-    auto const take = [&](std::int64_t east, std::int64_t south) {
-        std::size_t const n = moved(cell, south * level.width + east);
+    each_of_second_ring(level, cell, [&](std::size_t n) {
         bool const land = level.cover[n] == Cover::land || level.cover[n] == Cover::rim;
         most = std::min(most, level.z[n] + (land ? above_land : above_river) * level.side);
-    };
-    for (std::int64_t d = -2; d <= 2; ++d) {
-        take(d, -2);
-        take(d, 2);
-        take(-2, d);
-        take(2, d);
-    }
+    });
     return most;
 }
 

@@ -83,11 +83,7 @@ Tangents descents(Raster<float> const& land) {
     return tangents;
 }
 
-double rise_for_slope(Raster<float> const& land, double mean_slope_deg) {
-    Tangents tangents = horn_tangents(land);
-    if (tangents.empty()) {
-        tangents = descents(land);
-    }
+double rise_for_slope(Tangents const& tangents, double mean_slope_deg) {
     constexpr double widest = 0x1p40;
     if (tangents.empty() || tangents.mean_slope(widest) <= mean_slope_deg) {
         return 1.0;
@@ -105,12 +101,7 @@ double rise_for_slope(Raster<float> const& land, double mean_slope_deg) {
     return 0.5 * (low + high);
 }
 
-} // namespace
-
-double rise_of(Raster<float> const& land, EquilibriumParams const& params) {
-    if (!params.relief_m) {
-        return rise_for_slope(land, params.mean_slope_deg);
-    }
+double rise_for_relief(Raster<float> const& land, double relief_m) {
     float low = std::numeric_limits<float>::infinity();
     float high = -low;
     for (float const z : land.values()) {
@@ -118,7 +109,23 @@ double rise_of(Raster<float> const& land, EquilibriumParams const& params) {
         high = z > high ? z : high;
     }
     double const range = (static_cast<double>(high) - static_cast<double>(low)) * land.grid().cell_m;
-    return range > 0.0 ? *params.relief_m / range : 1.0;
+    return range > 0.0 ? relief_m / range : 1.0;
+}
+
+} // namespace
+
+Rise rise_of(Raster<float> const& land, EquilibriumParams const& params) {
+    Tangents tangents = horn_tangents(land);
+    if (tangents.empty()) {
+        tangents = descents(land);
+    }
+    double const factor =
+        params.relief_m ? rise_for_relief(land, *params.relief_m) : rise_for_slope(tangents, params.mean_slope_deg);
+    if (tangents.empty()) {
+        return {factor, 0.0};
+    }
+    double const slope = tangents.mean_slope(factor) * (exact::pi / 180.0);
+    return {factor, exact::sin(slope) / exact::cos(slope)};
 }
 
 } // namespace thalweg::surface

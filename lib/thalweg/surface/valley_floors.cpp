@@ -5,6 +5,7 @@
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/surface/nearest_river.hpp>
 
+#include <utility>
 #include <vector>
 
 namespace thalweg::surface {
@@ -25,18 +26,19 @@ void valley_floors(LandLevel& level, double floor_width) {
         widths[n] = static_cast<float>(floor_width * exact::pow(level.area[rivers.cell[n]], growth));
         reach[n] = 2.0F * widths[n];
     }
-    NearestRiver const near = nearest_river(level, reach);
+    NearestRiver near = nearest_river(level, reach, std::move(level.order));
     each_inner(level, [&](std::size_t i) {
         if (near.distance[i] >= 0.0F || !is_land(level.cover[i])) {
             return;
         }
-        float const width = widths[static_cast<std::size_t>(near.number[i])];
+        float const width = widths[near.number[i]];
         if (width < least_width) {
             return;
         }
         float const up = near.distance[i] <= -width ? 0.0F : (near.distance[i] + width) / width;
         level.cap[i] *= flat_share + (1.0F - flat_share) * up;
     });
+    level.order = std::move(near.number);
 }
 
 } // namespace thalweg::surface

@@ -4,12 +4,14 @@
 
 #include <thalweg/core/d8.hpp>
 #include <thalweg/core/parallel.hpp>
+#include <thalweg/surface/give_up_tips.hpp>
 #include <thalweg/surface/rise_of.hpp>
 #include <thalweg/surface/settle_land.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace thalweg::surface {
 
@@ -61,7 +63,8 @@ std::int8_t steepest_descent(Raster<float> const& dem, Cell c) {
     return way;
 }
 
-Raster<std::int8_t> directions(Raster<float> const& dem, Channels const& rivers, Run const& run) {
+Raster<std::int8_t> directions(Raster<float> const& dem, Channels const& rivers,
+                               std::vector<std::int64_t> const& shortened, Run const& run) {
     Raster<std::int8_t> out(dem.grid());
     parallel_ranges(run, dem.height(), 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
@@ -72,6 +75,9 @@ Raster<std::int8_t> directions(Raster<float> const& dem, Channels const& rivers,
     });
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
         std::int64_t const r = rivers.receiver[n];
+        if (std::binary_search(shortened.begin(), shortened.end(), static_cast<std::int64_t>(n))) {
+            continue;
+        }
         if (r < 0) {
             out[rivers.cell[n]] = leaves;
             continue;
@@ -90,11 +96,12 @@ Raster<std::int8_t> directions(Raster<float> const& dem, Channels const& rivers,
 } // namespace
 
 EquilibriumLand written_land(LandLevel level, Channels const& rivers, Mask const& land, EquilibriumParams const& params,
-                             std::int64_t margin, Run const& run) {
+                             std::int64_t margin, std::vector<std::int64_t> shortened, Run const& run) {
     EquilibriumLand out;
     out.dem = Raster<float>(rivers.grid);
     crop(level, land, margin, out.dem);
-    out.rise = rise_of(out.dem, params);
+    Rise const rise = rise_of(out.dem, params);
+    out.rise = rise.factor;
     double const base = static_cast<double>(lowest_end(out.dem, rivers));
     double const metres = out.rise * rivers.grid.cell_m;
     for (float& z : level.z) {
@@ -103,8 +110,12 @@ EquilibriumLand written_land(LandLevel level, Channels const& rivers, Mask const
     // Less than the solver keeps, so that nothing is touched but what floats have lost.
     settle_land(level, static_cast<float>(0.25 * static_cast<double>(least_tangent) * metres));
     crop(level, land, margin, out.dem);
+    auto const perched = give_up_tips(level, static_cast<float>(rise.mean_tangent * rivers.grid.cell_m));
+    shortened.insert(shortened.end(), perched.begin(), perched.end());
+    std::sort(shortened.begin(), shortened.end());
+    out.shortened = std::move(shortened);
     level = {};
-    out.direction = directions(out.dem, rivers, run);
+    out.direction = directions(out.dem, rivers, out.shortened, run);
     return out;
 }
 

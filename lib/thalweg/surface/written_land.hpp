@@ -9,8 +9,9 @@
 /// Private to this room.
 namespace thalweg::surface {
 
-/// The caller's grid out of a solved finest level, in metres, with the ways of its water.
+/// The caller's grid out of a solved finest level, in metres, with the ways of its water. Tips that are still perched
+/// are given up besides those that are shortened already.
 EquilibriumLand written_land(LandLevel level, Channels const& rivers, Mask const& land, EquilibriumParams const& params,
-                             std::int64_t margin, Run const& run);
+                             std::int64_t margin, std::vector<std::int64_t> shortened, Run const& run);
 
 } // namespace thalweg::surface
