@@ -8,6 +8,7 @@
 #include <thalweg/pipeline/law_rows.hpp>
 #include <thalweg/pipeline/laws.hpp>
 #include <thalweg/pipeline/recipe_of_dem.hpp>
+#include <thalweg/pipeline/relief.hpp>
 #include <thalweg/pipeline/report.hpp>
 
 #include <CLI/CLI.hpp>
@@ -37,6 +38,7 @@ struct Options {
     std::string path;
     bool recipe = false;
     bool laws = false;
+    bool relief = false;
     std::int64_t support_cells = pipeline::DemLawsParams{}.support_cells;
 };
 
@@ -58,6 +60,24 @@ void print_laws(pipeline::DemLaws const& found) {
     }
 }
 
+void print_relief(pipeline::LandRelief const& found) {
+    fmt::print("\n{:<42}{:>8}", "relief", "here");
+    for (measure::RealLand const& land : measure::real_lands()) {
+        fmt::print("  {:>11}", land.name);
+    }
+    fmt::print("  real land\n");
+    for (pipeline::ReliefRow const& row : pipeline::relief_rows(found)) {
+        fmt::print("{:<42}{:>8}", row.name, row.value ? fmt::format("{:.3g}", *row.value) : "unknown");
+        for (double const figure : row.beside) {
+            fmt::print("  {:>11.3g}", figure);
+        }
+        if (row.range) {
+            fmt::print("  {:.3g} to {:.3g}{}", row.range->low, row.range->high, row.ok() ? "" : ": outside");
+        }
+        fmt::print("\n");
+    }
+}
+
 void print_recipe(pipeline::DemRecipe const& made) {
     for (std::string const& note : made.notes) {
         fmt::print("# {}\n", note);
@@ -75,12 +95,16 @@ int stats(Options const& options, Session const& session) {
     if (options.laws) {
         laws = pipeline::laws_of_dem(dem, {.support_cells = options.support_cells}, session.run);
     }
+    std::optional<pipeline::LandRelief> relief;
+    if (options.relief) {
+        relief = pipeline::relief_of_dem(dem, session.run);
+    }
     if (options.recipe) {
         print_recipe(pipeline::recipe_of_dem(dem, s, options.path));
         return Exit::done;
     }
     if (session.json) {
-        fmt::print("{}", pipeline::statistics_json(s, laws ? &*laws : nullptr));
+        fmt::print("{}", pipeline::statistics_json(s, laws ? &*laws : nullptr, relief ? &*relief : nullptr));
         return Exit::done;
     }
     fmt::print("cells      {} with data, {} without ({} x {})\n", s.cells, s.nodata, dem.width(), dem.height());
@@ -99,6 +123,9 @@ int stats(Options const& options, Session const& session) {
     if (laws) {
         print_laws(*laws);
     }
+    if (relief) {
+        print_relief(*relief);
+    }
     return Exit::done;
 }
 
@@ -113,6 +140,9 @@ Command add_stats(CLI::App& app, Session& session) {
     CLI::Option* const laws = app.add_flag("--laws", options->laws,
                                            "Print the laws of the rivers that the DEM's water draws, beside nature's.")
                                   ->excludes(recipe);
+    app.add_flag("--relief", options->relief,
+                 "Print the figures by which experts judge land, beside those of real land.")
+        ->excludes(recipe);
     app.add_option("--support", options->support_cells, "Cells that drain through the first cell of a river.")
         ->type_name("CELLS")
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
@@ -120,7 +150,8 @@ Command add_stats(CLI::App& app, Session& session) {
         ->needs(laws);
     app.footer("Count, mean, standard deviation, lowest and highest cell, mean slope, shape, roughness, correlation "
                "lengths and fractal dimension. Cells without data are left out. With --laws: Horton's ratios, "
-               "Tokunaga's a and c, Hack's exponent, concavity, drainage density, junction angles and links.\n\n"
+               "Tokunaga's a and c, Hack's exponent, concavity, drainage density, junction angles and links. "
+               "With --relief: slopes, slope against area, pits, geomorphons, aspects (docs/relief_measures.md).\n\n"
                "Examples:\n"
                "  thalweg stats valley/dem.tif\n"
                "  thalweg stats samples/bigtujunga_srtm1.tif --laws --support 500\n"

@@ -68,7 +68,7 @@ private:
 
 std::string const arc_fields = "arc_id:i from_node:i to_node:i ds_arc:i n_up:i basin_id:i topo_ord:i strahler:i "
                                "shreve:i hack:i length:r length_3d:r straight:r z_up:r z_down:r dist_out:r slope:r "
-                               "us_area:r ds_area:r survives:r feature:l type:s braided:i ";
+                               "us_area:r ds_area:r survives:r feature:l type:s braided:i given:i ";
 std::string const node_fields = "node_id:i kind:s deg_in:i deg_out:i basin_id:i strahler:i z:r area:r dist_out:r ";
 
 std::string fields_of(OGRLayer& layer) {

@@ -105,13 +105,16 @@ TEST(Land, OverTheTrianglesOfRivers) {
 }
 
 TEST(Land, ABaseOfTrianglesTakesTheScarpsAway) {
-    Terrain const paper = made(rivers + "[surface]\nmetric = \"euclid\"\nrelief = 300\nbase = \"paper\"\n");
-    Terrain const smooth = made(rivers + "[surface]\nmetric = \"euclid\"\nrelief = 300\nbase = \"tin\"\n");
+    Terrain const paper =
+        made(rivers + "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\nbase = \"paper\"\n");
+    Terrain const smooth =
+        made(rivers + "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\nbase = \"tin\"\n");
     expect_valley_kept(paper);
     expect_valley_kept(smooth);
     EXPECT_FALSE(paper.tin);
     EXPECT_LT(greatest_step(smooth.surface->dem), 0.5 * greatest_step(paper.surface->dem));
-    Terrain const harmonic = made(rivers + "[surface]\nmetric = \"euclid\"\nrelief = 300\n"); // what comes unasked
+    Terrain const harmonic =
+        made(rivers + "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\n"); // what comes unasked
     expect_valley_kept(harmonic);
     EXPECT_FALSE(harmonic.tin);
     EXPECT_LT(greatest_step(harmonic.surface->dem), 0.5 * greatest_step(paper.surface->dem));
@@ -122,7 +125,7 @@ TEST(Land, ABaseOfTrianglesTakesTheScarpsAway) {
 }
 
 TEST(Land, DetailLeavesTheRiversAlone) {
-    std::string const surface = "[surface]\nmetric = \"euclid\"\nrelief = 300\n";
+    std::string const surface = "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\n";
     Terrain const smooth = made(rivers + surface);
     Terrain const rough = made(rivers + surface + "[detail]\nsigma = 20\nlevels = 4\n");
     expect_valley_kept(rough);

@@ -13,11 +13,12 @@ namespace {
 using nlohmann::json;
 
 // Rivers that stand above the land beside them here and there, and pits between them.
-constexpr char const* recipe = "seed = 3\n"
-                               "[grid]\nwidth = 200\nheight = 200\ncell = 30\n"
-                               "[network]\nsource = \"dla\"\nprune = 10\nslope = 0.02\n"
-                               "[network.dla]\nparticles = 6000\n"
-                               "[surface]\nincrement = \"rise_fall\"\nmetric = \"euclid\"\nrelief = 200\n";
+constexpr char const* recipe =
+    "seed = 3\n"
+    "[grid]\nwidth = 200\nheight = 200\ncell = 30\n"
+    "[network]\nsource = \"dla\"\nprune = 10\nslope = 0.02\n"
+    "[network.dla]\nparticles = 6000\n"
+    "[surface]\nmethod = \"dilate\"\nincrement = \"rise_fall\"\nmetric = \"euclid\"\nrelief = 200\n";
 
 json report_of(Workplace const& work, std::string const& folder) {
     return json::parse(file_bytes(work / folder / "report.json"));

@@ -48,7 +48,7 @@ function scale(values, log) {
 }
 
 /**
- * series: [{points: [[x, y], …], name, kind: 'line' | 'area' | 'points', fit: [[x, y], [x, y]], tone: 0 | 1}]; those
+ * series: [{points: [[x, y], …], name, kind: 'line' | 'area' | 'points', fit: [[x, y], [x, y]], tone: 0 | 1 | 2}]; those
  * without a point are not shown. what: {title, x, y, logX, logY, wholeX, zeroX, zeroY, legend}. Gives a figure.
  */
 export function chart(all, what) {
@@ -104,6 +104,34 @@ export function chart(all, what) {
   });
   figure.append(svg);
   figure.append(reading(svg, series, what, { x, place, box, width }));
+  return figure;
+}
+
+/** Bars side by side: by name one of each of the series [{name, values}]. Gives a figure. */
+export function bars(names, series, what) {
+  const width = 344;
+  const left = 64;
+  const bar = 6;
+  const step = bar * series.length + 7;
+  const top = 4;
+  const height = top + names.length * step + 22;
+  const x = scale(series.flatMap((s) => s.values).concat([0]));
+  const place = (v) => left + x.share(v) * (width - 12 - left);
+  const figure = document.createElement('figure');
+  figure.append(Object.assign(document.createElement('figcaption'), { textContent: what.title }), legend(series, (s, k) => k));
+  const told = names.map((name, i) => `${name} ${series.map((s) => `${s.name} ${number(s.values[i], 3)}`).join(', ')}`).join('; ');
+  const svg = element('svg', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `${what.title}, ${what.unit}: ${told}` });
+  for (const t of x.ticks) {
+    svg.append(element('line', { class: 'grid', x1: place(t), x2: place(t), y1: 0, y2: height - 20 }));
+    svg.append(element('text', { class: 'tick', x: place(t), y: height - 8, 'text-anchor': 'middle' }, number(t, 3)));
+  }
+  svg.append(element('text', { class: 'name', x: 0, y: height - 8 }, what.unit));
+  names.forEach((name, i) => {
+    svg.append(element('text', { class: 'tick', x: left - 6, y: top + i * step + (step - 4) / 2 + 2, 'text-anchor': 'end' }, name));
+    series.forEach((s, k) => svg.append(element('rect', { class: `bar s${k}`, x: left, y: top + i * step + k * bar,
+      width: Math.max(place(s.values[i]) - left, 0).toFixed(1), height: bar - 1 })));
+  });
+  figure.append(svg);
   return figure;
 }
 

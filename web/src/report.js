@@ -2,27 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The written part of the page: diagrams, tables, what was asked and what came of it.
 import { chart, number } from './chart.js';
-
-function make(tag, properties = {}, ...children) {
-  const e = Object.assign(document.createElement(tag), properties);
-  e.append(...children.filter((child) => child !== null && child !== undefined && child !== ''));
-  return e;
-}
-
-function section(title, ...children) {
-  const body = children.filter(Boolean);
-  return body.length ? make('section', {}, make('h2', { textContent: title }), ...body) : null;
-}
-
-/** rows: [[cell, …], …]; the first cell of a row names it; cells after it are numbers unless they are nodes. */
-function table(heads, rows, label) {
-  const head = make('tr', {}, ...heads.map((text, i) => make('th', { scope: 'col', textContent: text, className: i ? 'n' : '' })));
-  const body = rows.map(([name, ...cells]) => make('tr', {}, make('th', { scope: 'row', textContent: name }),
-    ...cells.map((cell) => (cell instanceof Node ? make('td', { className: 'n' }, cell) : make('td', { className: 'n', textContent: cell })))));
-  const t = make('table', {}, make('thead', {}, head), make('tbody', {}, ...body));
-  t.setAttribute('aria-label', label);
-  return t;
-}
+import { make, section, table } from './elements.js';
+import { relief } from './relief.js';
 
 const words = (name) => name.replace(/_/g, ' ');
 
@@ -134,6 +115,7 @@ export function fillReport(parent, data) {
       [{ points: data.hypsometry.points.map(([a, z]) => [100 * a, z]), kind: 'area', name: 'height' }],
       { title: `Share of the land above a height; integral ${number(data.hypsometry.integral, 3)}`, x: 'area above [%]', y: 'height [m]', zeroX: true }) : null),
     section('Increment', ...increments(data.curve)),
+    section('Relief beside real land', ...relief(data.relief)),
     section('Network laws', ...laws(data.laws)),
     section('Statistics', data.statistics.length ? table(['', 'asked', 'got', ''],
       data.statistics.map((s) => [s.name, s.asked === null ? '–' : number(s.asked, 5), number(s.got, 5), s.unit]), 'Statistics asked and got') : null),

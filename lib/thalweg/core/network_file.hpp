@@ -33,6 +33,7 @@ struct NetworkFile {
         std::int64_t feature = 0;                                  ///< id in the file it once came from; 0 for none
         std::string type = {};
         bool braided = false;
+        bool given = true; ///< as Arc
     };
     /// What the file says. The rest was filled in by what reads it, or left alone, and is not to be checked.
     struct Says {

@@ -14,6 +14,7 @@ namespace thalweg {
 struct Polygon {
     std::int64_t feature = 0;             ///< id in the file
     std::vector<std::vector<Vec2>> rings; ///< [m] closed by themselves; what an odd number of them surrounds is inside
+    double value = 0.0;                   ///< of the field that was asked for
 };
 
 struct Polygons {

@@ -24,6 +24,7 @@ struct Arc {
     double survives = std::numeric_limits<double>::infinity(); ///< [cells] largest L at which pruning keeps it
     std::int64_t feature = 0;                                  ///< id of the line it came from in the file; 0 for none
     std::string type;                                          ///< river type given by the file (Rosgen), or ""
+    bool given = true; ///< false: a side valley that the land has grown around the given rivers
 };
 
 /// A river network in plan: a Boost graph of arcs directed downstream. Without heights.

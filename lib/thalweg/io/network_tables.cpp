@@ -97,6 +97,7 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index) {
         // A shapefile reads an empty text back as NULL.
         text("type", [arc](auto row) { return arc(row).type.empty() ? "none" : arc(row).type; }),
         integer("braided", [of = tables.braided](auto row) { return of != nullptr && (*of)[at(row)] != 0 ? 1 : 0; }),
+        integer("given", [arc](auto row) { return arc(row).given ? 1 : 0; }),
     };
     return table;
 }

@@ -178,6 +178,7 @@ private:
             arc.type.clear();
         }
         arc.braided = numbers.whole(columns_.column(Q::braided), id, true) != 0;
+        arc.given = !columns_.has(Q::given) || numbers.whole(columns_.column(Q::given), id, true) != 0;
         return arc;
     }
 

@@ -68,13 +68,13 @@ std::optional<double> number(std::string_view text) {
 }
 
 // Where x, y and z stand in a first line of names; nothing when it is one of numbers.
-std::optional<std::array<std::size_t, 3>> columns_of(std::vector<std::string_view> const& names,
+std::optional<std::array<std::size_t, 3>> columns_of(std::vector<std::string_view> const& names, std::size_t wanted,
                                                      std::string const& name) {
     if (std::ranges::all_of(names, [](std::string_view f) { return number(f).has_value(); })) {
         return std::nullopt;
     }
     std::array<std::size_t, 3> columns{};
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < wanted; ++k) {
         auto const is_it = [&](std::string_view f) { return f.size() == 1 && lowered(f[0]) == "xyz"[k]; };
         auto const at = std::ranges::find_if(names, is_it);
         if (at == names.end()) {
@@ -86,7 +86,8 @@ std::optional<std::array<std::size_t, 3>> columns_of(std::vector<std::string_vie
     return columns;
 }
 
-std::vector<Vec3> parse(std::string const& text, std::string const& name, Run const& run) {
+std::vector<Vec3> parse(std::string const& text, PointHeights heights, std::string const& name, Run const& run) {
+    std::size_t const wanted = heights == PointHeights::wanted ? 3 : 2;
     std::vector<Vec3> points;
     std::array<std::size_t, 3> columns{0, 1, 2};
     std::string_view rest = text;
@@ -105,13 +106,13 @@ std::vector<Vec3> parse(std::string const& text, std::string const& name, Run co
         auto const fields = fields_of(words);
         if (is_first) {
             is_first = false;
-            if (auto const named = columns_of(fields, name)) {
+            if (auto const named = columns_of(fields, wanted, name)) {
                 columns = *named;
                 continue;
             }
         }
         std::array<double, 3> values{};
-        for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t k = 0; k < wanted; ++k) {
             if (columns[k] >= fields.size()) {
                 refuse(
                     fmt::format("{}, line {}: {} of the columns, {} is missing", name, line, fields.size(), "xyz"[k]));
@@ -173,8 +174,10 @@ void add(OGRGeometry const& geometry, double field_z, std::int64_t feature, std:
     points.push_back({p.getX(), p.getY(), z});
 }
 
-std::vector<Vec3> take(OGRLayer& layer, std::string const& z_field, std::string const& name, Run const& run) {
-    int const field = layer.GetLayerDefn()->GetFieldIndex(z_field.c_str());
+std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::string const& name, Run const& run) {
+    std::string const& z_field = params.z_field;
+    bool const in_plan = params.heights == PointHeights::passed_over;
+    int const field = in_plan ? -1 : layer.GetLayerDefn()->GetFieldIndex(z_field.c_str());
     std::vector<Vec3> points;
     for (auto const& feature : layer) {
         run.check();
@@ -183,7 +186,7 @@ std::vector<Vec3> take(OGRLayer& layer, std::string const& z_field, std::string 
             refuse(fmt::format("feature {} of {} has no point; remove it", feature->GetFID(), name));
         }
         bool const has_field = field >= 0 && feature->IsFieldSetAndNotNull(field) != 0;
-        if (!has_field && geometry->Is3D() == 0) {
+        if (!has_field && !in_plan && geometry->Is3D() == 0) {
             refuse(fmt::format("feature {} of {} has no height: neither Z nor a field '{}'", feature->GetFID(), name,
                                z_field));
         }
@@ -214,7 +217,7 @@ FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name
     Dataset const data = open_file(params.path, GDAL_OF_VECTOR, nullptr, "io.read_points: " + params.path);
     OGRLayer& layer = choose_layer(*data, params.layer, name);
     FeaturePoints read;
-    read.points = take(layer, params.z_field, name, run);
+    read.points = take(layer, params, name, run);
     driver.check("io.read_points: " + params.path);
     if (read.points.empty()) {
         return read;
@@ -253,13 +256,18 @@ FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
     FeaturePoints read;
     if (is_text_of_points(params.path)) {
         constexpr std::int64_t most_bytes = std::int64_t{1} << 34;
-        read.points = parse(read_text(params.path, most_bytes), name, run);
+        read.points = parse(read_text(params.path, most_bytes), params.heights, name, run);
         read.crs = params.crs.empty() ? "" : projected_crs(params.crs);
     } else {
         read = read_layer(params, name, run);
     }
     if (read.points.empty()) {
         refuse(name + " holds no points");
+    }
+    if (params.heights == PointHeights::passed_over) {
+        for (Vec3& p : read.points) {
+            p.z = 0.0;
+        }
     }
     return read;
 }

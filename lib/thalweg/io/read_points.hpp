@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <thalweg/core/feature_points.hpp>
@@ -9,12 +10,19 @@
 
 namespace thalweg::io {
 
+/// Whether points need heights.
+enum class PointHeights : std::uint8_t {
+    wanted,
+    passed_over ///< points lie in plan: whatever heights they have count as 0, and text needs no third column
+};
+
 struct ReadPointsParams {
     std::string path = {};     ///< text (.csv, .txt, .xyz) or anything OGR opens
     std::string layer = {};    ///< "" takes the only layer of points
     std::string z_field = "z"; ///< heights of points that have none themselves
     std::string crs = {};      ///< of the result; "" takes the file's own when projected in metres, else its UTM zone;
                                ///< a file without one, text included, is taken to be in it
+    PointHeights heights = PointHeights::wanted;
 };
 
 /// Reads points with heights. Text: one a line, x y z in the first three columns or in those a first line names (x, y,

@@ -14,6 +14,7 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
+#include <thalweg/io/into_metres.hpp>
 #include <thalweg/io/same_frame.hpp>
 #include <thalweg/io/spatial_reference.hpp>
 
@@ -100,8 +101,34 @@ void add_parts(OGRGeometry const& geometry, std::int64_t feature, std::string co
     polygons.push_back(std::move(polygon));
 }
 
-std::vector<Polygon> take(OGRLayer& layer, std::string const& name, Run const& run) {
+/// Number of a field by name in any case; -1 for "". Throws where there is none of numbers.
+int field_in(OGRLayer& layer, std::string const& name, std::string const& field) {
+    int const at = field.empty() ? -1 : layer.GetLayerDefn()->GetFieldIndex(field.c_str());
+    if (field.empty()) {
+        return at;
+    }
+    OGRFieldType const type = at < 0 ? OFTString : layer.GetLayerDefn()->GetFieldDefn(at)->GetType();
+    if (type != OFTReal && type != OFTInteger && type != OFTInteger64) {
+        refuse(fmt::format("layer {} of {} has no field {} of numbers; add one", layer.GetName(), name, field));
+    }
+    return at;
+}
+
+double value_in(OGRFeature const& feature, int field, std::string const& name) {
+    if (field < 0) {
+        return 0.0;
+    }
+    double const value = feature.IsFieldSetAndNotNull(field) ? feature.GetFieldAsDouble(field) : std::nan("");
+    if (!std::isfinite(value)) {
+        refuse(fmt::format("feature {} of {} has no finite value in the field {}", feature.GetFID(), name,
+                           feature.GetFieldDefnRef(field)->GetNameRef()));
+    }
+    return value;
+}
+
+std::vector<Polygon> take(OGRLayer& layer, std::string const& name, std::string const& field, Run const& run) {
     std::vector<Polygon> polygons;
+    int const valued = field_in(layer, name, field);
     for (auto const& feature : layer) {
         run.check();
         OGRGeometry const* const drawn = feature->GetGeometryRef();
@@ -109,7 +136,11 @@ std::vector<Polygon> take(OGRLayer& layer, std::string const& name, Run const& r
             refuse(fmt::format("feature {} of {} has no polygon; remove it", feature->GetFID(), name));
         }
         std::unique_ptr<OGRGeometry> const straight(drawn->getLinearGeometry());
+        std::size_t const first = polygons.size();
         add_parts(*straight, feature->GetFID(), name, polygons);
+        for (std::size_t p = first; p < polygons.size(); ++p) {
+            polygons[p].value = value_in(*feature, valued, name);
+        }
     }
     return polygons;
 }
@@ -148,12 +179,30 @@ bool holds_polygons(std::string const& path) {
     return data->GetRasterCount() == 0 && !polygon_layers(*data).empty();
 }
 
-Polygons read_polygons(std::string const& path, std::string const& crs, Run const& run) {
+std::string crs_for_polygons(std::string const& path) {
     auto const name = std::filesystem::path(path).filename().string();
     Driver const driver;
     Dataset const data = open_file(path, GDAL_OF_VECTOR, nullptr, "io.read_polygons: " + path);
     OGRLayer& layer = choose_layer(*data, name);
-    Polygons read{take(layer, name, run), crs, name};
+    OGREnvelope box;
+    if (is_missing(layer.GetSpatialRef()) || layer.GetExtent(&box) != OGRERR_NONE) {
+        refuse(fmt::format("layer {} of {} has no CRS or no polygons; assign one (ogr2ogr -a_srs EPSG:n)",
+                           layer.GetName(), name));
+    }
+    Vec2 const middle{0.5 * (box.MinX + box.MaxX), 0.5 * (box.MinY + box.MaxY)};
+    return IntoMetres(*layer.GetSpatialRef(), "", middle, name).crs();
+}
+
+Polygons read_polygons(std::string const& path, std::string const& crs, Run const& run) {
+    return read_polygons(path, crs, "", run);
+}
+
+Polygons read_polygons(std::string const& path, std::string const& crs, std::string const& field, Run const& run) {
+    auto const name = std::filesystem::path(path).filename().string();
+    Driver const driver;
+    Dataset const data = open_file(path, GDAL_OF_VECTOR, nullptr, "io.read_polygons: " + path);
+    OGRLayer& layer = choose_layer(*data, name);
+    Polygons read{take(layer, name, field, run), crs, name};
     driver.check("io.read_polygons: " + path);
     if (read.polygons.empty()) {
         refuse(fmt::format("layer {} of {} is empty", layer.GetName(), name));

@@ -87,6 +87,7 @@ constexpr std::array native_fields{
     SchemaField{.quantity = Q::feature, .name = "feature", .kind = Kind::wide_integer},
     SchemaField{.quantity = Q::type, .name = "type", .kind = Kind::text},
     integer(Q::braided, "braided"),
+    integer(Q::given, "given"),
 };
 
 // TauDEM 5, StreamNet: its guide "Stream Reach And Watershed", its source src/streamnet.cpp. WSNO is the number of the
@@ -242,14 +243,14 @@ constexpr std::array tables{
 };
 
 // In the order of the enumerators.
-constexpr std::array<std::string_view, 51> quantity_names{
-    "arc_id",    "from_node",   "to_node",  "ds_arc",      "n_up",       "basin_id", "topo_ord",  "strahler",
-    "shreve",    "hack",        "length",   "length_3d",   "straight",   "z_up",     "z_down",    "dist_out",
-    "slope",     "us_area",     "ds_area",  "survives",    "feature",    "type",     "braided",   "us_arc_1",
-    "us_arc_2",  "us_arc_3",    "us_arc_4", "us_arc_5",    "outlet_arc", "key",      "ds_key",    "us_key",
-    "path",      "ds_path",     "us_path",  "outlet_path", "ds_hack",    "n_down",   "is_source", "is_outlet",
-    "horton",    "scheidegger", "drwal",    "drop",        "sinuosity",  "dist_mid", "dist_up",   "dist_source",
-    "length_us", "own_area",    "constant"};
+constexpr std::array<std::string_view, 52> quantity_names{
+    "arc_id",      "from_node", "to_node",     "ds_arc",    "n_up",        "basin_id",   "topo_ord", "strahler",
+    "shreve",      "hack",      "length",      "length_3d", "straight",    "z_up",       "z_down",   "dist_out",
+    "slope",       "us_area",   "ds_area",     "survives",  "feature",     "type",       "braided",  "given",
+    "us_arc_1",    "us_arc_2",  "us_arc_3",    "us_arc_4",  "us_arc_5",    "outlet_arc", "key",      "ds_key",
+    "us_key",      "path",      "ds_path",     "us_path",   "outlet_path", "ds_hack",    "n_down",   "is_source",
+    "is_outlet",   "horton",    "scheidegger", "drwal",     "drop",        "sinuosity",  "dist_mid", "dist_up",
+    "dist_source", "length_us", "own_area",    "constant"};
 static_assert(quantity_names.size() == static_cast<std::size_t>(Quantity::constant) + 1);
 
 // Written so that a table in another order does not compile.

@@ -42,6 +42,7 @@ enum class Quantity : std::uint8_t {
     feature,
     type,
     braided,
+    given, ///< 1, or 0 for a side valley that the land has grown
     // What others tell besides.
     us_arc_1, ///< the arcs upstream, in order of arc_id; none beyond the last
     us_arc_2,

@@ -102,6 +102,7 @@ public:
         case hack: return this->hack(a);
         case feature: return arc(a).feature;
         case braided: return tables_.braided != nullptr && (*tables_.braided)[at(a)] != 0 ? 1 : 0;
+        case given: return arc(a).given ? 1 : 0;
         case ds_hack: return down(a) < 0 ? 0 : this->hack(down(a));
         case n_down: return down(a) < 0 ? 0 : 1;
         case is_source: return above(a).empty() ? 1 : 0;

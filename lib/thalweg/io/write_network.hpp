@@ -30,9 +30,10 @@ struct NetworkTables {
 };
 
 /// Writes PATH (.gpkg is added where it is missing): layers arcs (LineStringZ) and nodes (PointZ), table run, with the
-/// fields of the network schema and four more by arc: survives (real [cells]; -1 for infinity), feature (integer), type
-/// (text; none where there is none) and braided (integer, 1 or 0). dist_out of an arc counts from its downstream end,
-/// as NHDPlus (Pathlength) and HydroRIVERS (DIST_DN_KM) have it. arc_id is the arc's number + 1, node_id the node's
+/// fields of the network schema and five more by arc: survives (real [cells]; -1 for infinity), feature (integer), type
+/// (text; none where there is none), braided (integer, 1 or 0) and given (integer, 0 for a side valley that the land
+/// has grown, else 1). dist_out of an arc counts from its downstream end, as NHDPlus (Pathlength) and HydroRIVERS
+/// (DIST_DN_KM) have it. arc_id is the arc's number + 1, node_id the node's
 /// + 1. Where there are ridges, also the layer ridges (LineStringZ): ridge_id, the ridge's number + 1; left and right,
 /// the labels of its streams; length [m] in plan; z_min and z_max [m]. Shapefiles have none.
 /// Gives: the same bytes for the same network, on any day. Throws: BadInput naming the arc or node when the values do

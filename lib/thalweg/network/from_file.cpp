@@ -156,7 +156,7 @@ FileNetwork from_file(NetworkFile const& file) {
         bool const own_height = heights && file.says.nodes;
         require_end(arc, file.nodes[nodes.order()[from]], arc.line.front(), own_height);
         require_end(arc, file.nodes[nodes.order()[to]], arc.line.back(), own_height);
-        Arc drawn{{}, arc.survives, foreign ? arc.id - file.id_shift : arc.feature, arc.type};
+        Arc drawn{{}, arc.survives, foreign ? arc.id - file.id_shift : arc.feature, arc.type, arc.given};
         std::vector<double> z;
         for (Vec3 const p : arc.line) {
             drawn.line.push_back({p.x, p.y});

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
 
 namespace thalweg::network {
@@ -22,6 +23,10 @@ void check(Cluster const& cluster, BranchParams const& params) {
         throw BadParameter(fmt::format("network.pick_branch: max_width is {} and max_height {}, they must be at least "
                                        "1, or 0 for no limit",
                                        params.max_width, params.max_height));
+    }
+    if (!(params.turn_deg >= -180.0 && params.turn_deg <= 180.0)) {
+        throw BadParameter(
+            fmt::format("network.pick_branch: turn_deg is {}, it must lie in [-180, 180]", params.turn_deg));
     }
     if (cluster.cells.empty() || cluster.parent.size() != cluster.cells.size() || cluster.parent[0] != -1) {
         throw BadInput("network.pick_branch: the cluster needs a seed and a parent for every other particle");
@@ -101,25 +106,33 @@ Branch pick_branch(Cluster const& cluster, BranchParams const& params) {
     auto const chosen = params.choice == BranchChoice::all ? std::vector<std::uint8_t>(cluster.cells.size(), 1)
                                                            : choose(cluster, params.choice);
     Branch branch;
-    Cell low;
-    Cell high;
+    double const turn = params.turn_deg / 180.0 * exact::pi;
+    double const c = params.turn_deg == 0.0 ? 1.0 : exact::cos(turn);
+    double const s = params.turn_deg == 0.0 ? 0.0 : exact::sin(turn);
+    Vec2 low;
+    Vec2 high;
     for (std::size_t p = 0; p < chosen.size(); ++p) {
         if (chosen[p] == 0) {
             continue;
         }
-        Cell const c = cluster.cells[p];
+        Cell const cell = cluster.cells[p];
+        auto const col = static_cast<double>(cell.col);
+        auto const row = static_cast<double>(cell.row);
+        Vec2 const at{c * col + s * row, c * row - s * col}; // rows grow to the south
         bool const first = branch.cells.empty();
-        Cell const wider_low = first ? c : Cell{std::min(low.col, c.col), std::min(low.row, c.row)};
-        Cell const wider_high = first ? c : Cell{std::max(high.col, c.col), std::max(high.row, c.row)};
-        bool const too_wide = params.max_width > 0 && wider_high.col - wider_low.col >= params.max_width;
-        bool const too_high = params.max_height > 0 && wider_high.row - wider_low.row >= params.max_height;
+        Vec2 const wider_low = first ? at : Vec2{std::min(low.x, at.x), std::min(low.y, at.y)};
+        Vec2 const wider_high = first ? at : Vec2{std::max(high.x, at.x), std::max(high.y, at.y)};
+        bool const too_wide =
+            params.max_width > 0 && wider_high.x - wider_low.x > static_cast<double>(params.max_width - 1);
+        bool const too_high =
+            params.max_height > 0 && wider_high.y - wider_low.y > static_cast<double>(params.max_height - 1);
         if (too_wide || too_high) {
             branch.cut = true;
             break;
         }
         low = wider_low;
         high = wider_high;
-        branch.cells.push_back(c);
+        branch.cells.push_back(cell);
     }
     return branch;
 }

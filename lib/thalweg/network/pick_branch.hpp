@@ -17,6 +17,7 @@ struct BranchParams {
     std::int64_t max_width =
         0; ///< [cells] the branch is cut at the first particle that makes its box wider; 0 = no limit
     std::int64_t max_height = 0; ///< [cells] likewise
+    double turn_deg = 0.0;       ///< [-180, 180] the branch will be turned by this (rotate): so is its box
 };
 
 struct Branch {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/network/keep_arcs.hpp>
 #include <thalweg/network/require_trees.hpp>
 
 namespace thalweg::network {
@@ -157,42 +158,6 @@ std::vector<std::int64_t> survival(StreamNetwork const& network, Remains remains
     return survives;
 }
 
-/// The arcs kept at L, merged where two are left at a node; both numberings keep their order.
-StreamNetwork kept_network(StreamNetwork const& network, NetworkIndex const& index,
-                           std::vector<std::int64_t> const& units, std::vector<std::uint8_t> const& kept) {
-    std::vector<std::int64_t> arriving(index.out.size(), 0);
-    for (std::size_t a = 0; a < kept.size(); ++a) {
-        arriving[index.to[a]] += kept[a];
-    }
-    auto const leaves = [&](NodeId n) { return index.out[n] >= 0 && kept[z(index.out[n])] != 0; };
-
-    StreamNetwork out;
-    std::vector<NodeId> node(index.out.size(), 0);
-    for (NodeId n = 0; n < index.out.size(); ++n) {
-        if (leaves(n) ? arriving[n] != 1 : arriving[n] > 0) {
-            node[n] = boost::add_vertex(network[n], out);
-        }
-    }
-    for (std::size_t a = 0; a < kept.size(); ++a) {
-        if (kept[a] == 0 || arriving[index.from[a]] == 1) {
-            continue;
-        }
-        Arc arc = network[index.arcs[a]];
-        std::size_t piece = a;
-        std::size_t longest = a;
-        while (arriving[index.to[piece]] == 1 && leaves(index.to[piece])) {
-            piece = z(index.out[index.to[piece]]);
-            std::vector<Vec2> const& line = network[index.arcs[piece]].line;
-            arc.line.insert(arc.line.end(), line.begin() + 1, line.end());
-            longest = units[piece] > units[longest] ? piece : longest;
-        }
-        arc.feature = network[index.arcs[longest]].feature;
-        arc.type = network[index.arcs[longest]].type;
-        add_arc(out, node[index.from[a]], node[index.to[piece]], std::move(arc));
-    }
-    return out;
-}
-
 /// A number a reader may copy, not above x.
 std::string readable_floor(double x) {
     double const hundredths = std::floor(x * 100.0) / 100.0;
@@ -236,7 +201,7 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
     }
     // L = 0 leaves a network as it is drawn, with the nodes between its features.
     pruned.network =
-        params.length_cells > 0.0 ? kept_network(with_thresholds, copy, units, kept) : std::move(with_thresholds);
+        params.length_cells > 0.0 ? keep_arcs(with_thresholds, copy, units, kept).network : std::move(with_thresholds);
     return pruned;
 }
 

@@ -144,7 +144,7 @@ public:
                 first = pieces_[first - index.arcs.size()].of;
             }
             Arc const& source = old[index.arcs[first]];
-            Arc arc{{}, source.survives, source.feature, source.type};
+            Arc arc{{}, source.survives, source.feature, source.type, source.given};
             std::vector<double> z;
             for (Vec3 const p : lines_[a]) {
                 arc.line.push_back(plan(p));

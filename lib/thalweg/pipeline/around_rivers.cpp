@@ -8,6 +8,7 @@
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/network/streams.hpp>
 #include <thalweg/pipeline/land.hpp>
+#include <thalweg/pipeline/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>
@@ -20,6 +21,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace thalweg::pipeline {
@@ -62,10 +64,10 @@ void make_skeleton_tin(Terrain& terrain, FeaturePoints const& points, Diary& dia
     diary.say(fmt::format("{} triangles of {} vertices", terrain.tin->triangles.size(), terrain.tin->vertices.size()));
 }
 
-/// The cells the land has: those of the recipe's mask, or all.
-Mask inside_of(Recipe const& recipe, Valley const& valley) {
+/// The cells the land has: those of the recipe's mask, or all; without the sea.
+Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
     if (recipe.surface->mask.empty()) {
-        return Mask(valley.z.grid(), 1);
+        return land.values().empty() ? Mask(valley.z.grid(), 1) : land;
     }
     Raster<float> const given = io::read_dem(file_in(recipe, recipe.surface->mask));
     Grid const& grid = valley.z.grid();
@@ -75,7 +77,7 @@ Mask inside_of(Recipe const& recipe, Valley const& valley) {
     }
     Mask inside(grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        inside[i] = !std::isnan(given[i]) && given[i] != 0.0F;
+        inside[i] = !std::isnan(given[i]) && given[i] != 0.0F && (land.values().empty() || land[i] != 0);
         if (inside[i] == 0 && !std::isnan(valley.z[i])) {
             Cell const c = grid.at(i);
             throw BadInput(fmt::format("surface.mask: {} leaves out cell ({}, {}), where a river runs",
@@ -97,7 +99,7 @@ Raster<float> over_triangles(Terrain const& terrain, Run const& run) {
 
 surface::Dilated dilated(Terrain const& terrain, Mask const& inside, Run const& run) {
     SurfaceRecipe const& wanted = *terrain.recipe.surface;
-    bool const whole = wanted.mask.empty();
+    bool const whole = wanted.mask.empty() && terrain.land.values().empty();
     if (wanted.base == Base::paper) { // without a mask by the closed form
         return whole ? surface::dilate(terrain.valley, wanted.dilate, run)
                      : surface::dilate(terrain.valley, inside, wanted.dilate, run);
@@ -151,9 +153,14 @@ surface::Dilated draw(Terrain& terrain, FeaturePoints const& points, Run const& 
     if (wanted.method == Method::tin) {
         surface::Dilated drawn;
         drawn.dem = over_triangles(terrain, run);
+        for (std::int64_t i = 0; i < static_cast<std::int64_t>(terrain.land.values().size()); ++i) {
+            if (terrain.land[i] == 0) {
+                drawn.dem[i] = std::numeric_limits<float>::quiet_NaN();
+            }
+        }
         return drawn;
     }
-    Mask const inside = inside_of(terrain.recipe, terrain.valley);
+    Mask const inside = inside_of(terrain.recipe, terrain.land, terrain.valley);
     return wanted.method == Method::diffuse ? diffused(terrain, points, inside, run) : dilated(terrain, inside, run);
 }
 
@@ -163,6 +170,7 @@ std::string about(Terrain const& terrain) {
     case Method::dilate:
         return fmt::format("{}, {} levels", wanted.dilate.increment.increment, terrain.surface->levels);
     case Method::diffuse: return fmt::format("diffused, {} iterations", terrain.diffusion->iterations);
+    case Method::equilibrium:
     case Method::tin:
     case Method::regress: break;
     }
@@ -174,6 +182,9 @@ std::string about(Terrain const& terrain) {
 void draw_around_rivers(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
     Recipe const& recipe = terrain.recipe;
     SurfaceRecipe const& wanted = *recipe.surface;
+    if (in_equilibrium(recipe)) { // whose rivers have their heights from it
+        draw_in_equilibrium(terrain, diary, run);
+    }
     if (recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
         make_ridges(terrain, diary, run);
     }
@@ -181,8 +192,10 @@ void draw_around_rivers(Terrain& terrain, FeaturePoints const& points, Diary& di
     if (over_tin || (recipe.skeleton && recipe.skeleton->tin)) {
         make_skeleton_tin(terrain, points, diary, run);
     }
-    terrain.surface = diary.stage("fill", [&] { return draw(terrain, points, run); });
-    diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height, about(terrain)));
+    if (!in_equilibrium(recipe)) {
+        terrain.surface = diary.stage("fill", [&] { return draw(terrain, points, run); });
+        diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height, about(terrain)));
+    }
     add_detail(terrain, terrain.surface->dem, run);
 }
 

@@ -183,6 +183,9 @@ Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted) {
 
 Grid frame_polygons(Polygons const& polygons, GridRecipe const& wanted) {
     Grid const grid = frame_box(box_of(polygons), wanted, "the polygons of " + polygons.name);
+    if (wanted.clip) {
+        return grid;
+    }
     for (Polygon const& polygon : polygons.polygons) {
         for (auto const& ring : polygon.rings) {
             for (Vec2 const p : ring) {

@@ -33,7 +33,7 @@ Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted);
 Grid frame_tree(std::int64_t links, GridRecipe const& wanted);
 
 /// The grid asked for, or the polygons' box and 5 % around it on multiples of the cell.
-/// Throws: BadInput naming the first polygon that leaves an asked grid.
+/// Throws: BadInput naming the first polygon that leaves an asked grid, unless clip is set.
 Grid frame_polygons(Polygons const& polygons, GridRecipe const& wanted);
 
 /// Throws BadInput when a terrain on this grid needs more memory than is free.

@@ -90,6 +90,7 @@ void take_words(Known const& known, MendedNetwork& mended) {
         auto const& given = known.arc(of.feature);
         mended.braided.push_back(given.braided ? 1 : 0);
         of.survives = given.survives;
+        of.given = given.given;
         of.feature = given.feature != 0 ? given.feature : given.id;
     }
 }

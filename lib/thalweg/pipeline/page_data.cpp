@@ -221,6 +221,9 @@ void add_rivers(Terrain const& t, NetworkIndex const& index, std::vector<Profile
     if (wanted && wanted->source == Source::dla) {
         figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.story.particles, "");
     }
+    if (wanted && wanted->source == Source::forest) {
+        figures.add("particles of the forest", t.story.particles, "");
+    }
     figures.add("arcs", index.arcs.size(), "");
     figures.add("outlets", index.outlets.size(), "");
     figures.add("highest Strahler order", t.laws.network ? t.laws.network->horton.orders.size() : 0, "");
@@ -320,6 +323,7 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
                             {"curve", curve_object(t)},
                             {"hypsometry", hypsometry_object(t)},
                             {"laws", ordered_json::parse(page_laws(t.laws))},
+                            {"relief", t.relief ? ordered_json::parse(relief_json(*t.relief)) : ordered_json(nullptr)},
                             {"statistics", figures.take()},
                             {"checks", checks_array(t.checks)},
                             {"timings", timings_array(t)},

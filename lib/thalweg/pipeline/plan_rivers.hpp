@@ -3,7 +3,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include <thalweg/core/finding.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/pipeline/diary.hpp>
 #include <thalweg/pipeline/terrain.hpp>
@@ -16,6 +19,7 @@ struct Planned {
     StreamNetwork plan;
     Grid grid;
     std::optional<RaisedNetwork> file_heights;
+    Mask land = {}; ///< 0: sea; without cells: all is land
 };
 
 /// One arm of a cluster that grew by diffusion-limited aggregation, thinned and traced.
@@ -23,6 +27,12 @@ Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run)
 
 /// Networks that branch by Tokunaga's law: one that fills the grid or a region, or one along each stroke of a file.
 Planned plan_tokunaga(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run);
+
+/// Trees that grow from a coast or border inland until the land is full of them. Every outlet lies there.
+Planned plan_forest(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run);
+
+/// A note for each outlet of one network that another, which was pruned, has no more.
+std::vector<Finding> pruned_outlets(StreamNetwork const& before, StreamNetwork const& after);
 
 /// The lines of a file. Decides heights that were left to the file.
 Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run);

@@ -4,10 +4,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/bring_into.hpp>
 #include <thalweg/io/content_of.hpp>
+#include <thalweg/io/read_dem.hpp>
 #include <thalweg/io/read_mask.hpp>
 #include <thalweg/io/read_polygons.hpp>
 #include <thalweg/io/read_rivers.hpp>
@@ -57,6 +62,48 @@ Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
                                    content.path, grid.west, grid.south(), grid.east(), grid.north));
     }
     return kept;
+}
+
+namespace {
+
+Raster<float> valued_polygons(Polygons const& polygons, Grid const& grid) {
+    Raster<float> field(grid, 1.0F);
+    for (Polygon const& polygon : polygons.polygons) {
+        Mask const inside = blend::mask_polygons({{polygon}, polygons.crs, polygons.name}, grid);
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            field[i] = inside[i] != 0 ? static_cast<float>(polygon.value) : field[i];
+        }
+    }
+    return field;
+}
+
+} // namespace
+
+Raster<float> read_field(std::string const& path, Grid const& grid, std::string const& what, Run const& run) {
+    if (path.empty()) {
+        return {};
+    }
+    Raster<float> field;
+    if (io::holds_polygons(path)) {
+        field = valued_polygons(io::read_polygons(path, grid.crs, "erodibility", run), grid);
+    } else {
+        Raster<float> const given = io::bring_into(io::read_dem(path, run), grid, what + ": " + path, run);
+        field = Raster<float>(grid, std::numeric_limits<float>::quiet_NaN());
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            Cell const at = given.grid().cell_of(grid.centre(grid.at(i)));
+            field[i] = given.grid().contains(at) ? given[at] : field[i];
+        }
+    }
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (!(field[i] > 0.0F)) {
+            Cell const c = grid.at(i);
+            throw BadInput(fmt::format("{}: {} has {} in cell ({}, {}) of the grid: values above 0 are wanted "
+                                       "everywhere",
+                                       what, path, std::isnan(field[i]) ? "none" : fmt::format("{}", field[i]), c.col,
+                                       c.row));
+        }
+    }
+    return field;
 }
 
 } // namespace thalweg::pipeline

@@ -7,7 +7,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run.hpp>
 
-/// Cells of a grid that a file names. Private to this room.
+/// What files say of the cells of a grid. Private to this room.
 namespace thalweg::pipeline {
 
 /// Cells of a raster on the grid that are neither 0 nor no-data, or whose centres lie in polygons; empty for "".
@@ -17,5 +17,10 @@ Mask read_part(std::string const& path, Grid const& grid, Run const& run);
 /// Cells of a raster on the grid, or under lines; empty for "". Throws: as the doors; BadInput for points, and when no
 /// line crosses the grid.
 Mask read_kept(std::string const& path, Grid const& grid, Run const& run);
+
+/// A field that varies over the land, above 0: a raster, brought to the grid's cells, or polygons with a real field
+/// erodibility, 1 between them (of several the last counts); empty for "". what: the key, for messages.
+/// Throws: as the doors; BadInput naming the cell where a raster has no value or one that is not above 0.
+Raster<float> read_field(std::string const& path, Grid const& grid, std::string const& what, Run const& run);
 
 } // namespace thalweg::pipeline

@@ -39,7 +39,7 @@ std::string unknown_key(std::string const& path) {
     if (near.empty()) { // the right word in the wrong section
         std::string const word = path.substr(path.rfind('.') + 1);
         for (std::string const& p : paths) {
-            if (p.substr(p.rfind('.') + 1) == word) {
+            if (near.empty() && p.substr(p.rfind('.') + 1) == word) {
                 near = p;
             }
         }
@@ -164,6 +164,7 @@ Recipe default_recipe() {
     recipe.network->branch = network::BranchChoice::south;
     recipe.network->slope = 0.02;
     recipe.surface.emplace();
+    recipe.surface->method = Method::dilate;
     recipe.surface->dilate.metric = surface::Metric::euclid;
     recipe.surface->dilate.relief_m = 900.0;
     return recipe;
@@ -283,8 +284,10 @@ std::string keys_of_patch(PatchRecipe const& patch) {
 
 /// Keys of a source of rivers that is not used would only confuse.
 bool of_unused_source(Recipe const& recipe, std::string const& section) {
-    static std::map<Source, std::string> const sections = {
-        {Source::dla, "network.dla"}, {Source::tokunaga, "network.tokunaga"}, {Source::lines, "network.lines"}};
+    static std::map<Source, std::string> const sections = {{Source::dla, "network.dla"},
+                                                           {Source::tokunaga, "network.tokunaga"},
+                                                           {Source::forest, "network.forest"},
+                                                           {Source::lines, "network.lines"}};
     return recipe.network && section.substr(0, 8) == "network." && section != sections.at(recipe.network->source);
 }
 
@@ -321,6 +324,61 @@ std::string title_of(Recipe const& recipe) {
 
 namespace {
 
+/// What goes with a land in equilibrium only, and what does not.
+void check_equilibrium(Recipe const& recipe, std::vector<std::string>& faults) {
+    NetworkRecipe const& n = *recipe.network;
+    bool const in_equilibrium = recipe.surface && recipe.surface->method == Method::equilibrium;
+    if (!in_equilibrium) {
+        char const* const needs = " needs surface.method = \"equilibrium\"";
+        if (n.heights == Heights::soft || n.heights == Heights::fixed || n.heights == Heights::ends) {
+            faults.push_back(fmt::format("network.heights = \"{}\"{}",
+                                         n.heights == Heights::soft    ? "soft"
+                                         : n.heights == Heights::fixed ? "fixed"
+                                                                       : "ends",
+                                         needs));
+        }
+        if (n.fill_space) {
+            faults.push_back(fmt::format("network.fill_space{}: other lands grow no side valleys", needs));
+        }
+        if (n.inland == InlandEnds::sink) {
+            faults.push_back(fmt::format("network.inland = \"sink\"{}", needs));
+        }
+        return;
+    }
+    EquilibriumRecipe const& e = recipe.surface->equilibrium;
+    if (n.concavity < 0.1 || n.concavity > 0.9) {
+        faults.push_back(fmt::format("network.concavity = {}: land in equilibrium wants 0.1 to 0.9", n.concavity));
+    }
+    if (e.mean_slope_deg && recipe.surface->dilate.relief_m > 0.0) {
+        faults.emplace_back("surface.relief and surface.mean_slope do not go together: one follows from the other");
+    }
+    if (!e.lakes.empty() && e.lake_share > 0.0) {
+        faults.emplace_back(
+            "surface.lakes and surface.lake_share do not go together: lakes come from a file or chance");
+    }
+    if (recipe.skeleton && (recipe.skeleton->ridges != Ridges::none || !recipe.skeleton->points.empty())) {
+        faults.emplace_back("[skeleton] does not go with surface.method = \"equilibrium\": its ridges and heights "
+                            "follow from the rivers");
+    }
+}
+
+void check_forest(Recipe const& recipe, std::vector<std::string>& faults) {
+    NetworkRecipe const& n = *recipe.network;
+    ForestRecipe const& f = n.forest;
+    if (n.source != Source::forest) {
+        if (!(f.region.empty() && f.outlets.empty())) {
+            faults.emplace_back("network.forest names a file but source is not \"forest\"");
+        }
+        return;
+    }
+    if (f.shape == LandShape::island && !f.region.empty()) {
+        faults.emplace_back("network.forest.shape and region do not go together: the region is the land");
+    }
+    if (n.rotate_deg.value_or(0.0) != 0.0) {
+        faults.emplace_back("network.rotate does not go with source = \"forest\": its rivers fill the land as it lies");
+    }
+}
+
 void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
     NetworkRecipe const& n = *recipe.network;
     if (n.source == Source::lines && n.lines.path.empty()) {
@@ -334,6 +392,9 @@ void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
     }
     if (!n.tokunaga.strokes.empty() && !n.tokunaga.region.empty()) {
         faults.emplace_back("network.tokunaga.strokes and region do not go together: strokes fill the grid");
+    }
+    if ((n.source == Source::lines || n.source == Source::tokunaga) && n.rotate_deg.value_or(0.0) != 0.0) {
+        faults.emplace_back("network.rotate turns a cluster: it needs source = \"dla\"");
     }
     if (n.source != Source::lines && n.heights == Heights::file) {
         faults.emplace_back("network.heights = \"file\" needs source = \"lines\"");
@@ -353,6 +414,8 @@ void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
     if (recipe.surface && recipe.surface->method == Method::regress) {
         faults.emplace_back("surface.method = \"regress\" does not keep rivers: use tin or dilate");
     }
+    check_forest(recipe, faults);
+    check_equilibrium(recipe, faults);
 }
 
 void check_land(Recipe const& recipe, bool has_points, std::vector<std::string>& faults) {
@@ -367,8 +430,9 @@ void check_land(Recipe const& recipe, bool has_points, std::vector<std::string>&
         faults.emplace_back("nothing tells what the land is like: give [network], [statistics], skeleton.points or "
                             "skeleton.scatter");
     }
-    if (method == Method::dilate && recipe.surface) {
-        faults.emplace_back("surface.method = \"dilate\" needs [network]: use diffuse, tin or regress");
+    if ((method == Method::dilate || method == Method::equilibrium) && recipe.surface) {
+        faults.push_back(fmt::format("surface.method = \"{}\" needs [network]: use diffuse, tin or regress",
+                                     method == Method::dilate ? "dilate" : "equilibrium"));
     }
     if (recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
         faults.emplace_back("skeleton.ridges lie between rivers: they need [network]");
@@ -403,7 +467,10 @@ void check_recipe(Recipe const& recipe) {
     if ((recipe.grid.width > 0) != (recipe.grid.height > 0)) {
         faults.emplace_back("grid.width and grid.height go together: give both or neither");
     }
-    bool const framed = recipe.network || (recipe.skeleton && !recipe.skeleton->points.empty());
+    bool const fills_a_frame =
+        recipe.network && recipe.network->source == Source::forest && recipe.network->forest.region.empty();
+    bool const framed =
+        (recipe.network && !fills_a_frame) || (recipe.skeleton && !recipe.skeleton->points.empty() && !fills_a_frame);
     if (recipe.grid.width == 0 && !framed) {
         faults.emplace_back("grid.width and grid.height are missing: nothing else tells how large the land is");
     }

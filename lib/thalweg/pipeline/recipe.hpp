@@ -12,6 +12,7 @@
 #include <thalweg/io/schema.hpp>
 #include <thalweg/network/adopt.hpp>
 #include <thalweg/network/grow_dla.hpp>
+#include <thalweg/network/grow_forest.hpp>
 #include <thalweg/network/grow_tokunaga.hpp>
 #include <thalweg/network/pick_branch.hpp>
 #include <thalweg/network/rosgen.hpp>
@@ -23,6 +24,7 @@
 #include <thalweg/surface/diffuse.hpp>
 #include <thalweg/surface/dilate.hpp>
 #include <thalweg/surface/drain.hpp>
+#include <thalweg/surface/equilibrium.hpp>
 
 namespace thalweg::pipeline {
 
@@ -36,8 +38,21 @@ struct GridRecipe {
     bool clip = false;                           ///< cut rivers at the grid's edge instead of refusing them
 };
 
-enum class Source : std::uint8_t { dla, tokunaga, lines };
-enum class Heights : std::uint8_t { automatic, straight, straight_repaired, along_stream, rosgen, graded, file };
+enum class Source : std::uint8_t { dla, tokunaga, forest, lines };
+enum class Heights : std::uint8_t {
+    automatic,
+    straight,
+    straight_repaired,
+    along_stream,
+    rosgen,
+    graded,
+    file,
+    soft,  ///< those of the file, or straight_repaired, as upper bounds of a land in equilibrium
+    fixed, ///< likewise, kept
+    ends   ///< likewise those of sources and outlets, kept; graded between
+};
+/// What becomes of rivers that end inside the grid.
+enum class InlandEnds : std::uint8_t { carry, sink };
 enum class Side : std::uint8_t { north, east, south, west };
 
 struct LinesRecipe {
@@ -60,19 +75,40 @@ struct TokunagaRecipe {
     double spacing_cells = 3.0; ///< [cells] >= 0: links closer than this to others are left out
 };
 
+/// The land of a forest that no region is given for.
+enum class LandShape : std::uint8_t { grid, island };
+
+/// Rivers that grow inland from a coast or border until the land is full of them.
+struct ForestRecipe {
+    LandShape shape = LandShape::grid;
+    double ruggedness = 0.5;         ///< [0, 1] of an island's coast
+    std::string region;              ///< polygons that are land; "": the shape
+    std::string outlets;             ///< points; or lines or polygons along whose coast outlets lie; "": all of it
+    std::int64_t seeds = 0;          ///< [0, ...] outlets; 0: one for every six spacings of coast
+    std::int64_t spacing_cells = 10; ///< [8, 200] between rivers that do not meet
+    network::ForestParams growth;    ///< its step and seed follow from the recipe
+};
+
 struct NetworkRecipe {
     Source source = Source::dla;
-    std::optional<double> prune_cells; ///< [cells] default 20 for dla, 0 for lines
+    std::optional<double> prune_cells; ///< [cells] default 20 for dla and forest, else 0
     Heights heights = Heights::automatic;
     double slope = 0.087;                  ///< [m/m] > 0
     double concavity = 0.45;               ///< [0, 1] theta of graded heights
     std::optional<network::Rosgen> rosgen; ///< type of arcs without one; none: by Strahler order
     network::SlopeDraw rosgen_slope = network::SlopeDraw::middle;
-    double coast_m = 0.0; ///< [m] >= 0: nearer to the outlet along the stream rivers are braided
+    std::optional<double> rotate_deg; ///< [degrees] counterclockwise; none: by chance where rivers are grown for a land
+                                      ///< in equilibrium, else 0
+    std::optional<double> meander;    ///< [0, 2] of nature's amplitude; none: 1 where rivers are grown likewise, else 0
+    InlandEnds inland = InlandEnds::carry;
+    bool fill_space = false;          ///< the land's own side valleys become arcs
+    std::int64_t support_cells = 200; ///< [cells] that drain through where a side valley begins
+    double coast_m = 0.0;             ///< [m] >= 0: nearer to the outlet along the stream rivers are braided
     network::DlaParams dla;
     network::BranchChoice branch = network::BranchChoice::largest;
     LinesRecipe lines;
     TokunagaRecipe tokunaga;
+    ForestRecipe forest;
 };
 
 /// What ridges lie midway between: points along the rivers, or the rivers themselves.
@@ -92,12 +128,26 @@ struct SkeletonRecipe {
     bool tin = false; ///< write the skeleton's TIN
 };
 
-enum class Method : std::uint8_t { dilate, diffuse, tin, regress };
+enum class Method : std::uint8_t { equilibrium, dilate, diffuse, tin, regress };
 enum class Base : std::uint8_t { harmonic, paper, tin };
 enum class Interpolation : std::uint8_t { linear, natural };
 
+/// What a land in equilibrium is like, beside surface.relief and network.concavity.
+struct EquilibriumRecipe {
+    std::optional<double> mean_slope_deg; ///< none: 25, where no relief is asked
+    double hillslope_m = 0.0;             ///< [m] 0: 1.3 cells
+    double floor_width = 0.04;            ///< as surface::EquilibriumParams
+    double roughness = 0.4;
+    std::optional<surface::Edge> edge; ///< none: coast where there is sea, else open
+    std::string uplift;                ///< raster on the grid; "" for none
+    std::string erodibility;           ///< raster on the grid, or polygons with a field of that name; "" for none
+    std::string lakes;                 ///< polygons; "" for none
+    double lake_share = 0.0;           ///< [0, 1] of the confluences, at which there is a lake by chance
+};
+
 struct SurfaceRecipe {
-    Method method = Method::dilate;
+    Method method = Method::equilibrium;
+    EquilibriumRecipe equilibrium;
     Base base = Base::harmonic;
     surface::DilateParams dilate;
     surface::DiffuseParams diffuse;

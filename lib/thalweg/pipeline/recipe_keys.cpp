@@ -87,7 +87,7 @@ std::vector<Key> make_keys() {
     }
     for (Key& key : keys) {
         if (key.help.path == "network.prune") {
-            key.help.standard = "20 for dla, 0 for lines";
+            key.help.standard = "20 for dla and forest, else 0";
         } else if (key.help.path == "grid.origin") {
             key.help.standard = "[500000, 5000000], or the line file's box";
         }

@@ -64,6 +64,42 @@ void add_diffusion_keys(std::vector<Key>& keys) {
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.diffuse.noise_m; })));
 }
 
+void add_equilibrium_keys(std::vector<Key>& keys) {
+    using surface::Edge;
+    using MaybeEdge = std::optional<Edge>;
+    keys.push_back(maybe("surface.mean_slope", "degrees", {0, 60, true},
+                         "equilibrium: mean slope of the land; left out, and no relief given: 25",
+                         in_surface<std::optional<double>>(
+                             [](SurfaceRecipe& s) -> std::optional<double>& { return s.equilibrium.mean_slope_deg; })));
+    keys.push_back(number("surface.hillslope", "m", {0, 1e5},
+                          "equilibrium: length below which creep rounds the slopes, at least half a cell; 0: 1.3 cells",
+                          in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.hillslope_m; })));
+    keys.push_back(number("surface.floor_width", "", {0, 1},
+                          "equilibrium: half width of a valley floor in cells, over its drainage area in cells ^ 0.4",
+                          in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.floor_width; })));
+    keys.push_back(number("surface.roughness", "", {0, 1},
+                          "equilibrium: how much the rock varies: standard deviation of the logarithm of erodibility",
+                          in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.roughness; })));
+    keys.push_back(choice<MaybeEdge>(
+        "surface.edge",
+        {{"auto", std::nullopt}, {"open", Edge::open}, {"closed", Edge::closed}, {"coast", Edge::coast}},
+        "equilibrium: beyond the edge the land goes on, or all water goes to the rivers, or there is sea; auto: "
+        "coast where there is sea, else open",
+        in_surface<MaybeEdge>([](SurfaceRecipe& s) -> MaybeEdge& { return s.equilibrium.edge; })));
+    keys.push_back(
+        text("surface.uplift", "file name", "equilibrium: raster on the grid, above 0; only its ratios count",
+             in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.equilibrium.uplift; })));
+    keys.push_back(
+        text("surface.erodibility", "file name",
+             "equilibrium: raster on the grid, above 0, or polygons with a field erodibility, 1 elsewhere",
+             in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.equilibrium.erodibility; })));
+    keys.push_back(text("surface.lakes", "file name", "equilibrium: polygons of lakes",
+                        in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.equilibrium.lakes; })));
+    keys.push_back(number("surface.lake_share", "", {0, 1},
+                          "equilibrium: share of the confluences at which a lake lies by chance",
+                          in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.lake_share; })));
+}
+
 } // namespace
 
 void add_surface_keys(std::vector<Key>& keys) {
@@ -71,9 +107,13 @@ void add_surface_keys(std::vector<Key>& keys) {
     using skeleton::SlopeMode;
     keys.push_back(choice<Method>(
         "surface.method",
-        {{"dilate", Method::dilate}, {"diffuse", Method::diffuse}, {"tin", Method::tin}, {"regress", Method::regress}},
-        "how the land is drawn: outward from its valleys, smoothly between rivers, ridges "
-        "and points, over their triangles, or as twelve terms through points",
+        {{"equilibrium", Method::equilibrium},
+         {"dilate", Method::dilate},
+         {"diffuse", Method::diffuse},
+         {"tin", Method::tin},
+         {"regress", Method::regress}},
+        "how the land is drawn: in equilibrium with its rivers, outward from its valleys, smoothly between rivers, "
+        "ridges and points, over their triangles, or as twelve terms through points",
         in_surface<Method>([](SurfaceRecipe& s) -> Method& { return s.method; })));
     keys.push_back(choice<Base>("surface.base",
                                 {{"harmonic", Base::harmonic}, {"paper", Base::paper}, {"tin", Base::tin}},
@@ -96,15 +136,17 @@ void add_surface_keys(std::vector<Key>& keys) {
         "surface.metric", {{"cityblock", surface::Metric::cityblock}, {"euclid", surface::Metric::euclid}},
         "distance to the valley: the paper's 4 neighbours, or straight",
         in_surface<surface::Metric>([](SurfaceRecipe& s) -> surface::Metric& { return s.dilate.metric; })));
-    keys.push_back(
-        number("surface.relief", "m", {0, 1e5},
-               "scales the increments so that their greatest sum is this; 0: the paper's units times the cell",
-               in_surface<double>([](SurfaceRecipe& s) -> double& { return s.dilate.relief_m; })));
+    keys.push_back(number(
+        "surface.relief", "m", {0, 1e5},
+        "equilibrium: from the lowest to the highest cell, 0: by mean_slope; dilate: greatest sum of the increments, "
+        "0: the paper's units times the cell",
+        in_surface<double>([](SurfaceRecipe& s) -> double& { return s.dilate.relief_m; })));
     keys.push_back(
         yes_no("surface.allow_negative", "let increments below zero stand",
                in_surface<bool>([](SurfaceRecipe& s) -> bool& { return s.dilate.increment.allow_negative; })));
     keys.push_back(text("surface.mask", "file name", "raster on the grid: cells with 0 or no data are left out",
                         in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.mask; })));
+    add_equilibrium_keys(keys);
     using MaybeDrain = std::optional<surface::Drain>;
     keys.push_back(choice<MaybeDrain>("surface.drain",
                                       {{"auto", std::nullopt},

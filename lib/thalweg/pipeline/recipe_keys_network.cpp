@@ -56,6 +56,26 @@ void add_tokunaga_keys(std::vector<Key>& keys) {
                           in_network<double>([](NetworkRecipe& n) -> double& { return n.tokunaga.spacing_cells; })));
 }
 
+/// Where rivers run once they are there.
+void add_course_keys(std::vector<Key>& keys) {
+    using MaybeNumber = std::optional<double>;
+    keys.push_back(maybe("network.rotate", "degrees", {-180, 180},
+                         "turn of a cluster, counterclockwise; left out: by chance under equilibrium, else 0",
+                         in_network<MaybeNumber>([](NetworkRecipe& n) -> MaybeNumber& { return n.rotate_deg; })));
+    keys.push_back(maybe("network.meander", "", {0, 2},
+                         "how much rivers wind, 1 as in nature; left out: 1 for grown rivers under equilibrium, else 0",
+                         in_network<MaybeNumber>([](NetworkRecipe& n) -> MaybeNumber& { return n.meander; })));
+    keys.push_back(
+        choice<InlandEnds>("network.inland", {{"carry", InlandEnds::carry}, {"sink", InlandEnds::sink}},
+                           "rivers that end inside the grid: carried to its border, or left as sinks",
+                           in_network<InlandEnds>([](NetworkRecipe& n) -> InlandEnds& { return n.inland; })));
+    keys.push_back(yes_no("network.fill_space", "equilibrium: the side valleys the land has grown become arcs too",
+                          in_network<bool>([](NetworkRecipe& n) -> bool& { return n.fill_space; })));
+    keys.push_back(integer<std::int64_t>(
+        "network.support", "cells", {1, 1e9}, "fill_space: cells that drain through where a side valley begins",
+        in_network<std::int64_t>([](NetworkRecipe& n) -> std::int64_t& { return n.support_cells; })));
+}
+
 } // namespace
 
 void add_network_keys(std::vector<Key>& keys) {
@@ -63,8 +83,10 @@ void add_network_keys(std::vector<Key>& keys) {
     using network::Orientation;
     using network::VisitRule;
     keys.push_back(choice<Source>(
-        "network.source", {{"dla", Source::dla}, {"tokunaga", Source::tokunaga}, {"lines", Source::lines}},
-        "where the rivers come from: grown as a cluster or by branching rules, or a file's lines",
+        "network.source",
+        {{"dla", Source::dla}, {"tokunaga", Source::tokunaga}, {"forest", Source::forest}, {"lines", Source::lines}},
+        "where the rivers come from: grown as a cluster, by branching rules, or from a coast all over the land; or a "
+        "file's lines",
         in_network<Source>([](NetworkRecipe& n) -> Source& { return n.source; })));
     {
         Key key = number("network.prune", "cells", {0, 1e7}, "L: no leaf arc shorter than this is left",
@@ -86,13 +108,21 @@ void add_network_keys(std::vector<Key>& keys) {
                                     {"along_stream", Heights::along_stream},
                                     {"rosgen", Heights::rosgen},
                                     {"graded", Heights::graded},
-                                    {"file", Heights::file}},
-                                   "heights of the rivers; auto: file where lines carry Z, else straight_repaired",
+                                    {"file", Heights::file},
+                                    {"soft", Heights::soft},
+                                    {"fixed", Heights::fixed},
+                                    {"ends", Heights::ends}},
+                                   "heights of the rivers; auto: file where lines carry Z, else graded under "
+                                   "equilibrium and straight_repaired elsewhere. Of the file or straight_repaired, "
+                                   "under equilibrium: soft takes them as upper bounds, fixed keeps them, ends keeps "
+                                   "those of sources and outlets",
                                    in_network<Heights>([](NetworkRecipe& n) -> Heights& { return n.heights; })));
     keys.push_back(number("network.slope", "m/m", {0, 10, true}, "s: fall of the valleys; graded: of the main stem",
                           in_network<double>([](NetworkRecipe& n) -> double& { return n.slope; })));
-    keys.push_back(number("network.concavity", "", {0, 1}, "theta of graded heights: slope ~ area^-theta",
+    keys.push_back(number("network.concavity", "", {0, 1},
+                          "theta of graded heights and of land in equilibrium: slope ~ area^-theta",
                           in_network<double>([](NetworkRecipe& n) -> double& { return n.concavity; })));
+    add_course_keys(keys);
     add_rosgen_keys(keys);
 
     keys.push_back(integer<std::int64_t>(
@@ -119,6 +149,7 @@ void add_network_keys(std::vector<Key>& keys) {
                              in_network<BranchChoice>([](NetworkRecipe& n) -> BranchChoice& { return n.branch; })));
 
     add_tokunaga_keys(keys);
+    add_forest_keys(keys);
 
     keys.push_back(text("network.lines.path", "file name", "any OGR source of lines",
                         in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.lines.path; })));

@@ -9,6 +9,7 @@
 /// The keys of one section each, in the order of recipe files. Private to this room.
 namespace thalweg::pipeline {
 
+void add_forest_keys(std::vector<Key>& keys);
 void add_network_keys(std::vector<Key>& keys);
 void add_skeleton_keys(std::vector<Key>& keys);
 void add_surface_keys(std::vector<Key>& keys);

@@ -159,6 +159,7 @@ ordered_json network_object(Terrain const& t) {
             {"particles", t.story.particles},
             {"walkers", t.story.walkers},
             {"stopped_at", t.story.particles == 0 ? ""
+                           : t.story.full         ? "full"
                            : t.story.cut          ? "margin"
                                                   : "particles"},
             {"uphill_before_repair",
@@ -259,6 +260,9 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
         if (t.laws.dem) {
             report["dem"]["laws"] = dem_laws_object(*t.laws.dem);
         }
+        if (t.relief) {
+            report["dem"]["relief"] = ordered_json::parse(relief_json(*t.relief));
+        }
     }
     if (t.drained) {
         report["drained"] = {{"banks", change_object(t.drained->banks)},
@@ -310,10 +314,13 @@ std::vector<std::string> files_of_report(std::string const& json) {
     return files;
 }
 
-std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws) {
+std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws, LandRelief const* relief) {
     ordered_json out = dem(statistics);
     if (laws != nullptr) {
         out["laws"] = dem_laws_object(*laws);
+    }
+    if (relief != nullptr) {
+        out["relief"] = ordered_json::parse(relief_json(*relief));
     }
     return out.dump() + "\n";
 }

@@ -16,8 +16,10 @@ std::string write_report(Terrain const& terrain, std::vector<std::string> const&
 /// The files an earlier report.json lists; empty where the text is none.
 std::vector<std::string> files_of_report(std::string const& json);
 
-/// Statistics as one JSON object, as they stand under "dem" in report.json; laws: of the DEM's rivers, or null.
-std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws = nullptr);
+/// Statistics as one JSON object, as they stand under "dem" in report.json; laws: of the DEM's rivers, or
+/// null; relief: or null.
+std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws = nullptr,
+                            LandRelief const* relief = nullptr);
 
 /// The version of thalweg, "0.1.0".
 std::string version();

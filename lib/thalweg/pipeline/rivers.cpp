@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/rivers.hpp>
 
+#include <thalweg/core/error.hpp>
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/network/carry_outlets.hpp>
 #include <thalweg/network/count_streams.hpp>
 #include <thalweg/network/keep_heights.hpp>
+#include <thalweg/network/meander.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/prune.hpp>
 #include <thalweg/network/rasterise.hpp>
 #include <thalweg/network/set_heights_graded.hpp>
+#include <thalweg/pipeline/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/plan_rivers.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 
@@ -63,10 +66,32 @@ RaisedNetwork raise(Planned const& planned, Terrain& terrain, Run const& run) {
     return std::move(raised.network);
 }
 
+/// Bends rivers, where the recipe wants it, once it is said how much.
+void let_wander(Planned& planned, Terrain& terrain, Diary& diary, Run const& run) {
+    NetworkRecipe& rivers = *terrain.recipe.network;
+    bool const grown_for_land = rivers.source != Source::lines && in_equilibrium(terrain.recipe);
+    rivers.meander = rivers.meander.value_or(grown_for_land ? 1.0 : 0.0);
+    if (*rivers.meander == 0.0 && !grown_for_land) {
+        return;
+    }
+    if (planned.file_heights) {
+        throw BadParameter("network.meander: rivers whose file gives their heights stay where they are; set "
+                           "network.heights = \"graded\" or leave meander out");
+    }
+    measure::ContributingAreas const areas = measure::areas_nearest(planned.plan, terrain.grid, run);
+    network::Meandered bent = diary.stage("meander", [&] {
+        return network::meander(planned.plan, terrain.grid, areas.ds_area_m2,
+                                {.gain = *rivers.meander, .seed = terrain.recipe.seed}, run);
+    });
+    diary.say(fmt::format("{} vertices, at most {:.0f} m aside", bent.vertices, bent.max_shift_m));
+    planned.plan = std::move(bent.network);
+}
+
 Planned plan(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     switch (recipe.network->source) {
     case Source::dla: return plan_dla(recipe, terrain, diary, run);
     case Source::tokunaga: return plan_tokunaga(recipe, terrain, diary, run);
+    case Source::forest: return plan_forest(recipe, terrain, diary, run);
     case Source::lines: break;
     }
     return plan_lines(recipe, terrain, diary, run);
@@ -81,10 +106,11 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     take_frame(terrain, planned.grid);
     Grid const& grid = terrain.grid;
     if (rivers.heights == Heights::automatic) {
-        rivers.heights = Heights::straight_repaired;
+        rivers.heights = in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;
     }
     if (!rivers.prune_cells) {
-        rivers.prune_cells = rivers.source == Source::dla ? 20.0 : 0.0;
+        bool const all_over = rivers.source == Source::dla || rivers.source == Source::forest;
+        rivers.prune_cells = all_over ? 20.0 : 0.0;
     }
 
     network::Pruned pruned = diary.stage("prune", [&] {
@@ -94,11 +120,26 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.story.arcs_kept = static_cast<std::int64_t>(boost::num_edges(pruned.network));
     diary.say(
         fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, terrain.story.arcs_kept, pruned.arcs_before));
-    network::Carried carried = network::carry_outlets(pruned.network, grid);
-    terrain.story.repairs.insert(terrain.story.repairs.end(), carried.notes.begin(), carried.notes.end());
-    planned.plan = std::move(carried.network);
+    std::vector<Finding>& repairs = terrain.story.repairs;
+    if (rivers.source == Source::forest) { // its rivers end where the land does
+        std::vector<Finding> const gone = pruned_outlets(planned.plan, pruned.network);
+        repairs.insert(repairs.end(), gone.begin(), gone.end());
+    }
+    terrain.land = std::move(planned.land);
+    planned.plan = std::move(pruned.network);
+    if (rivers.inland == InlandEnds::carry && rivers.source != Source::forest) {
+        network::Carried carried = network::carry_outlets(planned.plan, grid);
+        repairs.insert(repairs.end(), carried.notes.begin(), carried.notes.end());
+        planned.plan = std::move(carried.network);
+    }
+
+    let_wander(planned, terrain, diary, run);
 
     assign_types(planned, terrain, run);
+    if (in_equilibrium(recipe) && rivers.heights == Heights::graded) { // their heights are the land's
+        terrain.network.plan = std::move(planned.plan);
+        return;
+    }
     terrain.network = diary.stage("raise", [&] { return raise(planned, terrain, run); });
     terrain.orders = network::order(terrain.network.plan);
     terrain.streams = network::count_streams(terrain.network.plan);

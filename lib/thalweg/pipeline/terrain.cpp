@@ -8,6 +8,7 @@
 #include <thalweg/pipeline/catchment_rows.hpp>
 #include <thalweg/pipeline/diary.hpp>
 #include <thalweg/pipeline/land.hpp>
+#include <thalweg/pipeline/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/paste_patches.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/pipeline/rivers.hpp>
@@ -92,6 +93,7 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.pits = drainage.pits;
     terrain.pit_volume_m3 = drainage.pit_volume_m3;
     if (terrain.recipe.network) {
+        add_side_valleys(terrain, drainage, diary, run);
         terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
         if (terrain.recipe.output.catchments) {
             terrain.catchments = diary.stage("catchments", [&] {
@@ -115,6 +117,7 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
         });
     }
     terrain.laws = diary.stage("laws", [&] { return laws_of_terrain(terrain, &drainage, run); });
+    terrain.relief = diary.stage("relief", [&] { return relief_of_terrain(terrain, drainage, run); });
 }
 
 void check_rivers(Terrain& terrain, Diary& diary, Run const& run) {

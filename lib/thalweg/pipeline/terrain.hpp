@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <thalweg/core/channels.hpp>
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/run.hpp>
@@ -26,6 +27,7 @@
 #include <thalweg/network/count_streams.hpp>
 #include <thalweg/pipeline/laws.hpp>
 #include <thalweg/pipeline/recipe.hpp>
+#include <thalweg/pipeline/relief.hpp>
 
 namespace thalweg::pipeline {
 
@@ -38,9 +40,10 @@ struct TokunagaStory {
 
 /// What the network went through, for the report.
 struct NetworkStory {
-    std::int64_t particles = 0; ///< of the cluster (dla)
+    std::int64_t particles = 0; ///< of the cluster (dla) or the forest
     std::int64_t walkers = 0;   ///< released for it
     std::optional<TokunagaStory> tokunaga;
+    bool full = false;              ///< the forest stopped where no particle found room
     bool cut = false;               ///< the branch reached the grid's margin before the last particle
     std::int64_t arcs_traced = 0;   ///< before pruning
     std::int64_t arcs_kept = 0;     ///< by pruning; merged ones count once
@@ -76,11 +79,24 @@ struct WaterAreas {
     Raster<double> dinf;
 };
 
+/// How a land came into equilibrium with its rivers.
+struct EquilibriumStory {
+    std::int64_t channel_cells = 0;   ///< in which rivers run
+    std::int64_t shortened_cells = 0; ///< of perched tips that are rivers no more
+    std::int64_t walled_cells = 0;    ///< of rivers whose given heights only walls hold up
+    double max_lowered_m = 0.0;       ///< soft: below the given heights
+    double p95_lowered_m = 0.0;
+    double rise = 0.0;             ///< as surface::EquilibriumLand
+    std::int64_t side_valleys = 0; ///< arcs that the land has grown, where they are asked for
+    std::int64_t side_valleys_left_out = 0;
+};
+
 /// A terrain with all that led to it.
 struct Terrain {
     Recipe recipe; ///< every default resolved: made again, it gives the same terrain
     Grid grid;
     RaisedNetwork network;
+    Mask land; ///< 0: sea, which has no heights; without cells: all is land
     NetworkOrders orders;
     network::StreamCounts streams; ///< side branches, as drawn
     network::RiverTypes types;     ///< by arc, where rivers have types; else empty
@@ -89,6 +105,8 @@ struct Terrain {
     Valley valley;
     RidgeLines ridges; ///< between streams, where they are asked for
     std::optional<surface::Dilated> surface;
+    Channels channels;                            ///< of rivers with which the land is in equilibrium
+    std::optional<EquilibriumStory> equilibrium;  ///< of a land that is
     std::optional<SolverStory> diffusion;         ///< how the surface was solved for, where it was diffused
     std::vector<PatchStory> patches;              ///< in the recipe's order
     std::optional<DrainStory> drained;            ///< where the recipe wants the land to drain
@@ -97,6 +115,7 @@ struct Terrain {
     double fine_forms_cells = 0.0; ///< [cells] below which forms had to come from a Gaussian land to meet them; 0: none
     std::optional<measure::Statistics> statistics; ///< of the surface
     std::optional<measure::Hypsometry> hypsometry; ///< likewise
+    std::optional<LandRelief> relief;              ///< likewise, with the rivers
     std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
     double pit_volume_m3 = 0.0;
     std::optional<measure::Certificate> certificate; ///< of rivers and surface, where both are there

@@ -86,6 +86,13 @@ Recipe keep_inputs(Terrain const& terrain, io::OutputFolder const& out) {
     if (tokunaga != nullptr && !tokunaga->region.empty()) {
         tokunaga->region = keep_input(out, recipe.folder, tokunaga->region, "inputs/region/");
     }
+    ForestRecipe* const forest = recipe.network ? &recipe.network->forest : nullptr;
+    if (forest != nullptr && !forest->region.empty()) {
+        forest->region = keep_input(out, recipe.folder, forest->region, "inputs/region/");
+    }
+    if (forest != nullptr && !forest->outlets.empty()) {
+        forest->outlets = keep_input(out, recipe.folder, forest->outlets, "inputs/outlets/");
+    }
     for (std::size_t i = 0; i < recipe.patches.size(); ++i) {
         PatchRecipe& patch = recipe.patches[i];
         patch.source = keep_input(out, recipe.folder, patch.source, fmt::format("inputs/patch{}/", i + 1));

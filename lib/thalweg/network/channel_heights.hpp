@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <thalweg/core/channels.hpp>
+#include <thalweg/core/stream_network.hpp>
+
+namespace thalweg::network {
+
+/// Heights of the cells in which rivers run, from those of the rivers.
+/// Takes: a network with heights and the channels of its plan. Gives: by number what rasterise draws there, lowered
+/// where the way of the water rises: no cell stands below its receiver; NaN where no arc of the network runs.
+/// Throws: as rasterise.
+std::vector<float> channel_heights(RaisedNetwork const& network, Channels const& channels);
+
+} // namespace thalweg::network

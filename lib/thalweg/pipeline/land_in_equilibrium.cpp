@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/land_in_equilibrium.hpp>
+
+#include <thalweg/network/channel_heights.hpp>
+#include <thalweg/network/channels.hpp>
+#include <thalweg/network/order.hpp>
+#include <thalweg/network/prune.hpp>
+#include <thalweg/network/raise_from_land.hpp>
+#include <thalweg/network/shorten.hpp>
+#include <thalweg/network/side_valleys.hpp>
+#include <thalweg/pipeline/read_cells.hpp>
+#include <thalweg/pipeline/recipe_files.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+surface::RiverHeights use_of(Heights heights) {
+    return heights == Heights::graded ? surface::RiverHeights::graded
+           : heights == Heights::soft ? surface::RiverHeights::soft
+                                      : surface::RiverHeights::fixed;
+}
+
+bool has_sea(Mask const& land) {
+    return std::any_of(land.values().begin(), land.values().end(), [](std::uint8_t is_land) { return is_land == 0; });
+}
+
+surface::EquilibriumParams params_of(Recipe& recipe, Mask const& land) {
+    EquilibriumRecipe& wanted = recipe.surface->equilibrium;
+    wanted.edge = wanted.edge.value_or(has_sea(land) ? surface::Edge::coast : surface::Edge::open);
+    double const relief_m = recipe.surface->dilate.relief_m;
+    surface::EquilibriumParams params;
+    params.theta = recipe.network->concavity;
+    params.mean_slope_deg = wanted.mean_slope_deg.value_or(params.mean_slope_deg);
+    params.relief_m = relief_m > 0.0 ? std::optional(relief_m) : std::nullopt;
+    params.hillslope_cells =
+        wanted.hillslope_m > 0.0 ? wanted.hillslope_m / recipe.grid.cell_m : params.hillslope_cells;
+    params.floor_width = wanted.floor_width;
+    params.roughness = wanted.roughness;
+    params.edge = *wanted.edge;
+    params.heights = use_of(recipe.network->heights);
+    params.seed = recipe.seed;
+    return params;
+}
+
+/// The heights that are asked of channels: all that the rivers have, or those of sources and where they end.
+std::vector<float> asked_heights(RaisedNetwork const& rivers, Channels const& channels, Heights heights) {
+    std::vector<float> z = network::channel_heights(rivers, channels);
+    if (heights == Heights::ends) {
+        std::vector<std::uint8_t> has_donor(z.size());
+        for (std::int64_t const r : channels.receiver) {
+            if (r >= 0) {
+                has_donor[static_cast<std::size_t>(r)] = 1;
+            }
+        }
+        for (std::size_t c = 0; c < z.size(); ++c) {
+            z[c] = has_donor[c] != 0 && channels.receiver[c] >= 0 ? none : z[c];
+        }
+    }
+    return z;
+}
+
+/// Cells that are land by both masks, of which either may be empty; and those of rivers.
+Mask land_of(Mask one, Mask const& other, Channels const& channels) {
+    if (one.values().empty()) {
+        one = other;
+    } else if (!other.values().empty()) {
+        for (std::int64_t i = 0; i < one.cells(); ++i) {
+            one[i] = one[i] != 0 && other[i] != 0 ? 1 : 0;
+        }
+    }
+    if (!one.values().empty()) {
+        for (std::int64_t const cell : channels.cell) {
+            one[cell] = 1;
+        }
+    }
+    return one;
+}
+
+surface::EquilibriumFields fields_of(Terrain const& terrain, Channels const& channels, Run const& run) {
+    Recipe const& recipe = terrain.recipe;
+    Grid const& grid = terrain.grid;
+    SurfaceRecipe const& wanted = *recipe.surface;
+    surface::EquilibriumFields fields;
+    fields.land = land_of(read_part(file_in(recipe, wanted.mask), grid, run), terrain.land, channels);
+    fields.uplift = read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run);
+    fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
+    return fields;
+}
+
+void tell(Terrain& terrain, surface::EquilibriumLand const& land, Channels const& channels) {
+    EquilibriumStory& story = terrain.equilibrium.emplace();
+    story.channel_cells = static_cast<std::int64_t>(channels.cell.size());
+    story.shortened_cells = static_cast<std::int64_t>(land.shortened.size());
+    story.walled_cells = static_cast<std::int64_t>(land.walled.size());
+    story.max_lowered_m = land.max_lowered_m;
+    story.p95_lowered_m = land.p95_lowered_m;
+    story.rise = land.rise;
+}
+
+void take_notes(Terrain& terrain, std::vector<Finding> const& notes) {
+    terrain.story.repairs.insert(terrain.story.repairs.end(), notes.begin(), notes.end());
+}
+
+Valley valley_of(Channels const& channels, Raster<float> const& dem) {
+    Valley valley{Raster<float>(dem.grid(), none)};
+    for (std::int64_t const cell : channels.cell) {
+        valley.z[cell] = dem[cell];
+    }
+    return valley;
+}
+
+} // namespace
+
+bool in_equilibrium(Recipe const& recipe) {
+    return recipe.network && recipe.surface && recipe.surface->method == Method::equilibrium;
+}
+
+void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run) {
+    Recipe& recipe = terrain.recipe;
+    network::ChannelsOfArcs rivers =
+        diary.stage("channels", [&] { return network::channels(terrain.network.plan, terrain.grid, {}, run); });
+    take_notes(terrain, rivers.notes);
+    if (recipe.network->heights != Heights::graded) {
+        rivers.channels.z = asked_heights(terrain.network, rivers.channels, recipe.network->heights);
+    }
+    surface::EquilibriumFields const fields = fields_of(terrain, rivers.channels, run);
+    run.at(0.0, fmt::format("fill {} cells", terrain.grid.cells()).c_str());
+    surface::EquilibriumLand land = diary.stage(
+        "fill", [&] { return surface::equilibrium(rivers.channels, fields, params_of(recipe, fields.land), run); });
+    tell(terrain, land, rivers.channels);
+    if (!land.shortened.empty()) {
+        network::Shortened shortened = network::shorten(terrain.network.plan, rivers, land.shortened);
+        take_notes(terrain, shortened.notes);
+        terrain.network.plan = std::move(shortened.network);
+        rivers = std::move(shortened.drawn);
+    }
+    diary.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", terrain.grid.width, terrain.grid.height,
+                          rivers.channels.cell.size()));
+    terrain.network = network::raise_from_land(terrain.network.plan, rivers.channels, land.dem);
+    terrain.orders = network::order(terrain.network.plan);
+    terrain.streams = network::count_streams(terrain.network.plan);
+    terrain.valley = valley_of(rivers.channels, land.dem);
+    terrain.channels = std::move(rivers.channels);
+    terrain.surface.emplace();
+    terrain.surface->dem = std::move(land.dem);
+}
+
+void add_side_valleys(Terrain& terrain, measure::Drainage const& drainage, Diary& diary, Run const& run) {
+    if (!terrain.recipe.network || !terrain.recipe.network->fill_space) {
+        return;
+    }
+    network::SideValleys made = diary.stage("side valleys", [&] {
+        return network::side_valleys(terrain.network, terrain.channels,
+                                     {terrain.surface->dem, drainage.direction, drainage.area_cells},
+                                     {terrain.recipe.network->support_cells}, run);
+    });
+    terrain.equilibrium->side_valleys = made.grown;
+    terrain.equilibrium->side_valleys_left_out = made.left_out;
+    diary.say(fmt::format("{} arcs that drain {} cells or more, beside {} given", made.grown,
+                          terrain.recipe.network->support_cells,
+                          static_cast<std::int64_t>(boost::num_edges(made.network.plan)) - made.grown));
+    terrain.network = std::move(made.network);
+    terrain.network.plan =
+        network::prune(terrain.network.plan, {0.0, terrain.grid.cell_m}, run).network; // lengths at which each is kept
+    terrain.orders = network::order(terrain.network.plan);
+    terrain.streams = network::count_streams(terrain.network.plan);
+}
+
+} // namespace thalweg::pipeline
