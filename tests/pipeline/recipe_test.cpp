@@ -58,11 +58,7 @@ TEST(Recipe, WrittenRecipeReadsBack) {
 }
 
 TEST(Recipe, DefaultIsTheSample) {
-    EXPECT_EQ(write_recipe(read_recipe(sample("dla.toml"), "dla.toml")), write_recipe([] {
-                  Recipe r = default_recipe();
-                  r.network->prune_cells = 20.0;
-                  return r;
-              }()));
+    EXPECT_EQ(write_recipe(read_recipe(sample("relief_dla.toml"), "relief_dla.toml")), write_recipe(default_recipe()));
 }
 
 TEST(Recipe, UnknownKeysAreNamedWithTheNearestOne) {

@@ -159,14 +159,13 @@ Recipe default_recipe() {
     Recipe recipe;
     recipe.grid.width = 1024;
     recipe.grid.height = 1024;
-    recipe.network.emplace();
-    recipe.network->dla.particles = 100000;
-    recipe.network->branch = network::BranchChoice::south;
-    recipe.network->slope = 0.02;
-    recipe.surface.emplace();
-    recipe.surface->method = Method::dilate;
-    recipe.surface->dilate.metric = surface::Metric::euclid;
-    recipe.surface->dilate.relief_m = 900.0;
+    NetworkRecipe& network = recipe.network.emplace();
+    network.prune_cells = 30.0;
+    network.dla.particles = 100000;
+    network.dla.sticking = 1.0;
+    network.dla.visits = 1;
+    network.branch = network::BranchChoice::south;
+    recipe.surface.emplace().equilibrium.mean_slope_deg = 25.0;
     return recipe;
 }
 

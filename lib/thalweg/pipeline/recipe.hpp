@@ -220,7 +220,7 @@ struct Recipe {
     std::string folder; ///< file names are relative to it; "" is the working folder
 };
 
-/// What `thalweg make` makes without a recipe; the same as samples/dla.toml.
+/// What `thalweg make` makes without a recipe; the same as samples/relief_dla.toml.
 Recipe default_recipe();
 
 /// What a key of a recipe file means.

@@ -191,6 +191,7 @@ ordered_json certificate_object(measure::Certificate const& c) {
             {"river_cells", c.river_cells},
             {"following_share", static_cast<double>(c.following_cells) / cells},
             {"border_cells", c.border_cells},
+            {"lake_cells", c.lake_cells},
             {"sources", c.sources},
             {"sources_arriving", c.arriving_sources},
             {"traced", agreements_object(c.traced)},
@@ -281,6 +282,17 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
     }
     if (!t.ridges.lines.empty()) {
         report["ridges"] = {{"count", t.ridges.lines.size()}};
+    }
+    if (t.equilibrium) {
+        EquilibriumStory const& e = *t.equilibrium;
+        report["equilibrium"] = {{"channel_cells", e.channel_cells},
+                                 {"lakes", t.lakes},
+                                 {"shortened_cells", e.shortened_cells},
+                                 {"walled_cells", e.walled_cells},
+                                 {"lowered", {{"max_m", e.max_lowered_m}, {"p95_m", e.p95_lowered_m}}},
+                                 {"rise", e.rise},
+                                 {"side_valleys", e.side_valleys},
+                                 {"side_valleys_left_out", e.side_valleys_left_out}};
     }
     if (t.diffusion) {
         report["diffusion"] = {{"iterations", t.diffusion->iterations}, {"residual", t.diffusion->residual}};
