@@ -332,6 +332,13 @@ TEST(Equilibrium, RiversKeepTheirWater) {
             }
         }
         RC_ASSERT((scene.params.heights != RiverHeights::graded || lowest == 0.0F));
+        // Only tips are given up: with a cell goes all that lies upstream of it.
+        RC_ASSERT(std::is_sorted(land.shortened.begin(), land.shortened.end()));
+        for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+            bool const river = cells.contains(rivers.cell[n]);
+            RC_ASSERT((!river || rivers.receiver[n] < 0 ||
+                       cells.contains(rivers.cell[static_cast<std::size_t>(rivers.receiver[n])])));
+        }
     }));
 }
 

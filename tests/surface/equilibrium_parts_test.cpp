@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/core/elementary.hpp>
+#include <thalweg/surface/area_power.hpp>
+#include <thalweg/surface/nearest_river.hpp>
+#include <thalweg/surface/order_cells.hpp>
+#include <thalweg/surface/river_cells.hpp>
+#include <thalweg/surface/widen.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "channel_trees.hpp"
+
+using namespace thalweg;
+using namespace thalweg::surface;
+
+namespace {
+
+/// Rivers by chance in the frame of a closed land.
+LandLevel any_level() {
+    auto const width = *rc::gen::inRange<std::int64_t>(1, 25).as("width");
+    auto const height = *rc::gen::inRange<std::int64_t>(1, 25).as("height");
+    auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
+    Grid const grid = channel_trees::frame(width, height);
+    auto const end = static_cast<std::int64_t>(chance(seed, 1) % static_cast<std::uint64_t>(grid.cells()));
+    Channels const rivers =
+        channel_trees::grown(grid, {0, end}, {}, grid.cells() / 3 + 1, channel_trees::Room::crowd, seed);
+    LandLevel level;
+    level.width = width + 2;
+    level.height = height + 2;
+    EquilibriumParams closed;
+    closed.edge = Edge::closed;
+    level.rivers = widened(rivers, {}, closed).rivers;
+    return level;
+}
+
+} // namespace
+
+// Whole numbers below 512 have their power as a float; greater ones that of at most 1/256 less.
+TEST(AreaPower, IsThePower) {
+    AreaPower const power(0.45);
+    for (int area = 1; area < 512; ++area) {
+        EXPECT_EQ(power(static_cast<float>(area)), static_cast<float>(exact::pow(area, 0.45))) << area;
+    }
+    for (double area = 512.0; area < 1e15; area *= 1.37) {
+        auto const value = static_cast<double>(power(static_cast<float>(area)));
+        EXPECT_LE(value, exact::pow(area, 0.45) * (1.0 + 1e-6));
+        EXPECT_GE(value, exact::pow(area * (1.0 - 1.0 / 256.0), 0.45) * (1.0 - 1e-6));
+    }
+}
+
+// Without obstacles the nearest river by steps of 1 and sqrt(2) is known for each pair of cells.
+TEST(NearestRiver, IsTheNearestOfAll) {
+    EXPECT_TRUE(rc::check("nearest of all", [] {
+        LandLevel const level = any_level();
+        NearestRiver const near = nearest_river(level);
+        for (std::int64_t row = 1; row + 1 < level.height; ++row) {
+            for (std::int64_t col = 1; col + 1 < level.width; ++col) {
+                auto const far = [&](std::uint32_t cell) {
+                    std::int64_t const dx = std::abs(cell % level.width - col);
+                    std::int64_t const dy = std::abs(cell / level.width - row);
+                    return static_cast<double>(std::max(dx, dy) - std::min(dx, dy)) +
+                           std::sqrt(2.0) * static_cast<double>(std::min(dx, dy));
+                };
+                double least = std::numeric_limits<double>::infinity();
+                for (std::uint32_t const cell : level.rivers.cell) {
+                    least = std::min(least, far(cell));
+                }
+                auto const i = static_cast<std::size_t>(row * level.width + col);
+                RC_ASSERT(std::fabs(static_cast<double>(near.distance[i]) - least) < 1e-3);
+                RC_ASSERT(std::fabs(far(level.rivers.cell[near.number[i]]) - least) < 1e-3);
+            }
+        }
+    }));
+}
+
+// Areas are what is counted when each cell's water is followed to its end; no cell stands behind its receiver.
+TEST(OrderCells, CountsWhatDrainsThrough) {
+    EXPECT_TRUE(rc::check("counts what drains through", [] {
+        LandLevel level = any_level();
+        auto const cells = static_cast<std::size_t>(level.cells());
+        level.cover.assign(cells, Cover::outside);
+        level.way.assign(cells, no_way);
+        for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+            // A forest as good as any; its ends are where water leaves.
+            level.cover[level.rivers.cell[n]] = level.rivers.receiver[n] < 0 ? Cover::edge : Cover::land;
+            level.way[level.rivers.cell[n]] = level.rivers.way[n];
+        }
+        order_cells(level);
+        std::vector<std::uint32_t> counted(cells);
+        auto const offsets = level.offsets();
+        for (std::size_t i = 0; i < cells; ++i) {
+            for (std::size_t at = i;; at = moved(at, offsets[static_cast<std::size_t>(level.way[at])])) {
+                ++counted[at];
+                if (level.way[at] == no_way) {
+                    break;
+                }
+            }
+        }
+        std::set<std::uint32_t> seen;
+        for (std::size_t i = 0; i < cells; ++i) {
+            RC_ASSERT(level.area[i] == counted[i]);
+        }
+        for (std::uint32_t const i : level.order) {
+            RC_ASSERT(level.cover[i] == Cover::land);
+            RC_ASSERT(seen.insert(i).second);
+            auto const below = moved(i, offsets[static_cast<std::size_t>(level.way[i])]);
+            RC_ASSERT(!seen.contains(static_cast<std::uint32_t>(below)));
+        }
+        RC_ASSERT(static_cast<std::ptrdiff_t>(seen.size()) ==
+                  std::count(level.cover.begin(), level.cover.end(), Cover::land));
+    }));
+}
+
+// Coarse rivers are trees as the fine ones are: downstream first, each cell once, each receiver a neighbour; a river
+// cell lies in each coarse cell that has fine ones, and nowhere else.
+TEST(CoarsenedRivers, AreTrees) {
+    EXPECT_TRUE(rc::check("coarse rivers are trees", [] {
+        LandLevel const level = any_level();
+        std::int64_t const width = (level.width - 1) / 2 + 2;
+        std::int64_t const height = (level.height - 1) / 2 + 2;
+        RiverCells const coarse = coarsened(level.rivers, level.width, width, height);
+        std::set<std::uint32_t> covered;
+        for (std::uint32_t const cell : level.rivers.cell) {
+            std::int64_t const row = (cell / level.width - 1) / 2 + 1;
+            std::int64_t const col = (cell % level.width - 1) / 2 + 1;
+            covered.insert(static_cast<std::uint32_t>(row * width + col));
+        }
+        std::set<std::uint32_t> const cells(coarse.cell.begin(), coarse.cell.end());
+        RC_ASSERT(cells == covered);
+        RC_ASSERT(cells.size() == coarse.cell.size());
+        for (std::size_t n = 0; n < coarse.cell.size(); ++n) {
+            RC_ASSERT(coarse.receiver[n] < static_cast<std::int32_t>(n));
+            RC_ASSERT((coarse.receiver[n] < 0) == (coarse.way[n] < 0));
+        }
+    }));
+}
