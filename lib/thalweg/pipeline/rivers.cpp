@@ -79,9 +79,10 @@ void let_wander(Planned& planned, Terrain& terrain, Diary& diary, Run const& run
                            "network.heights = \"graded\" or leave meander out");
     }
     measure::ContributingAreas const areas = measure::areas_nearest(planned.plan, terrain.grid, run);
+    network::MeanderParams const params{.gain = *rivers.meander, .seed = terrain.recipe.seed};
     network::Meandered bent = diary.stage("meander", [&] {
-        return network::meander(planned.plan, terrain.grid, areas.ds_area_m2,
-                                {.gain = *rivers.meander, .seed = terrain.recipe.seed}, run);
+        return terrain.land.cells() > 0 ? network::meander(planned.plan, terrain.land, areas.ds_area_m2, params, run)
+                                        : network::meander(planned.plan, terrain.grid, areas.ds_area_m2, params, run);
     });
     diary.say(fmt::format("{} vertices, at most {:.0f} m aside", bent.vertices, bent.max_shift_m));
     planned.plan = std::move(bent.network);
