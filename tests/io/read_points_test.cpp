@@ -162,8 +162,8 @@ TEST(ReadPoints, BadLayersNameTheFeature) {
 
 TEST(ReadPoints, InPlanTheyNeedNoHeights) {
     ScratchFolder const folder;
-    ReadPointsParams params;
-    params.heights = PointHeights::passed_over;
+    thalweg::io::ReadPointsParams params;
+    params.heights = thalweg::io::PointHeights::passed_over;
     params.path = text_file(folder, "a.csv", "y,x\n2,1\n5,4\n");
     std::vector<Vec3> const wanted{{1, 2, 0}, {4, 5, 0}};
     EXPECT_EQ(read_points(params).points, wanted);
