@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""clients_test.py grass|saga|postgis|qgis|gdal FOLDER [STATE]: does check_grass.py, ... find each fault planted in a copy?
+"""clients_test.py grass|saga|relief|postgis|qgis|gdal FOLDER [STATE]: does check_grass.py, ... find each fault planted in a copy?
 
 FOLDER: what `thalweg make` left, and good. STATE: of cluster.py, for postgis.
 Exits with 1 when a fault goes unseen or FOLDER itself is not good."""
@@ -105,7 +105,27 @@ def flat(folder):
     (folder / "flat.gpkg").replace(path)
 
 
+def other_figures(folder):
+    """A report that tells of another land."""
+    path = folder / "report.json"
+    told = json.loads(path.read_text())
+    for figure in told["dem"]["relief"]["figures"].values():
+        figure["value"] = 1.1 * (figure["value"] or 0.0) + 10
+    told["dem"]["relief"]["extremes"] = {"pits": -1, "peaks": -1}
+    told["dem"]["relief"]["forms"]["valley"] += 0.05
+    path.write_text(json.dumps(told))
+
+
+def no_ridges(folder):
+    """A figure that is unknown to the report alone."""
+    path = folder / "report.json"
+    told = json.loads(path.read_text())
+    told["dem"]["relief"]["figures"]["valleys_over_ridges"]["value"] = None
+    path.write_text(json.dumps(told))
+
+
 UPSIDE_DOWN = heights(np.flipud)
+TURNED_OVER = heights(lambda z: np.where(np.abs(z) < 1e5, -z, z))
 NO_APPLICATION = network(sql("PRAGMA application_id = 1"))
 PLANTED = {
     "grass": [
@@ -122,6 +142,13 @@ PLANTED = {
         ("f_in_network_cells", UPSIDE_DOWN),
     ],
     "saga": [("depression", heights(pit))],
+    "relief": [
+        *((fault, other_figures) for fault in ("slope_mean", "slope_p5", "slope_p50", "slope_p95", "slope_cv", "form_distance",
+                                               "valleys_over_ridges", "aspects_along_grid", "aspects_on_grid", "theta", "forms",
+                                               "pits", "peaks", "perched")),
+        *((fault, TURNED_OVER) for fault in ("valleys_over_ridges", "forms", "perched")),
+        ("valleys_over_ridges", no_ridges),
+    ],
     "postgis": [
         ("crossing", network(touch)),
         ("edges_faces_nodes", network(touch)),
@@ -164,6 +191,7 @@ PLANTED = {
 WORDS = {
     "grass": lambda folder, state: [folder / DEM, folder / MASK, folder / NET],
     "saga": lambda folder, state: [folder / DEM],
+    "relief": lambda folder, state: [folder],
     "postgis": lambda folder, state: [state, folder / NET],
     "qgis": lambda folder, state: [folder / NET, folder / SHP, folder / DEM],
     "gdal": lambda folder, state: [folder],

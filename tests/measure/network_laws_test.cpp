@@ -93,6 +93,13 @@ TEST(LineFit, NeedsTwoPlaces) {
     EXPECT_EQ(two->intercept, 1.0);
     EXPECT_TRUE(std::isnan(two->r2));
     EXPECT_TRUE(std::isnan(two->slope_error));
+    // A point of weight 3 is three points.
+    auto const heavy = fit_line({{0, 1}, {2, 4}, {3, 9}}, {1.0, 3.0, 2.0});
+    auto const many = fit_line({{0, 1}, {2, 4}, {2, 4}, {2, 4}, {3, 9}, {3, 9}});
+    EXPECT_NEAR(heavy->slope, many->slope, 1e-12);
+    EXPECT_NEAR(heavy->intercept, many->intercept, 1e-12);
+    EXPECT_NEAR(heavy->r2, many->r2, 1e-12);
+    EXPECT_NEAR(heavy->slope_error, many->slope_error * 2.0, 1e-12); // but three still, not six
     EXPECT_EQ(fit_line({{0, 1}, {2, 5}, {1, 3}})->r2, 1.0);
     EXPECT_TRUE(std::isnan(fit_line({{0, 1}, {2, 1}, {3, 1}})->r2));
 }

@@ -100,6 +100,27 @@ TEST(Land, StatsTellsTheLawsOfADemsRiversBesideNature) {
     EXPECT_EQ(thalweg_run(stats + "--laws --recipe", place.path()).code, 2);
 }
 
+TEST(Land, StatsTellsTheReliefOfADemBesideRealLand) {
+    Workplace const place;
+    std::string const stats = "stats " + samples + "jacksboro_utm16.tif ";
+    Outcome const words = thalweg_run(stats + "--relief", place.path());
+    ASSERT_EQ(words.code, 0) << words.err;
+    for (char const* part :
+         {"Big Tujunga", "Jacksboro", "slope, mean", "concavity θ of the DEM’s rivers", "10.1 to 26.9"}) {
+        EXPECT_NE(words.out.find(part), std::string::npos) << part << "\n" << words.out;
+    }
+    EXPECT_EQ(words.out.find("outside"), std::string::npos) << words.out; // it is one of the real lands
+    EXPECT_FALSE(nlohmann::json::parse(thalweg_run(stats + "--json", place.path()).out).contains("relief"));
+    Outcome const o = thalweg_run(stats + "--json --relief", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    auto const relief = nlohmann::json::parse(o.out)["relief"];
+    auto const& slope = relief["figures"]["slope_mean"];
+    EXPECT_NEAR(slope["value"].get<double>(), slope["beside"]["Jacksboro"].get<double>(), 1e-3);
+    EXPECT_TRUE(slope["in_range"]);
+    EXPECT_EQ(relief["forms"].size(), 10U);
+    EXPECT_EQ(thalweg_run(stats + "--relief --recipe", place.path()).code, 2);
+}
+
 TEST(Land, ARecipeOfLandThatIsHardlyLand) {
     Workplace const place;
     std::string const in = "cd '" + place.path().string() + "' && ";

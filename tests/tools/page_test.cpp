@@ -48,6 +48,8 @@ TEST(ReportPage, EveryMakeLeavesOneAndNamesItLast) {
     EXPECT_EQ(report["network"]["laws"]["bifurcation"]["value"], report["network"]["horton"]["bifurcation"]);
     EXPECT_EQ(data["laws"]["orders"].size(), report["network"]["strahler"]);
     EXPECT_EQ(data["hypsometry"]["integral"], report["dem"]["hypsometric_integral"]);
+    EXPECT_EQ(data["relief"], report["dem"]["relief"]);
+    EXPECT_TRUE(data["relief"]["figures"].contains("perched"));
     EXPECT_EQ(unpacked(page_decoder::part(page, "@@HEIGHTS@@")).size(), 48U + 2U * 64U * 48U);
 
     // Times differ: replay looks at neither report.

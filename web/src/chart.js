@@ -113,7 +113,8 @@ export function bars(names, series, what) {
   const left = 64;
   const bar = 6;
   const step = bar * series.length + 7;
-  const height = names.length * step + 22;
+  const top = 4;
+  const height = top + names.length * step + 22;
   const x = scale(series.flatMap((s) => s.values).concat([0]));
   const place = (v) => left + x.share(v) * (width - 12 - left);
   const figure = document.createElement('figure');
@@ -126,8 +127,8 @@ export function bars(names, series, what) {
   }
   svg.append(element('text', { class: 'name', x: 0, y: height - 8 }, what.unit));
   names.forEach((name, i) => {
-    svg.append(element('text', { class: 'tick', x: left - 6, y: i * step + (step - 4) / 2 + 2, 'text-anchor': 'end' }, name));
-    series.forEach((s, k) => svg.append(element('rect', { class: `bar s${k}`, x: left, y: i * step + k * bar,
+    svg.append(element('text', { class: 'tick', x: left - 6, y: top + i * step + (step - 4) / 2 + 2, 'text-anchor': 'end' }, name));
+    series.forEach((s, k) => svg.append(element('rect', { class: `bar s${k}`, x: left, y: top + i * step + k * bar,
       width: Math.max(place(s.values[i]) - left, 0).toFixed(1), height: bar - 1 })));
   });
   figure.append(svg);

@@ -9,22 +9,26 @@
 
 namespace thalweg::measure {
 
-std::optional<LineFit> fit_line(std::vector<Vec2> const& points) {
+std::optional<LineFit> fit_line(std::vector<Vec2> const& points, std::vector<double> const& weights) {
     auto const n = static_cast<double>(points.size());
+    auto const weight = [&](std::size_t i) { return weights.empty() ? 1.0 : weights[i]; };
+    CompensatedSum all;
     CompensatedSum x;
     CompensatedSum y;
-    for (Vec2 const p : points) {
-        x.add(p.x);
-        y.add(p.y);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        all.add(weight(i));
+        x.add(weight(i) * points[i].x);
+        y.add(weight(i) * points[i].y);
     }
-    Vec2 const mean{x.value() / n, y.value() / n};
+    Vec2 const mean{x.value() / all.value(), y.value() / all.value()};
     CompensatedSum xx;
     CompensatedSum xy;
     CompensatedSum yy;
-    for (Vec2 const p : points) {
-        xx.add((p.x - mean.x) * (p.x - mean.x));
-        xy.add((p.x - mean.x) * (p.y - mean.y));
-        yy.add((p.y - mean.y) * (p.y - mean.y));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        Vec2 const p = points[i];
+        xx.add(weight(i) * (p.x - mean.x) * (p.x - mean.x));
+        xy.add(weight(i) * (p.x - mean.x) * (p.y - mean.y));
+        yy.add(weight(i) * (p.y - mean.y) * (p.y - mean.y));
     }
     if (points.size() < 2 || !(xx.value() > 0.0)) {
         return std::nullopt;
@@ -34,9 +38,9 @@ std::optional<LineFit> fit_line(std::vector<Vec2> const& points) {
     fit.intercept = mean.y - fit.slope * mean.x;
     fit.points = static_cast<std::int64_t>(points.size());
     CompensatedSum missed;
-    for (Vec2 const p : points) {
-        double const by = (p.y - mean.y) - fit.slope * (p.x - mean.x);
-        missed.add(by * by);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        double const by = (points[i].y - mean.y) - fit.slope * (points[i].x - mean.x);
+        missed.add(weight(i) * by * by);
     }
     if (points.size() > 2) { // two say nothing of how well a line fits
         if (yy.value() > 0.0) {

@@ -17,10 +17,10 @@ double over(std::int64_t a, std::int64_t b) {
 constexpr std::array<ReliefFigure, relief_figure_count> figures = {{
     {"slope_mean", "slope, mean", "°", Judges::yes, [](Relief const& r) { return r.slopes.mean_deg; }},
     {"slope_std", "slope, deviation", "°", Judges::yes, [](Relief const& r) { return r.slopes.std_deg; }},
-    {"slope_p5", "slope of the gentlest 5 %", "°", Judges::yes,
+    {"slope_p5", "slope, 5th percentile", "°", Judges::yes,
      [](Relief const& r) { return r.slopes.percentile_deg.front(); }},
     {"slope_p50", "slope, median", "°", Judges::yes, [](Relief const& r) { return r.slopes.percentile_deg[3]; }},
-    {"slope_p95", "slope of the steepest 5 %", "°", Judges::yes,
+    {"slope_p95", "slope, 95th percentile", "°", Judges::yes,
      [](Relief const& r) { return r.slopes.percentile_deg.back(); }},
     {"slope_cv", "slope, variation of the tangent", "", Judges::yes,
      [](Relief const& r) { return r.slopes.tangent_cv; }},

@@ -70,6 +70,7 @@ std::optional<PowerLaw> slope_area(Raster<float> const& dem, Drainage const& dra
     check(params, dem, drainage);
     PowerLaw law;
     std::vector<Vec2> line;
+    std::vector<double> weights;
     for (auto const& [number, reach] : reaches_by_area(dem, drainage, params, run)) {
         double const slope = reach.drop_m.value() / reach.way_m.value();
         if (reach.cells < params.least_places || !(slope > 0.0)) {
@@ -78,10 +79,11 @@ std::optional<PowerLaw> slope_area(Raster<float> const& dem, Drainage const& dra
         }
         double const log_area = reach.log_area.value() / static_cast<double>(reach.cells);
         line.push_back({log_area, exact::log(slope)});
+        weights.push_back(std::sqrt(static_cast<double>(reach.cells)));
         law.bins.push_back({exact::exp(log_area), slope, reach.cells});
         law.places += reach.cells;
     }
-    auto const fit = fit_line(line);
+    auto const fit = fit_line(line, weights);
     if (!fit || fit->points < params.least_bins) {
         return std::nullopt;
     }

@@ -23,9 +23,10 @@ struct SlopeAreaParams {
 /// Takes: a DEM and its drainage. Gives: in bins of area, the whole drop of all river cells to where their water goes
 /// over the whole way: a bin is one long reach, in which level steps, and those that rise out of a pit, count as what
 /// they are (no logarithm is taken of one step, so whole metres and noise do not lift the mean); its area is the
-/// geometric mean. The line of least squares through the bins' logarithms, every bin counting once; bins that do not
-/// fall are left out. Steps out of the DEM are none. Throws: BadParameter; BadInput when DEM and drainage have not one
-/// grid; Cancelled. Source: Flint 1974; Wobus et al. 2006 (slope over elevation drops, log bins).
+/// geometric mean. The line of least squares through the bins' logarithms, a bin counting by the root of its cells:
+/// those of large areas are few, along one river; bins that do not fall are left out. Steps out of the DEM are none.
+/// Throws: BadParameter; BadInput when DEM and drainage have not one grid; Cancelled. Source: Flint 1974; Wobus et al.
+/// 2006 (slope over elevation drops, log bins).
 std::optional<PowerLaw> slope_area(Raster<float> const& dem, Drainage const& drainage,
                                    SlopeAreaParams const& params = {}, Run const& run = {});
 

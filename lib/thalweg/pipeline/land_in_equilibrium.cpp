@@ -30,8 +30,13 @@ surface::RiverHeights use_of(Heights heights) {
                                       : surface::RiverHeights::fixed;
 }
 
-surface::EquilibriumParams params_of(Recipe const& recipe) {
-    EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
+bool has_sea(Mask const& land) {
+    return std::any_of(land.values().begin(), land.values().end(), [](std::uint8_t is_land) { return is_land == 0; });
+}
+
+surface::EquilibriumParams params_of(Recipe& recipe, Mask const& land) {
+    EquilibriumRecipe& wanted = recipe.surface->equilibrium;
+    wanted.edge = wanted.edge.value_or(has_sea(land) ? surface::Edge::coast : surface::Edge::open);
     double const relief_m = recipe.surface->dilate.relief_m;
     surface::EquilibriumParams params;
     params.theta = recipe.network->concavity;
@@ -41,7 +46,7 @@ surface::EquilibriumParams params_of(Recipe const& recipe) {
         wanted.hillslope_m > 0.0 ? wanted.hillslope_m / recipe.grid.cell_m : params.hillslope_cells;
     params.floor_width = wanted.floor_width;
     params.roughness = wanted.roughness;
-    params.edge = wanted.edge;
+    params.edge = *wanted.edge;
     params.heights = use_of(recipe.network->heights);
     params.seed = recipe.seed;
     return params;
@@ -121,7 +126,7 @@ bool in_equilibrium(Recipe const& recipe) {
 }
 
 void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run) {
-    Recipe const& recipe = terrain.recipe;
+    Recipe& recipe = terrain.recipe;
     network::ChannelsOfArcs rivers =
         diary.stage("channels", [&] { return network::channels(terrain.network.plan, terrain.grid, {}, run); });
     take_notes(terrain, rivers.notes);
@@ -130,8 +135,8 @@ void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run) {
     }
     surface::EquilibriumFields const fields = fields_of(terrain, rivers.channels, run);
     run.at(0.0, fmt::format("fill {} cells", terrain.grid.cells()).c_str());
-    surface::EquilibriumLand land =
-        diary.stage("fill", [&] { return surface::equilibrium(rivers.channels, fields, params_of(recipe), run); });
+    surface::EquilibriumLand land = diary.stage(
+        "fill", [&] { return surface::equilibrium(rivers.channels, fields, params_of(recipe, fields.land), run); });
     tell(terrain, land, rivers.channels);
     if (!land.shortened.empty()) {
         network::Shortened shortened = network::shorten(terrain.network.plan, rivers, land.shortened);

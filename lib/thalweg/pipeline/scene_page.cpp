@@ -57,6 +57,7 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
         terrain.findings = topology.findings;
     }
     terrain.laws = laws_of_terrain(terrain, &drainage, run);
+    terrain.relief = relief_of_dem(*scene.dem, run);
     double const relief = terrain.statistics->max.z - terrain.statistics->min.z;
     PageParams params;
     params.contour_interval_m = scene.contour_interval_m > 0.0 ? scene.contour_interval_m : round_interval(relief);

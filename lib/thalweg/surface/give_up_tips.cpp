@@ -88,6 +88,17 @@ void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
 
 } // namespace
 
+std::vector<std::int64_t> perched_cells(LandLevel const& level, float tangent) {
+    std::vector<std::int64_t> numbers;
+    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+        if (level.rivers.number[n] >= 0 && is_perched(level, level.rivers.cell[n], tangent)) {
+            numbers.push_back(level.rivers.number[n]);
+        }
+    }
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
 std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent) {
     RiverCells& rivers = level.rivers;
     std::vector<std::int32_t> const donors = donors_of(rivers);

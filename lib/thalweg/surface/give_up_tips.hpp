@@ -10,9 +10,12 @@
 /// Private to this room.
 namespace thalweg::surface {
 
-/// Shortens rivers whose first cells stand perched: above the lowest cell of their second ring by more than a tangent
-/// times a cell. What is given up becomes land, below no river that is left beside it. Gives: numbers in the caller's
-/// Channels.
+/// Numbers in the caller's Channels of river cells that stand perched: above the lowest cell of their second ring by
+/// more than a tangent times a cell. In order.
+std::vector<std::int64_t> perched_cells(LandLevel const& level, float tangent);
+
+/// Shortens rivers whose first cells stand perched. What is given up becomes land, below no river that is left beside
+/// it. Gives: numbers in the caller's Channels.
 std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent);
 
 } // namespace thalweg::surface
