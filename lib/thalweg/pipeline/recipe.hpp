@@ -142,7 +142,7 @@ struct EquilibriumRecipe {
     std::string uplift;                ///< raster on the grid; "" for none
     std::string erodibility;           ///< raster on the grid, or polygons with a field of that name; "" for none
     std::string lakes;                 ///< polygons; "" for none
-    double lake_share = 0.0;           ///< [0, 1] of the confluences, at which there is a lake by chance
+    double lake_share = 0.0;           ///< [0, 1] of the reaches with enough water, that run through a lake
 };
 
 struct SurfaceRecipe {

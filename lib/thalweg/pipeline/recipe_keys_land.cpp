@@ -96,7 +96,7 @@ void add_equilibrium_keys(std::vector<Key>& keys) {
     keys.push_back(text("surface.lakes", "file name", "equilibrium: polygons of lakes",
                         in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.equilibrium.lakes; })));
     keys.push_back(number("surface.lake_share", "", {0, 1},
-                          "equilibrium: share of the confluences at which a lake lies by chance",
+                          "equilibrium: share of the reaches with enough water that run through a lake",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.lake_share; })));
 }
 

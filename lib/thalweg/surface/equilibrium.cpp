@@ -37,8 +37,8 @@ namespace {
 
 constexpr int fine_rounds = 5;
 constexpr int coarse_rounds = 30;
-constexpr float perched_tangent = 0.6F; // twice that of most land: what will not come down by itself
-constexpr int floors_after = 2;         // rounds: areas are near enough by then
+constexpr float perched_tangent = 0.45F; // steeper than most land: what will not come down by itself
+constexpr int floors_after = 2;          // rounds: areas are near enough by then
 
 /// What lies in the frame of a level, before it is solved.
 struct Plan {
@@ -131,7 +131,7 @@ public:
             }
             order_cells(level);
             if (number == 0 && round == rounds - 2 && !given) {
-                shortened_ = give_up_tips(level, perched_tangent);
+                shortened_ = give_up_tips(level, perched_tangent, TipBanks::rise);
             }
             if (given) {
                 relax_given_rivers(level, law_, params_.heights);

@@ -14,8 +14,13 @@ namespace thalweg::surface {
 /// more than a tangent times a cell. In order.
 std::vector<std::int64_t> perched_cells(LandLevel const& level, float tangent);
 
-/// Shortens rivers whose first cells stand perched. What is given up becomes land, below no river that is left beside
-/// it. Gives: numbers in the caller's Channels.
-std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent);
+/// Lowers such cells as far as they stay a step above their receivers.
+void lower_perched(LandLevel& level, float tangent, float step);
+
+/// Shortens rivers by the cells that stand perched near their heads, and what lies upstream of these. What is given up
+/// becomes land; where banks stay, none that would lie below a river beside it. Gives: numbers in the caller's
+/// Channels.
+enum class TipBanks : std::uint8_t { stay, rise };
+std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent, TipBanks banks);
 
 } // namespace thalweg::surface

@@ -139,9 +139,11 @@ EquilibriumLand written_land(LandLevel level, Channels const& rivers, Window con
     EquilibriumLand out;
     out.rise = raise.metres / window.grid.cell_m;
     to_metres(level, raise);
+    // A little lower than what counts as perched, for what is settled afterwards.
+    lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
     settle_land(level, settled_step(raise), RiverHeights::graded);
     out.dem = cropped(level, window);
-    auto const perched = give_up_tips(level, perched_height(raise, window.grid));
+    auto const perched = give_up_tips(level, perched_height(raise, window.grid), TipBanks::stay);
     shortened.insert(shortened.end(), perched.begin(), perched.end());
     std::sort(shortened.begin(), shortened.end());
     out.shortened = std::move(shortened);
