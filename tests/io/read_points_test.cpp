@@ -160,6 +160,21 @@ TEST(ReadPoints, BadLayersNameTheFeature) {
     EXPECT_TRUE(says(refusal({layer(folder, {}, 0), "other"}), "no layer of points named 'other' (spots)"));
 }
 
+TEST(ReadPoints, InPlanTheyNeedNoHeights) {
+    ScratchFolder const folder;
+    thalweg::io::ReadPointsParams params;
+    params.heights = thalweg::io::PointHeights::passed_over;
+    params.path = text_file(folder, "a.csv", "y,x\n2,1\n5,4\n");
+    std::vector<Vec3> const wanted{{1, 2, 0}, {4, 5, 0}};
+    EXPECT_EQ(read_points(params).points, wanted);
+    params.path = text_file(folder, "a.xyz", "1 2 3\n4 5 high\n");
+    EXPECT_EQ(read_points(params).points, wanted);
+    params.path = layer(folder, {{"POINT (1 2)", ""}, {"POINT Z (4 5 6)", ""}}, 32631);
+    EXPECT_EQ(read_points(params).points, wanted);
+    params.path = text_file(folder, "b.csv", "1\n");
+    EXPECT_TRUE(says(refusal(params), "line 1: 1 of the columns, y is missing"));
+}
+
 TEST(ReadPoints, AFileWithoutCrsTakesTheOneAsked) {
     ScratchFolder const folder;
     auto const read = read_points({layer(folder, {{"POINT Z (1 2 3)", ""}}, 0), {}, "z", "EPSG:32632"});

@@ -101,6 +101,16 @@ TEST(ReadPolygons, BringsPartsIntoTheGridsCrs) {
     EXPECT_EQ(read.polygons[1].feature, 7);
 }
 
+TEST(ReadPolygons, TheCrsWhereNoneIsAskedIsMetric) {
+    ScratchFolder const folder;
+    write(folder, "metres.geojson", geojson(square));
+    EXPECT_EQ(io::crs_for_polygons(folder / "metres.geojson"), "EPSG:32631");
+    write(folder, "degrees.geojson",
+          geojson(R"({"type":"Polygon","coordinates":[[[8,-3],[10,-3],[10,-1],[8,-3]]]})", 4326));
+    EXPECT_EQ(io::crs_for_polygons(folder / "degrees.geojson"), "EPSG:32732");
+    EXPECT_THROW(io::crs_for_polygons(folder / "none.geojson"), BadInput);
+}
+
 TEST(ReadPolygons, ARasterHoldsNone) {
     ScratchFolder const folder;
     io::write_mask(Mask(Grid{3, 3, 1.0, 0.0, 0.0, ""}, 1), folder / "m.tif");

@@ -143,10 +143,11 @@ TEST(PlanForest, AnIslandIsDiffusedAndTriangulatedToo) {
 
 // A land in equilibrium: no river moves, every cell of the land drains.
 TEST(PlanForest, AnIslandComesIntoEquilibrium) {
-    Terrain const t =
-        made(small_grid + forest + "meander = 0\n[network.forest]\nshape = \"island\"\n[surface]\nedge = \"coast\"\n");
+    Terrain const t = made(small_grid + forest + "[network.forest]\nshape = \"island\"\n[surface]\nedge = \"coast\"\n");
     expect_lawful(t);
     EXPECT_EQ(t.pits, 0);
+    EXPECT_TRUE(has(fault_of(small_grid + forest + "meander = 1\n[network.forest]\nshape = \"island\"\n[surface]\n"),
+                    "network.meander: rivers that end on a coast"));
 }
 
 TEST(PlanForest, ARegionsPolygonsAreTheLandAndFrameTheGrid) {

@@ -9,7 +9,7 @@ namespace thalweg::network {
 
 RegionWalk::RegionWalk(Mask const& region) : room_(room_in(region)), middle_{region.width() / 2, region.height() / 2} {
     trees_.reach(static_cast<std::int32_t>(std::max(region.width(), region.height()) / 2 + 1));
-    law_.prepare(most_room);
+    law_.prepare(std::max<int>(std::ranges::max(room_.values()), 1));
 }
 
 bool RegionWalk::beside_a_tree(Cell c) const {

@@ -66,13 +66,20 @@ RaisedNetwork raise(Planned const& planned, Terrain& terrain, Run const& run) {
     return std::move(raised.network);
 }
 
-/// Bends rivers, where the recipe wants it, once it is said how much.
+/// Bends rivers, where the recipe wants it, once it is said how much. Those that end on a coast stay as they grew, in
+/// all directions alike: bent ones would leave the land.
 void let_wander(Planned& planned, Terrain& terrain, Diary& diary, Run const& run) {
     NetworkRecipe& rivers = *terrain.recipe.network;
-    bool const grown_for_land = rivers.source != Source::lines && in_equilibrium(terrain.recipe);
+    bool const has_coast = !terrain.land.values().empty();
+    bool const grown_for_land = rivers.source != Source::lines && in_equilibrium(terrain.recipe) && !has_coast;
     rivers.meander = rivers.meander.value_or(grown_for_land ? 1.0 : 0.0);
     if (*rivers.meander == 0.0 && !grown_for_land) {
         return;
+    }
+    if (has_coast) {
+        throw BadParameter(
+            "network.meander: rivers that end on a coast stay where they grew, bent ones would leave the "
+            "land; leave meander out");
     }
     if (planned.file_heights) {
         throw BadParameter("network.meander: rivers whose file gives their heights stay where they are; set "
