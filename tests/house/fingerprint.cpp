@@ -32,12 +32,15 @@
 #include <thalweg/network/lsystem.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/pick_branch.hpp>
+#include <thalweg/network/plant_forest.hpp>
 #include <thalweg/network/prune.hpp>
 #include <thalweg/network/rasterise.hpp>
 #include <thalweg/network/set_heights.hpp>
 #include <thalweg/network/set_heights_by_type.hpp>
 #include <thalweg/network/set_heights_graded.hpp>
+#include <thalweg/network/shape_island.hpp>
 #include <thalweg/network/split_confluences.hpp>
+#include <thalweg/network/spread_outlets.hpp>
 #include <thalweg/network/streams.hpp>
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
@@ -529,6 +532,22 @@ void print_trees(Run const& run) {
     print("grow_strokes", hash_of(network::grow_strokes(strokes, grid, {}, run).network));
 }
 
+void print_forest(Run const& run) {
+    Grid grid;
+    grid.width = 320;
+    grid.height = 240;
+    grid.cell_m = 30.0;
+    Mask const island = network::shape_island(grid, {0.8, 7}, run);
+    print("shape_island", hash_of(island));
+    std::vector<Cell> const outlets = network::spread_outlets(island, network::coast_cells(island), {}, run);
+    print("spread_outlets", hash_of(outlets));
+    network::ForestParams slow;
+    slow.sticking = 0.6;
+    slow.visits = 2;
+    print("plant_forest S=0.6 M=2", hash_of(network::plant_forest(island, outlets, slow, run).network));
+    print("plant_forest", hash_of(network::plant_forest(island, outlets, {}, run).network));
+}
+
 } // namespace
 
 int main(int count, char** words) {
@@ -541,6 +560,7 @@ int main(int count, char** words) {
     print("grow_dla S=0.3 M=1", hash_of(network::grow_dla(thick, run).cells));
     network::Cluster const cluster = network::grow_dla({.particles = 6000}, run);
     print("grow_dla S=0.85 M=3", hash_of(cluster.cells));
+    print_forest(run);
     network::Branch const branch = network::pick_branch(cluster);
     print("pick_branch", hash_of(branch.cells));
     pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});

@@ -24,8 +24,10 @@ inline bool are_neighbours(Cell a, Cell b) {
     return !(a == b) && std::abs(a.col - b.col) <= 1 && std::abs(a.row - b.row) <= 1;
 }
 
+enum class Diagonals { may_cross, do_not_cross };
+
 /// The law of core/channels.hpp, and that no two diagonal steps cross.
-inline void require_law(Channels const& rivers) {
+inline void require_law(Channels const& rivers, Diagonals diagonals = Diagonals::do_not_cross) {
     RC_ASSERT(rivers.receiver.size() == rivers.cell.size());
     std::set<std::int64_t> once;
     std::set<std::pair<std::int64_t, std::int64_t>> steps;
@@ -41,6 +43,9 @@ inline void require_law(Channels const& rivers) {
             RC_ASSERT(are_neighbours(here, there));
             steps.insert(std::minmax(rivers.grid.index(here), rivers.grid.index(there)));
         }
+    }
+    if (diagonals == Diagonals::may_cross) {
+        return;
     }
     for (auto const& [a, b] : steps) {
         Cell const p = rivers.grid.at(a);

@@ -9,6 +9,7 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
+#include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/geometry/meetings.hpp>
 #include <thalweg/network/order.hpp>
@@ -220,6 +221,43 @@ TEST(Meander, TheSameTreeOfRiversThatDoNotMeet) {
             }
         }
     }));
+}
+
+TEST(Meander, RiversStayOnLandAndEndWhereTheyEnded) {
+    ASSERT_TRUE(rc::check("with an outlet inside the grid, on a coast that runs along some rivers", [] {
+        Grid const grid = hundred_cells();
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        StreamNetwork net = lattice_rivers(seed, grid);
+        RC_PRE(boost::num_edges(net) > 0U);
+        // the last eight cells are sea, but for what the rivers run through
+        Mask land(grid, 1);
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            land[i] = grid.at(i).row < 92 ? 1 : 0;
+        }
+        for (auto [e, end] = boost::edges(net); e != end; ++e) {
+            for (Cell const c : cells_along(net[*e].line, grid)) {
+                land[c] = 1;
+            }
+        }
+        Meandered const out = meander(net, land, some_areas(net, grid), {.seed = seed});
+        RC_ASSERT(meetings_of(out.network).empty());
+        for (NodeId const n : NetworkIndex(net).outlets) {
+            RC_ASSERT(out.network[n].at == net[n].at);
+        }
+        for (auto [e, end] = boost::edges(out.network); e != end; ++e) {
+            for (Vec2 const p : out.network[*e].line) {
+                Cell const c = grid.cell_of(p);
+                RC_ASSERT((!grid.contains(c) || land[c] == 1));
+            }
+        }
+    }));
+}
+
+TEST(Meander, AnOutletInsideTheGridStays) {
+    Grid const grid = hundred_cells();
+    Vec2 const sink{grid.west + 1511.0, grid.south() + 1503.0};
+    StreamNetwork const net = test::network_of({sink, {grid.west + 1500.0, grid.north - 300.0}}, {{1, 0}});
+    EXPECT_EQ(meander(net, grid, {9e6}).network[0].at, sink);
 }
 
 TEST(Meander, ChanceIsTheSeeds) {

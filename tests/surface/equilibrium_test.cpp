@@ -27,6 +27,7 @@ using surface::equilibrium;
 using surface::EquilibriumFields;
 using surface::EquilibriumLand;
 using surface::EquilibriumParams;
+using surface::RiverHeights;
 
 namespace {
 
@@ -83,6 +84,21 @@ void add_lakes(Channels& rivers, std::uint64_t seed) {
     }
 }
 
+/// Heights that rise upstream from 100 m by chance, or not at all; some cells have none.
+void add_heights(Channels& rivers, std::uint64_t seed) {
+    std::vector<float> z(rivers.cell.size(), 100.0F);
+    for (std::size_t n = 0; n < z.size(); ++n) {
+        if (rivers.receiver[n] >= 0) {
+            double const rise = static_cast<double>(chance(seed, 51, n) % 4) * 0.7;
+            z[n] = z[static_cast<std::size_t>(rivers.receiver[n])] + static_cast<float>(rise);
+        }
+    }
+    rivers.z = z;
+    for (std::size_t n = 1; n < z.size(); ++n) {
+        rivers.z[n] = chance(seed, 52, n) % 3 == 0 ? rivers.z[n] : std::numeric_limits<float>::quiet_NaN();
+    }
+}
+
 Scene any_scene() {
     auto const width = *rc::gen::inRange<std::int64_t>(1, 41).as("width");
     auto const height = *rc::gen::inRange<std::int64_t>(1, 41).as("height");
@@ -119,6 +135,12 @@ Scene any_scene() {
     // A lake's water cannot be told from a river's that lies beside it.
     if (scene.room == Room::apart && *rc::gen::arbitrary<bool>().as("lakes")) {
         add_lakes(scene.rivers, seed);
+    }
+    scene.params.heights =
+        *rc::gen::element(RiverHeights::graded, RiverHeights::graded, RiverHeights::soft, RiverHeights::fixed)
+             .as("heights");
+    if (scene.params.heights != RiverHeights::graded) {
+        add_heights(scene.rivers, seed);
     }
     return scene;
 }
@@ -305,12 +327,59 @@ TEST(Equilibrium, RiversKeepTheirWater) {
                 continue;
             }
             RC_ASSERT(land.dem[i] > land.dem[below]);
-            if (scene.room == Room::apart) {
+            if (scene.room == Room::apart && scene.params.heights == RiverHeights::graded) {
                 RC_ASSERT(plain_d8(land.dem, i) == land.direction[i]);
             }
         }
-        RC_ASSERT(lowest == 0.0F);
+        RC_ASSERT((scene.params.heights != RiverHeights::graded || lowest == 0.0F));
     }));
+}
+
+// Fixed: given heights are kept, but for the least rise that water needs. Soft: they are upper bounds, and what lies
+// below them is told.
+TEST(Equilibrium, GivenHeightsHold) {
+    EXPECT_TRUE(rc::check("given heights hold", [] {
+        Scene scene = any_scene();
+        scene.params.heights = *rc::gen::element(RiverHeights::soft, RiverHeights::fixed).as("which");
+        scene.rivers.level.clear();
+        add_heights(scene.rivers, scene.params.seed);
+        EquilibriumLand const land = equilibrium(scene.rivers, scene.fields, scene.params);
+        float const ulps = 100.0F * static_cast<float>(scene.rivers.cell.size()) * 0x1p-22F;
+        double deepest = 0.0;
+        for (std::size_t n = 0; n < scene.rivers.cell.size(); ++n) {
+            float const asked = scene.rivers.z[n];
+            if (std::isnan(asked)) {
+                continue;
+            }
+            float const z = land.dem[scene.rivers.cell[n]];
+            RC_ASSERT(z <= asked + ulps);
+            if (scene.params.heights == RiverHeights::fixed) {
+                RC_ASSERT(z >= asked);
+            }
+            deepest = std::max(deepest, static_cast<double>(asked) - static_cast<double>(z));
+        }
+        RC_ASSERT(land.max_lowered_m == deepest);
+        RC_ASSERT((land.p95_lowered_m >= 0.0 && land.p95_lowered_m <= deepest));
+        RC_ASSERT(land.shortened.empty());
+    }));
+}
+
+// Only an outlet and a source are given: the river between them falls all the way, more steeply where it drains less.
+TEST(Equilibrium, RiversAreGradedBetweenGivenHeights) {
+    Scene scene = square(80);
+    scene.rivers.z.assign(scene.rivers.cell.size(), std::numeric_limits<float>::quiet_NaN());
+    scene.rivers.z.front() = 20.0F;
+    scene.rivers.z.back() = 50.0F;
+    scene.params.heights = RiverHeights::fixed;
+    EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
+    auto const z = [&](std::size_t n) { return land.dem[scene.rivers.cell[n]]; };
+    std::size_t const last = scene.rivers.cell.size() - 1;
+    EXPECT_EQ(z(0), 20.0F);
+    EXPECT_EQ(z(last), 50.0F);
+    for (std::size_t n = 1; n <= last; ++n) {
+        EXPECT_GT(z(n), z(n - 1));
+    }
+    EXPECT_LT(z(last / 2) - z(0), z(last) - z(last / 2));
 }
 
 // The same bytes for any number of threads, and others for another seed.

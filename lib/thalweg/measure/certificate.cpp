@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::int32_t no_reach = -1;
 constexpr std::int64_t listed = 1000; ///< findings of a kind
+constexpr std::size_t least_lake = 4; ///< [cells]
 
 class Certifier {
 public:
@@ -50,6 +51,7 @@ public:
 
     Certificate certify(std::vector<double> const& ds_area_m2) {
         tell_depressions();
+        find_lakes();
         follow_rivers();
         trace_sources();
         auto const [cells, agreement] = best_threshold(drainage_.area_cells, with_data(), run_);
@@ -97,6 +99,40 @@ private:
         return cells;
     }
 
+    /// Marks the level cells around river cells, where there are enough of them.
+    void find_lakes() {
+        lake_ = Mask(grid_);
+        Mask seen(grid_);
+        for (RiverCell const& c : rivers_) {
+            if (seen[c.cell] != 0 || std::isnan(dem_[c.cell])) {
+                continue;
+            }
+            std::vector<std::int64_t> level{c.cell};
+            seen[c.cell] = 1;
+            for (std::size_t n = 0; n < level.size(); ++n) {
+                Cell const at = grid_.at(level[n]);
+                for (Cell const step : d8_steps) {
+                    Cell const to{at.col + step.col, at.row + step.row};
+                    if (grid_.contains(to) && seen[to] == 0 && dem_[to] == dem_[at]) {
+                        seen[to] = 1;
+                        level.push_back(grid_.index(to));
+                    }
+                }
+            }
+            for (std::int64_t const cell : level.size() >= least_lake ? level : std::vector<std::int64_t>{}) {
+                lake_[cell] = 1;
+            }
+        }
+        for (RiverCell const& c : rivers_) {
+            out_.lake_cells += lake_[c.cell];
+        }
+    }
+
+    std::vector<std::int64_t> out_of_lakes(std::vector<std::int64_t> cells) const {
+        std::erase_if(cells, [this](std::int64_t cell) { return lake_[cell] != 0; });
+        return cells;
+    }
+
     void tell_depressions() {
         out_.depressions = static_cast<std::int64_t>(drainage_.depressions.size());
         out_.pit_cells = drainage_.pits;
@@ -140,8 +176,9 @@ private:
                      fmt::format("arc {} runs along the border of the DEM at {}", reaches_[c.reach].id, place(at)));
             }
             std::int64_t const next = next_of(c.cell);
-            bool const on = ends_river(c) || (next >= 0 && owner_[next] != no_reach &&
-                                              leads_to(c.reach, static_cast<std::size_t>(owner_[next])));
+            bool const on =
+                ends_river(c) || lake_[c.cell] != 0 ||
+                (next >= 0 && owner_[next] != no_reach && leads_to(c.reach, static_cast<std::size_t>(owner_[next])));
             out_.following_cells += on ? 1 : 0;
             if (!on) {
                 double const drop =
@@ -206,7 +243,7 @@ private:
                                  reaches_[r].id, place(grid_.at(source)), place(goal)));
             }
         }
-        out_.traced = agreement(traced, with_data(), grid_);
+        out_.traced = agreement(out_of_lakes(traced), out_of_lakes(with_data()), grid_);
     }
 
     void compare_areas(std::vector<double> const& ds_area_m2) {
@@ -235,6 +272,7 @@ private:
     Run const& run_;
     Grid const& grid_;
     Raster<std::int32_t> owner_;
+    Mask lake_;
     std::vector<RiverCell> rivers_;
     std::vector<Ends> ends_;
     std::vector<std::uint8_t> fed_; ///< by reach: another runs into it

@@ -34,6 +34,8 @@ struct Certificate {
     std::int64_t river_cells = 0;     ///< cells under the network, where the DEM has heights
     std::int64_t following_cells = 0; ///< of these, whose water goes on in the network, downstream, or leaves with it
     std::int64_t border_cells = 0;    ///< of these, on the DEM's border though no river ends or begins there
+    std::int64_t lake_cells = 0; ///< of these, in lakes: four level cells or more, side by side or by their corners;
+                                 ///< what water does there is not traced
     std::int64_t sources = 0;
     std::int64_t arriving_sources = 0; ///< whose water comes within a cell of where the network lets it out
     Agreements traced;                 ///< the ways of the sources' water, each to its outlet

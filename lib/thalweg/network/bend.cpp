@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include <thalweg/core/chance.hpp>
+#include <thalweg/core/d8.hpp>
 #include <thalweg/core/elementary.hpp>
 
 namespace thalweg::network {
@@ -57,6 +58,23 @@ std::vector<Wave> waves_of(Grid const& grid, double gain, std::uint64_t seed) {
         }
     }
     return out;
+}
+
+/// A raster's value at a place, linear between the middles of cells.
+double between_cells(Raster<std::uint8_t> const& raster, Vec2 p) {
+    Grid const& grid = raster.grid();
+    double const x = (p.x - grid.west) / grid.cell_m - 0.5;
+    double const y = (grid.north - p.y) / grid.cell_m - 0.5;
+    double const col = std::floor(x);
+    double const row = std::floor(y);
+    auto const corner = [&](double dx, double dy) {
+        Cell const c{std::clamp<std::int64_t>(static_cast<std::int64_t>(col + dx), 0, grid.width - 1),
+                     std::clamp<std::int64_t>(static_cast<std::int64_t>(row + dy), 0, grid.height - 1)};
+        return static_cast<double>(raster[c]);
+    };
+    double const north = corner(0.0, 0.0) * (1.0 - (x - col)) + corner(1.0, 0.0) * (x - col);
+    double const south = corner(0.0, 1.0) * (1.0 - (x - col)) + corner(1.0, 1.0) * (x - col);
+    return north * (1.0 - (y - row)) + south * (y - row);
 }
 
 /// A river's points, and what is made of them.
@@ -158,14 +176,54 @@ Vec2 across(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2
 
 } // namespace
 
-std::vector<Vec2> bend_plain(std::vector<Vec2> at, Grid const& grid, double gain, std::uint64_t seed) {
+Raster<std::uint8_t> distance_to_fixed(StreamNetwork const& network, NetworkIndex const& index, Grid const& grid,
+                                       Mask const& land) {
+    auto const far = static_cast<std::uint8_t>(margin);
+    Raster<std::uint8_t> out(grid, far);
+    std::vector<std::int64_t> front;
+    auto const fix = [&](Cell c) {
+        if (grid.contains(c) && out[c] != 0) {
+            out[c] = 0;
+            front.push_back(grid.index(c));
+        }
+    };
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        if (land[i] == 0) {
+            fix(grid.at(i));
+        }
+    }
+    for (NodeId const outlet : index.outlets) {
+        Cell const at = grid.cell_of(network[outlet].at);
+        fix(at);
+        for (Cell const step : d8_steps) {
+            fix({at.col + step.col, at.row + step.row});
+        }
+    }
+    for (std::size_t k = 0; k < front.size(); ++k) { // breadth first
+        Cell const c = grid.at(front[k]);
+        auto const next = static_cast<std::uint8_t>(out[c] + 1);
+        for (Cell const step : d8_steps) {
+            Cell const n{c.col + step.col, c.row + step.row};
+            if (grid.contains(n) && next < out[n]) {
+                out[n] = next;
+                front.push_back(grid.index(n));
+            }
+        }
+    }
+    return out;
+}
+
+std::vector<Vec2> bend_plain(std::vector<Vec2> at, Raster<std::uint8_t> const& to_fixed, double gain,
+                             std::uint64_t seed) {
     if (!(gain > 0.0)) {
         return at;
     }
+    Grid const& grid = to_fixed.grid();
     std::vector<Wave> const waves = waves_of(grid, gain, seed);
     for (Vec2& p : at) {
         double const inside = std::min({p.x - grid.west, grid.east() - p.x, grid.north - p.y, p.y - grid.south()});
-        double const fades = smooth_step(inside / (margin * grid.cell_m));
+        double const fades =
+            smooth_step(inside / (margin * grid.cell_m)) * smooth_step(between_cells(to_fixed, p) / margin);
         Vec2 shift;
         for (Wave const& wave : waves) {
             double const along = (p.x - grid.west) * wave.across.x + (grid.north - p.y) * wave.across.y;

@@ -33,10 +33,15 @@ Vec2 highest(std::vector<Vec2> const& at) {
     return high;
 }
 
+bool is_sea(Vec2 p, Mask const& land) {
+    Cell const c = land.grid().cell_of(p);
+    return land.grid().contains(c) && land[c] == 0;
+}
+
 } // namespace
 
 std::vector<std::size_t> too_near(Stems const& stems, std::vector<Vec2> const& was, std::vector<Vec2> const& is,
-                                  Grid const& grid, Gap const& gap) {
+                                  Grid const& grid, Mask const& land, Gap const& gap) {
     double const gap_m = gap.gap_m;
     std::vector<std::size_t> found;
     SegmentGrid segments(lowest(is), highest(is), 2.0 * gap_m, is.size());
@@ -46,7 +51,8 @@ std::vector<std::size_t> too_near(Stems const& stems, std::vector<Vec2> const& w
         }
     }
     for (std::size_t i = 0; i < is.size(); ++i) {
-        if (inside(is[i], grid) < std::min(grid.cell_m, inside(was[i], grid))) {
+        if (inside(is[i], grid) < std::min(grid.cell_m, inside(was[i], grid)) ||
+            (is_sea(is[i], land) && !is_sea(was[i], land))) {
             found.push_back(i);
         }
         segments.near({is[i], is[i]}, gap_m, [&](std::size_t j) {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/network/stems.hpp>
 
 /// A step of meander. Private to this room.
@@ -18,11 +18,11 @@ struct Gap {
 };
 
 /// Points that came too near to a river's segment, and the upper points of these segments: both ascending.
-/// Takes: points as they were and as they are; a point is too near to a segment of any river, its own included, when
-/// their distance is less than the gap and less than 0.6 of what it was; or when it has left the grid, or come nearer
-/// than a cell to its edge.
+/// Takes: land (1; sea 0), without cells where all is land; points as they were and as they are; a point is too near to
+/// a segment of any river, its own included, when their distance is less than the gap and less than 0.6 of what it was;
+/// or when it has left the grid, or come nearer than a cell to its edge.
 std::vector<std::size_t> too_near(Stems const& stems, std::vector<Vec2> const& was, std::vector<Vec2> const& is,
-                                  Grid const& grid, Gap const& gap);
+                                  Grid const& grid, Mask const& land, Gap const& gap);
 
 /// Where points go: by their share [0,1] of a shift; rivers that join others follow the place they end in.
 std::vector<Vec2> shifted(Stems const& stems, std::vector<Vec2> const& at, std::vector<Vec2> const& shift,

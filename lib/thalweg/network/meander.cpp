@@ -114,9 +114,10 @@ std::vector<std::size_t> with_mouths(Stems const& stems, std::vector<std::size_t
 
 class Meandering {
 public:
-    Meandering(StreamNetwork const& network, NetworkIndex const& index, Grid const& grid,
+    Meandering(StreamNetwork const& network, NetworkIndex const& index, Grid const& grid, Mask const& land,
                std::vector<double> const& area_m2, MeanderParams const& params, Run const& run)
-        : network_(network), index_(index), grid_(grid), params_(params), run_(run),
+        : network_(network), index_(index), grid_(grid), land_(land), params_(params), run_(run),
+          to_fixed_(distance_to_fixed(network, index, grid, land)),
           stems_(stems_of(network, index, area_m2, grid.cell_m)) {}
 
     Meandered made() {
@@ -133,8 +134,8 @@ public:
 
 private:
     bool try_with(double bend) {
-        base_ = settled(bend_plain(stems_.at, grid_, bend, params_.seed));
-        if (!is_proven(base_)) {
+        base_ = settled(bend_plain(stems_.at, to_fixed_, bend, params_.seed));
+        if (!is_proven(base_) || went_to_sea()) {
             return false;
         }
         bool const wanders = params_.gain > 0.0;
@@ -154,7 +155,7 @@ private:
             run_.check();
             std::vector<Vec2> at = settled(shifted(stems_, base_, shift, share, grid_.cell_m));
             std::vector<std::size_t> bad =
-                too_near(stems_, base_, at, grid_, {params_.gap_cells * grid_.cell_m, near_m});
+                too_near(stems_, base_, at, grid_, land_, {params_.gap_cells * grid_.cell_m, near_m});
             if (bad.empty()) {
                 bad = meeting_points(lines_through(stems_, index_, at), index_, run_);
             }
@@ -183,6 +184,20 @@ private:
         return meeting_points(lines_through(stems_, index_, at), index_, run_).empty();
     }
 
+    /// Whether some point on land came to lie in the sea.
+    bool went_to_sea() const {
+        auto const is_sea = [&](Vec2 p) {
+            Cell const c = grid_.cell_of(p);
+            return grid_.contains(c) && land_[c] == 0;
+        };
+        for (std::size_t i = 0; land_.cells() > 0 && i < base_.size(); ++i) {
+            if (is_sea(base_[i]) && !is_sea(stems_.at[i])) {
+                return true;
+            }
+        }
+        return false;
+    }
+
     void finish(std::vector<Vec2> const& at) {
         Lines lines = lines_through(stems_, index_, at);
         for (NodeId n = 0; n < index_.out.size(); ++n) {
@@ -202,8 +217,10 @@ private:
     StreamNetwork const& network_;
     NetworkIndex const& index_;
     Grid const& grid_;
+    Mask const& land_;
     MeanderParams const& params_;
     Run const& run_;
+    Raster<std::uint8_t> to_fixed_;
     Stems stems_;
     std::vector<Vec2> base_; ///< by point: as far as it is proven
     Meandered out_;
@@ -226,17 +243,27 @@ void require_apart(StreamNetwork const& network, NetworkIndex const& index, Run 
     }
 }
 
-} // namespace
-
-Meandered meander(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
-                  MeanderParams const& params, Run const& run) {
+Meandered wandering(StreamNetwork const& network, Grid const& grid, Mask const& land,
+                    std::vector<double> const& area_m2, MeanderParams const& params, Run const& run) {
     NetworkIndex const index(network);
     check(network, index, grid, area_m2, params);
     if (index.arcs.empty()) {
         return {network, 0, 0, 0, 0.0};
     }
     require_apart(network, index, run);
-    return Meandering(network, index, grid, area_m2, params, run).made();
+    return Meandering(network, index, grid, land, area_m2, params, run).made();
+}
+
+} // namespace
+
+Meandered meander(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
+                  MeanderParams const& params, Run const& run) {
+    return wandering(network, grid, {}, area_m2, params, run);
+}
+
+Meandered meander(StreamNetwork const& network, Mask const& land, std::vector<double> const& area_m2,
+                  MeanderParams const& params, Run const& run) {
+    return wandering(network, land.grid(), land, area_m2, params, run);
 }
 
 } // namespace thalweg::network

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
@@ -37,6 +37,11 @@ struct Meandered {
 /// BadInput for areas of other arcs, a vertex outside the grid, arcs that meet elsewhere, or a network that is no
 /// forest; Cancelled. Source: wavelengths of 10 to 14 widths, Leopold and Wolman 1960.
 Meandered meander(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
+                  MeanderParams const& params = {}, Run const& run = {});
+
+/// The same where there is sea (0): what is on land (1) stays there, and moves the less the nearer the sea is.
+/// Takes: a mask on the network's grid.
+Meandered meander(StreamNetwork const& network, Mask const& land, std::vector<double> const& area_m2,
                   MeanderParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

@@ -139,8 +139,11 @@ Channels left_of(Channels const& channels, Flags const& is_gone, std::vector<std
 class Tips {
 public:
     Tips(StreamNetwork const& network, ChannelsOfArcs const& drawn, Flags const& is_gone)
-        : network_(network), index_(network_), drawn_(drawn), is_gone_(is_gone), goes_(drawn.channels.grid, 0),
-          stays_(drawn.channels.grid, 0), has_water_(index_.arcs.size(), 0), kept(index_.arcs.size(), 1) {}
+        : kept(boost::num_edges(network), 1), network_(network), index_(network_), drawn_(drawn), is_gone_(is_gone),
+          goes_(drawn.channels.grid, 0), stays_(drawn.channels.grid, 0), has_water_(index_.arcs.size(), 0) {}
+
+    Flags kept; ///< by arc
+    std::vector<Finding> notes;
 
     /// Sources first: an arc without water above loses the cells at its beginning that are gone.
     void take_off() {
@@ -224,10 +227,6 @@ private:
     Mask goes_;
     Mask stays_;
     Flags has_water_; ///< by arc, where sources first have come to it
-
-public:
-    Flags kept; ///< by arc
-    std::vector<Finding> notes;
 };
 
 } // namespace

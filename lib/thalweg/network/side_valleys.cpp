@@ -144,7 +144,7 @@ public:
         for (std::int64_t const i : cells) {
             std::int64_t const next = below(i);
             bool const stays = next >= 0 && kind_[next] != nothing;
-            kind_[i] = next < 0                                                                    ? outlet
+            kind_[i] = next < 0 || grid_.on_border(grid_.at(i))                                    ? outlet
                        : stays && !lines.come_near({centre(i), centre(next)}, 0.5 * on_line_cells) ? valley
                                                                                                    : last;
             cut_ += kind_[i] == last && river[next] == 0 ? 1 : 0;

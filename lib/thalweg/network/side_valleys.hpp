@@ -34,9 +34,9 @@ struct SideValleys {
 /// Gives: given arcs first, cut where valleys join them, their vertices kept bit for bit; then the grown ones
 /// (Arc::given is false), from cell centre to cell centre along the steepest descent through every cell outside the
 /// channels with the support, to the nearest point of a given line beside the channel its water enters, or to the
-/// border. Heights are those of the cells, not below what lies downstream. No two arcs meet but in nodes.
-/// Throws: BadParameter when the support is below 1; BadInput for rasters on another grid; Cancelled.
-/// Source: O'Callaghan and Mark 1984.
+/// first cell of the border. Heights are those of the cells, not below what lies downstream. No two arcs meet but in
+/// nodes. Throws: BadParameter when the support is below 1; BadInput for rasters on another grid; Cancelled. Source:
+/// O'Callaghan and Mark 1984.
 SideValleys side_valleys(RaisedNetwork const& given, Channels const& channels, LandWater const& water,
                          SideValleysParams const& params = {}, Run const& run = {});
 

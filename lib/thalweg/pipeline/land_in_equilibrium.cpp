@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/land_in_equilibrium.hpp>
 
+#include <thalweg/blend/mask_polygons.hpp>
+#include <thalweg/io/read_polygons.hpp>
 #include <thalweg/network/channel_heights.hpp>
 #include <thalweg/network/channels.hpp>
+#include <thalweg/network/choose_lakes.hpp>
+#include <thalweg/network/flood_lakes.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/prune.hpp>
 #include <thalweg/network/raise_from_land.hpp>
@@ -30,8 +34,13 @@ surface::RiverHeights use_of(Heights heights) {
                                       : surface::RiverHeights::fixed;
 }
 
-surface::EquilibriumParams params_of(Recipe const& recipe) {
-    EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
+bool has_sea(Mask const& land) {
+    return std::any_of(land.values().begin(), land.values().end(), [](std::uint8_t is_land) { return is_land == 0; });
+}
+
+surface::EquilibriumParams params_of(Recipe& recipe, Mask const& land) {
+    EquilibriumRecipe& wanted = recipe.surface->equilibrium;
+    wanted.edge = wanted.edge.value_or(has_sea(land) ? surface::Edge::coast : surface::Edge::open);
     double const relief_m = recipe.surface->dilate.relief_m;
     surface::EquilibriumParams params;
     params.theta = recipe.network->concavity;
@@ -41,7 +50,7 @@ surface::EquilibriumParams params_of(Recipe const& recipe) {
         wanted.hillslope_m > 0.0 ? wanted.hillslope_m / recipe.grid.cell_m : params.hillslope_cells;
     params.floor_width = wanted.floor_width;
     params.roughness = wanted.roughness;
-    params.edge = wanted.edge;
+    params.edge = *wanted.edge;
     params.heights = use_of(recipe.network->heights);
     params.seed = recipe.seed;
     return params;
@@ -92,6 +101,30 @@ surface::EquilibriumFields fields_of(Terrain const& terrain, Channels const& cha
     return fields;
 }
 
+/// By cell the number of its lake, 0 for none; without cells where no lakes are asked for.
+Raster<std::int32_t> lakes_of(Terrain const& terrain, network::ChannelsOfArcs const& rivers, Run const& run) {
+    EquilibriumRecipe const& wanted = terrain.recipe.surface->equilibrium;
+    if (wanted.lake_share > 0.0) {
+        measure::ContributingAreas const areas = measure::areas_nearest(terrain.network.plan, terrain.grid, run);
+        return network::choose_lakes(rivers, areas.ds_area_m2,
+                                     {.share = wanted.lake_share, .seed = terrain.recipe.seed}, run);
+    }
+    if (wanted.lakes.empty()) {
+        return {};
+    }
+    Polygons const polygons = io::read_polygons(file_in(terrain.recipe, wanted.lakes), terrain.grid.crs, run);
+    Raster<std::int32_t> labels(terrain.grid);
+    std::int32_t label = 0;
+    for (Polygon const& polygon : polygons.polygons) {
+        ++label;
+        Mask const inside = blend::mask_polygons({{polygon}, polygons.crs, polygons.name}, terrain.grid);
+        for (std::int64_t i = 0; i < labels.cells(); ++i) {
+            labels[i] = inside[i] != 0 ? label : labels[i];
+        }
+    }
+    return labels;
+}
+
 void tell(Terrain& terrain, surface::EquilibriumLand const& land, Channels const& channels) {
     EquilibriumStory& story = terrain.equilibrium.emplace();
     story.channel_cells = static_cast<std::int64_t>(channels.cell.size());
@@ -104,6 +137,18 @@ void tell(Terrain& terrain, surface::EquilibriumLand const& land, Channels const
 
 void take_notes(Terrain& terrain, std::vector<Finding> const& notes) {
     terrain.story.repairs.insert(terrain.story.repairs.end(), notes.begin(), notes.end());
+}
+
+/// Lays the lakes that are asked for into the channels.
+void flood(Terrain& terrain, network::ChannelsOfArcs& rivers, Run const& run) {
+    Raster<std::int32_t> const labels = lakes_of(terrain, rivers, run);
+    if (labels.cells() == 0) {
+        return;
+    }
+    network::Flooded flooded = network::flood_lakes(rivers, labels, run);
+    take_notes(terrain, flooded.notes);
+    terrain.lakes = static_cast<std::int64_t>(flooded.lakes.size());
+    rivers = std::move(flooded.drawn);
 }
 
 Valley valley_of(Channels const& channels, Raster<float> const& dem) {
@@ -121,17 +166,18 @@ bool in_equilibrium(Recipe const& recipe) {
 }
 
 void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run) {
-    Recipe const& recipe = terrain.recipe;
+    Recipe& recipe = terrain.recipe;
     network::ChannelsOfArcs rivers =
         diary.stage("channels", [&] { return network::channels(terrain.network.plan, terrain.grid, {}, run); });
     take_notes(terrain, rivers.notes);
     if (recipe.network->heights != Heights::graded) {
         rivers.channels.z = asked_heights(terrain.network, rivers.channels, recipe.network->heights);
     }
+    flood(terrain, rivers, run);
     surface::EquilibriumFields const fields = fields_of(terrain, rivers.channels, run);
     run.at(0.0, fmt::format("fill {} cells", terrain.grid.cells()).c_str());
-    surface::EquilibriumLand land =
-        diary.stage("fill", [&] { return surface::equilibrium(rivers.channels, fields, params_of(recipe), run); });
+    surface::EquilibriumLand land = diary.stage(
+        "fill", [&] { return surface::equilibrium(rivers.channels, fields, params_of(recipe, fields.land), run); });
     tell(terrain, land, rivers.channels);
     if (!land.shortened.empty()) {
         network::Shortened shortened = network::shorten(terrain.network.plan, rivers, land.shortened);

@@ -93,7 +93,7 @@ std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, std::vector<
             return {}; // no land: that is told where the forest is planted
         }
         double const moved = distance(at, grid.centre(*nearest));
-        if (!(grid.cell_of(at) == *nearest)) {
+        if (moved > grid.cell_m) {
             notes.push_back({"moved_outlet", 0, grid.centre(*nearest), moved,
                              fmt::format("the outlet at ({:.1f}, {:.1f}) lies off the coast and was moved {:.0f} m to "
                                          "cell ({}, {})",

@@ -7,6 +7,7 @@
 #include <thalweg/io/read_rivers.hpp>
 #include <thalweg/network/clip_lines.hpp>
 #include <thalweg/network/keep_heights.hpp>
+#include <thalweg/network/rotate.hpp>
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
 #include <thalweg/pipeline/frame.hpp>
@@ -18,6 +19,17 @@
 #include <utility>
 
 namespace thalweg::pipeline {
+
+namespace {
+
+/// A frame for what will be turned before it is put into the grid that is asked for.
+GridRecipe loosely_framed(GridRecipe frame) {
+    frame.width = 0;
+    frame.height = 0;
+    return frame;
+}
+
+} // namespace
 
 Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     NetworkRecipe& wanted = *recipe.network;
@@ -34,17 +46,27 @@ Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run)
     terrain.story.particles = static_cast<std::int64_t>(cluster.cells.size());
     terrain.story.walkers = cluster.walkers;
 
-    network::BranchParams branch_params{wanted.branch, 0, 0};
+    wanted.rotate_deg = wanted.rotate_deg.value_or(in_equilibrium(recipe) ? network::turn_by_chance(recipe.seed) : 0.0);
+    double const turn_deg = *wanted.rotate_deg;
+    network::BranchParams branch_params{wanted.branch, 0, 0, turn_deg};
     if (recipe.grid.width > 0) {
         branch_params.max_width = room_for_network(recipe.grid.width);
         branch_params.max_height = room_for_network(recipe.grid.height);
     }
     network::Branch const branch = network::pick_branch(cluster, branch_params);
     terrain.story.cut = branch.cut;
-    FramedBranch const framed = frame_branch(branch, recipe.grid);
+    FramedBranch const framed = frame_branch(branch, turn_deg == 0.0 ? recipe.grid : loosely_framed(recipe.grid));
     Mask const skeleton = diary.stage("thin", [&] { return network::thin(framed.mask, run); });
     StreamNetwork plan = diary.stage("trace", [&] { return network::trace(skeleton, {framed.mouth}, run); });
-    return {std::move(plan), framed.mask.grid(), {}};
+    if (turn_deg == 0.0) {
+        return {std::move(plan), framed.mask.grid(), {}};
+    }
+    Grid frame = framed.mask.grid();
+    frame.width = recipe.grid.width;
+    frame.height = recipe.grid.height;
+    network::Rotated turned = network::rotate(plan, frame, {turn_deg});
+    check_memory(turned.grid.width, turned.grid.height);
+    return {std::move(turned.network), turned.grid, {}};
 }
 
 Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {

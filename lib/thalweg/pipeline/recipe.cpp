@@ -393,8 +393,8 @@ void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
     if (!n.tokunaga.strokes.empty() && !n.tokunaga.region.empty()) {
         faults.emplace_back("network.tokunaga.strokes and region do not go together: strokes fill the grid");
     }
-    if (n.source == Source::lines && n.rotate_deg.value_or(0.0) != 0.0) {
-        faults.emplace_back("network.rotate turns grown rivers: those of a file lie where they lie");
+    if ((n.source == Source::lines || n.source == Source::tokunaga) && n.rotate_deg.value_or(0.0) != 0.0) {
+        faults.emplace_back("network.rotate turns a cluster: it needs source = \"dla\"");
     }
     if (n.source != Source::lines && n.heights == Heights::file) {
         faults.emplace_back("network.heights = \"file\" needs source = \"lines\"");

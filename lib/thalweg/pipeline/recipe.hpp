@@ -138,11 +138,11 @@ struct EquilibriumRecipe {
     double hillslope_m = 0.0;             ///< [m] 0: 1.3 cells
     double floor_width = 0.04;            ///< as surface::EquilibriumParams
     double roughness = 0.4;
-    surface::Edge edge = surface::Edge::open;
-    std::string uplift;      ///< raster on the grid; "" for none
-    std::string erodibility; ///< raster on the grid, or polygons with a field of that name; "" for none
-    std::string lakes;       ///< polygons; "" for none
-    double lake_share = 0.0; ///< [0, 1] of the confluences, at which there is a lake by chance
+    std::optional<surface::Edge> edge; ///< none: coast where there is sea, else open
+    std::string uplift;                ///< raster on the grid; "" for none
+    std::string erodibility;           ///< raster on the grid, or polygons with a field of that name; "" for none
+    std::string lakes;                 ///< polygons; "" for none
+    double lake_share = 0.0;           ///< [0, 1] of the reaches with enough water, that run through a lake
 };
 
 struct SurfaceRecipe {

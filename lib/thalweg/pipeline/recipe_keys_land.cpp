@@ -66,6 +66,7 @@ void add_diffusion_keys(std::vector<Key>& keys) {
 
 void add_equilibrium_keys(std::vector<Key>& keys) {
     using surface::Edge;
+    using MaybeEdge = std::optional<Edge>;
     keys.push_back(maybe("surface.mean_slope", "degrees", {0, 60, true},
                          "equilibrium: mean slope of the land; left out, and no relief given: 25",
                          in_surface<std::optional<double>>(
@@ -79,10 +80,12 @@ void add_equilibrium_keys(std::vector<Key>& keys) {
     keys.push_back(number("surface.roughness", "", {0, 1},
                           "equilibrium: how much the rock varies: standard deviation of the logarithm of erodibility",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.roughness; })));
-    keys.push_back(
-        choice<Edge>("surface.edge", {{"open", Edge::open}, {"closed", Edge::closed}, {"coast", Edge::coast}},
-                     "equilibrium: beyond the grid the land goes on, or all water goes to the rivers, or there is sea",
-                     in_surface<Edge>([](SurfaceRecipe& s) -> Edge& { return s.equilibrium.edge; })));
+    keys.push_back(choice<MaybeEdge>(
+        "surface.edge",
+        {{"auto", std::nullopt}, {"open", Edge::open}, {"closed", Edge::closed}, {"coast", Edge::coast}},
+        "equilibrium: beyond the edge the land goes on, or all water goes to the rivers, or there is sea; auto: "
+        "coast where there is sea, else open",
+        in_surface<MaybeEdge>([](SurfaceRecipe& s) -> MaybeEdge& { return s.equilibrium.edge; })));
     keys.push_back(
         text("surface.uplift", "file name", "equilibrium: raster on the grid, above 0; only its ratios count",
              in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.equilibrium.uplift; })));
@@ -93,7 +96,7 @@ void add_equilibrium_keys(std::vector<Key>& keys) {
     keys.push_back(text("surface.lakes", "file name", "equilibrium: polygons of lakes",
                         in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.equilibrium.lakes; })));
     keys.push_back(number("surface.lake_share", "", {0, 1},
-                          "equilibrium: share of the confluences at which a lake lies by chance",
+                          "equilibrium: share of the reaches with enough water that run through a lake",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.lake_share; })));
 }
 

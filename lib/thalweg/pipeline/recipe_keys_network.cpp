@@ -59,8 +59,8 @@ void add_tokunaga_keys(std::vector<Key>& keys) {
 /// Where rivers run once they are there.
 void add_course_keys(std::vector<Key>& keys) {
     using MaybeNumber = std::optional<double>;
-    keys.push_back(maybe("network.rotate", "degrees", {-360, 360},
-                         "turn of grown rivers, counterclockwise; left out: by chance under equilibrium, else 0",
+    keys.push_back(maybe("network.rotate", "degrees", {-180, 180},
+                         "turn of a cluster, counterclockwise; left out: by chance under equilibrium, else 0",
                          in_network<MaybeNumber>([](NetworkRecipe& n) -> MaybeNumber& { return n.rotate_deg; })));
     keys.push_back(maybe("network.meander", "", {0, 2},
                          "how much rivers wind, 1 as in nature; left out: 1 for grown rivers under equilibrium, else 0",

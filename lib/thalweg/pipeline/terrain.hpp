@@ -106,6 +106,7 @@ struct Terrain {
     RidgeLines ridges; ///< between streams, where they are asked for
     std::optional<surface::Dilated> surface;
     Channels channels;                            ///< of rivers with which the land is in equilibrium
+    std::int64_t lakes = 0;                       ///< laid into them
     std::optional<EquilibriumStory> equilibrium;  ///< of a land that is
     std::optional<SolverStory> diffusion;         ///< how the surface was solved for, where it was diffused
     std::vector<PatchStory> patches;              ///< in the recipe's order

@@ -73,9 +73,7 @@ EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near) {
 }
 
 void set_edge_heights(LandLevel& level, EdgeCells const& edge) {
-    auto const river_height = [&](std::uint32_t river) {
-        return level.z[level.rivers.cell[river]];
-    };
+    auto const river_height = [&](std::uint32_t river) { return level.z[level.rivers.cell[river]]; };
     for (std::size_t k = 0; k < edge.inner.size(); ++k) {
         level.z[edge.inner[k]] = above_rivers(level, edge.inner[k], river_height(edge.inner_river[k]));
     }

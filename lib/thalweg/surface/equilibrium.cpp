@@ -13,6 +13,7 @@
 #include <thalweg/surface/keep_to_receivers.hpp>
 #include <thalweg/surface/nearest_river.hpp>
 #include <thalweg/surface/order_cells.hpp>
+#include <thalweg/surface/relax_given_rivers.hpp>
 #include <thalweg/surface/relax_land.hpp>
 #include <thalweg/surface/relax_rivers.hpp>
 #include <thalweg/surface/rock.hpp>
@@ -25,6 +26,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -34,8 +37,8 @@ namespace {
 
 constexpr int fine_rounds = 5;
 constexpr int coarse_rounds = 30;
-constexpr float perched_tangent = 0.6F; // twice that of most land: what will not come down by itself
-constexpr int floors_after = 2;      // rounds: areas are near enough by then
+constexpr float perched_tangent = 0.45F; // steeper than most land: what will not come down by itself
+constexpr int floors_after = 2;          // rounds: areas are near enough by then
 
 /// What lies in the frame of a level, before it is solved.
 struct Plan {
@@ -116,6 +119,7 @@ public:
         set_edge_heights(level, edge);
         flood_land(level);
         int const rounds = rounds_of(number, levels);
+        bool const given = !level.rivers.asked.empty();
         for (int round = 0; round < rounds; ++round) {
             run_.at(share_done(number, round, rounds), "equilibrium");
             if (round > 0) {
@@ -123,14 +127,18 @@ public:
                 steepest_ways(level, per_length_, run_);
             }
             if (number == 0 && round == floors_after && params_.floor_width > 0.0) {
-                valley_floors(level, params_.floor_width);
+                valley_floors(level, params_.floor_width, params_.seed);
             }
             order_cells(level);
-            if (number == 0 && round == rounds - 2) {
-                shortened_ = give_up_tips(level, perched_tangent);
+            if (number == 0 && round == rounds - 2 && !given) {
+                shortened_ = give_up_tips(level, perched_tangent, TipBanks::rise);
             }
-            relax_rivers(level, law_);
-            if (number == 0) {
+            if (given) {
+                relax_given_rivers(level, law_, params_.heights);
+            } else {
+                relax_rivers(level, law_);
+            }
+            if (number == 0 && !given) {
                 keep_to_receivers(level);
             }
             relax_land(level, law_);
@@ -163,12 +171,15 @@ private:
     std::vector<std::int64_t> shortened_;
 };
 
-} // namespace
+struct Solved {
+    LandLevel level;
+    std::vector<std::int64_t> shortened;
+    std::int64_t margin = 0;
+};
 
-EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
-                            Run const& run) {
-    check_equilibrium(rivers, fields, params);
-    run.check();
+/// The finest level, with heights of rivers in its own units or none.
+Solved solved(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+              Run const& run) {
     WidenedLand land = widened(rivers, fields, params);
     std::vector<Plan> levels = plans(land);
     Solver solver(params, run);
@@ -179,7 +190,46 @@ EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fie
         drop_what_is_done(level);
     }
     check_drained(level, fields.land, land.margin, rivers.grid);
-    return written_land(std::move(level), rivers, fields.land, params, land.margin, solver.shortened(), run);
+    return {std::move(level), solver.shortened(), land.margin};
+}
+
+bool asks_heights(Channels const& rivers, EquilibriumParams const& params) {
+    return params.heights != RiverHeights::graded &&
+           std::any_of(rivers.z.begin(), rivers.z.end(), [](float z) { return !std::isnan(z); });
+}
+
+/// Height 0 of the solver where heights are given: the sea, or else the lowest of them.
+float base_of(Channels const& rivers, Edge edge) {
+    float low = std::numeric_limits<float>::infinity();
+    for (float const z : rivers.z) {
+        low = z < low ? z : low;
+    }
+    return edge == Edge::coast ? 0.0F : low;
+}
+
+} // namespace
+
+EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+                            Run const& run) {
+    check_equilibrium(rivers, fields, params);
+    run.check();
+    Channels drawn = rivers;
+    drawn.z.clear();
+    Solved graded = solved(drawn, fields, params, run);
+    Window const window{rivers.grid, fields.land, graded.margin};
+    Raise const raise = raise_for(graded.level, rivers, window, params);
+    if (!asks_heights(rivers, params)) {
+        return written_land(std::move(graded.level), rivers, window, raise, std::move(graded.shortened), run);
+    }
+    // How high the land stands in all is known only now: what is given in metres can be put into it.
+    graded = {};
+    Raise const given{raise.metres, static_cast<double>(base_of(rivers, params.edge)), raise.mean_tangent};
+    drawn.z = rivers.z;
+    for (float& z : drawn.z) {
+        z = static_cast<float>((static_cast<double>(z) - given.base_m) / given.metres);
+    }
+    Solved held = solved(drawn, fields, params, run);
+    return written_given_land(std::move(held.level), rivers, window, given, params.heights, run);
 }
 
 } // namespace thalweg::surface

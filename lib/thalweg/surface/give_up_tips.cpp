@@ -12,41 +12,44 @@ namespace thalweg::surface {
 
 namespace {
 
-constexpr std::size_t longest_tip = 50; // [cells]: more is no tip
+constexpr std::int32_t longest_tip = 200; // [cells]: more is no tip
 
-bool is_perched(LandLevel const& level, std::uint32_t cell, float tangent) {
+/// Above it a river cell stands perched.
+float highest_lawful(LandLevel const& level, std::uint32_t cell, float tangent) {
     float low = std::numeric_limits<float>::infinity();
     each_of_second_ring(level, cell, [&](std::size_t n) { low = std::min(low, level.z[n]); });
-    return level.z[cell] > low + tangent * level.side;
+    return low + tangent * level.side;
 }
 
-std::vector<std::int32_t> donors_of(RiverCells const& rivers) {
-    std::vector<std::int32_t> donors(rivers.cell.size());
-    for (std::int32_t const r : rivers.receiver) {
-        if (r >= 0) {
-            ++donors[static_cast<std::size_t>(r)];
-        }
-    }
-    return donors;
+/// Whether water leaves the caller's grid from a river cell.
+bool leaves(RiverCells const& rivers, std::size_t n) {
+    std::int32_t const r = rivers.receiver[n];
+    return r < 0 || rivers.number[static_cast<std::size_t>(r)] < 0;
 }
 
-/// Cells from a river's head to its last perched one.
-std::vector<std::size_t> perched_tip(LandLevel const& level, std::vector<std::int32_t> const& donors, std::size_t head,
-                                     float tangent) {
+bool is_perched(LandLevel const& level, std::uint32_t cell, float tangent) {
+    return level.z[cell] > highest_lawful(level, cell, tangent);
+}
+
+/// Marks river cells that are perched with little upstream of them, and all that lies upstream.
+std::vector<std::uint8_t> perched_heads(LandLevel const& level, float tangent) {
     RiverCells const& rivers = level.rivers;
-    std::vector<std::size_t> tip;
-    std::size_t last = 0;
-    for (std::size_t n = head; tip.size() < longest_tip; n = static_cast<std::size_t>(rivers.receiver[n])) {
-        std::int32_t const r = rivers.receiver[n];
-        bool const ends = r < 0 || rivers.number[static_cast<std::size_t>(r)] < 0;
-        if (ends || donors[n] > 1 || rivers.level[n] != 0) {
-            break;
+    std::vector<std::int32_t> upstream(rivers.cell.size(), 1);
+    for (std::size_t n = upstream.size(); n-- > 0;) {
+        if (rivers.receiver[n] >= 0) {
+            upstream[static_cast<std::size_t>(rivers.receiver[n])] += upstream[n];
         }
-        tip.push_back(n);
-        last = is_perched(level, rivers.cell[n], tangent) ? tip.size() : last;
     }
-    tip.resize(last);
-    return tip;
+    std::vector<std::uint8_t> marked(upstream.size());
+    for (std::size_t n = 0; n < marked.size(); ++n) {
+        if (leaves(rivers, n)) {
+            continue;
+        }
+        bool const below = marked[static_cast<std::size_t>(rivers.receiver[n])] != 0;
+        bool const tip = rivers.level[n] == 0 && upstream[n] <= longest_tip;
+        marked[n] = below || (tip && is_perched(level, rivers.cell[n], tangent)) ? 1 : 0;
+    }
+    return marked;
 }
 
 bool is_rim(LandLevel const& level, std::size_t i) {
@@ -88,30 +91,53 @@ void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
 
 } // namespace
 
-std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent) {
+std::vector<std::int64_t> perched_cells(LandLevel const& level, float tangent) {
+    std::vector<std::int64_t> numbers;
+    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+        if (level.rivers.number[n] >= 0 && is_perched(level, level.rivers.cell[n], tangent)) {
+            numbers.push_back(level.rivers.number[n]);
+        }
+    }
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
+void lower_perched(LandLevel& level, float tangent, float step) {
+    RiverCells const& rivers = level.rivers;
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        if (!leaves(rivers, n) && rivers.level[n] == 0) {
+            float& z = level.z[rivers.cell[n]];
+            float const least = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]] + step;
+            z = std::max(std::min(z, highest_lawful(level, rivers.cell[n], tangent)), std::min(z, least));
+        }
+    }
+}
+
+std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent, TipBanks banks) {
     RiverCells& rivers = level.rivers;
-    std::vector<std::int32_t> const donors = donors_of(rivers);
-    std::vector<std::uint8_t> gone(rivers.cell.size());
+    std::vector<std::uint8_t> const marked = perched_heads(level, tangent);
+    std::vector<std::uint8_t> gone(marked.size());
+    std::vector<std::uint8_t> holds(marked.size()); // something that stays lies upstream
     std::vector<std::int64_t> numbers;
     auto const offsets = level.offsets();
-    for (std::size_t head = 0; head < donors.size(); ++head) {
-        if (donors[head] != 0) {
+    for (std::size_t n = marked.size(); n-- > 0;) {
+        std::size_t const i = rivers.cell[n];
+        if (marked[n] != 0 && holds[n] == 0) {
+            gone[n] = banks == TipBanks::rise || highest_river(level, i, offsets) < level.z[i]
+                          ? 1
+                          : 0; // what it drained is gone already
+        }
+        if (gone[n] == 0) {
+            if (rivers.receiver[n] >= 0) {
+                holds[static_cast<std::size_t>(rivers.receiver[n])] = 1;
+            }
             continue;
         }
-        for (std::size_t const n : perched_tip(level, donors, head, tangent)) {
-            std::size_t const i = rivers.cell[n];
-            level.cover[i] = Cover::land; // so that what comes next is not seen beside it
-            if (highest_river(level, i, offsets) >= level.z[i]) {
-                level.cover[i] = Cover::river;
-                break;
-            }
-            gone[n] = 1;
-            numbers.push_back(rivers.number[n]);
-            cover_again(level, i, offsets);
-            for (std::int64_t const offset : offsets) {
-                if (std::size_t const near = moved(i, offset); is_land(level.cover[near])) {
-                    cover_again(level, near, offsets);
-                }
+        numbers.push_back(rivers.number[n]);
+        cover_again(level, i, offsets);
+        for (std::int64_t const offset : offsets) {
+            if (std::size_t const near = moved(i, offset); is_land(level.cover[near])) {
+                cover_again(level, near, offsets);
             }
         }
     }

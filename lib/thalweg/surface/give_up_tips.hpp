@@ -10,9 +10,17 @@
 /// Private to this room.
 namespace thalweg::surface {
 
-/// Shortens rivers whose first cells stand perched: above the lowest cell of their second ring by more than a tangent
-/// times a cell. What is given up becomes land, below no river that is left beside it. Gives: numbers in the caller's
+/// Numbers in the caller's Channels of river cells that stand perched: above the lowest cell of their second ring by
+/// more than a tangent times a cell. In order.
+std::vector<std::int64_t> perched_cells(LandLevel const& level, float tangent);
+
+/// Lowers such cells as far as they stay a step above their receivers.
+void lower_perched(LandLevel& level, float tangent, float step);
+
+/// Shortens rivers by the cells that stand perched near their heads, and what lies upstream of these. What is given up
+/// becomes land; where banks stay, none that would lie below a river beside it. Gives: numbers in the caller's
 /// Channels.
-std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent);
+enum class TipBanks : std::uint8_t { stay, rise };
+std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent, TipBanks banks);
 
 } // namespace thalweg::surface

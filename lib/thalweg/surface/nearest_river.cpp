@@ -21,8 +21,7 @@ void take_nearer(NearestRiver& near, std::size_t i, std::size_t from, float leng
 
 } // namespace
 
-NearestRiver nearest_river(LandLevel const& level, std::vector<float> const& head_start,
-                           Cells<std::uint32_t> memory) {
+NearestRiver nearest_river(LandLevel const& level, std::vector<float> const& head_start, Cells<std::uint32_t> memory) {
     auto const cells = static_cast<std::size_t>(level.cells());
     NearestRiver near{Cells<float>(cells, std::numeric_limits<float>::infinity()), std::move(memory)};
     near.number.assign(cells, NearestRiver::none);

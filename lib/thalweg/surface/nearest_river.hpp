@@ -15,8 +15,8 @@ struct NearestRiver {
     Cells<std::uint32_t> number; ///< of the river cell in the level's rivers
 };
 
-/// The river cell nearest to each inner cell, by steps of 1 and sqrt(2) in two passes, where each river cell begins with
-/// a head start (by number; empty: none). The frame has none. Memory: what the numbers are kept in.
+/// The river cell nearest to each inner cell, by steps of 1 and sqrt(2) in two passes, where each river cell begins
+/// with a head start (by number; empty: none). The frame has none. Memory: what the numbers are kept in.
 NearestRiver nearest_river(LandLevel const& level, std::vector<float> const& head_start = {},
                            Cells<std::uint32_t> memory = {});
 

@@ -10,16 +10,24 @@
 
 namespace thalweg::surface {
 
-void settle_land(LandLevel& level, float step) {
+void settle_land(LandLevel& level, float step, RiverHeights heights) {
     auto const above = [step](float z) {
         return std::max(z + step, std::nextafter(z, std::numeric_limits<float>::infinity()));
     };
     RiverCells const& rivers = level.rivers;
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
-        if (rivers.receiver[n] >= 0) {
-            float& z = level.z[rivers.cell[n]];
-            float const below = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]];
-            z = rivers.level[n] != 0 ? below : std::max(z, above(below));
+        if (rivers.receiver[n] < 0) {
+            continue;
+        }
+        auto const r = static_cast<std::size_t>(rivers.receiver[n]);
+        float const below = level.z[rivers.cell[r]];
+        float& z = level.z[rivers.cell[n]];
+        if (rivers.level[n] != 0) {
+            z = below;
+        } else if (heights == RiverHeights::graded) {
+            z = std::max(z, above(below));
+        } else if (rivers.number[r] >= 0) { // what lies beyond the caller's grid shall not lift what is given
+            z = std::max(z, std::nextafter(below, std::numeric_limits<float>::infinity()));
         }
     }
     auto const offsets = level.offsets();

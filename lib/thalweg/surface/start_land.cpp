@@ -69,12 +69,14 @@ void start_rivers(LandLevel& level) {
     RiverCells const& rivers = level.rivers;
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
         float& z = level.z[rivers.cell[n]];
+        float const asked = rivers.asked.empty() ? std::nanf("") : rivers.asked[n];
         if (rivers.receiver[n] < 0) {
-            z = 0.0F;
+            z = std::isnan(asked) ? 0.0F : asked;
             continue;
         }
         float const below = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]];
-        z = std::clamp(z, below + least_tangent * level.side, below + first_tangent * level.side);
+        z = std::isnan(asked) ? std::min(z, below + first_tangent * level.side) : asked;
+        z = std::max(z, below + least_tangent * level.side);
     }
 }
 

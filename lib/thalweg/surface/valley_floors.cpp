@@ -4,7 +4,10 @@
 
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/surface/nearest_river.hpp>
+#include <thalweg/surface/value_noise.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -13,18 +16,29 @@ namespace thalweg::surface {
 namespace {
 
 constexpr double growth = 0.4;
-constexpr float least_width = 0.5F; // [cells]: what is narrower shows as nothing
-constexpr float flat_share = 0.15F; // of the cap, on the floor
+constexpr float least_width = 0.5F;  // [cells]: what is narrower shows as nothing
+constexpr float core_widths = 0.4F;  // what is flat, and
+constexpr float reach_widths = 3.0F; // where the foot ends, both before they are narrowed
+constexpr float flat_share = 0.15F;  // of the cap, on the floor
+
+/// Floors are nowhere ribbons of one width: about 1.5, and 1 at least.
+float narrowing(LandLevel const& level, std::size_t i, std::uint64_t seed) {
+    constexpr double long_wave = 48.0; // [cells]
+    constexpr double short_wave = 13.0;
+    Cell const cell{static_cast<std::int64_t>(i) % level.width, static_cast<std::int64_t>(i) / level.width};
+    double const noise = value_noise(seed, cell, long_wave) + 0.5 * value_noise(seed, cell, short_wave);
+    return static_cast<float>(std::max(1.0, 1.5 + 0.7 * noise));
+}
 
 } // namespace
 
-void valley_floors(LandLevel& level, double floor_width) {
+void valley_floors(LandLevel& level, double floor_width, std::uint64_t seed) {
     RiverCells const& rivers = level.rivers;
     std::vector<float> widths(rivers.cell.size());
     std::vector<float> reach(widths.size());
     for (std::size_t n = 0; n < widths.size(); ++n) {
         widths[n] = static_cast<float>(floor_width * exact::pow(level.area[rivers.cell[n]], growth));
-        reach[n] = 2.0F * widths[n];
+        reach[n] = reach_widths * widths[n];
     }
     NearestRiver near = nearest_river(level, reach, std::move(level.order));
     each_inner(level, [&](std::size_t i) {
@@ -35,8 +49,9 @@ void valley_floors(LandLevel& level, double floor_width) {
         if (width < least_width) {
             return;
         }
-        float const up = near.distance[i] <= -width ? 0.0F : (near.distance[i] + width) / width;
-        level.cap[i] *= flat_share + (1.0F - flat_share) * up;
+        float const far = (near.distance[i] / width + reach_widths) * narrowing(level, i, seed); // in widths
+        float const up = std::max(0.0F, (far - core_widths) / (reach_widths - core_widths));
+        level.cap[i] *= flat_share + (1.0F - flat_share) * up * std::sqrt(up);
     });
     level.order = std::move(near.number);
 }

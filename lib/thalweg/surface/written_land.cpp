@@ -21,7 +21,10 @@ constexpr std::int8_t leaves = -1;
 constexpr std::int8_t at_sea = -2;
 
 /// Copies the caller's grid out of the level; NaN at sea.
-void crop(LandLevel const& level, Mask const& land, std::int64_t margin, Raster<float>& dem) {
+Raster<float> cropped(LandLevel const& level, Window const& window) {
+    Raster<float> dem(window.grid);
+    Mask const& land = window.land;
+    std::int64_t const margin = window.margin;
     for (std::int64_t row = 0; row < dem.height(); ++row) {
         for (std::int64_t col = 0; col < dem.width(); ++col) {
             auto const i = static_cast<std::size_t>((row + margin + 1) * level.width + col + margin + 1);
@@ -29,6 +32,7 @@ void crop(LandLevel const& level, Mask const& land, std::int64_t margin, Raster<
             dem[Cell{col, row}] = dry ? level.z[i] : std::numeric_limits<float>::quiet_NaN();
         }
     }
+    return dem;
 }
 
 /// The lowest height at which a river ends on the caller's grid.
@@ -93,29 +97,80 @@ Raster<std::int8_t> directions(Raster<float> const& dem, Channels const& rivers,
     return out;
 }
 
+float perched_height(Raise const& raise, Grid const& grid) {
+    return static_cast<float>(raise.mean_tangent * grid.cell_m);
+}
+
+void to_metres(LandLevel& level, Raise const& raise) {
+    for (float& z : level.z) {
+        z = static_cast<float>(raise.base_m + static_cast<double>(z) * raise.metres);
+    }
+}
+
+/// Less than the solver keeps, so that nothing is touched but what floats have lost.
+float settled_step(Raise const& raise) {
+    return static_cast<float>(0.25 * static_cast<double>(least_tangent) * raise.metres);
+}
+
+void tell_lowered(Raster<float> const& dem, Channels const& rivers, EquilibriumLand& out) {
+    std::vector<double> lowered;
+    for (std::size_t n = 0; n < rivers.z.size(); ++n) {
+        if (!std::isnan(rivers.z[n])) {
+            double const depth = static_cast<double>(rivers.z[n]) - static_cast<double>(dem[rivers.cell[n]]);
+            lowered.push_back(std::max(0.0, depth));
+        }
+    }
+    std::sort(lowered.begin(), lowered.end());
+    out.max_lowered_m = lowered.back();
+    out.p95_lowered_m = lowered[(lowered.size() - 1) * 95 / 100];
+}
+
 } // namespace
 
-EquilibriumLand written_land(LandLevel level, Channels const& rivers, Mask const& land, EquilibriumParams const& params,
-                             std::int64_t margin, std::vector<std::int64_t> shortened, Run const& run) {
+Raise raise_for(LandLevel const& level, Channels const& rivers, Window const& window, EquilibriumParams const& params) {
+    Raster<float> const dem = cropped(level, window);
+    Rise const rise = rise_of(dem, params);
+    double const metres = rise.factor * window.grid.cell_m;
+    return {metres, -static_cast<double>(lowest_end(dem, rivers)) * metres, rise.mean_tangent};
+}
+
+EquilibriumLand written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
+                             std::vector<std::int64_t> shortened, Run const& run) {
     EquilibriumLand out;
-    out.dem = Raster<float>(rivers.grid);
-    crop(level, land, margin, out.dem);
-    Rise const rise = rise_of(out.dem, params);
-    out.rise = rise.factor;
-    double const base = static_cast<double>(lowest_end(out.dem, rivers));
-    double const metres = out.rise * rivers.grid.cell_m;
-    for (float& z : level.z) {
-        z = static_cast<float>((static_cast<double>(z) - base) * metres);
-    }
-    // Less than the solver keeps, so that nothing is touched but what floats have lost.
-    settle_land(level, static_cast<float>(0.25 * static_cast<double>(least_tangent) * metres));
-    crop(level, land, margin, out.dem);
-    auto const perched = give_up_tips(level, static_cast<float>(rise.mean_tangent * rivers.grid.cell_m));
+    out.rise = raise.metres / window.grid.cell_m;
+    to_metres(level, raise);
+    // A little lower than what counts as perched, for what is settled afterwards.
+    lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
+    settle_land(level, settled_step(raise), RiverHeights::graded);
+    out.dem = cropped(level, window);
+    auto const perched = give_up_tips(level, perched_height(raise, window.grid), TipBanks::stay);
     shortened.insert(shortened.end(), perched.begin(), perched.end());
     std::sort(shortened.begin(), shortened.end());
     out.shortened = std::move(shortened);
     level = {};
     out.direction = directions(out.dem, rivers, out.shortened, run);
+    return out;
+}
+
+EquilibriumLand written_given_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
+                                   RiverHeights heights, Run const& run) {
+    EquilibriumLand out;
+    out.rise = raise.metres / window.grid.cell_m;
+    to_metres(level, raise);
+    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+        std::int64_t const number = level.rivers.number[n];
+        float const asked = number < 0 ? std::nanf("") : rivers.z[static_cast<std::size_t>(number)];
+        if (!std::isnan(asked)) {
+            float& z = level.z[level.rivers.cell[n]];
+            z = heights == RiverHeights::fixed ? asked : std::min(z, asked);
+        }
+    }
+    settle_land(level, settled_step(raise), heights);
+    out.dem = cropped(level, window);
+    out.walled = perched_cells(level, perched_height(raise, window.grid));
+    level = {};
+    out.direction = directions(out.dem, rivers, {}, run);
+    tell_lowered(out.dem, rivers, out);
     return out;
 }
 

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdint>
+
+#include <benchmark/benchmark.h>
+
+#include <thalweg/core/memory.hpp>
+#include <thalweg/measure/drainage.hpp>
+#include <thalweg/surface/equilibrium.hpp>
+
+#include "../tests/surface/channel_trees.hpp"
+
+namespace {
+
+using namespace thalweg;
+
+/// A tree by chance from the middle of the southern border, a hundredth of the cells.
+Channels rivers(std::int64_t side) {
+    Grid const grid = channel_trees::frame(side, side, 30.0);
+    return channel_trees::grown(grid, {grid.index({side / 2, side - 1})}, {}, grid.cells() / 100,
+                                channel_trees::Room::apart, 1);
+}
+
+/// On one core; peak counts what the process held at most less what it held before, over the cells.
+void bench_equilibrium(benchmark::State& state) {
+    Channels const channels = rivers(state.range(0));
+    surface::EquilibriumParams params;
+    params.roughness = state.range(1) == 0 ? 0.0 : params.roughness;
+    Run run;
+    run.threads = 1;
+    std::int64_t const before = peak_memory_bytes();
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(surface::equilibrium(channels, {}, params, run));
+    }
+    state.counters["bytes_per_cell"] =
+        static_cast<double>(peak_memory_bytes() - before) / static_cast<double>(channels.grid.cells());
+    state.SetItemsProcessed(state.iterations() * channels.grid.cells());
+}
+BENCHMARK(bench_equilibrium)
+    ->Name("equilibrium")
+    ->Args({1024, 1})
+    ->Args({2048, 1})
+    ->Args({4096, 1})
+    ->Args({1024, 0})
+    ->ArgNames({"side", "rough"})
+    ->Unit(benchmark::kMillisecond);
+
+/// The yardstick: what finding the ways of water on the finished land costs.
+void bench_drain_equilibrium(benchmark::State& state) {
+    Run run;
+    run.threads = 1;
+    Raster<float> const dem = surface::equilibrium(rivers(state.range(0)), {}, {}, run).dem;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(measure::drain(dem, run));
+    }
+    state.SetItemsProcessed(state.iterations() * dem.cells());
+}
+BENCHMARK(bench_drain_equilibrium)->Name("drain/equilibrium")->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
+
+} // namespace

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <benchmark/benchmark.h>
+
+#include <thalweg/network/plant_forest.hpp>
+#include <thalweg/network/shape_island.hpp>
+#include <thalweg/network/spread_outlets.hpp>
+
+#include <network/plain_forest.hpp>
+
+#include <cstdint>
+#include <vector>
+
+// An item is a cell of the grid, all of it land; growth goes on until it is full. Arguments: cells a side, cells a
+// step. The yardstick has the rules written out: unit steps, and every question asked of all particles.
+
+namespace {
+
+thalweg::Grid square(std::int64_t side) {
+    thalweg::Grid grid;
+    grid.width = side;
+    grid.height = side;
+    return grid;
+}
+
+void plain_forest_by_steps(benchmark::State& state) {
+    thalweg::Mask const land(square(state.range(0)), 1);
+    thalweg::network::ForestParams params;
+    params.step_cells = state.range(1);
+    for ([[maybe_unused]] auto _ : state) {
+        auto const forest = plain_forest::grow(land, {{0, 0}}, params);
+        benchmark::DoNotOptimize(forest.cells.data());
+    }
+    state.SetItemsProcessed(state.iterations() * land.cells());
+}
+
+void plant_forest(benchmark::State& state) {
+    thalweg::Mask const land(square(state.range(0)), 1);
+    auto const outlets = thalweg::network::spread_outlets(land, thalweg::network::coast_cells(land));
+    thalweg::network::ForestParams params;
+    params.step_cells = state.range(1);
+    for ([[maybe_unused]] auto _ : state) {
+        auto const planted = thalweg::network::plant_forest(land, outlets, params);
+        benchmark::DoNotOptimize(planted.particles);
+    }
+    state.SetItemsProcessed(state.iterations() * land.cells());
+}
+
+void shape_island(benchmark::State& state) {
+    for ([[maybe_unused]] auto _ : state) {
+        auto const land = thalweg::network::shape_island(square(state.range(0)));
+        benchmark::DoNotOptimize(land.values().data());
+    }
+    state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0));
+}
+
+} // namespace
+
+BENCHMARK(plain_forest_by_steps)->Args({40, 5})->Unit(benchmark::kMillisecond);
+BENCHMARK(plant_forest)
+    ->Args({40, 5})
+    ->Args({512, 5})
+    ->Args({1024, 5})
+    ->Args({2048, 5})
+    ->Args({2048, 10})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(shape_island)->Arg(1024)->Unit(benchmark::kMillisecond);
