@@ -27,12 +27,11 @@ std::array<double, form_count> mean_forms() {
 }
 
 ReliefRange relief_range(std::size_t figure) {
-    constexpr double tolerance = 1.25;
     auto const [least, greatest] =
         std::minmax_element(lands.begin(), lands.end(), [&](RealLand const& a, RealLand const& b) {
             return a.figures[figure] < b.figures[figure];
         });
-    return {least->figures[figure] / tolerance, greatest->figures[figure] * tolerance};
+    return {least->figures[figure] / land_tolerance, greatest->figures[figure] * land_tolerance};
 }
 
 } // namespace thalweg::measure

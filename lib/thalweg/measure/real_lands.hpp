@@ -36,7 +36,9 @@ struct ReliefRange {
     double high = 0.0;
 };
 
-/// From the lesser of the real lands' figures over 1.25 to the greater times 1.25: two lands are not all.
+inline constexpr double land_tolerance = 1.25; ///< two lands are not all
+
+/// From the lesser of the real lands' figures over land_tolerance to the greater times it.
 ReliefRange relief_range(std::size_t figure);
 
 } // namespace thalweg::measure

@@ -64,7 +64,7 @@ std::vector<ReliefRow> relief_rows(LandRelief const& relief) {
     for (measure::RealLand const& land : lands) {
         forms.beside.push_back(measure::total_variation(land.forms, mean));
     }
-    forms.range = {0.0, *std::max_element(forms.beside.begin(), forms.beside.end())};
+    forms.range = {0.0, measure::land_tolerance * *std::max_element(forms.beside.begin(), forms.beside.end())};
     rows.push_back(std::move(forms));
     if (relief.perched) {
         rows.push_back({"perched",
