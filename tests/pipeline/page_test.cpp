@@ -29,6 +29,9 @@ Terrain small_terrain(Land land) {
     recipe.grid.height = 70;
     recipe.network->dla.particles = 900;
     recipe.network->prune_cells = 4.0;
+    recipe.surface->method = Method::dilate;
+    recipe.surface->equilibrium.mean_slope_deg.reset();
+    recipe.surface->dilate.relief_m = 900.0;
     if (land == Land::without) {
         recipe.surface.reset();
     }

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string const small = "make --set grid.width=64 --set grid.height=48 --set network.dla.particles=400 "
-                          "--set network.prune=4 -q -o made";
+                          "--set network.prune=4 --set surface.method=dilate -q -o made";
 
 struct Heights {
     int width = 40;

@@ -143,7 +143,7 @@ TEST(Measure, CatchmentsOfAFolderAreThoseThatMakeLeft) {
     }
     Outcome const without =
         thalweg_run("make -q --set grid.width=64 --set grid.height=64 --set network.dla.particles=400 --set "
-                    "output.catchments=false -o plain",
+                    "network.prune=5 --set output.catchments=false -o plain",
                     place.path());
     ASSERT_EQ(without.code, 0) << without.err;
     EXPECT_FALSE(fs::exists(place / "plain/catchments.gpkg"));

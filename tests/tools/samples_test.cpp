@@ -106,10 +106,11 @@ void hold_to_contract(fs::path const& folder) {
     ASSERT_NE(dem->GetSpatialRef(), nullptr);
     EXPECT_TRUE(dem->GetSpatialRef()->IsSame(layer->GetSpatialRef()));
 
-    for (char const* name : {"report.html", "map.png", "profile.svg", "curve.svg", "wireframe.svg", "sections.svg",
-                             "contours.gpkg", "recipe.toml", "network_nodes.shp"}) {
+    for (char const* name : {"report.html", "map.png", "profile.svg", "wireframe.svg", "sections.svg", "contours.gpkg",
+                             "recipe.toml", "network_nodes.shp"}) {
         EXPECT_TRUE(fs::exists(folder / name)) << name;
     }
+    EXPECT_EQ(fs::exists(folder / "curve.svg"), report["recipe"]["surface"]["method"] == "dilate");
     EXPECT_LT(fs::file_size(folder / "wireframe.svg"), 2'000'000U);
 }
 
@@ -117,7 +118,7 @@ void same_bytes(fs::path const& a, fs::path const& b) {
     for (char const* name :
          {"dem.tif", "network.tif", "network.gpkg", "network_arcs.shp", "network_arcs.dbf", "network_arcs.shx",
           "network_nodes.shp", "network_nodes.dbf", "contours.gpkg", "catchments.gpkg", "map.png", "profile.svg",
-          "curve.svg", "wireframe.svg", "sections.svg", "recipe.toml"}) {
+          "wireframe.svg", "sections.svg", "recipe.toml"}) {
         EXPECT_FALSE(file_bytes(a / name).empty()) << name;
         EXPECT_TRUE(file_bytes(a / name) == file_bytes(b / name)) << name;
     }
@@ -159,12 +160,12 @@ TEST(Samples, EveryIncrementAndMetric) {
     Workplace const place;
     for (char const* increment : {"uniform", "decreasing", "rise_fall", "'3-0.01*x'"}) {
         for (char const* metric : {"cityblock", "euclid"}) {
-            Outcome const o =
-                thalweg_run(std::string("make --set grid.width=120 --set grid.height=90 "
-                                        "--set network.dla.particles=2000 --set surface.relief=0 "
-                                        "--set surface.metric=") +
-                                metric + " --set surface.increment=" + increment + " --overwrite -o out -q",
-                            place.path());
+            Outcome const o = thalweg_run(
+                std::string("make --set grid.width=120 --set grid.height=90 "
+                            "--set network.dla.particles=2000 --set network.prune=20 --set surface.method=dilate "
+                            "--set surface.metric=") +
+                    metric + " --set surface.increment=" + increment + " --overwrite -o out -q",
+                place.path());
             EXPECT_EQ(o.code, 0) << o.err;
             hold_to_contract(place / "out");
         }

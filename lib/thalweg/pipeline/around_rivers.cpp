@@ -9,6 +9,7 @@
 #include <thalweg/network/streams.hpp>
 #include <thalweg/pipeline/land.hpp>
 #include <thalweg/pipeline/land_in_equilibrium.hpp>
+#include <thalweg/pipeline/read_cells.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>
@@ -69,15 +70,10 @@ Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
     if (recipe.surface->mask.empty()) {
         return land.values().empty() ? Mask(valley.z.grid(), 1) : land;
     }
-    Raster<float> const given = io::read_dem(file_in(recipe, recipe.surface->mask));
     Grid const& grid = valley.z.grid();
-    if (given.width() != grid.width || given.height() != grid.height) {
-        throw BadInput(fmt::format("surface.mask: {} has {}x{} cells, the grid {}x{}", recipe.surface->mask,
-                                   given.width(), given.height(), grid.width, grid.height));
-    }
-    Mask inside(grid);
+    Mask inside = read_mask_of_land(file_in(recipe, recipe.surface->mask), grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        inside[i] = !std::isnan(given[i]) && given[i] != 0.0F && (land.values().empty() || land[i] != 0);
+        inside[i] = inside[i] != 0 && (land.values().empty() || land[i] != 0) ? 1 : 0;
         if (inside[i] == 0 && !std::isnan(valley.z[i])) {
             Cell const c = grid.at(i);
             throw BadInput(fmt::format("surface.mask: {} leaves out cell ({}, {}), where a river runs",

@@ -138,6 +138,10 @@ std::int64_t room_for_network(std::int64_t side_cells) {
     return std::max<std::int64_t>(1, side_cells * 10 / 11);
 }
 
+std::int64_t margin_around(std::int64_t side_cells) {
+    return std::max<std::int64_t>(2, (side_cells + 19) / 20);
+}
+
 FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wanted) {
     Cell low = branch.cells.front();
     Cell high = low;
@@ -147,7 +151,7 @@ FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wante
     }
     std::int64_t const box_width = high.col - low.col + 1;
     std::int64_t const box_height = high.row - low.row + 1;
-    std::int64_t const margin = std::max<std::int64_t>(2, (std::max(box_width, box_height) + 19) / 20);
+    std::int64_t const margin = margin_around(std::max(box_width, box_height));
 
     Grid grid;
     grid.width = wanted.width > 0 ? wanted.width : box_width + 2 * margin;

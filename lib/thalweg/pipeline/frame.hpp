@@ -15,6 +15,9 @@ namespace thalweg::pipeline {
 /// The largest box [cells] a network may have in a side of a grid of this many cells, 5 % left free around it.
 std::int64_t room_for_network(std::int64_t side_cells);
 
+/// What is left free [cells] on each side of a network whose longer side has this many cells.
+std::int64_t margin_around(std::int64_t side_cells);
+
 /// A branch on its grid.
 struct FramedBranch {
     Mask mask;  ///< its cells

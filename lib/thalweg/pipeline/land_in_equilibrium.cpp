@@ -95,7 +95,7 @@ surface::EquilibriumFields fields_of(Terrain const& terrain, Channels const& cha
     Grid const& grid = terrain.grid;
     SurfaceRecipe const& wanted = *recipe.surface;
     surface::EquilibriumFields fields;
-    fields.land = land_of(read_part(file_in(recipe, wanted.mask), grid, run), terrain.land, channels);
+    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid), terrain.land, channels);
     fields.uplift = read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run);
     fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
     return fields;
@@ -215,6 +215,14 @@ void add_side_valleys(Terrain& terrain, measure::Drainage const& drainage, Diary
         network::prune(terrain.network.plan, {0.0, terrain.grid.cell_m}, run).network; // lengths at which each is kept
     terrain.orders = network::order(terrain.network.plan);
     terrain.streams = network::count_streams(terrain.network.plan);
+    for (ArcId const arc : NetworkIndex(terrain.network.plan).arcs) {
+        Arc const& of = terrain.network.plan[arc];
+        bool const leaves = boost::out_degree(boost::target(arc, terrain.network.plan), terrain.network.plan) == 0;
+        for (std::size_t v = 0; !of.given && v + (leaves ? 0 : 1) < of.line.size(); ++v) { // the last may join a line
+            std::int64_t const cell = terrain.grid.index(terrain.grid.cell_of(of.line[v]));
+            terrain.valley.z[cell] = terrain.surface->dem[cell];
+        }
+    }
 }
 
 } // namespace thalweg::pipeline

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/plan_rivers.hpp>
 
+#include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/read_rivers.hpp>
@@ -16,6 +17,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace thalweg::pipeline {
@@ -26,6 +30,33 @@ namespace {
 GridRecipe loosely_framed(GridRecipe frame) {
     frame.width = 0;
     frame.height = 0;
+    return frame;
+}
+
+/// The grid asked for, or one with room for the whole branch as it was picked: when that is asked for, the branch is
+/// cut no shorter.
+Grid turned_frame(network::Branch const& branch, Grid frame, GridRecipe const& wanted, double turn_deg) {
+    frame.width = wanted.width;
+    frame.height = wanted.height;
+    if (frame.width == 0) {
+        double const c = exact::cos(turn_deg / 180.0 * exact::pi);
+        double const s = exact::sin(turn_deg / 180.0 * exact::pi);
+        Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        Vec2 high{-low.x, -low.y};
+        for (Cell const& cell : branch.cells) {
+            auto const x = static_cast<double>(cell.col);
+            auto const y = static_cast<double>(cell.row);
+            Vec2 const at{c * x + s * y, c * y - s * x};
+            low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+            high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+        }
+        auto const wide = static_cast<std::int64_t>(std::ceil(high.x - low.x + 1.0));
+        auto const tall = static_cast<std::int64_t>(std::ceil(high.y - low.y + 1.0));
+        std::int64_t const margin = margin_around(std::max(wide, tall));
+        frame.width = wide + 2 * margin;
+        frame.height = tall + 2 * margin;
+    }
+    check_memory(frame.width, frame.height);
     return frame;
 }
 
@@ -61,11 +92,8 @@ Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run)
     if (turn_deg == 0.0) {
         return {std::move(plan), framed.mask.grid(), {}};
     }
-    Grid frame = framed.mask.grid();
-    frame.width = recipe.grid.width;
-    frame.height = recipe.grid.height;
-    network::Rotated turned = network::rotate(plan, frame, {turn_deg});
-    check_memory(turned.grid.width, turned.grid.height);
+    network::Rotated turned =
+        network::rotate(plan, turned_frame(branch, framed.mask.grid(), recipe.grid, turn_deg), {turn_deg});
     return {std::move(turned.network), turned.grid, {}};
 }
 

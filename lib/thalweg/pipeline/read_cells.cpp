@@ -64,6 +64,22 @@ Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
     return kept;
 }
 
+Mask read_mask_of_land(std::string const& path, Grid const& grid) {
+    if (path.empty()) {
+        return {};
+    }
+    Raster<float> const given = io::read_dem(path);
+    if (given.width() != grid.width || given.height() != grid.height) {
+        throw BadInput(fmt::format("surface.mask: {} has {}x{} cells, the grid {}x{}", path, given.width(),
+                                   given.height(), grid.width, grid.height));
+    }
+    Mask inside(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        inside[i] = !std::isnan(given[i]) && given[i] != 0.0F ? 1 : 0;
+    }
+    return inside;
+}
+
 namespace {
 
 Raster<float> valued_polygons(Polygons const& polygons, Grid const& grid) {

@@ -18,6 +18,10 @@ Mask read_part(std::string const& path, Grid const& grid, Run const& run);
 /// line crosses the grid.
 Mask read_kept(std::string const& path, Grid const& grid, Run const& run);
 
+/// The cells of a raster for surface.mask that are neither 0 nor no-data; without cells for "". Throws: as
+/// io::read_dem; BadInput when it has not as many cells as the grid.
+Mask read_mask_of_land(std::string const& path, Grid const& grid);
+
 /// A field that varies over the land, above 0: a raster, brought to the grid's cells, or polygons with a real field
 /// erodibility, 1 between them (of several the last counts); empty for "". what: the key, for messages.
 /// Throws: as the doors; BadInput naming the cell where a raster has no value or one that is not above 0.
