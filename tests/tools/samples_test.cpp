@@ -145,6 +145,12 @@ TEST(Samples, Dla) {
     sample("dla");
 }
 
+TEST(Samples, LandInEquilibrium) {
+    for (char const* name : {"relief_tokunaga", "relief_lines", "island"}) {
+        sample(name);
+    }
+}
+
 TEST(Samples, Lines) {
     sample("lines");
 }

@@ -29,10 +29,13 @@ LandRelief relief_of_terrain(Terrain const& terrain, measure::Drainage const& dr
         terrain.recipe.surface ? terrain.recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;
     double const mean_slope = (asked > 0.0 ? asked : found.land.slopes.mean_deg) * (exact::pi / 180.0);
     if (terrain.recipe.network && !std::isnan(mean_slope)) {
-        std::vector<std::int64_t> cells;
-        for (std::int64_t i = 0; i < terrain.valley.z.cells(); ++i) {
-            if (!std::isnan(terrain.valley.z[i])) {
-                cells.push_back(i);
+        std::vector<std::int64_t> cells =
+            terrain.channels.cell; // side valleys that the land has grown climb its slopes
+        if (!terrain.equilibrium) {
+            for (std::int64_t i = 0; i < terrain.valley.z.cells(); ++i) {
+                if (!std::isnan(terrain.valley.z[i])) {
+                    cells.push_back(i);
+                }
             }
         }
         double const rise_m = exact::sin(mean_slope) / exact::cos(mean_slope) * dem.grid().cell_m;
