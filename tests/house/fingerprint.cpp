@@ -24,21 +24,31 @@
 #include <thalweg/measure/flow_lengths.hpp>
 #include <thalweg/measure/statistics.hpp>
 #include <thalweg/network/assign_types.hpp>
+#include <thalweg/network/carry_outlets.hpp>
+#include <thalweg/network/channel_heights.hpp>
+#include <thalweg/network/channels.hpp>
+#include <thalweg/network/choose_lakes.hpp>
 #include <thalweg/network/drape.hpp>
 #include <thalweg/network/embed_tree.hpp>
+#include <thalweg/network/flood_lakes.hpp>
 #include <thalweg/network/grow_dla.hpp>
 #include <thalweg/network/grow_strokes.hpp>
 #include <thalweg/network/grow_tokunaga.hpp>
 #include <thalweg/network/lsystem.hpp>
+#include <thalweg/network/meander.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/pick_branch.hpp>
 #include <thalweg/network/plant_forest.hpp>
 #include <thalweg/network/prune.hpp>
+#include <thalweg/network/raise_from_land.hpp>
 #include <thalweg/network/rasterise.hpp>
+#include <thalweg/network/rotate.hpp>
 #include <thalweg/network/set_heights.hpp>
 #include <thalweg/network/set_heights_by_type.hpp>
 #include <thalweg/network/set_heights_graded.hpp>
 #include <thalweg/network/shape_island.hpp>
+#include <thalweg/network/shorten.hpp>
+#include <thalweg/network/side_valleys.hpp>
 #include <thalweg/network/split_confluences.hpp>
 #include <thalweg/network/spread_outlets.hpp>
 #include <thalweg/network/streams.hpp>
@@ -64,6 +74,7 @@
 #include <thalweg/surface/diffuse.hpp>
 #include <thalweg/surface/dilate.hpp>
 #include <thalweg/surface/drain.hpp>
+#include <thalweg/surface/equilibrium.hpp>
 #include <thalweg/surface/harmonic.hpp>
 #include <thalweg/surface/problem_through.hpp>
 #include <thalweg/surface/rasterise_tin.hpp>
@@ -532,6 +543,42 @@ void print_trees(Run const& run) {
     print("grow_strokes", hash_of(network::grow_strokes(strokes, grid, {}, run).network));
 }
 
+/// Land in equilibrium, and all that stands before and after it.
+void print_equilibrium(StreamNetwork const& pruned, Grid const& box, Run const& run) {
+    network::Rotated const turned = network::rotate(pruned, Grid{0, 0, box.cell_m, box.west, box.north, ""}, {20.0});
+    print("rotate", hash_of(turned.network));
+    Grid const& grid = turned.grid;
+    StreamNetwork const carried = network::carry_outlets(turned.network, grid).network;
+    std::vector<double> const areas = measure::areas_nearest(carried, grid, run).ds_area_m2;
+    StreamNetwork const bent = network::meander(carried, grid, areas, {}, run).network;
+    print("meander", hash_of(bent));
+    network::ChannelsOfArcs const drawn = network::channels(bent, grid, {}, run);
+    Fnv cells;
+    cells.add_all(drawn.channels.cell);
+    cells.add_all(drawn.channels.receiver);
+    print("channels", cells);
+    network::ChooseLakesParams const lakes{.share = 0.3, .min_area_cells = 200.0};
+    network::Flooded const flooded = network::flood_lakes(drawn, network::choose_lakes(drawn, areas, lakes, run), run);
+    for (auto const edge : {surface::Edge::open, surface::Edge::closed, surface::Edge::coast}) {
+        surface::EquilibriumParams params;
+        params.edge = edge;
+        print("equilibrium", hash_of(surface::equilibrium(flooded.drawn.channels, {}, params, run).dem));
+    }
+    surface::EquilibriumLand const land = surface::equilibrium(drawn.channels, {}, {}, run);
+    network::Shortened const kept = network::shorten(bent, drawn, land.shortened);
+    RaisedNetwork const raised = network::raise_from_land(kept.network, kept.drawn.channels, land.dem);
+    print("raise_from_land", hash_of(raised));
+    measure::Drainage const drainage = measure::drain(land.dem, run);
+    print("side_valleys", hash_of(network::side_valleys(raised, kept.drawn.channels,
+                                                        {land.dem, drainage.direction, drainage.area_cells}, {60}, run)
+                                      .network));
+    surface::EquilibriumParams fixed;
+    fixed.heights = surface::RiverHeights::soft;
+    Channels given = drawn.channels;
+    given.z = network::channel_heights(network::set_heights(bent, {}, run).network, given);
+    print("equilibrium, soft", hash_of(surface::equilibrium(given, {}, fixed, run).dem));
+}
+
 void print_forest(Run const& run) {
     Grid grid;
     grid.width = 320;
@@ -612,4 +659,5 @@ int main(int count, char** words) {
     print_drained(land, valley, run);
     print_water(land, raised.network.plan, run);
     print_trees(run);
+    print_equilibrium(pruned, grid, run);
 }
