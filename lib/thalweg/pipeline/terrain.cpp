@@ -24,9 +24,11 @@ namespace thalweg::pipeline {
 
 namespace {
 
-std::int64_t uphill_arcs(RaisedNetwork const& network) {
-    return std::count_if(network.arc_z.begin(), network.arc_z.end(), [](std::vector<double> const& z) {
-        return !(z.front() > z.back()) || std::adjacent_find(z.begin(), z.end(), std::less<>()) != z.end();
+/// Arcs that rise somewhere, or do not fall; only lakes may make them level.
+std::int64_t uphill_arcs(RaisedNetwork const& network, std::int64_t lakes) {
+    return std::count_if(network.arc_z.begin(), network.arc_z.end(), [lakes](std::vector<double> const& z) {
+        bool const falls = z.front() > z.back() || (lakes > 0 && z.front() == z.back());
+        return !falls || std::adjacent_find(z.begin(), z.end(), std::less<>()) != z.end();
     });
 }
 
@@ -123,7 +125,7 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
 void check_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     measure::TopologyReport topology = diary.stage(
         "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run); });
-    terrain.checks.insert(terrain.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
+    terrain.checks.insert(terrain.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network, terrain.lakes)));
     terrain.checks.insert(terrain.checks.end(), topology.checks.begin(), topology.checks.end());
     terrain.findings = std::move(topology.findings);
     if (terrain.drained && terrain.certificate && honours_rivers(terrain.recipe)) {
