@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <io/scratch_folder.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -56,9 +58,8 @@ double greatest_step(Raster<float> const& dem) {
 /// A folder with points of a tilted, bumpy plain on 60 x 40 cells of 30 m.
 class PointsFile {
 public:
-    PointsFile() : folder_(std::filesystem::temp_directory_path() / "thalweg-land-test") {
-        std::filesystem::create_directories(folder_);
-        std::ofstream out(folder_ / "points.csv");
+    PointsFile() {
+        std::ofstream out(folder_ / std::string("points.csv"));
         out.precision(12);
         out << "x,y,z\n";
         for (std::uint64_t i = 0; i < 150; ++i) {
@@ -69,14 +70,10 @@ public:
             out << 500000.0 + x << "," << 4000000.0 + y << "," << 100.0 + 0.05 * x + 20.0 * unit(words[2]) << "\n";
         }
     }
-    ~PointsFile() {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-    std::string folder() const { return folder_.string(); }
+    std::string folder() const { return folder_.path().string(); }
 
 private:
-    std::filesystem::path folder_;
+    ScratchFolder folder_;
 };
 
 std::string const from_points =

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <io/scratch_folder.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -26,8 +28,7 @@ std::string const dilated = "[surface]\nmethod = \"dilate\"\n";
 /// A folder with regions and outlets near (500000, 5000000) in EPSG:32631.
 class Files {
 public:
-    Files() : folder_(std::filesystem::temp_directory_path() / "thalweg-forest-test") {
-        std::filesystem::create_directories(folder_);
+    Files() {
         // Two islands, 150 x 120 cells of 30 m with a lagoon, and 20 x 20.
         write("region.geojson",
               polygons("[[[500000,5000000],[504500,5000000],[504500,5003600],[500000,5003600],[500000,5000000]],"
@@ -42,9 +43,7 @@ public:
         write("inland.geojson", layer("{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"LineString\","
                                       "\"coordinates\":[[501000,5001000],[501200,5001000]]}}"));
     }
-    ~Files() { std::filesystem::remove_all(folder_); }
-
-    std::string folder() const { return folder_.string(); }
+    std::string folder() const { return folder_.path().string(); }
 
 private:
     static std::string layer(std::string const& feature) {
@@ -57,9 +56,9 @@ private:
             "{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"MultiPolygon\",\"coordinates\":[" +
             parts + "]}}");
     }
-    void write(char const* name, std::string const& text) const { std::ofstream(folder_ / name) << text; }
+    void write(char const* name, std::string const& text) const { std::ofstream(folder_ / std::string(name)) << text; }
 
-    std::filesystem::path folder_;
+    ScratchFolder folder_;
 };
 
 Terrain made(std::string const& toml, std::string const& folder = "") {

@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Recipes of land in equilibrium, from keys to checks.
+#include <thalweg/pipeline/terrain.hpp>
+
+#include <thalweg/core/error.hpp>
+#include <thalweg/measure/drainage.hpp>
+
+#include <gtest/gtest.h>
+
+#include <io/scratch_folder.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+using namespace thalweg;
+using namespace thalweg::pipeline;
+
+namespace {
+
+std::string const grid = "[grid]\nwidth = 140\nheight = 120\norigin = [500000, 5003600]\ncrs = \"EPSG:32631\"\n";
+std::string const lines = grid + "[network]\nsource = \"lines\"\n";
+std::string const path = "[network.lines]\npath = \"rivers.geojson\"\n";
+std::string const equilibrium = "[surface]\n";
+
+std::string layer(std::string const& features) {
+    return "{\"type\":\"FeatureCollection\",\"crs\":{\"type\":\"name\",\"properties\":{\"name\":"
+           "\"urn:ogc:def:crs:EPSG::32631\"}},\"features\":[" +
+           features + "]}";
+}
+
+std::string line(std::string const& vertices) {
+    return "{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[" +
+           vertices + "]}}";
+}
+
+std::string polygon(std::string const& ring, std::string const& properties = "") {
+    return "{\"type\":\"Feature\",\"properties\":{" + properties +
+           "},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[" + ring + "]]}}";
+}
+
+/// Two rivers that meet and leave in the south of 140 x 120 cells of 30 m.
+class Files {
+public:
+    Files() {
+        std::string const trunk = "[501000,5003000],[501700,5002200],[502000,5001500]";
+        std::string const other = "[503200,5002800],[502500,5002000],[502000,5001500]";
+        write("rivers.geojson",
+              layer(line(trunk) + "," + line(other) + "," + line("[502000,5001500],[502100,5000010]")));
+        write("inland.geojson", layer(line("[501000,5003000],[502000,5001500]")));
+        write("lakes.geojson",
+              layer(polygon("[501850,5001200],[502250,5001200],[502250,5001700],[501850,5001700],[501850,5001200]")));
+        write("dry.geojson",
+              layer(polygon("[503500,5000300],[503800,5000300],[503800,5000600],[503500,5000600],[503500,5000300]")));
+        std::string const east = "[502500,5000000],[504200,5000000],[504200,5003600],[502500,5003600],[502500,5000000]";
+        write("rock.geojson", layer(polygon(east, "\"erodibility\":0.2")));
+        write("numb.geojson", layer(polygon(east, "\"erodibility\":\"hard\"")));
+        write("zero.geojson", layer(polygon(east, "\"erodibility\":0")));
+    }
+    std::string folder() const { return folder_.path().string(); }
+
+    /// An ESRI grid of 140 x 120 cells of 30 m, with value(column, row).
+    template <class Value> void raster(std::string const& name, Value value) const {
+        std::ofstream out(folder_ / name);
+        out << "ncols 140\nnrows 120\nxllcorner 500000\nyllcorner 5000000\ncellsize 30\nNODATA_value -9999\n";
+        for (int r = 0; r < 120; ++r) {
+            for (int c = 0; c < 140; ++c) {
+                out << value(c, r) << " ";
+            }
+            out << "\n";
+        }
+        std::ofstream(folder_ / (name.substr(0, name.find('.')) + ".prj"))
+            << "PROJCS[\"WGS 84 / UTM zone 31N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
+               "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION["
+               "\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],PARAMETER[\"central_meridian\",3],"
+               "PARAMETER[\"scale_factor\",0.9996],PARAMETER[\"false_easting\",500000],PARAMETER[\"false_northing\",0],"
+               "UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"32631\"]]";
+    }
+
+private:
+    void write(std::string const& name, std::string const& text) const { std::ofstream(folder_ / name) << text; }
+
+    ScratchFolder folder_;
+};
+
+Terrain made(std::string const& toml, Files const& files) {
+    Recipe recipe = read_recipe(toml, "test");
+    recipe.folder = files.folder();
+    return make_terrain(recipe);
+}
+
+std::string fault_of(std::string const& toml, Files const& files) {
+    try {
+        made(toml, files);
+    } catch (Error const& e) {
+        return e.what();
+    }
+    return "";
+}
+
+bool has(std::string const& text, std::string const& part) {
+    return text.find(part) != std::string::npos;
+}
+
+std::int64_t count(Terrain const& t, std::string const& kind) {
+    return std::ranges::count(t.story.repairs, kind, &Finding::kind);
+}
+
+/// Law: every check holds, the land has no depression and needed no carving, and rivers have its heights.
+void expect_lawful(Terrain const& t) {
+    for (Check const& c : t.checks) {
+        EXPECT_TRUE(c.ok) << c.name << " " << c.value;
+    }
+    EXPECT_EQ(t.pits, 0);
+    ASSERT_TRUE(t.drained);
+    EXPECT_EQ(t.drained->banks.raised_cells, 0);
+    EXPECT_EQ(t.drained->depressions.raised_cells + t.drained->depressions.cut_cells, 0);
+    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
+        EXPECT_TRUE(std::isnan(t.valley.z[i]) || t.valley.z[i] == t.surface->dem[i]);
+    }
+}
+
+double mean_of(Terrain const& t, std::int64_t from_column, std::int64_t to_column) {
+    double sum = 0.0;
+    std::int64_t cells = 0;
+    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
+        std::int64_t const column = t.grid.at(i).col;
+        if (column >= from_column && column < to_column) {
+            sum += static_cast<double>(t.surface->dem[i]);
+            ++cells;
+        }
+    }
+    return sum / static_cast<double>(cells);
+}
+
+} // namespace
+
+TEST(LandInEquilibrium, KeysThatDoNotGoTogetherAreNamed) {
+    Files const files;
+    EXPECT_TRUE(
+        has(fault_of(lines + path + "[surface]\nmean_slope = 20\nrelief = 300\n", files), "do not go together"));
+    EXPECT_TRUE(has(fault_of(lines + "heights = \"soft\"\n" + path + "[surface]\nmethod = \"dilate\"\n", files),
+                    "\"soft\" needs surface.method"));
+    EXPECT_TRUE(has(fault_of(lines + "fill_space = true\n" + path + "[surface]\nmethod = \"dilate\"\n", files),
+                    "network.fill_space needs"));
+    EXPECT_TRUE(has(fault_of(lines + "rotate = 20\n" + path + equilibrium, files), "network.rotate turns a cluster"));
+    EXPECT_TRUE(has(fault_of(lines + "concavity = 0.95\n" + path + equilibrium, files), "0.1 to 0.9"));
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nlakes = \"lakes.geojson\"\nlake_share = 0.5\n", files),
+                    "lakes come from a file or chance"));
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nmean_slope = 0\n", files), "surface.mean_slope"));
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nrelief = -1\n", files), "surface.relief"));
+    EXPECT_TRUE(has(fault_of("[grid]\nwidth = 60\nheight = 60\n[surface]\n", files), "needs [network]"));
+}
+
+TEST(LandInEquilibrium, ReliefOrMeanSlopeIsWhatWasAsked) {
+    Files const files;
+    Terrain const sloped = made(lines + path + "[surface]\nmean_slope = 15\n", files);
+    expect_lawful(sloped);
+    EXPECT_NEAR(sloped.relief->land.slopes.mean_deg, 15.0, 0.2);
+    Terrain const high = made(lines + path + "[surface]\nrelief = 400\n", files);
+    expect_lawful(high);
+    EXPECT_NEAR(high.statistics->max.z - high.statistics->min.z, 400.0, 0.1);
+}
+
+TEST(LandInEquilibrium, HeightsOfRiversAreKeptOrUpperBounds) {
+    Files const files;
+    Terrain const fixed = made(lines + "heights = \"fixed\"\nslope = 0.08\n" + path + equilibrium, files);
+    Terrain const soft = made(lines + "heights = \"soft\"\nslope = 0.08\n" + path + equilibrium, files);
+    Terrain const ends = made(lines + "heights = \"ends\"\nslope = 0.08\n" + path + equilibrium, files);
+    for (Terrain const* t : {&fixed, &soft, &ends}) {
+        expect_lawful(*t);
+    }
+    // The sources lie some 2000 m from the outlet.
+    double const source = fixed.network.node_z[0];
+    EXPECT_GT(source, 100.0);
+    EXPECT_NEAR(ends.network.node_z[0], source, 0.1);
+    EXPECT_LE(soft.network.node_z[0], source + 0.1);
+    EXPECT_EQ(fixed.equilibrium->max_lowered_m, 0.0);
+}
+
+TEST(LandInEquilibrium, LakesAreLevelAndTold) {
+    Files const files;
+    Terrain const t = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files);
+    expect_lawful(t);
+    EXPECT_EQ(t.lakes, 1);
+    EXPECT_GT(t.certificate->lake_cells, 5);
+    Cell const middle = t.grid.cell_of({502050, 5001400});
+    std::int64_t level = 0;
+    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
+        level += t.surface->dem[i] == t.surface->dem[middle] ? 1 : 0;
+    }
+    EXPECT_GT(level, 100); // of 13 x 16 cells
+    Terrain const dry = made(lines + path + "[surface]\nlakes = \"dry.geojson\"\n", files);
+    expect_lawful(dry);
+    EXPECT_EQ(dry.lakes, 0);
+    EXPECT_EQ(count(dry, "lake_left_out"), 1);
+}
+
+TEST(LandInEquilibrium, HardRockAndUpliftMakeHighLand) {
+    Files const files;
+    Terrain const even = made(lines + path + equilibrium, files);
+    Terrain const rock = made(lines + path + "[surface]\nerodibility = \"rock.geojson\"\n", files);
+    files.raster("uplift.asc", [](int c, int) { return c < 84 ? 1 : 4; });
+    Terrain const lifted = made(lines + path + "[surface]\nuplift = \"uplift.asc\"\n", files);
+    auto const contrast = [](Terrain const& t) { return mean_of(t, 95, 140) / mean_of(t, 0, 75); };
+    for (Terrain const* t : {&even, &rock, &lifted}) {
+        expect_lawful(*t);
+    }
+    EXPECT_GT(contrast(rock), 1.3 * contrast(even));
+    EXPECT_GT(contrast(lifted), 1.3 * contrast(even));
+}
+
+TEST(LandInEquilibrium, FieldsThatMakeNoSenseAreRefusedByPlace) {
+    Files const files;
+    files.raster("holes.asc", [](int c, int r) { return c == 30 && r == 20 ? -9999 : 1; });
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nuplift = \"holes.asc\"\n", files), "none in cell (30, 20)"));
+    files.raster("below.asc", [](int c, int r) { return c == 31 && r == 21 ? -2 : 1; });
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nuplift = \"below.asc\"\n", files), "-2 in cell (31, 21)"));
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nerodibility = \"zero.geojson\"\n", files), "above 0"));
+    EXPECT_TRUE(
+        has(fault_of(lines + path + "[surface]\nerodibility = \"numb.geojson\"\n", files), "no field erodibility"));
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nerodibility = \"lakes.geojson\"\n", files), "no field"));
+}
+
+TEST(LandInEquilibrium, RiversThatEndInsideAreCarriedOrSinks) {
+    Files const files;
+    std::string const inland = "[network.lines]\npath = \"inland.geojson\"\n";
+    Terrain const carried = made(lines + inland + equilibrium, files);
+    expect_lawful(carried);
+    EXPECT_EQ(count(carried, "carried_outlet"), 1);
+    Terrain const sink = made(lines + "inland = \"sink\"\n" + inland + "[surface]\ndrain = \"none\"\n", files);
+    EXPECT_EQ(count(sink, "carried_outlet"), 0);
+    measure::Drainage const drainage = measure::drain(sink.surface->dem);
+    EXPECT_EQ(drainage.depressions.size(), 1U);
+}
+
+TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {
+    Files const files;
+    Terrain const t = made(lines + "fill_space = true\nsupport = 60\n" + path + equilibrium, files);
+    expect_lawful(t);
+    EXPECT_GT(t.equilibrium->side_valleys, 30);
+    std::int64_t grown = 0;
+    for (ArcId const arc : NetworkIndex(t.network.plan).arcs) {
+        grown += t.network.plan[arc].given ? 0 : 1;
+    }
+    EXPECT_EQ(grown, t.equilibrium->side_valleys);
+    EXPECT_EQ(t.relief->perched, 0);
+}
+
+TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToWander) {
+    Files const files;
+    Terrain const still = made(lines + path + equilibrium, files);
+    Terrain const bent = made(lines + "meander = 1\n" + path + equilibrium, files);
+    expect_lawful(bent);
+    EXPECT_EQ(still.recipe.network->meander, 0.0);
+    auto const length = [](Terrain const& t) {
+        double sum = 0.0;
+        for (double const one : NetworkIndex(t.network.plan).length_m) {
+            sum += one;
+        }
+        return sum;
+    };
+    EXPECT_GT(length(bent), 1.005 * length(still));
+}
