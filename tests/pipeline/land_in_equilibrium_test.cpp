@@ -51,6 +51,9 @@ public:
         write("rivers.geojson",
               layer(line(trunk) + "," + line(other) + "," + line("[502000,5001500],[502100,5000010]")));
         write("inland.geojson", layer(line("[501000,5003000],[502000,5001500]")));
+        write("border.geojson", layer(line("[500010,5003000],[500010,5000010]")));
+        write("double.geojson", layer(line(trunk + ",[502100,5000010]") + "," +
+                                      line("[501010,5003000],[501710,5002200],[502010,5001500],[502110,5000010]")));
         write("lakes.geojson",
               layer(polygon("[501850,5001200],[502250,5001200],[502250,5001700],[501850,5001700],[501850,5001200]")));
         write("dry.geojson",
@@ -264,4 +267,52 @@ TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToWander) {
         return sum;
     };
     EXPECT_GT(length(bent), 1.005 * length(still));
+}
+
+TEST(LandInEquilibrium, TwoRiversInOneCellBecomeOne) {
+    Files const files;
+    Terrain const t = made(lines + "[network.lines]\npath = \"double.geojson\"\n" + equilibrium, files);
+    expect_lawful(t);
+    EXPECT_GE(count(t, "captured"), 1);
+}
+
+TEST(LandInEquilibrium, ARiverAlongTheBorderIsTold) {
+    Files const files;
+    Terrain const t = made(lines + "[network.lines]\npath = \"border.geojson\"\n" + equilibrium, files);
+    auto const found = std::ranges::find(t.findings, "border_cell", &Finding::kind);
+    ASSERT_NE(found, t.findings.end());
+    EXPECT_LT(found->where.x, 500030.0);
+    EXPECT_FALSE(t.passed());
+}
+
+TEST(LandInEquilibrium, HeightsThatRiseAreLowered) {
+    Files const files;
+    Terrain const t = made(lines + "heights = \"straight\"\nslope = 0.08\n" + path + equilibrium, files);
+    for (std::vector<double> const& z : t.network.arc_z) {
+        EXPECT_TRUE(std::is_sorted(z.rbegin(), z.rend()));
+    }
+}
+
+/// Law: with closed edges a forest's basins tile the map: water leaves it at the outlets alone, from every cell.
+TEST(LandInEquilibrium, AForestTilesALargeMap) {
+    Files const files;
+    Terrain const t = made("[grid]\nwidth = 2048\nheight = 2048\n[network]\nsource = \"forest\"\nprune = 20\n"
+                           "[surface]\nedge = \"closed\"\n",
+                           files);
+    expect_lawful(t);
+    NetworkIndex const index(t.network.plan);
+    std::vector<std::int64_t> outlets;
+    for (NodeId const n : index.outlets) {
+        outlets.push_back(t.grid.index(t.grid.cell_of(t.network.plan[n].at)));
+    }
+    EXPECT_GT(outlets.size(), 50U);
+    measure::Drainage const drainage = measure::drain(t.surface->dem);
+    std::int64_t drained = 0;
+    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
+        if (drainage.direction[i] < 0) {
+            EXPECT_EQ(std::ranges::count(outlets, i), 1) << t.grid.at(i).col << " " << t.grid.at(i).row;
+            drained += drainage.area_cells[i];
+        }
+    }
+    EXPECT_EQ(drained, t.grid.cells());
 }
