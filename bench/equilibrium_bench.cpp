@@ -41,6 +41,7 @@ BENCHMARK(bench_equilibrium)
     ->Args({1024, 1})
     ->Args({2048, 1})
     ->Args({4096, 1})
+    ->Args({8192, 1})
     ->Args({1024, 0})
     ->ArgNames({"side", "rough"})
     ->Unit(benchmark::kMillisecond);
