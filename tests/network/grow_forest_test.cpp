@@ -55,7 +55,7 @@ std::vector<Cell> random_seeds(Mask const& region, std::int64_t step, std::size_
 /// Particles, leaves and box of a forest.
 using Shape = std::array<std::int64_t, 4>;
 
-Shape shape(Forest const& forest) {
+Shape shape(GrownForest const& forest) {
     std::vector<int> children(forest.cells.size(), 0);
     for (std::int64_t const up : forest.parent) {
         if (up >= 0) {
@@ -71,7 +71,7 @@ Shape shape(Forest const& forest) {
 } // namespace
 
 TEST(GrowForest, one_cell_is_its_seed) {
-    Forest const f = grow_forest(mask_of({"#"}), {{0, 0}});
+    GrownForest const f = grow_forest(mask_of({"#"}), {{0, 0}});
     EXPECT_EQ(f.cells, (std::vector<Cell>{{0, 0}}));
     EXPECT_EQ(f.parent, std::vector<std::int64_t>{-1});
     EXPECT_EQ(f.tree, std::vector<std::int64_t>{0});
@@ -80,7 +80,7 @@ TEST(GrowForest, one_cell_is_its_seed) {
 }
 
 TEST(GrowForest, a_row_of_cells_is_a_chain) {
-    Forest const f = grow_forest(mask_of({"#######"}), {{0, 0}}, growth(2, 7));
+    GrownForest const f = grow_forest(mask_of({"#######"}), {{0, 0}}, growth(2, 7));
     EXPECT_EQ(f.cells, (std::vector<Cell>{{0, 0}, {2, 0}, {4, 0}, {6, 0}}));
     EXPECT_EQ(f.parent, (std::vector<std::int64_t>{-1, 0, 1, 2}));
 }
@@ -131,7 +131,7 @@ TEST(GrowForest, laws_of_a_forest) {
         auto const seeds = random_seeds(region, step, *rc::gen::inRange<std::size_t>(1, 6), seed);
         RC_PRE(!seeds.empty());
         ForestParams const params = growth(step, seed, *rc::gen::element(1.0, 0.85, 0.3), *rc::gen::inRange(1, 5));
-        Forest const f = grow_forest(region, seeds, params);
+        GrownForest const f = grow_forest(region, seeds, params);
         RC_ASSERT(f.stop == ForestStop::full);
         RC_ASSERT(f.parent.size() == f.cells.size());
         RC_ASSERT(f.tree.size() == f.cells.size());
@@ -157,7 +157,7 @@ TEST(GrowForest, laws_of_a_forest) {
 
 TEST(GrowForest, land_without_a_seed_stays_empty) {
     Mask const land = mask_of({"####.###", "####.###", "####.###", "####.###"});
-    Forest const f = grow_forest(land, {{0, 0}}, growth(1, 7));
+    GrownForest const f = grow_forest(land, {{0, 0}}, growth(1, 7));
     EXPECT_GT(f.cells.size(), 5U);
     EXPECT_TRUE(std::ranges::all_of(f.cells, [](Cell c) { return c.col < 4; }));
 }
@@ -170,8 +170,9 @@ TEST(GrowForest, same_cells_for_any_number_of_threads) {
     one.threads = 1;
     thalweg::Run two;
     two.threads = 2;
-    Forest const first = grow_forest(land, seeds, growth(5, 7), one);
-    for (Forest const& again : {grow_forest(land, seeds, growth(5, 7), two), grow_forest(land, seeds, growth(5, 7))}) {
+    GrownForest const first = grow_forest(land, seeds, growth(5, 7), one);
+    for (GrownForest const& again :
+         {grow_forest(land, seeds, growth(5, 7), two), grow_forest(land, seeds, growth(5, 7))}) {
         EXPECT_EQ(again.cells, first.cells);
         EXPECT_EQ(again.parent, first.parent);
         EXPECT_EQ(again.walkers, first.walkers);
@@ -181,10 +182,10 @@ TEST(GrowForest, same_cells_for_any_number_of_threads) {
 
 TEST(GrowForest, a_longer_growth_continues_a_shorter) {
     Mask const land(grid_of(120, 90), 1);
-    Forest const whole = grow_forest(land, {{0, 0}, {100, 50}}, growth(4, 7));
+    GrownForest const whole = grow_forest(land, {{0, 0}, {100, 50}}, growth(4, 7));
     ForestParams params = growth(4, 7);
     params.particles = 60;
-    Forest const part = grow_forest(land, {{0, 0}, {100, 50}}, params);
+    GrownForest const part = grow_forest(land, {{0, 0}, {100, 50}}, params);
     ASSERT_EQ(part.cells.size(), 60U);
     EXPECT_EQ(part.stop, ForestStop::particles);
     EXPECT_TRUE(std::equal(part.cells.begin(), part.cells.end(), whole.cells.begin()));
@@ -203,7 +204,7 @@ TEST(RegionWalk, arrivals_have_the_distribution_of_unit_steps) {
     }
     ForestParams params = growth(4, 7);
     params.particles = 14;
-    Forest const f = grow_forest(land, {{0, 0}, {59, 49}}, params);
+    GrownForest const f = grow_forest(land, {{0, 0}, {59, 49}}, params);
     auto const fast = plain_forest::arrivals_by_jumps(land, f, params.step_cells, 150000, 1);
     auto const slow = plain_forest::arrivals_by_steps(land, f, params.step_cells, 150000, 2);
     auto const honest = chi_squared::two_samples(fast, slow);

@@ -19,8 +19,8 @@ namespace plain_forest {
 using thalweg::Cell;
 using thalweg::ChanceStream;
 using thalweg::Mask;
-using thalweg::network::Forest;
 using thalweg::network::ForestParams;
+using thalweg::network::GrownForest;
 
 inline std::int64_t squared_distance(Cell a, Cell b) {
     return (a.col - b.col) * (a.col - b.col) + (a.row - b.row) * (a.row - b.row);
@@ -108,10 +108,10 @@ inline void step(Cell& at, Trees const& trees, ChanceStream& chance) {
     }
 }
 
-inline Forest grow(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params) {
+inline GrownForest grow(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params) {
     Mask const reached = reached_from(seeds, region);
     Trees trees(reached, params.step_cells);
-    Forest forest;
+    GrownForest forest;
     std::vector<int> visits(static_cast<std::size_t>(region.cells()), 0);
     auto const add = [&](Cell c, std::int64_t parent) {
         trees.add(c, parent);
@@ -163,7 +163,7 @@ inline std::vector<Cell> starts(Mask const& region, Trees const& trees) {
     return free;
 }
 
-inline Trees trees_of(Mask const& region, Forest const& forest, std::int64_t step) {
+inline Trees trees_of(Mask const& region, GrownForest const& forest, std::int64_t step) {
     Trees trees(region, step);
     for (std::size_t p = 0; p < forest.cells.size(); ++p) {
         trees.add(forest.cells[p], forest.parent[p]);
@@ -171,7 +171,7 @@ inline Trees trees_of(Mask const& region, Forest const& forest, std::int64_t ste
     return trees;
 }
 
-inline std::vector<std::int64_t> arrivals_by_steps(Mask const& region, Forest const& forest, std::int64_t size,
+inline std::vector<std::int64_t> arrivals_by_steps(Mask const& region, GrownForest const& forest, std::int64_t size,
                                                    std::int64_t walkers, std::uint64_t seed) {
     Trees const trees = trees_of(region, forest, size);
     Mask within(region.grid(), 0);
@@ -202,7 +202,7 @@ inline std::vector<std::int64_t> arrivals_by_steps(Mask const& region, Forest co
     return hits;
 }
 
-inline std::vector<std::int64_t> arrivals_by_jumps(Mask const& region, Forest const& forest, std::int64_t size,
+inline std::vector<std::int64_t> arrivals_by_jumps(Mask const& region, GrownForest const& forest, std::int64_t size,
                                                    std::int64_t walkers, std::uint64_t seed) {
     Trees const trees = trees_of(region, forest, size);
     thalweg::network::RegionWalk walk(region);

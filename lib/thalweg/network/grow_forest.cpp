@@ -67,11 +67,12 @@ private:
 
 } // namespace
 
-Forest grow_forest(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params, Run const& run) {
+GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params,
+                        Run const& run) {
     check(region, seeds, params);
     ForestGrowth growth(region, seeds, params.step_cells);
     Visits visits(region.grid(), params.visits);
-    Forest forest;
+    GrownForest forest;
     auto const size = [&] { return static_cast<std::int64_t>(growth.particles().size()); };
     double const in_a_full_one = static_cast<double>(growth.cells()) / static_cast<double>(params.step_cells) /
                                  static_cast<double>(2 * params.step_cells);

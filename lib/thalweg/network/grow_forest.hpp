@@ -22,7 +22,7 @@ struct ForestParams {
 enum class ForestStop : std::uint8_t { full, particles };
 
 /// Trees in a region, one a seed.
-struct Forest {
+struct GrownForest {
     std::vector<Cell> cells;          ///< in order of arrival, the seeds first
     std::vector<std::int64_t> parent; ///< by particle: the one it hangs on; -1 for a seed
     std::vector<std::int64_t> tree;   ///< by particle: the number of its seed
@@ -41,7 +41,7 @@ struct Forest {
 /// have the law of unit steps, each walker has its own chance (seed, walker): the same bytes for any Run.
 /// Throws: BadParameter; BadInput for no seed, one outside the region or two that are too near; Cancelled.
 /// Source: Witten and Sander 1981, with walkers from everywhere; Petroff et al. 2013 (rivers in a Poisson field).
-Forest grow_forest(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params = {},
-                   Run const& run = {});
+GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params = {},
+                        Run const& run = {});
 
 } // namespace thalweg::network

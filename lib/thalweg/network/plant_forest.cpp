@@ -198,7 +198,7 @@ void note_dry_land(Mask const& land, Mouths const& mouths, std::vector<Finding>&
 }
 
 /// The trees as arcs: every particle without or with several children is a node, and so is every outlet.
-StreamNetwork as_network(Forest const& forest, Grid const& grid, std::vector<Mouth> const& mouths) {
+StreamNetwork as_network(GrownForest const& forest, Grid const& grid, std::vector<Mouth> const& mouths) {
     std::size_t const count = forest.cells.size();
     std::vector<int> children(count, 0);
     for (std::int64_t const up : forest.parent) {
@@ -260,7 +260,7 @@ PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, F
     for (Mouth const& mouth : mouths.all()) {
         seeds.push_back(mouth.seed);
     }
-    Forest const forest = grow_forest(inland, seeds, params, run);
+    GrownForest const forest = grow_forest(inland, seeds, params, run);
     planted.network = as_network(forest, land.grid(), mouths.all());
     planted.outlets = static_cast<std::int64_t>(seeds.size());
     planted.particles = static_cast<std::int64_t>(forest.cells.size());
