@@ -14,6 +14,7 @@
 
 using namespace thalweg;
 using blend::mask_polygons;
+using blend::number_polygons;
 
 namespace {
 
@@ -61,28 +62,30 @@ TEST(MaskPolygons, RefusesWhatHoldsNoCell) {
 }
 
 TEST(MaskPolygons, EqualsAPointInPolygonTest) {
-    ASSERT_TRUE(rc::check("even-odd within a polygon, any of several", [] {
+    ASSERT_TRUE(rc::check("even-odd within a polygon, of several the last", [] {
         Grid const grid = lands::frame(17, 13, 2.0);
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1000000).as("seed");
         auto const vertices = *rc::gen::inRange<std::uint64_t>(3, 9).as("vertices");
         Polygons const polygons = of({{1, {ring_by_chance(seed, vertices, 30.0), ring_by_chance(seed + 1, 4, 30.0)}},
                                       {2, {ring_by_chance(seed + 2, 3, 30.0)}}});
-        Mask wanted(grid);
+        Raster<std::int32_t> wanted(grid);
         bool any = false;
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             Vec2 const p = grid.centre(grid.at(i));
             auto const& rings = polygons.polygons[0].rings;
             bool const in = is_inside(rings[0], p) != is_inside(rings[1], p);
-            wanted[i] = in || is_inside(polygons.polygons[1].rings[0], p) ? 1 : 0;
+            wanted[i] = is_inside(polygons.polygons[1].rings[0], p) ? 2 : in ? 1 : 0;
             any = any || wanted[i] != 0;
         }
         if (!any) {
             RC_ASSERT_THROWS_AS(mask_polygons(polygons, grid), BadInput);
             return;
         }
+        Raster<std::int32_t> const numbers = number_polygons(polygons, grid);
         Mask const mask = mask_polygons(polygons, grid);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            RC_ASSERT(mask[i] == wanted[i]);
+            RC_ASSERT(numbers[i] == wanted[i]);
+            RC_ASSERT(mask[i] == (wanted[i] != 0 ? 1 : 0));
         }
     }));
 }

@@ -47,6 +47,11 @@ UNREPEATABLE = re.compile(r"\bstd::(?:shuffle|sample|random_device|reduce|transf
 DISTRIBUTION = re.compile(r"\b(?:std::)?(?:uniform_int|uniform_real|normal|bernoulli|binomial|geometric|poisson|exponential|"
                           r"gamma|weibull|extreme_value|lognormal|chi_squared|cauchy|fisher_f|student_t|discrete|"
                           r"piecewise_constant|piecewise_linear)_distribution\b")
+# rapidcheck gives its verdict back; a test that does not look at it cannot fail.
+UNASKED = re.compile(r"^\s*rc::check\(")
+# What opens and closes a namespace, and a type defined in one, as clang-format writes them.
+NAMESPACE = re.compile(r"(?:inline )?namespace(?: ([\w:]+))? \{|\} // namespace")
+TYPE = re.compile(r"(?:struct|class|union|enum class|enum) (\w+)(?![\w:])[^;]*\{")
 FLAGS = re.compile(r"-march=|-mtune=|-mfma|-mavx|-ffast-math|-Ofast|-funsafe-math|-ffp-contract=fast")
 
 MACHINE_PATH = re.compile(r"(?<![\w.}$)*-])/(?:work|home|root|tmp|Users)(?![\w.-])")
@@ -128,6 +133,8 @@ def check_source(name, lines):
         if found := DISTRIBUTION.search(code):
             yield number, f"{found[0]}: distributions differ between libraries; use core/chance.hpp"
         if not in_lib:
+            if UNASKED.search(code) and not lines[max(number - 2, 0)].endswith("("):
+                yield number, "rc::check: its verdict is not looked at; write ASSERT_TRUE(rc::check(...))"
             continue
         if found := UNREPEATABLE.search(code):
             yield number, f"{found[0]}: not the same everywhere"
@@ -135,6 +142,29 @@ def check_source(name, lines):
             found = LIBM_CALL.search(code) or (LIBM_LOG.search(code) if has_cmath else None)
             if found:
                 yield number, f"{found[0].rstrip('(')} of libm has other bits on other machines; use core/elementary.hpp"
+
+
+def types_of(lines):
+    """The types of a C++ file that others see as (line number, name with its namespaces)."""
+    spaces = []
+    for number, line in enumerate(lines, 1):
+        if found := NAMESPACE.match(line):
+            if line.startswith("}"):
+                spaces = spaces[:-1]
+            elif not line.rstrip().endswith("}"):
+                spaces.append(found[1])
+        elif (found := TYPE.match(line)) and None not in spaces:
+            yield number, "::".join([*spaces, found[1]])
+
+
+def check_types(sources):
+    """Types of one name that two files of the library define: they would share their functions, whichever comes first."""
+    seen = {}
+    for name, lines in sources:
+        for number, full in types_of(lines):
+            if full in seen:
+                yield f"{name}:{number}: {full} is also defined in {seen[full]}"
+            seen[full] = name
 
 
 def check_text(name, lines):
@@ -161,6 +191,7 @@ def violations(root):
     """Every violation under a folder, as printable lines."""
     root = pathlib.Path(root)
     found = []
+    sources = []
     for name in files_of(root):
         data = (root / name).read_bytes()
         if pathlib.PurePath(name).suffix in PICTURES or b"\0" in data:
@@ -169,8 +200,10 @@ def violations(root):
         faults = list(check_text(name, lines))
         if name.endswith(CPP):
             faults += check_source(name, lines)
+        if name.endswith(CPP) and name.startswith("lib/"):
+            sources.append((name, lines))
         found += [f"{name}:{number}: {text}" for number, text in sorted(faults)]
-    return found
+    return found + list(check_types(sources))
 
 
 if __name__ == "__main__":

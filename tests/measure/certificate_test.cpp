@@ -203,7 +203,7 @@ TEST(Certify, ListsAThousandOfAKind) {
 }
 
 TEST(Certify, RiversTracedOnADemPassOnIt) {
-    rc::check("reaches along the DEM's own ways", [] {
+    ASSERT_TRUE(rc::check("reaches along the DEM's own ways", [] {
         Raster<float> const dem = *gen_dem(14, 10);
         measure::Drainage const d = drain(dem);
         auto const sources = *rc::gen::inRange(0, 4);
@@ -237,11 +237,11 @@ TEST(Certify, RiversTracedOnADemPassOnIt) {
         if (!reaches.empty()) {
             RC_ASSERT(c.traced[0].f() == 1.0);
         }
-    });
+    }));
 }
 
 TEST(Certify, DepressionsAddUpToTheCellsBelowTheirSpill) {
-    rc::check("depressions", [] {
+    ASSERT_TRUE(rc::check("depressions", [] {
         Raster<float> const dem = *gen_dem(12, 10);
         measure::Drainage const d = drain(dem);
         std::int64_t cells = 0;
@@ -253,7 +253,7 @@ TEST(Certify, DepressionsAddUpToTheCellsBelowTheirSpill) {
         }
         RC_ASSERT(cells == d.pits);
         RC_ASSERT(std::abs(volume - d.pit_volume_m3) <= 1e-9 * (1.0 + volume));
-    });
+    }));
 }
 
 namespace {
@@ -301,16 +301,16 @@ bool same(Agreements const& a, Agreements const& b) {
 } // namespace
 
 TEST(Agreement, IsThatOfEveryPairOfCentres) {
-    rc::check("agreement", [] {
+    ASSERT_TRUE(rc::check("agreement", [] {
         Grid const grid = frame(*evenly<std::int64_t>(1, 16), *evenly<std::int64_t>(1, 16));
         auto const found = some_cells(grid);
         auto const rivers = some_cells(grid);
         RC_ASSERT(same(measure::agreement(found, rivers, grid), slow_agreement(found, rivers, grid)));
-    });
+    }));
 }
 
 TEST(Agreement, BestThresholdIsTheBestOfAll) {
-    rc::check("best_threshold", [] {
+    ASSERT_TRUE(rc::check("best_threshold", [] {
         Grid const grid = frame(*evenly<std::int64_t>(1, 14), *evenly<std::int64_t>(1, 14));
         Raster<std::int64_t> area(grid);
         for (std::int64_t& a : area.values()) {
@@ -337,5 +337,5 @@ TEST(Agreement, BestThresholdIsTheBestOfAll) {
         if (at > 0) {
             RC_ASSERT(best[1].f() == most);
         }
-    });
+    }));
 }

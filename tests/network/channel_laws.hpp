@@ -10,6 +10,7 @@
 
 #include <rapidcheck.h>
 
+#include <network/networks.hpp>
 #include <thalweg/core/channels.hpp>
 #include <thalweg/core/d8.hpp>
 
@@ -22,6 +23,23 @@ inline Cell channel_cell(Channels const& rivers, std::int64_t number) {
 
 inline bool are_neighbours(Cell a, Cell b) {
     return !(a == b) && std::abs(a.col - b.col) <= 1 && std::abs(a.row - b.row) <= 1;
+}
+
+/// Rivers by chance and a grid that holds them.
+struct SomeRivers {
+    std::uint64_t seed = 0;
+    bool on_lattice = false; ///< from cell to cell, as grown; else lines that pay no heed to each other
+    StreamNetwork net;
+    Grid grid; ///< 40 x 40
+};
+
+inline SomeRivers some_rivers() {
+    SomeRivers some{*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::arbitrary<bool>(), {}, grid_of(40, 40)};
+    some.net = some.on_lattice ? random_skeleton(some.seed, 40)
+                               : random_forest(some.seed, *rc::gen::inRange<std::size_t>(0, 20), 2);
+    some.grid.cell_m = some.on_lattice ? 1.0 : 25.0;
+    some.grid.north = 40.0 * some.grid.cell_m;
+    return some;
 }
 
 enum class Diagonals { may_cross, do_not_cross };

@@ -35,6 +35,17 @@ Raster<std::int32_t> labels_of(std::vector<std::string> const& rows) {
     return out;
 }
 
+/// A lake that fills the cells from one in its north-west to one in its south-east.
+Raster<std::int32_t> lake_between(Cell first, Cell last, Grid const& grid) {
+    Raster<std::int32_t> out(grid);
+    for (std::int64_t row = first.row; row <= last.row; ++row) {
+        for (std::int64_t col = first.col; col <= last.col; ++col) {
+            out[Cell{col, row}] = 1;
+        }
+    }
+    return out;
+}
+
 /// '#' level, 'o' an outlet, '+' another channel.
 std::vector<std::string> picture(Flooded const& flooded) {
     Channels const& rivers = flooded.drawn.channels;
@@ -129,11 +140,7 @@ TEST(FloodLakes, OneOutletEvenWhereTwoRiversLeave) {
     // two rivers side by side, the eastern one with a tributary
     StreamNetwork const net = test::network_of(
         {{3.5, 0.5}, {3.5, 11.5}, {7.5, 0.5}, {7.5, 11.5}, {7.5, 9.5}, {9.5, 11.5}}, {{1, 0}, {4, 2}, {3, 4}, {5, 4}});
-    Raster<std::int32_t> lake(test::grid_of(11, 12));
-    for (std::int64_t i = 0; i < lake.cells(); ++i) {
-        Cell const c = lake.grid().at(i);
-        lake[i] = c.row > 2 && c.row < 8 && c.col > 1 && c.col < 9 ? 1 : 0;
-    }
+    Raster<std::int32_t> const lake = lake_between({2, 3}, {8, 7}, test::grid_of(11, 12));
     Flooded const out = flood_lakes(channels(net, lake.grid()), lake);
     test::require_law(out.drawn.channels, test::Diagonals::may_cross);
     ASSERT_EQ(out.lakes.size(), 1U);
@@ -150,11 +157,7 @@ TEST(FloodLakes, ARiverThatComesBackIsSwallowed) {
     // out to the east of the lake and in again
     StreamNetwork const net =
         test::network_of({{4.5, 0.5}, {4.5, 15.5}}, {{1, 0, {{4.5, 11.5}, {11.5, 11.5}, {11.5, 6.5}, {4.5, 6.5}}}});
-    Raster<std::int32_t> lake(test::grid_of(14, 16));
-    for (std::int64_t i = 0; i < lake.cells(); ++i) {
-        Cell const c = lake.grid().at(i);
-        lake[i] = c.row > 1 && c.row < 13 && c.col > 1 && c.col < 7 ? 1 : 0;
-    }
+    Raster<std::int32_t> const lake = lake_between({2, 2}, {6, 12}, test::grid_of(14, 16));
     Flooded const out = flood_lakes(channels(net, lake.grid()), lake);
     test::require_law(out.drawn.channels, test::Diagonals::may_cross);
     ASSERT_EQ(out.lakes.size(), 1U);
@@ -167,12 +170,7 @@ TEST(FloodLakes, ARiverThatComesBackIsSwallowed) {
 TEST(FloodLakes, GivenHeightsAreRaisedToTheLake) {
     ChannelsOfArcs drawn = one_river(9);
     drawn.channels.z = {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F, 8.0F};
-    Raster<std::int32_t> lake(test::grid_of(11, 9));
-    for (std::int64_t const row : {2, 3, 4, 5}) {
-        for (std::int64_t const col : {4, 5, 6}) {
-            lake[Cell{col, row}] = 1;
-        }
-    }
+    Raster<std::int32_t> const lake = lake_between({4, 2}, {6, 5}, test::grid_of(11, 9));
     Flooded const out = flood_lakes(drawn, lake);
     Channels const& rivers = out.drawn.channels;
     for (std::size_t i = 0; i < rivers.cell.size(); ++i) {
@@ -230,13 +228,7 @@ void require_lakes(Flooded const& out, Raster<std::int32_t> const& labels) {
 
 TEST(FloodLakes, WhateverIsDrawn) {
     ASSERT_TRUE(rc::check("channels keep their law, lakes have one way out", [] {
-        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
-        bool const on_lattice = *rc::gen::arbitrary<bool>();
-        StreamNetwork const net = on_lattice ? test::random_skeleton(seed, 40)
-                                             : test::random_forest(seed, *rc::gen::inRange<std::size_t>(0, 20), 2);
-        Grid grid = test::grid_of(40, 40);
-        grid.cell_m = on_lattice ? 1.0 : 25.0;
-        grid.north = 40.0 * grid.cell_m;
+        auto const [seed, on_lattice, net, grid] = test::some_rivers();
         Raster<std::int32_t> labels(grid);
         auto const count = *rc::gen::inRange<std::int32_t>(1, 6);
         for (std::int32_t k = 1; k <= count; ++k) {

@@ -5,6 +5,7 @@
 #include <thalweg/core/error.hpp>
 
 #include <network/chi_squared.hpp>
+#include <network/growth_params.hpp>
 #include <network/masks.hpp>
 #include <network/plain_forest.hpp>
 
@@ -22,19 +23,11 @@
 using namespace thalweg;
 using namespace thalweg::network;
 using thalweg::test::grid_of;
+using thalweg::test::growth;
 using thalweg::test::mask_of;
 using thalweg::test::random_blob;
 
 namespace {
-
-ForestParams growth(std::int64_t step, std::uint64_t seed, double sticking = 1.0, int visits = 1) {
-    ForestParams params;
-    params.step_cells = step;
-    params.seed = seed;
-    params.sticking = sticking;
-    params.visits = visits;
-    return params;
-}
 
 /// Some cells of a region that lie two steps apart, at least one.
 std::vector<Cell> random_seeds(Mask const& region, std::int64_t step, std::size_t most, std::uint64_t seed) {

@@ -10,6 +10,7 @@
 #include <thalweg/network/shape_island.hpp>
 #include <thalweg/network/spread_outlets.hpp>
 
+#include <network/growth_params.hpp>
 #include <network/masks.hpp>
 
 #include <gtest/gtest.h>
@@ -25,17 +26,11 @@
 using namespace thalweg;
 using namespace thalweg::network;
 using thalweg::test::grid_of;
+using thalweg::test::growth;
 using thalweg::test::mask_of;
 using thalweg::test::random_blob;
 
 namespace {
-
-ForestParams growth(std::int64_t step, std::uint64_t seed) {
-    ForestParams params;
-    params.step_cells = step;
-    params.seed = seed;
-    return params;
-}
 
 std::int64_t count(std::vector<Finding> const& notes, std::string const& kind) {
     return std::ranges::count(notes, kind, &Finding::kind);

@@ -94,13 +94,7 @@ TEST(Shorten, AllMayGo) {
 
 TEST(Shorten, WhatIsLeftIsWhatWasDrawn) {
     ASSERT_TRUE(rc::check("lines end parts of lines, channels keep their law, and arcs their cells", [] {
-        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
-        bool const on_lattice = *rc::gen::arbitrary<bool>();
-        StreamNetwork const net = on_lattice ? test::random_skeleton(seed, 40)
-                                             : test::random_forest(seed, *rc::gen::inRange<std::size_t>(0, 20), 2);
-        Grid grid = test::grid_of(40, 40);
-        grid.cell_m = on_lattice ? 1.0 : 25.0;
-        grid.north = 40.0 * grid.cell_m;
+        auto const [seed, on_lattice, net, grid] = test::some_rivers();
         ChannelsOfArcs const drawn = channels(net, grid);
         std::vector<std::int64_t> const gone = some_tips(drawn.channels, seed, *rc::gen::element(0.0, 0.01, 0.1));
         Shortened const out = shorten(net, drawn, gone);

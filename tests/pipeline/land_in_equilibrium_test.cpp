@@ -58,6 +58,11 @@ public:
               layer(polygon("[501850,5001200],[502250,5001200],[502250,5001700],[501850,5001700],[501850,5001200]")));
         write("dry.geojson",
               layer(polygon("[503500,5000300],[503800,5000300],[503800,5000600],[503500,5000600],[503500,5000300]")));
+        write("ponds.geojson",
+              layer(polygon("[502001,5001301],[502003,5001301],[502003,5001303],[502001,5001301]") + "," +
+                    polygon("[400000,5001200],[400100,5001200],[400100,5001300],[400000,5001200]") + "," +
+                    polygon("[501850,5001200],[502250,5001200],[502250,5001700],"
+                            "[501850,5001700],[501850,5001200]")));
         std::string const east = "[502500,5000000],[504200,5000000],[504200,5003600],[502500,5003600],[502500,5000000]";
         write("rock.geojson", layer(polygon(east, "\"erodibility\":0.2")));
         write("numb.geojson", layer(polygon(east, "\"erodibility\":\"hard\"")));
@@ -200,6 +205,10 @@ TEST(LandInEquilibrium, LakesAreLevelAndTold) {
     expect_lawful(dry);
     EXPECT_EQ(dry.lakes, 0);
     EXPECT_EQ(count(dry, "lake_left_out"), 1);
+    Terrain const ponds = made(lines + path + "[surface]\nlakes = \"ponds.geojson\"\n", files);
+    EXPECT_EQ(ponds.lakes, 1);
+    EXPECT_EQ(count(ponds, "lake_left_out"), 1); // a pond between cells' centres and one off the grid
+    EXPECT_EQ(ponds.surface->dem.values(), t.surface->dem.values());
 }
 
 TEST(LandInEquilibrium, HardRockAndUpliftMakeHighLand) {

@@ -217,7 +217,7 @@ TEST(DrainLand, PitBelowTheRiversAroundItIsFilled) {
 }
 
 TEST(DrainLand, FillIsTheLeastThatDrains) {
-    rc::check("fill equals lowering from above by the definition, bit for bit", [] {
+    ASSERT_TRUE(rc::check("fill equals lowering from above by the definition, bit for bit", [] {
         Scene const scene = any_scene();
         Raster<float> const filled = fill(scene.dem, scene.valley);
         Raster<float> const slowly = plain::filled(scene.dem, scene.valley);
@@ -226,11 +226,11 @@ TEST(DrainLand, FillIsTheLeastThatDrains) {
         }
         require_drained(filled, scene.valley);
         require_rivers_untouched(filled, scene);
-    });
+    }));
 }
 
 TEST(DrainLand, BanksKeepTheRiversWater) {
-    rc::check("raise_banks", [] {
+    ASSERT_TRUE(rc::check("raise_banks", [] {
         Scene const scene = any_scene();
         Banks const banks = raise_banks(scene.dem, scene.valley);
         require_rivers_untouched(banks.dem, scene);
@@ -257,11 +257,11 @@ TEST(DrainLand, BanksKeepTheRiversWater) {
                 tight.dem[i] = kept;
             }
         }
-    });
+    }));
 }
 
 TEST(DrainLand, CarveDrainsAndKeepsRivers) {
-    rc::check("drain by carving", [] {
+    ASSERT_TRUE(rc::check("drain by carving", [] {
         Scene const scene = any_scene();
         Banks const banks = raise_banks(scene.dem, scene.valley);
         Raster<float> const carved = carve(banks.dem, scene.valley, banks.least);
@@ -275,11 +275,11 @@ TEST(DrainLand, CarveDrainsAndKeepsRivers) {
         for (std::int64_t i = 0; i < carved.cells(); ++i) {
             RC_ASSERT(!(carved[i] < banks.least[i]));
         }
-    });
+    }));
 }
 
 TEST(DrainLand, OneBowlTakesTheCheapestWay) {
-    rc::check("no more than the cheapest of all simple ways out, or filling", [] {
+    ASSERT_TRUE(rc::check("no more than the cheapest of all simple ways out, or filling", [] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
         auto const rings = *rc::gen::inRange<std::int64_t>(2, 4).as("rings");
         std::int64_t const side = 2 * rings + 1;
@@ -296,7 +296,7 @@ TEST(DrainLand, OneBowlTakesTheCheapestWay) {
         DrainedLand const land = drain(bowl, no_rivers(bowl.grid()));
         double const least = std::min(plain::fill_volume(bowl), plain::cheapest_way_out(bowl, {rings, rings}));
         RC_ASSERT(land.depressions.volume_m3() <= least + 1e-3);
-    });
+    }));
 }
 
 TEST(DrainLand, MovesLittleMoreThanTheBetterOfFillingAndBreaching) {

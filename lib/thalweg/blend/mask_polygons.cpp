@@ -52,14 +52,14 @@ public:
         }
     }
 
-    void fill(Mask& mask) {
+    void fill(Raster<std::int32_t>& raster, std::int32_t number) {
         for (std::int64_t row = 0; row < grid_.height; ++row) {
             auto& columns = columns_[static_cast<std::size_t>(row)];
             std::ranges::sort(columns);
             for (std::size_t i = 0; i + 1 < columns.size(); i += 2) {
                 std::int64_t const end = first_from(columns[i + 1], grid_.width);
                 for (std::int64_t col = first_from(columns[i], grid_.width); col < end; ++col) {
-                    mask[{col, row}] = 1;
+                    raster[{col, row}] = number;
                 }
             }
             columns.clear();
@@ -95,9 +95,10 @@ private:
 
 } // namespace
 
-Mask mask_polygons(Polygons const& polygons, Grid const& grid) {
-    Mask mask(grid);
+Raster<std::int32_t> number_polygons(Polygons const& polygons, Grid const& grid) {
+    Raster<std::int32_t> numbers(grid);
     Crossings crossings(grid);
+    std::int32_t number = 0;
     for (Polygon const& polygon : polygons.polygons) {
         check(polygon, polygons.name);
         for (auto const& ring : polygon.rings) {
@@ -105,10 +106,19 @@ Mask mask_polygons(Polygons const& polygons, Grid const& grid) {
                 crossings.add_edge(ring[i], ring[(i + 1) % ring.size()]);
             }
         }
-        crossings.fill(mask);
+        crossings.fill(numbers, ++number);
     }
-    if (std::ranges::find(mask.values(), 1) == mask.values().end()) {
+    if (std::ranges::all_of(numbers.values(), [](std::int32_t n) { return n == 0; })) {
         refuse_empty(polygons, grid);
+    }
+    return numbers;
+}
+
+Mask mask_polygons(Polygons const& polygons, Grid const& grid) {
+    Raster<std::int32_t> const numbers = number_polygons(polygons, grid);
+    Mask mask(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        mask[i] = numbers[i] != 0 ? 1 : 0;
     }
     return mask;
 }

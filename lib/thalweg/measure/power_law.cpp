@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,7 +12,6 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/measure/compensated_sum.hpp>
-#include <thalweg/measure/line_fit.hpp>
 
 namespace thalweg::measure {
 
@@ -24,6 +24,17 @@ struct Logarithms {
 };
 
 } // namespace
+
+std::optional<PowerLaw> with_line(PowerLaw law, std::optional<LineFit> const& fit, std::int64_t least_bins) {
+    if (!fit || fit->points < least_bins) {
+        return std::nullopt;
+    }
+    law.exponent = fit->slope;
+    law.coefficient = exact::exp(fit->intercept);
+    law.r2 = fit->r2;
+    law.exponent_error = fit->slope_error;
+    return law;
+}
 
 std::optional<PowerLaw> fit_power_law(std::vector<AtArea> const& places, PowerLawParams const& params) {
     if (params.bins_per_decade < 1 || params.bins_per_decade > 100 || params.least_places < 1 ||
@@ -54,15 +65,7 @@ std::optional<PowerLaw> fit_power_law(std::vector<AtArea> const& places, PowerLa
         }
     }
     law.left_out = static_cast<std::int64_t>(places.size()) - law.places;
-    auto const fit = fit_line(line);
-    if (!fit || fit->points < params.least_bins) {
-        return std::nullopt;
-    }
-    law.exponent = fit->slope;
-    law.coefficient = exact::exp(fit->intercept);
-    law.r2 = fit->r2;
-    law.exponent_error = fit->slope_error;
-    return law;
+    return with_line(std::move(law), fit_line(line), params.least_bins);
 }
 
 } // namespace thalweg::measure

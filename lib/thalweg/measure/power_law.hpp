@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include <thalweg/measure/line_fit.hpp>
+
 namespace thalweg::measure {
 
 /// What was measured of a place that drains an area.
@@ -31,6 +33,10 @@ struct PowerLaw {
     std::int64_t places = 0;     ///< in the bins
     std::int64_t left_out = 0;   ///< without a logarithm, or in bins of too few
 };
+
+/// A law whose bins are there and whose numbers come from the line through their logarithms; nothing where there is no
+/// line, or one through fewer than least_bins points.
+std::optional<PowerLaw> with_line(PowerLaw law, std::optional<LineFit> const& fit, std::int64_t least_bins);
 
 struct PowerLawParams {
     int bins_per_decade = 4;       ///< [1, 100] of area

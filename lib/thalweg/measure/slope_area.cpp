@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -83,15 +84,7 @@ std::optional<PowerLaw> slope_area(Raster<float> const& dem, Drainage const& dra
         law.bins.push_back({exact::exp(log_area), slope, reach.cells});
         law.places += reach.cells;
     }
-    auto const fit = fit_line(line, weights);
-    if (!fit || fit->points < params.least_bins) {
-        return std::nullopt;
-    }
-    law.exponent = fit->slope;
-    law.coefficient = exact::exp(fit->intercept);
-    law.r2 = fit->r2;
-    law.exponent_error = fit->slope_error;
-    return law;
+    return with_line(std::move(law), fit_line(line, weights), params.least_bins);
 }
 
 } // namespace thalweg::measure

@@ -8,15 +8,12 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/cells_around.hpp>
 #include <thalweg/core/error.hpp>
 
 namespace thalweg::network {
 
 namespace {
-
-std::int64_t squared_distance(Cell a, Cell b) {
-    return (a.col - b.col) * (a.col - b.col) + (a.row - b.row) * (a.row - b.row);
-}
 
 Cell moved(Cell c, Site by) {
     return {c.col + by.x, c.row + by.y};
@@ -50,17 +47,6 @@ Grid blocks_of(Grid const& grid, std::int64_t side) {
     return blocks;
 }
 
-/// Calls visit(cell) for the cells of the grid in a square around one.
-template <class Visit> void around(Grid const& grid, Cell c, std::int64_t reach, Visit visit) {
-    for (std::int64_t row = std::max<std::int64_t>(c.row - reach, 0); row <= std::min(c.row + reach, grid.height - 1);
-         ++row) {
-        for (std::int64_t col = std::max<std::int64_t>(c.col - reach, 0);
-             col <= std::min(c.col + reach, grid.width - 1); ++col) {
-            visit(Cell{col, row});
-        }
-    }
-}
-
 } // namespace
 
 ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, std::int64_t step)
@@ -87,9 +73,9 @@ ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, s
 template <class Visit> bool ForestGrowth::all_near(Cell c, Visit visit) const {
     std::int64_t const reach = 2 * step_;
     bool all = true;
-    around(first_.grid(), {c.col / step_, c.row / step_}, 2, [&](Cell block) {
+    cells_around(first_.grid(), {c.col / step_, c.row / step_}, 2, [&](Cell block) {
         for (std::int32_t p = first_[block]; all && p >= 0; p = next_[static_cast<std::size_t>(p)]) {
-            if (squared_distance(particles_[static_cast<std::size_t>(p)], c) < reach * reach) {
+            if (squared_cells(particles_[static_cast<std::size_t>(p)], c) < reach * reach) {
                 all = visit(p);
             }
         }
@@ -117,14 +103,14 @@ void ForestGrowth::place(Cell c, std::int64_t parent) {
     std::int32_t& first = first_[Cell{c.col / step_, c.row / step_}];
     next_.push_back(first);
     first = number;
-    auto const inside = [&](Cell at) { return squared_distance(at, c) < step_ * step_; };
-    around(grid_, c, step_ + 1, [&](Cell at) {
-        std::int64_t const far = squared_distance(at, c);
+    auto const inside = [&](Cell at) { return squared_cells(at, c) < step_ * step_; };
+    cells_around(grid_, c, step_ + 1, [&](Cell at) {
+        std::int64_t const far = squared_cells(at, c);
         if (far > (step_ + 1) * (step_ + 1)) {
             return;
         }
         std::int32_t& nearest = nearest_[at];
-        if (nearest < 0 || far < squared_distance(at, particles_[static_cast<std::size_t>(nearest)])) {
+        if (nearest < 0 || far < squared_cells(at, particles_[static_cast<std::size_t>(nearest)])) {
             nearest = number;
         }
         if (!inside(at)) {
@@ -142,8 +128,8 @@ void ForestGrowth::place(Cell c, std::int64_t parent) {
 
 void ForestGrowth::look_around(Cell c) {
     std::int64_t const new_reach = (step_ + 1) * (step_ + 1);
-    around(grid_, c, 2 * step_, [&](Cell at) {
-        bool const begins = state_[at] == State::far && squared_distance(at, c) <= new_reach && walk_.beside_a_tree(at);
+    cells_around(grid_, c, 2 * step_, [&](Cell at) {
+        bool const begins = state_[at] == State::far && squared_cells(at, c) <= new_reach && walk_.beside_a_tree(at);
         if (begins || state_[at] == State::open) {
             set(at, may_hold(at) ? State::open : State::barren);
         }
@@ -154,7 +140,7 @@ bool ForestGrowth::may_hold(Cell c) const {
     std::int32_t const on = nearest_[c];
     std::int64_t const step2 = step_ * step_;
     return all_near(c, [&](std::int32_t p) {
-        std::int64_t const far = squared_distance(particles_[static_cast<std::size_t>(p)], c);
+        std::int64_t const far = squared_cells(particles_[static_cast<std::size_t>(p)], c);
         return p == on || (p == parents_[static_cast<std::size_t>(on)] && 2 * far >= 5 * step2) ||
                (parents_[static_cast<std::size_t>(p)] == on && 2 * far >= 3 * step2);
     });

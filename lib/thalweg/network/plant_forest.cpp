@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells_along.hpp>
+#include <thalweg/core/cells_around.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/network/room_in.hpp>
 #include <thalweg/network/spread_outlets.hpp>
@@ -19,21 +20,6 @@
 namespace thalweg::network {
 
 namespace {
-
-/// Calls visit(cell) for the cells of the grid in a square around one.
-template <class Visit> void around(Grid const& grid, Cell c, std::int64_t reach, Visit visit) {
-    for (std::int64_t row = std::max<std::int64_t>(c.row - reach, 0); row <= std::min(c.row + reach, grid.height - 1);
-         ++row) {
-        for (std::int64_t col = std::max<std::int64_t>(c.col - reach, 0);
-             col <= std::min(c.col + reach, grid.width - 1); ++col) {
-            visit(Cell{col, row});
-        }
-    }
-}
-
-std::int64_t squared_distance(Cell a, Cell b) {
-    return (a.col - b.col) * (a.col - b.col) + (a.row - b.row) * (a.row - b.row);
-}
 
 /// The room a cell has where trees grow: then all cells under a step between two such are land, and no coast.
 std::int64_t room_inland(std::int64_t step) {
@@ -70,8 +56,8 @@ public:
     std::optional<Cell> seed_for(Cell outlet) const {
         std::int64_t const reach = room_inland(step_) + 1;
         std::optional<Cell> best;
-        around(land_.grid(), outlet, reach, [&](Cell c) {
-            bool const nearer = !best || squared_distance(c, outlet) < squared_distance(*best, outlet);
+        cells_around(land_.grid(), outlet, reach, [&](Cell c) {
+            bool const nearer = !best || squared_cells(c, outlet) < squared_cells(*best, outlet);
             if (inland_[c] != 0 && nearer && over_land(c, outlet)) {
                 best = c;
             }
@@ -94,9 +80,9 @@ public:
         if (meets) {
             return false;
         }
-        along([&](Cell c) { around(land_.grid(), c, apart, [&](Cell n) { near_way_[n] = 1; }); });
-        around(land_.grid(), *seed, 2 * step_, [&](Cell c) {
-            if (squared_distance(c, *seed) < 4 * step_ * step_) {
+        along([&](Cell c) { cells_around(land_.grid(), c, apart, [&](Cell n) { near_way_[n] = 1; }); });
+        cells_around(land_.grid(), *seed, 2 * step_, [&](Cell c) {
+            if (squared_cells(c, *seed) < 4 * step_ * step_) {
                 near_seed_[c] = 1;
             }
         });

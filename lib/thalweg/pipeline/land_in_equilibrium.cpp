@@ -101,8 +101,29 @@ surface::EquilibriumFields fields_of(Terrain const& terrain, Channels const& cha
     return fields;
 }
 
+void take_notes(Terrain& terrain, std::vector<Finding> const& notes) {
+    terrain.story.repairs.insert(terrain.story.repairs.end(), notes.begin(), notes.end());
+}
+
+/// One note for all lakes of a file that no cell shows.
+std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t> const& labels) {
+    std::vector<std::uint8_t> seen(polygons.polygons.size() + 1);
+    for (std::int32_t const label : labels.values()) {
+        seen[static_cast<std::size_t>(label)] = 1;
+    }
+    auto const first = std::find(seen.begin() + 1, seen.end(), 0);
+    if (first == seen.end()) {
+        return {};
+    }
+    auto const count = std::count(first, seen.end(), 0);
+    Polygon const& one = polygons.polygons[static_cast<std::size_t>(first - seen.begin() - 1)];
+    return {{"lake_left_out", one.feature, one.rings.front().front(), static_cast<double>(count),
+             fmt::format("{} of the {} lakes of {} lie off the grid, between the centres of its cells or under others",
+                         count, polygons.polygons.size(), polygons.name)}};
+}
+
 /// By cell the number of its lake, 0 for none; without cells where no lakes are asked for.
-Raster<std::int32_t> lakes_of(Terrain const& terrain, network::ChannelsOfArcs const& rivers, Run const& run) {
+Raster<std::int32_t> lakes_of(Terrain& terrain, network::ChannelsOfArcs const& rivers, Run const& run) {
     EquilibriumRecipe const& wanted = terrain.recipe.surface->equilibrium;
     if (wanted.lake_share > 0.0) {
         measure::ContributingAreas const areas = measure::areas_nearest(terrain.network.plan, terrain.grid, run);
@@ -113,15 +134,8 @@ Raster<std::int32_t> lakes_of(Terrain const& terrain, network::ChannelsOfArcs co
         return {};
     }
     Polygons const polygons = io::read_polygons(file_in(terrain.recipe, wanted.lakes), terrain.grid.crs, run);
-    Raster<std::int32_t> labels(terrain.grid);
-    std::int32_t label = 0;
-    for (Polygon const& polygon : polygons.polygons) {
-        ++label;
-        Mask const inside = blend::mask_polygons({{polygon}, polygons.crs, polygons.name}, terrain.grid);
-        for (std::int64_t i = 0; i < labels.cells(); ++i) {
-            labels[i] = inside[i] != 0 ? label : labels[i];
-        }
-    }
+    Raster<std::int32_t> labels = blend::number_polygons(polygons, terrain.grid);
+    take_notes(terrain, unseen_lakes(polygons, labels));
     return labels;
 }
 
@@ -133,10 +147,6 @@ void tell(Terrain& terrain, surface::EquilibriumLand const& land, Channels const
     story.max_lowered_m = land.max_lowered_m;
     story.p95_lowered_m = land.p95_lowered_m;
     story.rise = land.rise;
-}
-
-void take_notes(Terrain& terrain, std::vector<Finding> const& notes) {
-    terrain.story.repairs.insert(terrain.story.repairs.end(), notes.begin(), notes.end());
 }
 
 /// Lays the lakes that are asked for into the channels.

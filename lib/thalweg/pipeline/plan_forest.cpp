@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/blend/mask_polygons.hpp>
-#include <thalweg/core/cells_along.hpp>
+#include <thalweg/core/cells_around.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/content_of.hpp>
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/read_points.hpp>
 #include <thalweg/io/read_polygons.hpp>
 #include <thalweg/io/read_rivers.hpp>
-#include <thalweg/network/clip_lines.hpp>
 #include <thalweg/network/plant_forest.hpp>
 #include <thalweg/network/shape_island.hpp>
 #include <thalweg/network/spread_outlets.hpp>
 #include <thalweg/pipeline/frame.hpp>
 #include <thalweg/pipeline/plan_rivers.hpp>
+#include <thalweg/pipeline/read_cells.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 
 #include <fmt/format.h>
@@ -44,16 +44,9 @@ Mask land_of(Recipe& recipe, Run const& run) {
 /// Which of some cells lie near marked ones.
 std::vector<Cell> near_to(Mask const& marked, std::vector<Cell> const& cells, std::int64_t reach) {
     std::vector<Cell> found;
-    Grid const& grid = marked.grid();
     for (Cell const c : cells) {
         bool near = false;
-        for (std::int64_t row = std::max<std::int64_t>(c.row - reach, 0);
-             row <= std::min(c.row + reach, grid.height - 1); ++row) {
-            for (std::int64_t col = std::max<std::int64_t>(c.col - reach, 0);
-                 col <= std::min(c.col + reach, grid.width - 1); ++col) {
-                near = near || marked[Cell{col, row}] != 0;
-            }
-        }
+        cells_around(marked.grid(), c, reach, [&](Cell other) { near = near || marked[other] != 0; });
         if (near) {
             found.push_back(c);
         }
@@ -109,7 +102,7 @@ std::vector<Cell> coast_along_file(Recipe const& recipe, Mask& land, Run const& 
     ForestRecipe const& wanted = recipe.network->forest;
     Grid const& grid = land.grid();
     std::string const path = file_in(recipe, wanted.outlets);
-    Mask marked(grid, 0);
+    Mask marked;
     std::int64_t reach = 1;
     if (io::holds_polygons(path)) {
         marked = blend::mask_polygons(io::read_polygons(path, grid.crs, run), grid);
@@ -118,15 +111,7 @@ std::vector<Cell> coast_along_file(Recipe const& recipe, Mask& land, Run const& 
         }
     } else {
         RiverLines const lines = io::read_rivers({.path = path, .crs = grid.crs}, run);
-        for (RiverLine const& line : network::clip_lines(lines, grid).lines) {
-            std::vector<Vec2> plan;
-            for (Vec3 const& v : line.vertices) {
-                plan.push_back({v.x, v.y});
-            }
-            for (Cell const c : cells_along(plan, grid, wanted.outlets)) {
-                marked[c] = 1;
-            }
-        }
+        marked = cells_under(lines, grid, wanted.outlets);
         reach = wanted.spacing_cells; // coasts are drawn in more or less detail
     }
     std::vector<Cell> coast = near_to(marked, network::coast_cells(land), reach);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,6 +30,20 @@ Mask read_part(std::string const& path, Grid const& grid, Run const& run) {
                                     : io::read_mask(path, grid, run);
 }
 
+Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& what) {
+    Mask under(grid);
+    for (RiverLine const& line : network::clip_lines(lines, grid).lines) {
+        std::vector<Vec2> plan;
+        for (Vec3 const& v : line.vertices) {
+            plan.push_back({v.x, v.y});
+        }
+        for (Cell const c : cells_along(plan, grid, what)) {
+            under[c] = 1;
+        }
+    }
+    return under;
+}
+
 Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
     if (path.empty()) {
         return {};
@@ -44,19 +59,8 @@ Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
     }
     RiverLines const rivers = io::read_rivers({content.path, content.layer, "rosgen", {}, grid.crs}, run);
     io::same_crs(rivers.crs, grid.crs, "pipeline.make_blend: " + content.path, "the target");
-    Mask kept(grid);
-    bool any = false;
-    for (RiverLine const& line : network::clip_lines(rivers, grid).lines) {
-        std::vector<Vec2> plan;
-        for (Vec3 const& v : line.vertices) {
-            plan.push_back({v.x, v.y});
-        }
-        for (Cell const c : cells_along(plan, grid, content.path)) {
-            kept[c] = 1;
-            any = true;
-        }
-    }
-    if (!any) {
+    Mask kept = cells_under(rivers, grid, content.path);
+    if (std::ranges::find(kept.values(), 1) == kept.values().end()) {
         throw BadInput(fmt::format("pipeline.make_blend: no line of {} crosses the target, which reaches from "
                                    "({:.3f}, {:.3f}) to ({:.3f}, {:.3f})",
                                    content.path, grid.west, grid.south(), grid.east(), grid.north));
@@ -83,11 +87,11 @@ Mask read_mask_of_land(std::string const& path, Grid const& grid) {
 namespace {
 
 Raster<float> valued_polygons(Polygons const& polygons, Grid const& grid) {
+    Raster<std::int32_t> const number = blend::number_polygons(polygons, grid);
     Raster<float> field(grid, 1.0F);
-    for (Polygon const& polygon : polygons.polygons) {
-        Mask const inside = blend::mask_polygons({{polygon}, polygons.crs, polygons.name}, grid);
-        for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            field[i] = inside[i] != 0 ? static_cast<float>(polygon.value) : field[i];
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (number[i] > 0) {
+            field[i] = static_cast<float>(polygons.polygons[static_cast<std::size_t>(number[i] - 1)].value);
         }
     }
     return field;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/run.hpp>
 
 /// What files say of the cells of a grid. Private to this room.
@@ -13,6 +14,9 @@ namespace thalweg::pipeline {
 /// Cells of a raster on the grid that are neither 0 nor no-data, or whose centres lie in polygons; empty for "".
 /// Throws: as io::read_mask, io::read_polygons and blend::mask_polygons.
 Mask read_part(std::string const& path, Grid const& grid, Run const& run);
+
+/// The cells of a grid under lines, whose parts off it are passed over. what: the lines' name, for messages.
+Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& what);
 
 /// Cells of a raster on the grid, or under lines; empty for "". Throws: as the doors; BadInput for points, and when no
 /// line crosses the grid.

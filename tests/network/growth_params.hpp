@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include <thalweg/network/grow_forest.hpp>
+
+namespace thalweg::test {
+
+inline network::ForestParams growth(std::int64_t step, std::uint64_t seed, double sticking = 1.0, int visits = 1) {
+    network::ForestParams params;
+    params.step_cells = step;
+    params.seed = seed;
+    params.sticking = sticking;
+    params.visits = visits;
+    return params;
+}
+
+} // namespace thalweg::test
