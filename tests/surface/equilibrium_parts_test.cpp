@@ -55,6 +55,17 @@ TEST(AreaPower, IsThePower) {
     }
 }
 
+// As A^theta far above the bend, level below.
+TEST(AreaPower, BendsToALeast) {
+    AreaPower const bent(0.45, 16.0);
+    EXPECT_NEAR(bent(16.0F), std::cbrt(2.0) * std::pow(16.0, 0.45), 1e-5);
+    EXPECT_NEAR(bent(1.0F), std::pow(16.0, 0.45), 0.01 * std::pow(16.0, 0.45));
+    EXPECT_NEAR(bent(400.0F), std::pow(400.0, 0.45), 0.01 * std::pow(400.0, 0.45));
+    for (int area = 1; area < 511; ++area) {
+        EXPECT_LT(bent(static_cast<float>(area)), bent(static_cast<float>(area + 1)));
+    }
+}
+
 // Without obstacles the nearest river by steps of 1 and sqrt(2) is known for each pair of cells.
 TEST(NearestRiver, IsTheNearestOfAll) {
     EXPECT_TRUE(rc::check("nearest of all", [] {

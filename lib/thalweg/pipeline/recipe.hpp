@@ -135,7 +135,7 @@ enum class Interpolation : std::uint8_t { linear, natural };
 /// What a land in equilibrium is like, beside surface.relief and network.concavity.
 struct EquilibriumRecipe {
     std::optional<double> mean_slope_deg; ///< none: 25, where no relief is asked
-    double hillslope_m = 0.0;             ///< [m] 0: 1.3 cells
+    double hillslope_m = 0.0;             ///< [m] 0: one cell
     double floor_width = 0.04;            ///< as surface::EquilibriumParams
     double roughness = 0.4;
     std::optional<surface::Edge> edge; ///< none: coast where there is sea, else open

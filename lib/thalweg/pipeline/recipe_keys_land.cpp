@@ -72,7 +72,7 @@ void add_equilibrium_keys(std::vector<Key>& keys) {
                          in_surface<std::optional<double>>(
                              [](SurfaceRecipe& s) -> std::optional<double>& { return s.equilibrium.mean_slope_deg; })));
     keys.push_back(number("surface.hillslope", "m", {0, 1e5},
-                          "equilibrium: length below which creep rounds the slopes, at least half a cell; 0: 1.3 cells",
+                          "equilibrium: length below which creep rounds the slopes, at least half a cell; 0: one cell",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.hillslope_m; })));
     keys.push_back(number("surface.floor_width", "", {0, 1},
                           "equilibrium: half width of a valley floor in cells, over its drainage area in cells ^ 0.4",

@@ -42,13 +42,14 @@ EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near) {
     EdgeCells edge;
     std::int64_t const w = level.width;
     std::int64_t const h = level.height;
+    auto const nearest = [&](std::size_t i) { return level.rivers.cell[near.number[i]]; };
     auto const put = [&](std::int64_t col, std::int64_t row) {
         auto const i = static_cast<std::size_t>(row * w + col);
         if (level.cover[i] == Cover::edge) {
             std::int64_t const inner =
                 std::clamp<std::int64_t>(row, 1, h - 2) * w + std::clamp<std::int64_t>(col, 1, w - 2);
             edge.ring.push_back(static_cast<std::uint32_t>(i));
-            edge.ring_river.push_back(near.number[static_cast<std::size_t>(inner)]);
+            edge.ring_river.push_back(nearest(static_cast<std::size_t>(inner)));
         }
     };
     for (std::int64_t col = 0; col < w - 1; ++col) {
@@ -66,23 +67,22 @@ EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near) {
     each_inner(level, [&](std::size_t i) {
         if (level.cover[i] == Cover::edge) {
             edge.inner.push_back(static_cast<std::uint32_t>(i));
-            edge.inner_river.push_back(near.number[i]);
+            edge.inner_river.push_back(nearest(i));
         }
     });
     return edge;
 }
 
 void set_edge_heights(LandLevel& level, EdgeCells const& edge) {
-    auto const river_height = [&](std::uint32_t river) { return level.z[level.rivers.cell[river]]; };
     for (std::size_t k = 0; k < edge.inner.size(); ++k) {
-        level.z[edge.inner[k]] = above_rivers(level, edge.inner[k], river_height(edge.inner_river[k]));
+        level.z[edge.inner[k]] = above_rivers(level, edge.inner[k], level.z[edge.inner_river[k]]);
     }
     if (edge.ring.empty()) {
         return;
     }
     std::vector<double> heights(edge.ring.size());
     std::transform(edge.ring_river.begin(), edge.ring_river.end(), heights.begin(),
-                   [&](std::uint32_t river) { return static_cast<double>(river_height(river)); });
+                   [&](std::uint32_t river) { return static_cast<double>(level.z[river]); });
     auto const reach = std::max<std::int64_t>(2, static_cast<std::int64_t>(half_stretch / level.side));
     heights = ring_means(ring_means(heights, reach), reach);
     for (std::size_t k = 0; k < heights.size(); ++k) {

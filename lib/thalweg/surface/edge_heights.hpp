@@ -14,7 +14,7 @@ namespace thalweg::surface {
 /// The cells at which an open land ends: the frame, once round, and land beside what is masked out.
 struct EdgeCells {
     std::vector<std::uint32_t> ring;       ///< clockwise from the north-west corner
-    std::vector<std::uint32_t> ring_river; ///< number of the nearest river cell
+    std::vector<std::uint32_t> ring_river; ///< cell of the nearest river
     std::vector<std::uint32_t> inner;
     std::vector<std::uint32_t> inner_river;
 };

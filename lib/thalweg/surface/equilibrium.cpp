@@ -17,6 +17,7 @@
 #include <thalweg/surface/relax_land.hpp>
 #include <thalweg/surface/relax_rivers.hpp>
 #include <thalweg/surface/rock.hpp>
+#include <thalweg/surface/slide_land.hpp>
 #include <thalweg/surface/start_land.hpp>
 #include <thalweg/surface/steepest_ways.hpp>
 #include <thalweg/surface/valley_floors.hpp>
@@ -35,10 +36,10 @@ namespace thalweg::surface {
 
 namespace {
 
-constexpr int fine_rounds = 5;
+constexpr int fine_rounds = 6;
 constexpr int coarse_rounds = 30;
-constexpr float perched_tangent = 0.45F; // steeper than most land: what will not come down by itself
-constexpr int floors_after = 2;          // rounds: areas are near enough by then
+constexpr float of_perched = 2.0F; // times what counts as perched at last: what will not come down by itself
+constexpr int floors_after = 2;    // rounds: areas are near enough by then
 
 /// What lies in the frame of a level, before it is solved.
 struct Plan {
@@ -111,8 +112,9 @@ void drop_what_is_done(LandLevel& level) {
 /// The heights of a level, from those of the coarser one.
 class Solver {
 public:
-    Solver(EquilibriumParams const& params, Run const& run)
-        : params_(params), run_(run), law_(params), per_length_(jittered_per_length()) {}
+    Solver(EquilibriumParams const& params, Channels const& rivers, Window const& window, Run const& run)
+        : params_(params), rivers_(rivers), window_(window), run_(run), law_(params),
+          per_length_(jittered_per_length()) {}
 
     void solve(LandLevel& level, std::size_t number, std::size_t levels) {
         EdgeCells const edge = params_.edge == Edge::open ? edge_cells(level, nearest_river(level)) : EdgeCells{};
@@ -124,22 +126,28 @@ public:
             run_.at(share_done(number, round, rounds), "equilibrium");
             if (round > 0) {
                 set_edge_heights(level, edge);
+                if (!shortened_.empty()) {
+                    slide_land(level);
+                }
                 steepest_ways(level, per_length_, run_);
             }
             if (number == 0 && round == floors_after && params_.floor_width > 0.0) {
                 valley_floors(level, params_.floor_width, params_.seed);
             }
             order_cells(level);
-            if (number == 0 && round == rounds - 2 && !given) {
-                shortened_ = give_up_tips(level, perched_tangent, TipBanks::rise);
-            }
             if (given) {
                 relax_given_rivers(level, law_, params_.heights);
             } else {
+                if (number == 0 && (round == rounds - 4 || round == rounds - 3)) {
+                    give_up(level);
+                }
                 relax_rivers(level, law_);
-            }
-            if (number == 0 && !given) {
-                keep_to_receivers(level);
+                if (number == 0) {
+                    if (round > rounds - 4) {
+                        lower_perched(level, perched_, least_tangent);
+                    }
+                    keep_to_receivers(level);
+                }
             }
             relax_land(level, law_);
         }
@@ -164,10 +172,20 @@ private:
         return below * (0.25 + 0.75 * static_cast<double>(round) / static_cast<double>(rounds));
     }
 
+    void give_up(LandLevel& level) {
+        Raise const raise = raise_for(level, rivers_, window_, params_);
+        perched_ = static_cast<float>(raise.mean_tangent * window_.grid.cell_m / raise.metres);
+        auto const numbers = give_up_tips(level, of_perched * perched_, TipBanks::rise);
+        shortened_.insert(shortened_.end(), numbers.begin(), numbers.end());
+    }
+
     EquilibriumParams const& params_;
+    Channels const& rivers_;
+    Window const& window_;
     Run const& run_;
     EquilibriumLaw law_;
     JitteredPerLength per_length_;
+    float perched_ = 0.0F; ///< tangent above which river cells count as perched, in the solver's units
     std::vector<std::int64_t> shortened_;
 };
 
@@ -182,7 +200,8 @@ Solved solved(Channels const& rivers, EquilibriumFields const& fields, Equilibri
               Run const& run) {
     WidenedLand land = widened(rivers, fields, params);
     std::vector<Plan> levels = plans(land);
-    Solver solver(params, run);
+    Window const window{rivers.grid, fields.land, land.margin};
+    Solver solver(params, rivers, window, run);
     LandLevel level;
     for (std::size_t number = levels.size(); number-- > 0;) {
         level = prepared(std::move(levels[number]), number, level, land.fields, params, run);

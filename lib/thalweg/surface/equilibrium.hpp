@@ -37,10 +37,10 @@ struct EquilibriumParams {
     double theta = 0.45;               ///< [0.1, 0.9] concavity: slope ~ area^-theta
     double mean_slope_deg = 25.0;      ///< (0, 60] of the land's cells (Horn's slope), where relief is not given
     std::optional<double> relief_m;    ///< [m] > 0, from the lowest to the highest cell; instead of the mean slope
-    double hillslope_cells = 1.3;      ///< [0.5, 100] length below which soil creep wins over water (Perron 2009)
+    double hillslope_cells = 1.0;      ///< [0.5, 100] length below which soil creep wins over water (Perron 2009)
     double floor_width = 0.04;         ///< [0, 1] half width of a valley floor [cells] over area [cells] ^ 0.4
     double roughness = 0.4;            ///< [0, 1] standard deviation of the logarithm of erodibility, as noise
-    double longest_wave_cells = 256.0; ///< [4, ...] of that noise
+    double longest_wave_cells = 360.0; ///< [4, ...] of that noise
     Edge edge = Edge::open;
     RiverHeights heights = RiverHeights::graded;
     std::uint64_t seed = 7;
@@ -61,11 +61,11 @@ struct EquilibriumLand {
 /// rivers. Solved coarse to fine.
 /// Takes: rivers, at least one, whose water leaves on the border, the coast or in a sink; fields on their grid.
 /// Gives: water of a river cell goes to its receiver, by the steepest descent of the floats that are written, and
-/// cells beside rivers drain into them; every other cell has a strictly lower neighbour, so there is no depression but
-/// a sink; lakes are level. The lowest river end stands at 0 (given heights: where they say). The same bytes for any
-/// number of threads. Throws: BadParameter; BadInput: channels that break their law, fields on another grid, not above
-/// 0 or with holes on land, no land, a river at sea, given heights that rise; Cancelled. Source: Perron et al. 2009
-/// (hillslope length); Braun and Willett 2013 (order); Barnes 2014 (flood).
+/// cells beside rivers stand above every river cell they touch; every cell but these has a strictly lower neighbour, so
+/// there is no depression but a sink; lakes are level. The lowest river end stands at 0 (given heights: where they
+/// say). The same bytes for any number of threads. Throws: BadParameter; BadInput: channels that break their law,
+/// fields on another grid, not above 0 or with holes on land, no land, a river at sea, given heights that rise;
+/// Cancelled. Source: Perron et al. 2009 (hillslope length); Braun and Willett 2013 (order); Barnes 2014 (flood).
 EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fields = {},
                             EquilibriumParams const& params = {}, Run const& run = {});
 

@@ -13,11 +13,15 @@ namespace thalweg::surface {
 /// where nothing is said.
 struct EquilibriumLaw {
     explicit EquilibriumLaw(EquilibriumParams const& params)
-        : power(params.theta), creep(static_cast<float>(exact::pow(params.hillslope_cells, 2.0 * params.theta + 1.0))) {
-    }
+        : power(params.theta), land_power(params.theta, debris_area),
+          creep(static_cast<float>(exact::pow(params.hillslope_cells, 2.0 * params.theta + 1.0))) {}
 
-    AreaPower power; ///< A^theta
-    float creep;     ///< D, by the length below which creep wins (Perron 2009)
+    static constexpr double debris_area = 16.0;
+
+    AreaPower power;      ///< A^theta, of the given rivers
+    AreaPower land_power; ///< of the land: below this area debris flows cut as well, and slopes hardly change with it
+                          ///< any more (Stock and Dietrich 2003)
+    float creep;          ///< D, by the length below which creep wins (Perron 2009)
 };
 
 } // namespace thalweg::surface

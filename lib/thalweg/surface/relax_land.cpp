@@ -52,7 +52,8 @@ void relax_land(LandLevel& level, EquilibriumLaw const& law) {
         Cover const cover = level.cover[i];
         bool const at_rim = cover == Cover::rim || cover == Cover::rim_bank;
         Creep const creep = at_rim ? creep_at_rim(level, i, offsets) : creep_inside(&level.z[i], level.width);
-        float const cutting = law.power(static_cast<float>(level.area[i]) * cell_area) * level.erodibility[i] / length;
+        float const cutting =
+            law.land_power(static_cast<float>(level.area[i]) * cell_area) * level.erodibility[i] / length;
         float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
         float z = (uplift + cutting * below + creep_rate * creep.gain) / (cutting + creep_rate * creep.weight);
         z = std::min(z, below + level.cap[i] * length);

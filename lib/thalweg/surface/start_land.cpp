@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace thalweg::surface {
 
@@ -29,6 +30,53 @@ void set_heights(LandLevel& level, std::uint64_t seed, float rough, Run const& r
     });
 }
 
+/// How far coarse land is moved where a finer level begins with it: valleys of coarse cells, which run straight along
+/// the grid, are bent before water has settled in them.
+class Bends {
+public:
+    Bends(LandLevel const& level, std::uint64_t seed) : across_(level.width / spacing + 2) {
+        std::int64_t const down = level.height / spacing + 2;
+        east_.resize(static_cast<std::size_t>(across_ * down));
+        south_.resize(east_.size());
+        for (std::int64_t row = 0; row < down; ++row) {
+            draw(seed, 2 * row, level.side, &east_[static_cast<std::size_t>(row * across_)]);
+            draw(seed, 2 * row + 1, level.side, &south_[static_cast<std::size_t>(row * across_)]);
+        }
+    }
+
+    struct Shift {
+        float east;  ///< [coarse cells]
+        float south; ///< likewise
+    };
+    Shift at(std::int64_t col, std::int64_t row) const {
+        auto const i = static_cast<std::size_t>(row / spacing * across_ + col / spacing);
+        float const u = static_cast<float>(col % spacing) * (1.0F / spacing);
+        float const v = static_cast<float>(row % spacing) * (1.0F / spacing);
+        return {between(&east_[i], u, v), between(&south_[i], u, v)};
+    }
+
+private:
+    static constexpr std::int64_t spacing = 6; // [cells of the level]
+    static constexpr float reach = 1.0F;       // [coarse cells]
+
+    void draw(std::uint64_t seed, std::int64_t row, float side, float* out) const {
+        constexpr std::uint64_t bends = 0x62656e64; // "bend"
+        chance_bytes(seed, bends, row, side, across_, [&](std::int64_t col, std::uint8_t byte) {
+            out[col] = reach * (static_cast<float>(byte) * 0x1p-7F - 1.0F);
+        });
+    }
+
+    float between(float const* n, float u, float v) const {
+        float const upper = n[0] + (n[1] - n[0]) * u;
+        float const lower = n[across_] + (n[across_ + 1] - n[across_]) * u;
+        return upper + (lower - upper) * v;
+    }
+
+    std::int64_t across_; ///< nodes in a row
+    std::vector<float> east_;
+    std::vector<float> south_;
+};
+
 } // namespace
 
 void start_from_nothing(LandLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run) {
@@ -47,14 +95,19 @@ void start_from(LandLevel& level, LandLevel const& coarse, std::uint64_t seed, R
             coarse.z[static_cast<std::size_t>(held(row, coarse.height) * coarse.width + held(col, coarse.width))];
         return std::isinf(z) ? 0.0F : z;
     };
+    Bends const bends(level, seed);
     set_heights(level, seed, 0.15F, run, [&](std::int64_t col, std::int64_t row) {
         // An odd column (the frame is column 0) is the left half of a coarse cell.
-        std::int64_t const c = (col + 1) / 2;
-        std::int64_t const r = (row + 1) / 2;
-        std::int64_t const to_c = col % 2 != 0 ? c - 1 : c + 1;
-        std::int64_t const to_r = row % 2 != 0 ? r - 1 : r + 1;
-        return 0.5625F * height_at(c, r) + 0.1875F * (height_at(to_c, r) + height_at(c, to_r)) +
-               0.0625F * height_at(to_c, to_r);
+        auto const [east, south] = bends.at(col, row);
+        float const x = 0.5F * static_cast<float>(col) + 0.25F + east;
+        float const y = 0.5F * static_cast<float>(row) + 0.25F + south;
+        float const left = std::floor(x);
+        float const top = std::floor(y);
+        auto const c = static_cast<std::int64_t>(left);
+        auto const r = static_cast<std::int64_t>(top);
+        float const upper = height_at(c, r) + (height_at(c + 1, r) - height_at(c, r)) * (x - left);
+        float const lower = height_at(c, r + 1) + (height_at(c + 1, r + 1) - height_at(c, r + 1)) * (x - left);
+        return upper + (lower - upper) * (y - top);
     });
 }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr double growth = 0.4;
 constexpr float least_width = 0.5F;  // [cells]: what is narrower shows as nothing
 constexpr float core_widths = 0.4F;  // what is flat, and
-constexpr float reach_widths = 3.0F; // where the foot ends, both before they are narrowed
+constexpr float reach_widths = 2.7F; // where the foot ends, both before they are narrowed
 constexpr float flat_share = 0.15F;  // of the cap, on the floor
 
 /// Floors are nowhere ribbons of one width: about 1.5, and 1 at least.

@@ -141,6 +141,7 @@ EquilibriumLand written_land(LandLevel level, Channels const& rivers, Window con
     to_metres(level, raise);
     // A little lower than what counts as perched, for what is settled afterwards.
     lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
+    raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     settle_land(level, settled_step(raise), RiverHeights::graded);
     out.dem = cropped(level, window);
     auto const perched = give_up_tips(level, perched_height(raise, window.grid), TipBanks::stay);
