@@ -174,6 +174,14 @@ TEST(Certify, FindsReachesOutsideTheData) {
     EXPECT_EQ(c.river_cells, 28 + 7 - 2);
 }
 
+TEST(Certify, NothingIsTracedOnALake) {
+    Raster<float> const flat(frame(9, 9), 3.0F);
+    Grid const& grid = flat.grid();
+    Certificate const c = certify(flat, drain(flat), {{{{grid.centre({4, 2}), grid.centre({4, 8})}}, -1, 1}});
+    EXPECT_EQ(c.lake_cells, 7);
+    EXPECT_EQ(c.traced[0].f(), 1.0);
+}
+
 TEST(Certify, ComparesAreasWithThoseOfTheFile) {
     Land const land = valley();
     measure::Drainage const d = drain(land.dem);

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/surface/area_power.hpp>
+#include <thalweg/surface/give_up_tips.hpp>
 #include <thalweg/surface/nearest_river.hpp>
 #include <thalweg/surface/order_cells.hpp>
 #include <thalweg/surface/river_cells.hpp>
+#include <thalweg/surface/slide_land.hpp>
 #include <thalweg/surface/widen.hpp>
 
 #include <algorithm>
@@ -37,6 +39,25 @@ LandLevel any_level() {
     EquilibriumParams closed;
     closed.edge = Edge::closed;
     level.rivers = widened(rivers, {}, closed).rivers;
+    return level;
+}
+
+/// Rough land around such rivers, with some banks among it.
+LandLevel any_land() {
+    LandLevel level = any_level();
+    auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("land");
+    auto const cells = static_cast<std::size_t>(level.cells());
+    level.cover.assign(cells, Cover::outside);
+    level.z.assign(cells, std::numeric_limits<float>::infinity());
+    level.cap.assign(cells, 0.0F);
+    each_inner(level, [&](std::size_t i) {
+        level.cover[i] = chance(seed, 1, i) % 10 == 0 ? Cover::bank : Cover::land;
+        level.z[i] = static_cast<float>(chance(seed, 2, i) % 1000) * 0.01F;
+        level.cap[i] = 0.1F + static_cast<float>(chance(seed, 3, i) % 10) * 0.05F;
+    });
+    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+        level.cover[level.rivers.cell[n]] = Cover::river;
+    }
     return level;
 }
 
@@ -149,6 +170,80 @@ TEST(CoarsenedRivers, AreTrees) {
         for (std::size_t n = 0; n < coarse.cell.size(); ++n) {
             RC_ASSERT(coarse.receiver[n] < static_cast<std::int32_t>(n));
             RC_ASSERT((coarse.receiver[n] < 0) == (coarse.way[n] < 0));
+        }
+    }));
+}
+
+// The heights are what sweeps over all cells come to that lower each as far as any neighbour asks for.
+TEST(SlideLand, IsTheGreatestThatMayStand) {
+    ASSERT_TRUE(rc::check("the greatest heights that may stand", [] {
+        LandLevel level = any_land();
+        LandLevel plain = level;
+        slide_land(level);
+        auto const offsets = plain.offsets();
+        for (bool more = true; more;) {
+            more = false;
+            each_inner(plain, [&](std::size_t i) {
+                for (std::size_t k = 0; k < 8 && plain.cover[i] == Cover::land; ++k) {
+                    float const most =
+                        plain.z[moved(i, offsets[k])] + 1.5F * plain.cap[i] * plain.side * step_lengths[k];
+                    more = more || plain.z[i] > most;
+                    plain.z[i] = std::min(plain.z[i], most);
+                }
+            });
+        }
+        each_inner(plain, [&](std::size_t i) { RC_ASSERT(level.z[i] == plain.z[i]); });
+    }));
+}
+
+// Land rises only, rivers fall only and stay above their receivers; nothing is perched above land any more.
+TEST(Perched, IsLoweredOrHeldUp) {
+    ASSERT_TRUE(rc::check("lowered or held up", [] {
+        LandLevel level = any_land();
+        RiverCells const& rivers = level.rivers;
+        float const tangent = 0.5F;
+        float const step = 0.002F;
+        for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+            if (rivers.receiver[n] >= 0) {
+                float const rise = chance(7, n) % 8 == 0 ? 3.0F : 0.01F;
+                level.z[rivers.cell[n]] = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]] + rise;
+            }
+        }
+        Cells<float> const before = level.z;
+        lower_perched(level, tangent, step);
+        Cells<float> const lowered = level.z;
+        raise_below_perched(level, tangent);
+        for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+            std::uint32_t const i = rivers.cell[n];
+            RC_ASSERT(level.z[i] <= before[i]);
+            RC_ASSERT(level.z[i] == lowered[i]);
+            if (rivers.receiver[n] >= 0) {
+                RC_ASSERT(level.z[i] >=
+                          level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]] + 0.5F * step);
+            }
+        }
+        each_inner(level, [&](std::size_t i) {
+            if (level.cover[i] != Cover::river) {
+                RC_ASSERT(lowered[i] == before[i]);
+                RC_ASSERT(level.z[i] >= lowered[i]);
+            }
+        });
+        for (std::int64_t const number : perched_cells(level, tangent * 1.0001F)) {
+            auto const n = static_cast<std::size_t>(
+                std::distance(rivers.number.begin(), std::find(rivers.number.begin(), rivers.number.end(), number)));
+            // what it stands above is a river
+            std::int64_t const col = rivers.cell[n] % level.width;
+            std::int64_t const row = rivers.cell[n] / level.width;
+            float lowest_land = std::numeric_limits<float>::infinity();
+            for (std::int64_t r = row - 2; r <= row + 2; ++r) {
+                for (std::int64_t c = col - 2; c <= col + 2; ++c) {
+                    auto const i = static_cast<std::size_t>(r * level.width + c);
+                    bool const on_ring = std::abs(r - row) == 2 || std::abs(c - col) == 2;
+                    lowest_land =
+                        on_ring && level.cover[i] == Cover::land ? std::min(lowest_land, level.z[i]) : lowest_land;
+                }
+            }
+            RC_ASSERT(level.z[rivers.cell[n]] <= lowest_land + tangent * 1.0001F * level.side);
         }
     }));
 }

@@ -243,7 +243,13 @@ private:
                                  reaches_[r].id, place(grid_.at(source)), place(goal)));
             }
         }
-        out_.traced = agreement(out_of_lakes(traced), out_of_lakes(with_data()), grid_);
+        std::vector<std::int64_t> const rivers = with_data();
+        std::vector<std::int64_t> const running = out_of_lakes(rivers);
+        if (running.empty() && !rivers.empty()) {
+            out_.traced.fill({1.0, 1.0}); // they are all lake: there is nothing to follow
+        } else {
+            out_.traced = agreement(out_of_lakes(traced), running, grid_);
+        }
     }
 
     void compare_areas(std::vector<double> const& ds_area_m2) {
