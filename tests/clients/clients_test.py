@@ -140,6 +140,8 @@ PLANTED = {
         ("precision_at_one_cell", UPSIDE_DOWN),
         ("recall_at_one_cell", UPSIDE_DOWN),
         ("f_in_network_cells", UPSIDE_DOWN),
+        ("f_at_one_cell", UPSIDE_DOWN),
+        ("recall_by_area", UPSIDE_DOWN),
     ],
     "saga": [("depression", heights(pit))],
     "relief": [
@@ -189,7 +191,7 @@ PLANTED = {
     ],
 }
 WORDS = {
-    "grass": lambda folder, state: [folder / DEM, folder / MASK, folder / NET],
+    "grass": lambda folder, state: [folder / DEM, folder / MASK, folder / NET, "recall=0.7"],
     "saga": lambda folder, state: [folder / DEM],
     "relief": lambda folder, state: [folder],
     "postgis": lambda folder, state: [state, folder / NET],
