@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
 #include <cstdint>
+#include <fstream>
 
 #include <benchmark/benchmark.h>
 
@@ -21,14 +24,22 @@ Channels rivers(std::int64_t side) {
                                 channel_trees::Room::apart, 1);
 }
 
-/// On one core; peak counts what the process held at most less what it held before, over the cells.
+/// Memory [bytes] this process holds.
+std::int64_t held_bytes() {
+    std::int64_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages >> pages;
+    return pages * sysconf(_SC_PAGESIZE);
+}
+
+/// On one core; bytes_per_cell: what the process has held at most, over all that was run before it as well, less what
+/// it holds before, the rivers among it.
 void bench_equilibrium(benchmark::State& state) {
     Channels const channels = rivers(state.range(0));
     surface::EquilibriumParams params;
     params.roughness = state.range(1) == 0 ? 0.0 : params.roughness;
     Run run;
     run.threads = 1;
-    std::int64_t const before = peak_memory_bytes();
+    std::int64_t const before = held_bytes();
     for (auto _ : state) {
         benchmark::DoNotOptimize(surface::equilibrium(channels, {}, params, run));
     }

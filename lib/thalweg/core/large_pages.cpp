@@ -11,12 +11,12 @@ namespace thalweg {
 
 void* take_large_pages(std::size_t bytes) {
     constexpr std::size_t page = std::size_t{2} << 20;
-    std::size_t const whole = (bytes + page - 1) / page * page;
-    void* const memory = whole < bytes ? nullptr : std::aligned_alloc(page, whole);
-    if (memory == nullptr) {
+    void* memory = nullptr;
+    if (posix_memalign(&memory, page, bytes) != 0) {
         throw std::bad_alloc();
     }
-    madvise(memory, whole, MADV_HUGEPAGE); // a wish: what comes of it only changes the time
+    // What fills no large page at the end stays in small ones. A wish: what comes of it only changes time and memory.
+    madvise(memory, bytes / page * page, MADV_HUGEPAGE);
     return memory;
 }
 
