@@ -4,8 +4,8 @@
 
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/value_noise.hpp>
 #include <thalweg/surface/smooth_free.hpp>
-#include <thalweg/surface/value_noise.hpp>
 
 #include <gtest/gtest.h>
 

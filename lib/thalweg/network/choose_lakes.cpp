@@ -13,10 +13,12 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/cells_around.hpp>
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/d8.hpp>
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/value_noise.hpp>
 #include <thalweg/network/lake_basins.hpp>
 
 namespace thalweg::network {
@@ -42,24 +44,6 @@ void check(ChannelsOfArcs const& drawn, std::vector<double> const& area_m2, Choo
     }
 }
 
-/// Smooth noise in [0, 1) between chance numbers on a lattice.
-double noise(Cell c, double wave, std::uint64_t seed, std::uint64_t lake) {
-    double const x = static_cast<double>(c.col) / wave;
-    double const y = static_cast<double>(c.row) / wave;
-    double const col = std::floor(x);
-    double const row = std::floor(y);
-    auto const corner = [&](double dx, double dy) {
-        return unit(chance(seed, stage, lake, static_cast<std::uint64_t>(col + dx) + 1,
-                           static_cast<std::uint64_t>(row + dy) + 1));
-    };
-    auto const eased = [](double t) { return t * t * (3.0 - 2.0 * t); };
-    double const u = eased(x - col);
-    double const v = eased(y - row);
-    double const north = corner(0.0, 0.0) * (1.0 - u) + corner(1.0, 0.0) * u;
-    double const south = corner(0.0, 1.0) * (1.0 - u) + corner(1.0, 1.0) * u;
-    return north * (1.0 - v) + south * v;
-}
-
 class Shores {
 public:
     Shores(ChannelsOfArcs const& drawn, std::uint64_t seed)
@@ -77,6 +61,7 @@ public:
         for (std::int64_t const i : way) {
             river.insert(drawn_.channels.cell[static_cast<std::size_t>(i)]);
         }
+        std::uint64_t const own_seed = chance(seed_, stage, arc);
         double const wave = std::max(3.0, 0.6 * std::sqrt(static_cast<double>(cells)));
         using Entry = std::pair<double, std::int64_t>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -96,7 +81,7 @@ public:
                 if (!grid.contains(n) || done.contains(grid.index(n))) {
                     continue;
                 }
-                double const rough = noise(n, wave, seed_, arc);
+                double const rough = 0.5 + 0.5 * value_noise(own_seed, n, wave);
                 double const ease = river.contains(grid.index(n)) ? 0.2 : 1.0;
                 queue.emplace(cost + ease * (0.15 + rough * rough) / d8_per_length[k], grid.index(n));
             }
@@ -138,14 +123,7 @@ private:
         Grid const& grid = labels.grid();
         for (std::int64_t const cell : lake) {
             labels[cell] = last_;
-            Cell const c = grid.at(cell);
-            for (std::int64_t row = c.row - apart; row <= c.row + apart; ++row) {
-                for (std::int64_t col = c.col - apart; col <= c.col + apart; ++col) {
-                    if (grid.contains({col, row})) {
-                        is_taken_[Cell{col, row}] = 1;
-                    }
-                }
-            }
+            cells_around(grid, grid.at(cell), apart, [&](Cell near) { is_taken_[near] = 1; });
         }
     }
 

@@ -6,13 +6,13 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/parallel.hpp>
 #include <thalweg/core/valley.hpp>
+#include <thalweg/core/value_noise.hpp>
 #include <thalweg/solver/relax_explicit.hpp>
 #include <thalweg/surface/coarse_start.hpp>
 #include <thalweg/surface/euclid.hpp>
 #include <thalweg/surface/heights_of.hpp>
 #include <thalweg/surface/problem_through.hpp>
 #include <thalweg/surface/smooth_free.hpp>
-#include <thalweg/surface/value_noise.hpp>
 
 #include <cmath>
 #include <limits>

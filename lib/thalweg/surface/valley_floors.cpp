@@ -3,8 +3,8 @@
 #include <thalweg/surface/valley_floors.hpp>
 
 #include <thalweg/core/elementary.hpp>
+#include <thalweg/core/value_noise.hpp>
 #include <thalweg/surface/nearest_river.hpp>
-#include <thalweg/surface/value_noise.hpp>
 
 #include <algorithm>
 #include <cmath>

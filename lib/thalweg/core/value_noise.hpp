@@ -6,10 +6,10 @@
 
 #include <thalweg/core/grid.hpp>
 
-namespace thalweg::surface {
+namespace thalweg {
 
 /// Smooth noise in [-1, 1]: numbers by chance on a lattice of so many cells, joined by x^2 (3 - 2 x).
 /// Takes: lattice_cells >= 1.
 double value_noise(std::uint64_t seed, Cell cell, double lattice_cells);
 
-} // namespace thalweg::surface
+} // namespace thalweg

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/surface/value_noise.hpp>
+#include <thalweg/core/value_noise.hpp>
 
 #include <thalweg/core/chance.hpp>
 
 #include <cmath>
 
-namespace thalweg::surface {
+namespace thalweg {
 namespace {
 
 constexpr std::uint64_t stage = 0x6e6f697365; // "noise"
@@ -35,4 +35,4 @@ double value_noise(std::uint64_t seed, Cell cell, double lattice_cells) {
                  mixed(node(seed, left, top + 1.0), node(seed, left + 1.0, top + 1.0), across), eased(y - top));
 }
 
-} // namespace thalweg::surface
+} // namespace thalweg
