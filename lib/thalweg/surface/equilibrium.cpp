@@ -137,17 +137,10 @@ public:
             order_cells(level);
             if (given) {
                 relax_given_rivers(level, law_, params_.heights);
-            } else {
-                if (number == 0 && (round == rounds - 4 || round == rounds - 3)) {
-                    give_up(level);
-                }
+            } else if (number > 0) {
                 relax_rivers(level, law_);
-                if (number == 0) {
-                    if (round > rounds - 4) {
-                        lower_perched(level, perched_, least_tangent);
-                    }
-                    keep_to_receivers(level);
-                }
+            } else {
+                relax_finest_rivers(level, rounds - round);
             }
             relax_land(level, law_);
         }
@@ -170,6 +163,19 @@ private:
             below *= 0.25;
         }
         return below * (0.25 + 0.75 * static_cast<double>(round) / static_cast<double>(rounds));
+    }
+
+    /// With what only the grid's own rivers ask for: no perched head, and water that keeps to them.
+    void relax_finest_rivers(LandLevel& level, int rounds_left) {
+        constexpr int to_come_down = 3; // rounds that land takes where a river was given up
+        if (rounds_left == to_come_down || rounds_left == to_come_down + 1) {
+            give_up(level);
+        }
+        relax_rivers(level, law_);
+        if (rounds_left <= to_come_down) {
+            lower_perched(level, perched_, least_tangent);
+        }
+        keep_to_receivers(level);
     }
 
     void give_up(LandLevel& level) {
