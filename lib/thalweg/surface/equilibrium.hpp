@@ -57,15 +57,16 @@ struct EquilibriumLand {
 };
 
 /// Draws the land that is in equilibrium with given rivers: everywhere uplift equals what running water cuts
-/// (K A^theta S) less what soil creep brings (D lap z), with a cap on slopes, noise on erodibility, and floors along
-/// rivers. Solved coarse to fine.
+/// (K A^theta S, with debris flows where A is small) less what soil creep brings (D lap z), with a cap on slopes, noise
+/// on erodibility, and floors along rivers. Solved coarse to fine.
 /// Takes: rivers, at least one, whose water leaves on the border, the coast or in a sink; fields on their grid.
 /// Gives: water of a river cell goes to its receiver, by the steepest descent of the floats that are written, and
-/// cells beside rivers stand above every river cell they touch; every cell but these has a strictly lower neighbour, so
-/// there is no depression but a sink; lakes are level. The lowest river end stands at 0 (given heights: where they
+/// land beside rivers stands above every river cell it touches; all land has a strictly lower neighbour, so there is no
+/// depression but a sink; lakes are level. The lowest river end stands at 0 (given heights: where they
 /// say). The same bytes for any number of threads. Throws: BadParameter; BadInput: channels that break their law,
 /// fields on another grid, not above 0 or with holes on land, no land, a river at sea, given heights that rise;
-/// Cancelled. Source: Perron et al. 2009 (hillslope length); Braun and Willett 2013 (order); Barnes 2014 (flood).
+/// Cancelled. Source: Perron et al. 2009 (hillslope length); Braun and Willett 2013 (order); Barnes 2014 (flood);
+/// Stock and Dietrich 2003 (debris flows).
 EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fields = {},
                             EquilibriumParams const& params = {}, Run const& run = {});
 

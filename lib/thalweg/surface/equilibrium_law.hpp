@@ -16,7 +16,7 @@ struct EquilibriumLaw {
         : power(params.theta), land_power(params.theta, debris_area),
           creep(static_cast<float>(exact::pow(params.hillslope_cells, 2.0 * params.theta + 1.0))) {}
 
-    static constexpr double debris_area = 16.0;
+    static constexpr double debris_area = 16.0; ///< [finest cells]
 
     AreaPower power;      ///< A^theta, of the given rivers
     AreaPower land_power; ///< of the land: below this area debris flows cut as well, and slopes hardly change with it

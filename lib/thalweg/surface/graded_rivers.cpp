@@ -18,8 +18,8 @@ constexpr float share_of_cap = 0.3F;
 constexpr float above_land = 0.02F;  // [cells of the level] that a river may stand above the land two cells away
 constexpr float above_river = 0.25F; // [cells of the level] and above another river there
 constexpr float kept_share = 0.3F;   // of its fall, which a reach keeps when it is lowered for what lies upstream
+constexpr std::uint32_t great = 16;  // times the area of a brook: no river is lowered for it
 
-constexpr std::uint32_t great = 16; // times the area of a brook: no river is lowered for it
 /// The greatest height of a river cell that does not leave it perched: by the second ring of cells around it.
 float height_by_ring(LandLevel const& level, std::uint32_t cell) {
     float most = std::numeric_limits<float>::infinity();
