@@ -38,7 +38,7 @@ namespace {
 
 constexpr int fine_rounds = 6;
 constexpr int coarse_rounds = 30;
-constexpr float of_perched = 2.0F; // times what counts as perched at last: what will not come down by itself
+constexpr float of_perched = 3.0F; // times what counts as perched at last: what will not come down by itself
 constexpr int floors_after = 2;    // rounds: areas are near enough by then
 
 /// What lies in the frame of a level, before it is solved.
