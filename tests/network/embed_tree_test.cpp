@@ -86,7 +86,7 @@ double angle_deg(Vec2 here, Vec2 a, Vec2 b) {
 }
 
 /// What is wrong with the links of the arcs as parts of the tree, or "".
-std::string broken_tree(TokunagaTree const& tree, EmbeddedTree const& out) {
+std::string broken_tree(TokunagaTree const& tree, EmbedParams const& params, EmbeddedTree const& out) {
     NetworkIndex const index(out.network);
     if (out.placed + out.dropped != static_cast<std::int64_t>(tree.links.size())) {
         return "placed and dropped are not all";
@@ -97,7 +97,8 @@ std::string broken_tree(TokunagaTree const& tree, EmbeddedTree const& out) {
     std::set<std::int64_t> seen;
     for (std::size_t a = 0; a < index.arcs.size(); ++a) {
         auto const& links = out.links_of_arc[a];
-        if (links.empty() || out.network[index.arcs[a]].line.size() != links.size() + 1) {
+        std::size_t const pieces = out.network[index.arcs[a]].line.size() - 1;
+        if (links.empty() || pieces > links.size() || (params.min_spacing_m == 0.0 && pieces < links.size())) {
             return "an arc's line has not one piece for each link";
         }
         for (std::size_t k = 0; k < links.size(); ++k) {
@@ -196,7 +197,7 @@ std::string broken_room(EmbedParams const& params, EmbeddedTree const& out) {
 }
 
 std::string broken(TokunagaTree const& tree, EmbedParams const& params, EmbeddedTree const& out) {
-    std::string words = broken_tree(tree, out);
+    std::string words = broken_tree(tree, params, out);
     words = words.empty() ? broken_plane(params, out) : words;
     return words.empty() ? broken_room(params, out) : words;
 }
@@ -342,13 +343,29 @@ TEST(EmbedTree, LawsHoldForAnyStar) {
     }));
 }
 
+// Where spacing leaves no room for streams of low orders, links that lie between such share a piece of a line.
+TEST(EmbedTree, ACrowdedPentagonLosesItsLowestOrders) {
+    EmbedParams params{.seed = 1, .clearance = 0.05, .min_spacing_m = 27.0};
+    for (int k = 0; k < 5; ++k) {
+        double const angle = 2.0 * 3.14159265358979 * k / 5;
+        params.region.push_back({1e6 + 300.0 * std::cos(angle), 5e6 + 300.0 * std::sin(angle)});
+    }
+    params.mouth = params.region[0];
+    auto const tree = grow_tokunaga({.seed = 1, .generator = 5, .order = 3});
+    auto const out = embed_tree(tree, params);
+    EXPECT_EQ(broken(tree, params, out), "");
+    ASSERT_FALSE(out.links_of_arc.empty());
+    EXPECT_GT(out.links_of_arc[0].size() + 1, out.network[NetworkIndex(out.network).arcs[0]].line.size());
+    EXPECT_GT(out.dropped, 0);
+}
+
 TEST(EmbedTree, ManyLinksFindRoom) {
     auto const tree = grow_tokunaga({.generator = 2, .order = 8});
     ASSERT_EQ(tree.links.size(), 21845U);
     auto const params = in_square(20000);
     auto const out = embed_tree(tree, params);
     EXPECT_GE(out.placed, 20753); // 95 of 100
-    EXPECT_EQ(broken_tree(tree, out), "");
+    EXPECT_EQ(broken_tree(tree, params, out), "");
     EXPECT_EQ(broken_plane(params, out), "");
 }
 
