@@ -334,7 +334,7 @@ TEST(EmbedTree, LawsHoldForAnyStar) {
             params.region.push_back({1e6 + radius * std::cos(angle), 5e6 + radius * std::sin(angle)});
         }
         params.mouth = params.region[static_cast<std::size_t>(*rc::gen::inRange(0, corners))];
-        params.clearance = 0.01 * *rc::gen::inRange(5, 36);
+        params.clearance = std::min(0.35, 0.01 * *rc::gen::inRange(5, 36));
         params.min_spacing_m = *rc::gen::inRange(0, 60);
         int const lambda = *rc::gen::inRange(1, 6);
         auto const tree = grow_tokunaga({.seed = params.seed, .generator = lambda, .order = *rc::gen::inRange(1, 4)});
