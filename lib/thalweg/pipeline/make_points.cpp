@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/skeleton.hpp>
@@ -17,6 +16,7 @@
 #include <thalweg/io/has_layer.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/io/read_rivers.hpp>
+#include <thalweg/pipeline/read_cells.hpp>
 
 namespace thalweg::pipeline {
 
@@ -56,20 +56,10 @@ Mask mask_of(std::string const& path, Grid const& grid, Run const& run) {
 
 /// Cells under the ridges of a network file; none where it has no such layer.
 Mask ridges_of(std::string const& path, Grid const& grid, Run const& run) {
-    Mask cells(grid);
     if (!io::has_layer(path, "ridges")) {
-        return cells;
+        return Mask(grid);
     }
-    for (RiverLine const& ridge : io::read_rivers({.path = path, .layer = "ridges", .crs = grid.crs}, run).lines) {
-        std::vector<Vec2> plan;
-        for (Vec3 const& v : ridge.vertices) {
-            plan.push_back({v.x, v.y});
-        }
-        for (Cell const c : cells_along(plan, grid, path)) {
-            cells[c] = 1;
-        }
-    }
-    return cells;
+    return cells_under(io::read_rivers({.path = path, .layer = "ridges", .crs = grid.crs}, run), grid, path);
 }
 
 // The land is taken over: a large one need not be there twice.

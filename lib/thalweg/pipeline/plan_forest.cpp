@@ -8,6 +8,7 @@
 #include <thalweg/io/read_points.hpp>
 #include <thalweg/io/read_polygons.hpp>
 #include <thalweg/io/read_rivers.hpp>
+#include <thalweg/network/clip_lines.hpp>
 #include <thalweg/network/plant_forest.hpp>
 #include <thalweg/network/shape_island.hpp>
 #include <thalweg/network/spread_outlets.hpp>
@@ -111,7 +112,7 @@ std::vector<Cell> coast_along_file(Recipe const& recipe, Mask& land, Run const& 
         }
     } else {
         RiverLines const lines = io::read_rivers({.path = path, .crs = grid.crs}, run);
-        marked = cells_under(lines, grid, wanted.outlets);
+        marked = cells_under(network::clip_lines(lines, grid), grid, wanted.outlets);
         reach = wanted.spacing_cells; // coasts are drawn in more or less detail
     }
     std::vector<Cell> coast = near_to(marked, network::coast_cells(land), reach);

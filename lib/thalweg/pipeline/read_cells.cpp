@@ -32,7 +32,7 @@ Mask read_part(std::string const& path, Grid const& grid, Run const& run) {
 
 Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& what) {
     Mask under(grid);
-    for (RiverLine const& line : network::clip_lines(lines, grid).lines) {
+    for (RiverLine const& line : lines.lines) {
         std::vector<Vec2> plan;
         for (Vec3 const& v : line.vertices) {
             plan.push_back({v.x, v.y});
@@ -59,7 +59,7 @@ Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
     }
     RiverLines const rivers = io::read_rivers({content.path, content.layer, "rosgen", {}, grid.crs}, run);
     io::same_crs(rivers.crs, grid.crs, "pipeline.make_blend: " + content.path, "the target");
-    Mask kept = cells_under(rivers, grid, content.path);
+    Mask kept = cells_under(network::clip_lines(rivers, grid), grid, content.path);
     if (std::ranges::find(kept.values(), 1) == kept.values().end()) {
         throw BadInput(fmt::format("pipeline.make_blend: no line of {} crosses the target, which reaches from "
                                    "({:.3f}, {:.3f}) to ({:.3f}, {:.3f})",

@@ -15,7 +15,8 @@ namespace thalweg::pipeline {
 /// Throws: as io::read_mask, io::read_polygons and blend::mask_polygons.
 Mask read_part(std::string const& path, Grid const& grid, Run const& run);
 
-/// The cells of a grid under lines, whose parts off it are passed over. what: the lines' name, for messages.
+/// The cells of a grid under lines. what: the lines' name, for messages. Throws: as cells_along, for lines that leave
+/// the grid.
 Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& what);
 
 /// Cells of a raster on the grid, or under lines; empty for "". Throws: as the doors; BadInput for points, and when no
