@@ -52,14 +52,14 @@ public:
         }
     }
 
-    void fill(Raster<std::int32_t>& raster, std::int32_t number) {
+    template <class T> void fill(Raster<T>& raster, T value) {
         for (std::int64_t row = 0; row < grid_.height; ++row) {
             auto& columns = columns_[static_cast<std::size_t>(row)];
             std::ranges::sort(columns);
             for (std::size_t i = 0; i + 1 < columns.size(); i += 2) {
                 std::int64_t const end = first_from(columns[i + 1], grid_.width);
                 for (std::int64_t col = first_from(columns[i], grid_.width); col < end; ++col) {
-                    raster[{col, row}] = number;
+                    raster[{col, row}] = value;
                 }
             }
             columns.clear();
@@ -93,10 +93,9 @@ private:
                                grid.south(), grid.east(), grid.north));
 }
 
-} // namespace
-
-Raster<std::int32_t> number_polygons(Polygons const& polygons, Grid const& grid) {
-    Raster<std::int32_t> numbers(grid);
+/// Gives the cells in each polygon the value of its number, counted from 1; the others 0.
+template <class T, class Value> Raster<T> burned(Polygons const& polygons, Grid const& grid, Value value_of) {
+    Raster<T> raster(grid);
     Crossings crossings(grid);
     std::int32_t number = 0;
     for (Polygon const& polygon : polygons.polygons) {
@@ -106,21 +105,22 @@ Raster<std::int32_t> number_polygons(Polygons const& polygons, Grid const& grid)
                 crossings.add_edge(ring[i], ring[(i + 1) % ring.size()]);
             }
         }
-        crossings.fill(numbers, ++number);
+        crossings.fill(raster, value_of(++number));
     }
-    if (std::ranges::all_of(numbers.values(), [](std::int32_t n) { return n == 0; })) {
+    if (std::ranges::all_of(raster.values(), [](T value) { return value == 0; })) {
         refuse_empty(polygons, grid);
     }
-    return numbers;
+    return raster;
+}
+
+} // namespace
+
+Raster<std::int32_t> number_polygons(Polygons const& polygons, Grid const& grid) {
+    return burned<std::int32_t>(polygons, grid, [](std::int32_t number) { return number; });
 }
 
 Mask mask_polygons(Polygons const& polygons, Grid const& grid) {
-    Raster<std::int32_t> const numbers = number_polygons(polygons, grid);
-    Mask mask(grid);
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        mask[i] = numbers[i] != 0 ? 1 : 0;
-    }
-    return mask;
+    return burned<std::uint8_t>(polygons, grid, [](std::int32_t) { return std::uint8_t{1}; });
 }
 
 } // namespace thalweg::blend
