@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/cells_around.hpp>
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
 
@@ -27,20 +28,14 @@ Raster<float> attract(Raster<float> dem, Attraction const& attraction) {
     double const square = attraction.radius_cells * attraction.radius_cells;
     double const at_radius = attraction.falloff == Falloff::literal ? 0.0 : exact::exp(-1.0);
     auto const reach = static_cast<std::int64_t>(std::min(attraction.radius_cells, 1e9));
-    for (std::int64_t r = std::max<std::int64_t>(0, centre.row - reach);
-         r <= std::min(dem.height() - 1, centre.row + reach); ++r) {
-        for (std::int64_t c = std::max<std::int64_t>(0, centre.col - reach);
-             c <= std::min(dem.width() - 1, centre.col + reach); ++c) {
-            auto const dx = static_cast<double>(c - centre.col);
-            auto const dy = static_cast<double>(r - centre.row);
-            double const distance = dx * dx + dy * dy;
-            if (distance <= square) {
-                double const h = dem[Cell{c, r}];
-                double const pull = (exact::exp(-distance / square) - at_radius) / (1.0 - at_radius);
-                dem[Cell{c, r}] = static_cast<float>(h + pull * (attraction.z - h));
-            }
+    cells_around(dem.grid(), centre, reach, [&](Cell c) {
+        auto const distance = static_cast<double>(squared_cells(c, centre));
+        if (distance <= square) {
+            double const h = dem[c];
+            double const pull = (exact::exp(-distance / square) - at_radius) / (1.0 - at_radius);
+            dem[c] = static_cast<float>(h + pull * (attraction.z - h));
         }
-    }
+    });
     if (!std::isnan(dem[centre])) {
         dem[centre] = static_cast<float>(attraction.z);
     }
