@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/surface/area_power.hpp>
-#include <thalweg/surface/give_up_tips.hpp>
+#include <thalweg/surface/edge_heights.hpp>
 #include <thalweg/surface/nearest_river.hpp>
 #include <thalweg/surface/order_cells.hpp>
+#include <thalweg/surface/perched_rivers.hpp>
 #include <thalweg/surface/river_cells.hpp>
 #include <thalweg/surface/slide_land.hpp>
 #include <thalweg/surface/widen.hpp>
@@ -245,5 +246,24 @@ TEST(Perched, IsLoweredOrHeldUp) {
             }
             RC_ASSERT(level.z[rivers.cell[n]] <= lowest_land + tangent * 1.0001F * level.side);
         }
+    }));
+}
+
+// The land's edge is as high as the nearest river, also when heads have been given up and the others are counted anew.
+TEST(EdgeHeights, AskNoNumbers) {
+    ASSERT_TRUE(rc::check("edges keep their heights when rivers are counted anew", [] {
+        LandLevel level = any_land();
+        auto const width = static_cast<std::size_t>(level.width);
+        for (std::size_t i = 0; i < level.cover.size(); ++i) {
+            bool const inside = i % width > 0 && i % width + 1 < width && i >= width && i + width < level.cover.size();
+            level.cover[i] = inside ? level.cover[i] : Cover::edge;
+        }
+        EdgeCells const edge = edge_cells(level, nearest_river(level));
+        RC_ASSERT(edge.ring.size() == static_cast<std::size_t>(2 * (level.width + level.height) - 4));
+        set_edge_heights(level, edge);
+        Cells<float> const before = level.z;
+        level.rivers = {};
+        set_edge_heights(level, edge);
+        RC_ASSERT(level.z == before);
     }));
 }

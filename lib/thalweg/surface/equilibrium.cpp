@@ -13,6 +13,7 @@
 #include <thalweg/surface/keep_to_receivers.hpp>
 #include <thalweg/surface/nearest_river.hpp>
 #include <thalweg/surface/order_cells.hpp>
+#include <thalweg/surface/perched_rivers.hpp>
 #include <thalweg/surface/relax_given_rivers.hpp>
 #include <thalweg/surface/relax_land.hpp>
 #include <thalweg/surface/relax_rivers.hpp>

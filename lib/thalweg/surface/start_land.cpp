@@ -97,8 +97,8 @@ void start_from(LandLevel& level, LandLevel const& coarse, std::uint64_t seed, R
     };
     Bends const bends(level, seed);
     set_heights(level, seed, 0.15F, run, [&](std::int64_t col, std::int64_t row) {
-        // An odd column (the frame is column 0) is the left half of a coarse cell.
         auto const [east, south] = bends.at(col, row);
+        // Columns 1 and 2 (the frame is column 0) are the halves of coarse column 1.
         float const x = 0.5F * static_cast<float>(col) + 0.25F + east;
         float const y = 0.5F * static_cast<float>(row) + 0.25F + south;
         float const left = std::floor(x);

@@ -5,6 +5,7 @@
 #include <thalweg/core/d8.hpp>
 #include <thalweg/core/parallel.hpp>
 #include <thalweg/surface/give_up_tips.hpp>
+#include <thalweg/surface/perched_rivers.hpp>
 #include <thalweg/surface/rise_of.hpp>
 #include <thalweg/surface/settle_land.hpp>
 
