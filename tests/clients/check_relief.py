@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""check_relief.py FOLDER [--bars theta=0.45 slope=25]: is the relief that `thalweg make` reports that of dem.tif, and like land?
+"""check_relief.py FOLDER [--bars theta=0.45 slope=25 forms=0.08]: is the relief that `thalweg make` reports that of dem.tif, and like land?
 
 Measured anew, without thalweg: geomorphons by GRASS (r.geomorphon search=15 skip=0 flat=1, 15 cells of border left out) of
 dem.tif and of the two real DEMs in samples/; slopes and aspects by gdaldem; slope against area along the D8 directions of
 GRASS (r.watershed -s); pits, peaks and perched river cells (of network.tif) by numpy. Each is held against report.json. --bars
 asks that the land is like land: concavity within 0.05 of theta, mean slope within 10 % of slope [degrees], valley over ridge cells
-0.8 to 1.25, geomorphons within 0.08 (total variation) of the mean of the real DEMs, aspects along the grid's eight directions
+0.8 to 1.25, geomorphons within forms (total variation) of the mean of the real DEMs, aspects along the grid's eight directions
 within 15 % of even, no perched river cell.
 Prints one JSON line and exits with 1 on any violation, 2 when there is nothing to check."""
 import json
@@ -159,7 +159,7 @@ def meets(bars, found, report):
     report.unless(found["theta"] is not None and abs(found["theta"] - theta) <= 0.05, "bar_theta", f"{found['theta']}, not {theta}")
     report.unless(abs(found["slope_mean"] / slope - 1) <= 0.1, "bar_slope", f"{found['slope_mean']}, not {slope}")
     report.unless(ratio is not None and 0.8 <= ratio <= 1.25, "bar_valleys_over_ridges", ratio)
-    report.unless(found["form_distance"] <= 0.08, "bar_form_distance", found["form_distance"])
+    report.unless(found["form_distance"] <= float(bars["forms"]), "bar_form_distance", found["form_distance"])
     along = found["aspects_along_grid"]
     report.unless(along is not None and abs(along - 1) <= 0.15, "bar_aspects", along)
     report.unless(found.get("perched", 0) == 0, "bar_perched", found.get("perched"))
@@ -184,4 +184,4 @@ def main(folder, *words):
 
 
 if __name__ == "__main__":
-    run(main, __doc__, 1, 4)
+    run(main, __doc__, 1, 5)

@@ -11,7 +11,7 @@ namespace thalweg::network {
 
 struct GradedParams {
     double slope = 0.087;       ///< [m/m] > 0, mean of the main stem: fall from its source over its length
-    double theta = 0.45;        ///< [0, 1], concavity; 0 makes every river equally steep
+    double theta = 0.38;        ///< [0, 1], concavity; 0 makes every river equally steep
     double least_area_m2 = 1.0; ///< [m2] > 0, such as a cell's: areas below it count as it
 };
 

@@ -94,7 +94,7 @@ struct NetworkRecipe {
     std::optional<double> prune_cells; ///< [cells] default 20 for dla and forest, else 0
     Heights heights = Heights::automatic;
     double slope = 0.087;                  ///< [m/m] > 0
-    double concavity = 0.45;               ///< [0, 1] theta of graded heights
+    double concavity = 0.38;               ///< [0, 1] theta of graded heights
     std::optional<network::Rosgen> rosgen; ///< type of arcs without one; none: by Strahler order
     network::SlopeDraw rosgen_slope = network::SlopeDraw::middle;
     std::optional<double> rotate_deg; ///< [degrees] counterclockwise; none: by chance where rivers are grown for a land
@@ -137,7 +137,7 @@ struct EquilibriumRecipe {
     std::optional<double> mean_slope_deg; ///< none: 25, where no relief is asked
     double hillslope_m = 0.0;             ///< [m] 0: one cell
     double floor_width = 0.04;            ///< as surface::EquilibriumParams
-    double roughness = 0.4;
+    double roughness = 0.25;
     std::optional<surface::Edge> edge; ///< none: coast where there is sea, else open
     std::string uplift;                ///< raster on the grid; "" for none
     std::string erodibility;           ///< raster on the grid, or polygons with a field of that name; "" for none

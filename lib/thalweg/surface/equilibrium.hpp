@@ -34,12 +34,12 @@ struct EquilibriumFields {
 };
 
 struct EquilibriumParams {
-    double theta = 0.45;               ///< [0.1, 0.9] concavity: slope ~ area^-theta
+    double theta = 0.38;               ///< [0.1, 0.9] concavity: slope ~ area^-theta
     double mean_slope_deg = 25.0;      ///< (0, 60] of the land's cells (Horn's slope), where relief is not given
     std::optional<double> relief_m;    ///< [m] > 0, from the lowest to the highest cell; instead of the mean slope
     double hillslope_cells = 1.0;      ///< [0.5, 100] length below which soil creep wins over water (Perron 2009)
     double floor_width = 0.04;         ///< [0, 1] half width of a valley floor [cells] over area [cells] ^ 0.4
-    double roughness = 0.4;            ///< [0, 1] standard deviation of the logarithm of erodibility, as noise
+    double roughness = 0.25;           ///< [0, 1] standard deviation of the logarithm of erodibility, as noise
     double longest_wave_cells = 360.0; ///< [4, ...] of that noise
     Edge edge = Edge::open;
     RiverHeights heights = RiverHeights::graded;
