@@ -3,7 +3,13 @@
 add_library(thalweg_options INTERFACE)
 # No contraction, no fast-math, no -march: the same recipe gives the same bytes on every machine.
 target_compile_options(thalweg_options INTERFACE
-  -Wall -Wextra -Wshadow -Wconversion -Werror -ffp-contract=off)
+  -Wall -Wextra -Wconversion -Werror -ffp-contract=off)
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # Files that are compiled as one see one another's names, and g++ knows no main file whose types are its own.
+  target_compile_options(thalweg_options INTERFACE -Wshadow=local -Wno-subobject-linkage)
+else()
+  target_compile_options(thalweg_options INTERFACE -Wshadow)
+endif()
 if(CMAKE_BUILD_TYPE STREQUAL "Debug")
   target_compile_definitions(thalweg_options INTERFACE _GLIBCXX_ASSERTIONS)
 endif()

@@ -20,7 +20,7 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct BlendOptions {
     pipeline::MakeBlendParams params;
     std::vector<double> at;
     std::vector<std::int64_t> window;
@@ -75,7 +75,7 @@ std::string in_words(pipeline::MadeBlend const& made, bool fills) {
     return words;
 }
 
-void take_numbers(Options& options) {
+void take_numbers(BlendOptions& options) {
     if (!options.at.empty()) {
         if (options.at.size() != 2) {
             throw BadParameter(fmt::format("--at has {} numbers; it takes two, X,Y", options.at.size()));
@@ -93,7 +93,7 @@ void take_numbers(Options& options) {
     options.params.holes = options.fills ? blend::Holes::fill : blend::Holes::leave;
 }
 
-int blend_files(Options& options, Session const& session) {
+int blend_files(BlendOptions& options, Session const& session) {
     take_numbers(options);
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     pipeline::MadeBlend const made = pipeline::make_blend(options.params, session.run);
@@ -107,7 +107,7 @@ int blend_files(Options& options, Session const& session) {
 } // namespace
 
 Command add_blend(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<BlendOptions>();
     pipeline::MakeBlendParams& params = options->params;
     app.add_option("TARGET", params.target, "The DEM that takes the patch.")->type_name("FILE")->required();
     app.add_option("SOURCE", params.source,

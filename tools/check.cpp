@@ -19,7 +19,7 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct CheckOptions {
     pipeline::CheckJob job;
     NetworkOptions source;
 };
@@ -72,7 +72,7 @@ void print_table(pipeline::CheckedFiles const& checked) {
     }
 }
 
-int check(Options& options, Session const& session) {
+int check(CheckOptions& options, Session const& session) {
     options.job.network = options.source.path;
     options.job.read = options.source.params();
     pipeline::CheckedFiles const checked = pipeline::check_files(options.job, session.run);
@@ -87,7 +87,7 @@ int check(Options& options, Session const& session) {
 } // namespace
 
 Command add_check(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<CheckOptions>();
     add_network_options(app, options->source, "--schema,--from");
     app.add_option("--dem", options->job.dem, "A DEM in the network's CRS: whether it drains, and by these rivers.")
         ->type_name("FILE(tif)");

@@ -22,7 +22,7 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct ConvertOptions {
     pipeline::ConvertParams convert;
     NetworkOptions source;
     std::string schema = "native";
@@ -63,7 +63,7 @@ std::string as_json(pipeline::Converted const& made) {
     return json.dump(2) + "\n";
 }
 
-int convert(Options& options, Session const& session) {
+int convert(ConvertOptions& options, Session const& session) {
     options.convert.schema = io::schema_named(options.schema);
     options.convert.read = options.source.params();
     options.convert.path = options.source.path;
@@ -83,7 +83,7 @@ int convert(Options& options, Session const& session) {
 } // namespace
 
 Command add_convert(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<ConvertOptions>();
     pipeline::ConvertParams& params = options->convert;
     std::string formats;
     for (auto const& f : io::network_formats()) {

@@ -20,14 +20,14 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct DeformOptions {
     pipeline::MakeDeformParams params;
     std::vector<double> pull;
     std::string file;
     bool overwrite = false;
 };
 
-void take_handles(Options& options) {
+void take_handles(DeformOptions& options) {
     if (options.pull.size() % 3 != 0) {
         throw BadParameter(
             fmt::format("--pull has {} numbers; it takes three for each place, X,Y,Z", options.pull.size()));
@@ -37,7 +37,7 @@ void take_handles(Options& options) {
     }
 }
 
-int deform_file(Options& options, Session const& session) {
+int deform_file(DeformOptions& options, Session const& session) {
     take_handles(options);
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     blend::Deformed const made = pipeline::make_deform(options.params, session.run);
@@ -56,7 +56,7 @@ int deform_file(Options& options, Session const& session) {
 } // namespace
 
 Command add_deform(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<DeformOptions>();
     app.add_option("TARGET", options->params.target, "The DEM to bend.")->type_name("FILE")->required();
     app.add_option("-o,--output", options->file, "Write this GeoTIFF.")->type_name("FILE")->required();
     app.add_option("--mask", options->params.mask,

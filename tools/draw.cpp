@@ -16,14 +16,14 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct DrawOptions {
     std::string source;
     std::string output;
     pipeline::DrawParams params;
     bool overwrite = false;
 };
 
-int draw(Options const& options, Session const& session) {
+int draw(DrawOptions const& options, Session const& session) {
     auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
     pipeline::Drawn const drawn =
         pipeline::draw_files(options.source, options.output, options.params, existing, session.run);
@@ -44,7 +44,7 @@ int draw(Options const& options, Session const& session) {
 } // namespace
 
 Command add_draw(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<DrawOptions>();
     pipeline::DrawParams& params = options->params;
     app.add_option("SOURCE", options->source, "A folder that make left, or any raster of heights that GDAL reads.")
         ->type_name("FILE")

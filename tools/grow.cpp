@@ -21,7 +21,7 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct GrowOptions {
     network::TokunagaParams params;
     std::string rule = "tokunaga";
     bool lsystem = false;
@@ -58,7 +58,7 @@ Count count(network::TokunagaTree const& tree, int generator) {
     return c;
 }
 
-void print_json(Options const& options, Count const& c) {
+void print_json(GrowOptions const& options, Count const& c) {
     nlohmann::ordered_json const out{{"generator", options.params.generator},
                                      {"order", c.streams.order},
                                      {"rule", options.rule},
@@ -90,7 +90,7 @@ void print_table(Count const& c) {
     }
 }
 
-int grow(Options const& options, Session const& session) {
+int grow(GrowOptions const& options, Session const& session) {
     network::TokunagaParams params = options.params;
     params.rule = rule_of(options.rule);
     if (options.lsystem) {
@@ -113,7 +113,7 @@ int grow(Options const& options, Session const& session) {
 } // namespace
 
 Command add_grow(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<GrowOptions>();
     network::TokunagaParams& params = options->params;
     app.add_flag("--lsystem", options->lsystem, "Print the network as the word of an L-system, in one line.");
     app.add_option("--generator", params.generator,

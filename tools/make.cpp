@@ -25,7 +25,7 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct MakeOptions {
     std::string recipe;
     std::string folder = "valley";
     std::vector<std::string> set;
@@ -34,7 +34,7 @@ struct Options {
     bool overwrite = false;
 };
 
-pipeline::Recipe recipe_of(Options const& options) {
+pipeline::Recipe recipe_of(MakeOptions const& options) {
     pipeline::Recipe recipe = pipeline::default_recipe();
     if (!options.recipe.empty()) {
         recipe = pipeline::read_recipe(io::read_text(options.recipe, 2 << 20), options.recipe);
@@ -52,7 +52,7 @@ pipeline::Recipe recipe_of(Options const& options) {
     return recipe;
 }
 
-int make(Options const& options, Session const& session) {
+int make(MakeOptions const& options, Session const& session) {
     auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
     pipeline::Recipe const recipe = recipe_of(options);
     pipeline::check_folder(options.folder, existing);
@@ -84,7 +84,7 @@ int make(Options const& options, Session const& session) {
 } // namespace
 
 Command add_make(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<MakeOptions>();
     app.add_option("RECIPE", options->recipe,
                    "The recipe, a TOML file; without one, a valley is grown on 1024x1024 cells.")
         ->type_name("FILE(toml)");

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct MeasureOptions {
     pipeline::MakeMeasuresParams params;
     NetworkOptions network;
     std::string folder;
@@ -48,7 +48,7 @@ ordered_json json_of(pipeline::MadeMeasures const& made) {
     return json;
 }
 
-int measure(Options& options, Session const& session) {
+int measure(MeasureOptions& options, Session const& session) {
     options.params.network = options.network.path;
     options.params.read = options.network.params();
     auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
@@ -69,7 +69,7 @@ int measure(Options& options, Session const& session) {
 } // namespace
 
 Command add_measure(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<MeasureOptions>();
     app.add_option("DEM", options->params.dem, "A folder that make left, or any raster of heights that GDAL reads.")
         ->type_name("FILE")
         ->required();

@@ -20,7 +20,7 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct PointsOptions {
     pipeline::MakePointsParams source;
     std::string file;
     std::string format;
@@ -28,7 +28,7 @@ struct Options {
     bool overwrite = false;
 };
 
-int points(Options& options, Session const& session) {
+int points(PointsOptions& options, Session const& session) {
     options.source.write.format = io::point_format(options.format, options.file);
     options.source.of = options.skeleton ? pipeline::PointsOf::skeleton : pipeline::PointsOf::land;
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
@@ -43,7 +43,7 @@ int points(Options& options, Session const& session) {
 } // namespace
 
 Command add_points(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<PointsOptions>();
     std::string formats;
     for (auto const& f : io::point_formats()) {
         formats += (formats.empty() ? "" : ", ") + std::string(f.name);

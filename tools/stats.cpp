@@ -34,7 +34,7 @@ std::string length(solver::CorrelationLength const& l) {
     return known(l.cells, 2) + (l.extrapolated ? " (extrapolated)" : "");
 }
 
-struct Options {
+struct StatsOptions {
     std::string path;
     bool recipe = false;
     bool laws = false;
@@ -85,7 +85,7 @@ void print_recipe(pipeline::DemRecipe const& made) {
     fmt::print("{}", pipeline::write_recipe(made.recipe));
 }
 
-int stats(Options const& options, Session const& session) {
+int stats(StatsOptions const& options, Session const& session) {
     if (options.recipe && session.json) {
         throw BadParameter("thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
     }
@@ -132,7 +132,7 @@ int stats(Options const& options, Session const& session) {
 } // namespace
 
 Command add_stats(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<StatsOptions>();
     app.add_option("DEM", options->path, "Any raster of heights that GDAL reads.")->type_name("FILE")->required();
     app.add_flag("--json", session.json, "Print one JSON object.");
     CLI::Option* const recipe =

@@ -19,7 +19,7 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct TinOptions {
     pipeline::MakeTinParams source;
     std::string file;
     std::string format;
@@ -63,7 +63,7 @@ std::string in_words(pipeline::MadeTin const& made) {
     return words;
 }
 
-int tin(Options const& options, Session const& session) {
+int tin(TinOptions const& options, Session const& session) {
     auto const format = io::tin_format(options.format, options.file);
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     pipeline::MadeTin const made = pipeline::make_tin(options.source, session.run);
@@ -77,7 +77,7 @@ int tin(Options const& options, Session const& session) {
 } // namespace
 
 Command add_tin(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<TinOptions>();
     std::string formats;
     for (auto const& f : io::tin_formats()) {
         formats += (formats.empty() ? "" : ", ") + std::string(f.name);

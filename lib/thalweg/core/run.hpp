@@ -37,4 +37,7 @@ struct Run {
     }
 };
 
+/// Cells that a loop may pass before it looks whether it shall stop.
+inline constexpr std::int64_t cells_between_checks = 1 << 18;
+
 } // namespace thalweg

@@ -15,7 +15,7 @@
 namespace thalweg::draw {
 namespace {
 
-constexpr Colour stroke{0.45, 0.28, 0.14};
+constexpr Colour line_colour{0.45, 0.28, 0.14};
 constexpr Colour ground{0.72, 0.56, 0.38, 0.22};
 
 void demand_curve(std::vector<Vec2> const& curve, double integral) {
@@ -75,7 +75,7 @@ Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryPa
         set_colour(sheet, ground);
         cairo_fill(sheet);
         trace_line(sheet, line, 0.0);
-        set_colour(sheet, stroke);
+        set_colour(sheet, line_colour);
         cairo_set_line_width(sheet, 0.17 * unit);
         cairo_stroke(sheet);
         if (!has_integral) {

@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 #include <thalweg/geometry/triangle_order.hpp>
@@ -80,10 +81,6 @@ Places collect(std::vector<Vec3> const& points, std::vector<std::vector<Vec3>> c
     }
     places.given = places.at.size();
     return places;
-}
-
-Vec2 plan(Vec3 const& p) {
-    return {p.x, p.y};
 }
 
 std::vector<std::vector<Vec2>> plans(Places const& places) {

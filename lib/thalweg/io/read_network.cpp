@@ -18,6 +18,7 @@
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/into_metres.hpp>
 #include <thalweg/io/read_network_arcs.hpp>
+#include <thalweg/io/read_network_columns.hpp>
 #include <thalweg/io/read_network_layers.hpp>
 #include <thalweg/io/read_network_links.hpp>
 #include <thalweg/io/read_network_notes.hpp>
@@ -29,8 +30,6 @@ namespace thalweg::io {
 namespace {
 
 using FileArc = NetworkFile::FileArc;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Wish wish_of(ReadNetworkParams const& params) {
     Wish wish{

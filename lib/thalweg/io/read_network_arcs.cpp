@@ -24,8 +24,6 @@ namespace {
 using Q = Quantity;
 using FileArc = NetworkFile::FileArc;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 void require_fields(Layer const& arcs, ArcColumns const& columns, std::optional<Schema> schema, Notes& notes) {
     std::vector<std::string> missing;
     for (Quantity const q : {Q::arc_id, Q::from_node, Q::to_node, Q::ds_arc, Q::strahler, Q::shreve, Q::basin_id}) {

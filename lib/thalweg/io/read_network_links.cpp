@@ -40,10 +40,6 @@ std::vector<Named> by_id(NetworkFile const& file) {
     return by_number(file.arcs.size(), [&](std::size_t i) { return file.arcs[i].id; });
 }
 
-Vec2 plan(Vec3 const& p) {
-    return {p.x, p.y};
-}
-
 // Bits order every place, NaN among them; 0 and -0 are one.
 std::uint64_t bits(double v) {
     return std::bit_cast<std::uint64_t>(v + 0.0);

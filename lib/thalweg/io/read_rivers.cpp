@@ -19,6 +19,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/suggest.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/into_metres.hpp>
@@ -26,7 +27,7 @@
 namespace thalweg::io {
 namespace {
 
-[[noreturn]] void refuse(std::string const& text) {
+[[noreturn]] void refuse_rivers(std::string const& text) {
     throw BadInput("io.read_rivers: " + text);
 }
 
@@ -60,8 +61,8 @@ OGRLayer& choose_layer(GDALDataset& data, ReadRiversParams const& params, std::s
         names.emplace_back(layer->GetName());
         if (layer->GetName() == params.layer && !params.layer.empty()) {
             if (!may_hold_lines(layer->GetGeomType())) {
-                refuse(fmt::format("layer {} of {} holds {}, not lines", params.layer, name,
-                                   OGRGeometryTypeToName(layer->GetGeomType())));
+                refuse_rivers(fmt::format("layer {} of {} holds {}, not lines", params.layer, name,
+                                          OGRGeometryTypeToName(layer->GetGeomType())));
             }
             return *layer;
         }
@@ -70,18 +71,18 @@ OGRLayer& choose_layer(GDALDataset& data, ReadRiversParams const& params, std::s
         }
     }
     if (!params.layer.empty()) {
-        refuse(fmt::format("{} has no layer '{}'.{}", name, params.layer, suggestion(params.layer, names)));
+        refuse_rivers(fmt::format("{} has no layer '{}'.{}", name, params.layer, suggestion(params.layer, names)));
     }
     auto const& candidates = lines.empty() ? unknown : lines;
     if (candidates.empty()) {
-        refuse(fmt::format("{} has no layer of lines{}", name, names.empty() ? "" : " (" + listed(names) + ")"));
+        refuse_rivers(fmt::format("{} has no layer of lines{}", name, names.empty() ? "" : " (" + listed(names) + ")"));
     }
     if (candidates.size() > 1) {
         std::vector<std::string> of_lines;
         for (auto* const layer : candidates) {
             of_lines.emplace_back(layer->GetName());
         }
-        refuse(
+        refuse_rivers(
             fmt::format("{} has {} layers of lines; name one of them ({})", name, candidates.size(), listed(of_lines)));
     }
     return *candidates.front();
@@ -99,8 +100,8 @@ std::vector<std::string> field_names(OGRFeatureDefn& schema) {
 int find_field(OGRLayer& layer, std::string const& field, bool may_miss, std::string const& name) {
     int const index = layer.GetLayerDefn()->GetFieldIndex(field.c_str());
     if (index < 0 && !may_miss) {
-        refuse(fmt::format("layer {} of {} has no field '{}'.{}", layer.GetName(), name, field,
-                           suggestion(field, field_names(*layer.GetLayerDefn()))));
+        refuse_rivers(fmt::format("layer {} of {} has no field '{}'.{}", layer.GetName(), name, field,
+                                  suggestion(field, field_names(*layer.GetLayerDefn()))));
     }
     return index;
 }
@@ -114,7 +115,7 @@ int find_rank_field(OGRLayer& layer, ReadRiversParams const& params, std::string
     auto const type = layer.GetLayerDefn()->GetFieldDefn(index)->GetType();
     bool const is_number = type == OFTInteger || type == OFTInteger64 || type == OFTReal;
     if (!is_number && !is_default) {
-        refuse(fmt::format("field {} of {} is no number: it cannot rank rivers", params.rank_field, name));
+        refuse_rivers(fmt::format("field {} of {} is no number: it cannot rank rivers", params.rank_field, name));
     }
     return is_number ? index : -1;
 }
@@ -125,7 +126,7 @@ std::int64_t rank_of(OGRFeature const& feature, int field, std::string const& na
     }
     double const value = feature.GetFieldAsDouble(field);
     if (!(std::fabs(value) < 9e15) || value != std::floor(value)) { // beyond, doubles leave out whole numbers
-        refuse(
+        refuse_rivers(
             fmt::format("feature {} of {} has the rank {}: a whole number is wanted", feature.GetFID(), name, value));
     }
     return feature.GetFieldAsInteger64(field);
@@ -149,10 +150,11 @@ int lambda_of(OGRFeature const& feature, int field, Vec3 begin, std::string cons
     }
     double const value = number_in(feature, field);
     if (!(value >= 1.0 && value <= 50.0) || value != std::floor(value)) {
-        refuse(fmt::format("feature {} of {}, which begins at ({}, {}), has the {} '{}': a whole number from 1 to 50 "
-                           "is wanted, or none",
-                           feature.GetFID(), name, begin.x, begin.y, feature.GetFieldDefnRef(field)->GetNameRef(),
-                           feature.GetFieldAsString(field)));
+        refuse_rivers(
+            fmt::format("feature {} of {}, which begins at ({}, {}), has the {} '{}': a whole number from 1 to 50 "
+                        "is wanted, or none",
+                        feature.GetFID(), name, begin.x, begin.y, feature.GetFieldDefnRef(field)->GetNameRef(),
+                        feature.GetFieldAsString(field)));
     }
     return static_cast<int>(value);
 }
@@ -168,12 +170,13 @@ void add_parts(OGRGeometry const& geometry, RiverLine const& feature, std::strin
         return;
     }
     if (flat != wkbLineString) {
-        refuse(fmt::format("feature {} of {} is a {}, not a line", feature.feature, name, OGRGeometryTypeToName(flat)));
+        refuse_rivers(
+            fmt::format("feature {} of {} is a {}, not a line", feature.feature, name, OGRGeometryTypeToName(flat)));
     }
     auto const& drawn = *geometry.toLineString();
     if (drawn.getNumPoints() < 2) {
-        refuse(fmt::format("feature {} of {} is a line of {} vertices; remove it", feature.feature, name,
-                           drawn.getNumPoints()));
+        refuse_rivers(fmt::format("feature {} of {} is a line of {} vertices; remove it", feature.feature, name,
+                                  drawn.getNumPoints()));
     }
     RiverLine line = feature;
     for (int i = 0; i < drawn.getNumPoints(); ++i) {
@@ -181,8 +184,8 @@ void add_parts(OGRGeometry const& geometry, RiverLine const& feature, std::strin
         double const y = drawn.getY(i);
         double const z = drawn.Is3D() != 0 ? drawn.getZ(i) : std::numeric_limits<double>::quiet_NaN();
         if (!std::isfinite(x) || !std::isfinite(y) || std::isinf(z)) {
-            refuse(fmt::format("vertex {} of feature {} of {} is not finite: ({}, {}, {}); correct the file", i + 1,
-                               feature.feature, name, x, y, z));
+            refuse_rivers(fmt::format("vertex {} of feature {} of {} is not finite: ({}, {}, {}); correct the file",
+                                      i + 1, feature.feature, name, x, y, z));
         }
         line.vertices.push_back({x, y, z});
     }
@@ -208,7 +211,7 @@ std::vector<RiverLine> read_lines(OGRLayer& layer, ReadRiversParams const& param
         }
         OGRGeometry const* const drawn = feature->GetGeometryRef();
         if (drawn == nullptr || drawn->IsEmpty() != 0) {
-            refuse(fmt::format("feature {} of {} has no line; remove it", line.feature, name));
+            refuse_rivers(fmt::format("feature {} of {} has no line; remove it", line.feature, name));
         }
         std::unique_ptr<OGRGeometry> const straight(drawn->getLinearGeometry());
         std::size_t const first = lines.size();
@@ -251,18 +254,14 @@ void bring(std::vector<RiverLine>& lines, IntoMetres const& metres, std::string 
         for (std::size_t i = 0; i < done.size(); ++i) {
             auto const& v = line.vertices[i];
             if (done[i] == 0) {
-                refuse(fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be brought into {}: {}", i + 1,
-                                   line.feature, name, v.x, v.y, metres.crs(), driver.take()));
+                refuse_rivers(fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be brought into {}: {}",
+                                          i + 1, line.feature, name, v.x, v.y, metres.crs(), driver.take()));
             }
         }
     }
 }
 
 // As coarse as what was projected: a millionth of a metre.
-double rounded(double v) {
-    return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0;
-}
-
 bool have_heights(std::vector<RiverLine> const& lines) {
     double const first = lines.front().vertices.front().z;
     bool differ = false;
@@ -287,9 +286,9 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         auto const words = driver.take();
         VSIStatBufL status;
         if (params.path.empty() || VSIStatL(params.path.c_str(), &status) != 0) {
-            refuse(fmt::format("there is no file '{}'{}", params.path, words.empty() ? "" : " (" + words + ")"));
+            refuse_rivers(fmt::format("there is no file '{}'{}", params.path, words.empty() ? "" : " (" + words + ")"));
         }
-        refuse(params.path + " is no vector file that GDAL can read (" + words + ")");
+        refuse_rivers(params.path + " is no vector file that GDAL can read (" + words + ")");
     }
     OGRLayer& layer = choose_layer(*data, params, name);
     RiverLines rivers;
@@ -297,11 +296,12 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     rivers.lines = read_lines(layer, params, name, run);
     driver.check("io.read_rivers: " + params.path);
     if (rivers.lines.empty()) {
-        refuse(fmt::format("layer {} of {} is empty", layer.GetName(), name));
+        refuse_rivers(fmt::format("layer {} of {} is empty", layer.GetName(), name));
     }
     OGRSpatialReference const* const own = layer.GetSpatialRef();
     if (own == nullptr || own->IsEmpty()) {
-        refuse(fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
+        refuse_rivers(
+            fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
     }
     IntoMetres const metres(*own, params.crs, middle_of(rivers.lines), name);
     rivers.crs = metres.crs();

@@ -19,7 +19,6 @@ namespace thalweg::measure {
 
 namespace {
 
-constexpr std::int64_t cells_between_checks = 1 << 18;
 constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
 
 [[noreturn]] void refuse(std::string const& why) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/segments_near.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 #include <thalweg/network/require_trees.hpp>
@@ -18,10 +19,6 @@
 namespace thalweg::network {
 
 namespace {
-
-Vec2 plan(Vec3 p) {
-    return {p.x, p.y};
-}
 
 double median_segment(StreamNetwork const& network, NetworkIndex const& index) {
     std::vector<double> lengths;

@@ -160,9 +160,9 @@ void require_other(std::vector<std::string> const& files, fs::path const& folder
     }
 }
 
-class Output {
+class ConvertOutput {
 public:
-    Output(ConvertParams const& params, std::string const& output, io::Existing existing)
+    ConvertOutput(ConvertParams const& params, std::string const& output, io::Existing existing)
         : params_(params), output_(output), existing_(existing), database_(io::is_postgis(output)) {
         if (database_) {
             if (output == params.path && existing == io::Existing::replace) {
@@ -224,7 +224,7 @@ private:
 } // namespace
 
 Converted convert(ConvertParams const& params, std::string const& output, io::Existing existing, Run const& run) {
-    Output out(params, output, existing);
+    ConvertOutput out(params, output, existing);
     NetworkFile file = io::read_network(params.path, params.read, run);
     Converted converted;
     converted.schema = file.schema;

@@ -16,10 +16,6 @@ namespace thalweg::pipeline {
 
 namespace {
 
-// 45 degrees north on the central meridian of UTM zone 31, where nobody's land is meant.
-constexpr double default_west = 500000.0;
-constexpr double default_north = 5000000.0;
-
 struct Box {
     double west = std::numeric_limits<double>::infinity();
     double south = std::numeric_limits<double>::infinity();

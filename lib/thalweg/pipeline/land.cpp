@@ -40,8 +40,6 @@ namespace {
 constexpr double default_length_cells = 20.0;
 constexpr double default_dimension = 2.4;
 constexpr double default_std_m = 100.0;
-constexpr double default_west = 500000.0;
-constexpr double default_north = 5000000.0;
 constexpr double most_fine_cells = 8.0;
 constexpr double allowed_error = 0.01;
 constexpr double allowed_dimension_error = 0.02;

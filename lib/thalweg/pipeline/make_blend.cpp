@@ -40,7 +40,7 @@ Raster<float> cut(Raster<float> const& source, blend::SourceWindow const& w, std
 }
 
 /// The source in metres or whatever the target's coordinates count, and the window that is left of it.
-struct Source {
+struct PastedSource {
     Raster<float> dem;
     blend::SourceWindow window;
     bool is_warped = false;
@@ -48,7 +48,7 @@ struct Source {
 };
 
 /// The coordinates in which a source is laid on the target.
-Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& params, Source& as) {
+Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& params, PastedSource& as) {
     std::string const whose = "pipeline.make_blend: " + params.source;
     std::string const target_words = "the target " + params.target;
     if (io::same_crs(source.crs, target.crs, whose, target_words) ||
@@ -67,9 +67,9 @@ Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& pa
     return frame;
 }
 
-Source read_source(MakeBlendParams const& params, Grid const& grid, Run const& run) {
+PastedSource read_source(MakeBlendParams const& params, Grid const& grid, Run const& run) {
     Raster<float> dem = io::read_dem(params.source, run);
-    Source source;
+    PastedSource source;
     Grid const frame = frame_for(dem.grid(), grid, params, source);
     std::string const what = "pipeline.make_blend: " + params.source;
     source.is_warped =
@@ -120,7 +120,7 @@ MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams con
                                    "turned in it; warp it (gdalwarp -t_srs)",
                                    params.target));
     }
-    Source const source = read_source(params, grid, run);
+    PastedSource const source = read_source(params, grid, run);
     blend::PlacePatchParams placing;
     placing.rotate_deg = params.rotate_deg;
     placing.scale = params.scale;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/vec.hpp>
 #include <thalweg/network/cut_loops.hpp>
 
 namespace thalweg::pipeline {
@@ -20,10 +21,6 @@ constexpr double greatest_coordinate = 1e18; // beyond, measure::check_topology 
 bool is_number(double c) {
     return std::fabs(c) < greatest_coordinate;
 }
-Vec2 plan(Vec3 p) {
-    return {p.x, p.y};
-}
-
 double length_of_plan(std::vector<Vec3> const& line) {
     double sum = 0.0;
     for (std::size_t i = 1; i < line.size(); ++i) {

@@ -312,6 +312,10 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
     return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
+std::string checks_json(std::vector<Check> const& checks) {
+    return checks_array(checks).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
 std::vector<std::string> files_of_report(std::string const& json) {
     std::vector<std::string> files;
     ordered_json const report = ordered_json::parse(json, nullptr, false);
