@@ -62,7 +62,7 @@ void refused(RiverLines const& strokes, std::string const& words, StrokesParams 
         FAIL() << "not refused: " << words;
     } catch (Fault const& e) {
         EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
-        EXPECT_EQ(std::string(e.what()).rfind("network.grow_strokes: ", 0), 0U) << e.what();
+        EXPECT_STREQ(e.where(), "network.grow_strokes");
     }
 }
 

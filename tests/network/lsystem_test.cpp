@@ -22,7 +22,7 @@ std::string complaint(std::string const& word) {
     try {
         read_lsystem(word);
     } catch (BadInput const& e) {
-        return e.what();
+        return std::string(e.where()) + ": " + e.what();
     }
     return "";
 }

@@ -76,7 +76,7 @@ Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
         inside[i] = inside[i] != 0 && (land.values().empty() || land[i] != 0) ? 1 : 0;
         if (inside[i] == 0 && !std::isnan(valley.z[i])) {
             Cell const c = grid.at(i);
-            throw BadInput(fmt::format("surface.mask: {} leaves out cell ({}, {}), where a river runs",
+            throw BadInput(fmt::format("surface.mask = \"{}\" leaves out cell ({}, {}), where a river runs",
                                        recipe.surface->mask, c.col, c.row));
         }
     }

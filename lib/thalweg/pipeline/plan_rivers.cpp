@@ -127,7 +127,7 @@ Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& ru
     bool const or_straight = heights == Heights::soft || heights == Heights::fixed || heights == Heights::ends;
     if (heights == Heights::file || (or_straight && lines.has_z)) {
         if (!lines.has_z) {
-            throw BadInput(fmt::format("network.heights: 'file' is asked, but {} has lines without Z. Choose another.",
+            throw BadInput(fmt::format("network.heights = \"file\", but {} has lines without Z; choose other heights",
                                        lines.name));
         }
         planned.file_heights = network::take_file_heights({planned.plan, adopted.arc_z, {}}, lines);

@@ -182,13 +182,14 @@ Recipe read_recipe(std::string const& toml, std::string const& name) {
     constexpr std::size_t most_bytes = 1 << 20;
     constexpr std::size_t longest_line = 8192;
     if (toml.size() > most_bytes) {
-        throw BadParameter(
-            fmt::format("{}: a recipe has at most {} bytes, this has {}", name, most_bytes, toml.size()));
+        throw BadParameter(fmt::format("pipeline.read_recipe: {}: a recipe has at most {} bytes, this has {}", name,
+                                       most_bytes, toml.size()));
     }
     for (std::size_t begin = 0, line = 1; begin < toml.size(); ++line) {
         std::size_t const end = std::min(toml.find('\n', begin), toml.size());
         if (end - begin > longest_line) {
-            throw BadParameter(fmt::format("{}: line {} is longer than {} bytes", name, line, longest_line));
+            throw BadParameter(
+                fmt::format("pipeline.read_recipe: {}: line {} is longer than {} bytes", name, line, longest_line));
         }
         begin = end + 1;
     }
@@ -196,14 +197,16 @@ Recipe read_recipe(std::string const& toml, std::string const& name) {
     try {
         table = toml::parse(toml, name);
     } catch (toml::parse_error const& fault) {
-        throw BadParameter(fmt::format("{}: line {}, column {}: {}", name, fault.source().begin.line,
-                                       fault.source().begin.column, cut(fault.description())));
+        throw BadParameter(fmt::format("pipeline.read_recipe: {}: line {}, column {}: {}", name,
+                                       fault.source().begin.line, fault.source().begin.column,
+                                       cut(fault.description())));
     }
     Recipe recipe;
     std::vector<std::string> faults;
     read_table(table, "", recipe, faults);
     if (!faults.empty()) {
-        throw BadParameter(fmt::format("{}: {}", name, fmt::join(faults, fmt::format("\n{}: ", name))));
+        throw BadParameter(
+            fmt::format("pipeline.read_recipe: {}: {}", name, fmt::join(faults, fmt::format("\n{}: ", name))));
     }
     return recipe;
 }
@@ -474,7 +477,7 @@ void check_recipe(Recipe const& recipe) {
         faults.emplace_back("grid.width and grid.height are missing: nothing else tells how large the land is");
     }
     if (!faults.empty()) {
-        throw BadParameter(fmt::format("recipe: {}", fmt::join(faults, "\nrecipe: ")));
+        throw BadParameter(fmt::format("pipeline.check_recipe: {}", fmt::join(faults, "\n")));
     }
 }
 

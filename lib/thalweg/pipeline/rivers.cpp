@@ -77,12 +77,10 @@ void let_wander(Planned& planned, Terrain& terrain, Diary& diary, Run const& run
         return;
     }
     if (has_coast) {
-        throw BadParameter(
-            "network.meander: rivers that end on a coast stay where they grew, bent ones would leave the "
-            "land; leave meander out");
+        throw BadParameter("network.meander cannot bend rivers that end on a coast; leave it out");
     }
     if (planned.file_heights) {
-        throw BadParameter("network.meander: rivers whose file gives their heights stay where they are; set "
+        throw BadParameter("network.meander cannot bend rivers whose heights come from their file; set "
                            "network.heights = \"graded\" or leave meander out");
     }
     measure::ContributingAreas const areas = measure::areas_nearest(planned.plan, terrain.grid, run);
