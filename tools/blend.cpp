@@ -58,8 +58,7 @@ std::string as_json(pipeline::MadeBlend const& made, std::string const& file) {
 std::string in_words(pipeline::MadeBlend const& made, bool fills) {
     blend::Pasted const& pasted = made.pasted;
     std::string words = fmt::format(
-        "blend  {} cells around ({:.3f}, {:.3f}){}; seam {:.3f} m rms, {:.3f} m at most", pasted.cells, made.at.x,
-        made.at.y,
+        "{} cells around ({:.3f}, {:.3f}){}; seam {:.3f} m rms, {:.3f} m at most", pasted.cells, made.at.x, made.at.y,
         made.place == pipeline::PatchPlace::middle ? ", the middle of the target, for the source lies elsewhere" : "",
         pasted.seam_rms_m, pasted.seam_max_m);
     if (pasted.kept > 0) {
@@ -99,7 +98,7 @@ int blend_files(BlendOptions& options, Session const& session) {
     pipeline::MadeBlend const made = pipeline::make_blend(options.params, session.run);
     io::write_dem(made.pasted.dem, file.staging(), session.run);
     file.commit();
-    session.run.say(in_words(made, options.fills));
+    session.run.tell("blend", in_words(made, options.fills));
     fmt::print("{}", session.json ? as_json(made, options.file) : options.file + "\n");
     return Exit::done;
 }

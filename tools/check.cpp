@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "network_options.hpp"
 #include "terminal.hpp"
+#include "verdict.hpp"
 
 #include <thalweg/pipeline/check_files.hpp>
 
@@ -24,13 +25,13 @@ struct CheckOptions {
     NetworkOptions source;
 };
 
-void print_some(std::vector<Finding> const& findings, char const* before) {
-    constexpr std::size_t shown = 50;
+void print_some(std::vector<Finding> const& findings, char const* before, Session const& session) {
+    std::size_t const shown = session.verbose ? findings.size() : 50;
     for (std::size_t i = 0; i < std::min(shown, findings.size()); ++i) {
         fmt::print("{}{}\n", before, findings[i].text);
     }
     if (findings.size() > shown) {
-        fmt::print("{}... and {} more: --json prints all\n", before, findings.size() - shown);
+        fmt::print("{}... and {} more; --verbose prints all\n", before, findings.size() - shown);
     }
 }
 
@@ -50,26 +51,27 @@ void print_certificate(measure::Certificate const& c) {
     }
 }
 
-void print_table(pipeline::CheckedFiles const& checked) {
+void print_table(pipeline::CheckedFiles const& checked, std::string const& network, Session const& session) {
     fmt::print("{} arcs, {} nodes\n", checked.arcs, checked.nodes);
     for (Check const& c : checked.checks) {
         fmt::print("{:<24}{:>8.6g}  {}\n", c.name, c.value,
-                   c.ok ? toned(Tone::good, "ok", stdout) : toned(Tone::bad, "FAILED", stdout));
+                   c.ok ? toned(Tone::good, "ok", stdout)
+                        : toned(Tone::bad, "FAILED", stdout) + fmt::format(" ({})", limit_in_words(c)));
     }
     if (checked.certificate) {
         print_certificate(*checked.certificate);
     }
     if (!checked.ok()) {
-        print_some(checked.findings, "");
+        print_some(checked.findings, "", session);
     } else if (!checked.findings.empty()) {
-        fmt::print("{} places at which no check fails: --findings FILE or --json tells them\n",
-                   checked.findings.size());
+        fmt::print("{} findings that fail no check; --findings FILE or --json lists them\n", checked.findings.size());
     }
-    print_some(checked.notes, "note: ");
-    print_some(checked.mended, "mended: ");
+    print_some(checked.notes, "note: ", session);
+    print_some(checked.mended, "mended: ", session);
     for (std::string const& file : checked.written) {
         fmt::print("{}\n", file);
     }
+    fmt::print("{}\n", toned(checked.ok() ? Tone::good : Tone::bad, verdict(network, checked.checks), stdout));
 }
 
 int check(CheckOptions& options, Session const& session) {
@@ -79,7 +81,7 @@ int check(CheckOptions& options, Session const& session) {
     if (session.json) {
         fmt::print("{}", pipeline::as_json(checked));
     } else {
-        print_table(checked);
+        print_table(checked, options.job.network, session);
     }
     return checked.ok() ? Exit::done : Exit::check_failed;
 }

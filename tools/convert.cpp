@@ -31,20 +31,20 @@ struct ConvertOptions {
 };
 
 void tell(pipeline::Converted const& made, Session const& session) {
-    constexpr std::size_t shown = 10;
+    std::size_t const shown = session.verbose ? made.findings.size() : 10;
     for (std::size_t i = 0; i < std::min(shown, made.findings.size()); ++i) {
-        session.run.say(fmt::format("note   {}", made.findings[i].text));
+        session.run.tell("note", made.findings[i].text);
     }
     if (made.findings.size() > shown) {
-        session.run.say(fmt::format("note   ... and {} more: --json prints all", made.findings.size() - shown));
+        session.run.tell("note", fmt::format("... and {} more; --verbose prints all", made.findings.size() - shown));
     }
-    session.run.say(fmt::format("read   {} arcs and {} nodes, schema {}{}", made.arcs, made.nodes, made.schema,
-                                made.split > 0 ? fmt::format(", {} confluences moved", made.split) : ""));
+    session.run.tell("read", fmt::format("{} arcs and {} nodes, schema {}{}", made.arcs, made.nodes, made.schema,
+                                         made.split > 0 ? fmt::format(", {} confluences moved", made.split) : ""));
     if (std::string(made.heights) == "none") {
-        session.run.say("note   nobody knows the heights: 0 stands for them; --dem takes them from a DEM");
+        session.run.tell("note", "the heights are unknown and written as 0; --dem takes them from a DEM");
     }
     if (std::string(made.areas) == "none") {
-        session.run.say("note   nobody knows the contributing areas: -1 stands for them; --dem measures them");
+        session.run.tell("note", "the contributing areas are unknown and written as -1; --dem measures them");
     }
 }
 

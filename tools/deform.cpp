@@ -43,7 +43,7 @@ int deform_file(DeformOptions& options, Session const& session) {
     blend::Deformed const made = pipeline::make_deform(options.params, session.run);
     io::write_dem(made.dem, file.staging(), session.run);
     file.commit();
-    session.run.say(fmt::format("deform {} cells, {} of them pulled", made.cells, options.params.handles.size()));
+    session.run.tell("deform", fmt::format("{} cells, {} of them pulled", made.cells, options.params.handles.size()));
     nlohmann::ordered_json const json{{"file", options.file},
                                       {"cells", made.cells},
                                       {"handles", options.params.handles.size()},

@@ -28,7 +28,7 @@ int draw(DrawOptions const& options, Session const& session) {
     pipeline::Drawn const drawn =
         pipeline::draw_files(options.source, options.output, options.params, existing, session.run);
     for (std::string const& note : drawn.notes) {
-        session.run.say("note   " + note);
+        session.run.tell("note", note);
     }
     if (session.json) {
         nlohmann::ordered_json const out{{"files", drawn.files}, {"notes", drawn.notes}};

@@ -7,6 +7,7 @@
 #include "terminal.hpp"
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/memory.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/pipeline/report.hpp>
 #include <thalweg/solver/devices.hpp>
@@ -14,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -51,6 +53,22 @@ int call(Command const& command, Terminal& terminal) {
     }
 }
 
+void tell_time(Run const& run, std::string const& stage, double seconds) {
+    run.tell(stage, fmt::format("{:<56}{:6.1f} s", "", seconds));
+}
+
+/// What ends a command: the time of all, and with -v that of each stage and the memory.
+void tell_times(Session const& session, Terminal& terminal, double seconds) {
+    if (session.verbose) {
+        session.run.say("time by stage");
+        for (auto const& [stage, time] : terminal.times()) {
+            tell_time(session.run, stage, time);
+        }
+        session.run.tell("memory", fmt::format("{:<52}{:7.1f} MB", "", static_cast<double>(peak_memory_bytes()) / 1e6));
+    }
+    tell_time(session.run, "total", seconds);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -74,7 +92,9 @@ int main(int argc, char** argv) {
                         "than 1e-6 m. What needs no such system is not concerned.")
             ->check(CLI::IsMember({"cpu", "opencl"}))
             ->capture_default_str();
-        sub->add_flag("-q,--quiet", session.quiet, "Say nothing but errors.");
+        CLI::Option* const quiet = sub->add_flag("-q,--quiet", session.quiet, "Print errors only.");
+        sub->add_flag("-v,--verbose", session.verbose, "Print every note and repair, and the time of each stage.")
+            ->excludes(quiet);
         commands[sub] = add_command(*sub, session);
     };
     add("make", "Make a terrain from a recipe, or the sample valley without one.", add_make);
@@ -125,11 +145,20 @@ int main(int argc, char** argv) {
     CLI::App* const chosen = app.get_subcommands().front();
     return call(
         [&] {
+            if (session.verbose) {
+                session.run.say(fmt::format("thalweg {} ({})", pipeline::version(), io::gdal_version()));
+            }
             if (session.device == "opencl") {
                 session.run.device = Device::opencl;
-                session.run.say(fmt::format("{:<6} {}", "device", solver::opencl_device_name()));
+                session.run.tell("device", solver::opencl_device_name());
             }
-            return commands.at(chosen)();
+            auto const begin = std::chrono::steady_clock::now();
+            int const code = commands.at(chosen)();
+            if (session.verbose || chosen->get_name() == "make") {
+                tell_times(session, terminal,
+                           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+            }
+            return code;
         },
         terminal);
 }

@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "network_options.hpp"
 #include "terminal.hpp"
+#include "verdict.hpp"
 
 #include <thalweg/io/files.hpp>
 #include <thalweg/pipeline/recipe.hpp>
@@ -52,16 +53,25 @@ pipeline::Recipe recipe_of(MakeOptions const& options) {
     return recipe;
 }
 
+void tell_all(char const* what, std::vector<Finding> const& findings, Run const& run) {
+    for (Finding const& finding : findings) {
+        run.tell(what, finding.text);
+    }
+}
+
 int make(MakeOptions const& options, Session const& session) {
     auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
     pipeline::Recipe const recipe = recipe_of(options);
     pipeline::check_folder(options.folder, existing);
     pipeline::Terrain const terrain = pipeline::make_terrain(recipe, session.run);
     pipeline::write_terrain(terrain, options.folder, existing, session.run);
+    if (session.verbose) {
+        tell_all("repair", terrain.story.repairs, session.run);
+        tell_all("finding", terrain.findings, session.run);
+    }
     for (Check const& check : terrain.checks) {
         if (!check.ok) {
-            session.run.say(fmt::format("check  {}: {} (at most {})  {}", check.name, check.value, check.limit,
-                                        toned(Tone::bad, "FAILED", stderr)));
+            session.run.tell("check", fmt::format("{}  {}", in_words(check), toned(Tone::bad, "FAILED", stderr)));
         }
     }
     if (terrain.passed()) {
@@ -73,10 +83,10 @@ int make(MakeOptions const& options, Session const& session) {
         if (terrain.surface) {
             words += fmt::format(", {} cells in pits", terrain.pits);
         }
-        session.run.say(fmt::format("check  {:<60}      {}", words, toned(Tone::good, "ok", stderr)));
+        session.run.tell("check", fmt::format("{:<56}      {}", words, toned(Tone::good, "ok", stderr)));
     }
-    session.run.say(
-        fmt::format("open   {}   (no internet needed)", toned(Tone::name, options.folder + "/report.html", stderr)));
+    session.run.tell(
+        "open", fmt::format("{}   (no internet needed)", toned(Tone::name, options.folder + "/report.html", stderr)));
     fmt::print("{}", session.json ? io::read_text(options.folder + "/report.json", 1 << 30) : options.folder + "\n");
     return terrain.passed() ? Exit::done : Exit::check_failed;
 }

@@ -54,7 +54,7 @@ int measure(MeasureOptions& options, Session const& session) {
     auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
     pipeline::MadeMeasures const made = pipeline::make_measures(options.params, options.folder, existing, session.run);
     for (std::string const& note : made.notes) {
-        session.run.say("note   " + note);
+        session.run.tell("note", note);
     }
     if (session.json) {
         fmt::print("{}\n", json_of(made).dump(-1, ' ', false, ordered_json::error_handler_t::replace));

@@ -34,7 +34,7 @@ int points(PointsOptions& options, Session const& session) {
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     pipeline::MadePoints const made = pipeline::make_points(options.source, file.staging(), session.run);
     file.commit();
-    session.run.say(fmt::format("points {}", made.count));
+    session.run.tell("points", fmt::format("{}", made.count));
     nlohmann::ordered_json const json{{"file", options.file}, {"crs", made.crs}, {"points", made.count}};
     fmt::print("{}\n", session.json ? json.dump(2) : options.file);
     return Exit::done;

@@ -30,6 +30,8 @@ struct Run {
     void at(double share, char const* what) const;
     /// Throws Cancelled when the work shall stop.
     void check() const;
+    /// Logs a line about a stage, its name in a column of its own: "grow       100000 particles".
+    void tell(std::string_view stage, std::string_view words) const;
     void say(std::string_view line) const {
         if (log) {
             log(line);

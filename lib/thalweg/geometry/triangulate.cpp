@@ -156,7 +156,7 @@ std::vector<typename Mesh::Vertex_handle> insert(Mesh& mesh, Places const& place
     std::int64_t done = 0;
     for (auto const& [point, place] : entries) {
         if ((done++ & 0x3fff) == 0) {
-            run.at(static_cast<double>(done) / static_cast<double>(entries.size()), "triangulate");
+            run.at(static_cast<double>(done) / static_cast<double>(entries.size()), "tin");
         }
         auto const vertex = mesh.insert(point, hint);
         vertex->info() = unnumbered;

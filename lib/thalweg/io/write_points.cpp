@@ -111,7 +111,7 @@ std::uint64_t write(Source const& source, std::string const& path, PointFormat f
     NewFile file(path, "io.write_points: " + path);
     source.each(
         [&](double share) {
-            run.at(share, "write_points");
+            run.at(share, "write");
             file.append(bytes);
             bytes.clear();
         },
@@ -125,7 +125,7 @@ std::uint64_t write(Source const& source, std::string const& path, PointFormat f
         });
     file.append(bytes);
     file.close();
-    run.at(1.0, "write_points");
+    run.at(1.0, "write");
     return count;
 }
 

@@ -210,7 +210,7 @@ void add_side_valleys(Terrain& terrain, measure::Drainage const& drainage, Diary
     if (!terrain.recipe.network || !terrain.recipe.network->fill_space) {
         return;
     }
-    network::SideValleys made = diary.stage("side valleys", [&] {
+    network::SideValleys made = diary.stage("valleys", [&] {
         return network::side_valleys(terrain.network, terrain.channels,
                                      {terrain.surface->dem, drainage.direction, drainage.area_cells},
                                      {terrain.recipe.network->support_cells}, run);

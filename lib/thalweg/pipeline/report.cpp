@@ -50,7 +50,8 @@ ordered_json dem(measure::Statistics const& s) {
 ordered_json checks_array(std::vector<Check> const& checks) {
     ordered_json out = ordered_json::array();
     for (Check const& c : checks) {
-        out.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"ok", c.ok}});
+        out.push_back(
+            {{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"bound", word_of(c.bound)}, {"ok", c.ok}});
     }
     return out;
 }
