@@ -98,23 +98,23 @@ Command add_make(CLI::App& app, Session& session) {
     app.add_option("RECIPE", options->recipe,
                    "The recipe, a TOML file; without one, a valley is grown on 1024x1024 cells.")
         ->type_name("FILE(toml)");
-    app.add_option("-o,--output", options->folder, "Write into this folder.")->type_name("DIR")->capture_default_str();
+    app.add_option("-o,--output", options->folder, "Write to this folder.")->type_name("DIR")->capture_default_str();
     app.add_option("--set", options->set,
-                   "Set a key of the recipe, over what the file says. May be given many times; the last holds.")
+                   "Set a key of the recipe; it overrides the file. May be repeated; the last value wins.")
         ->type_name("KEY=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--seed", options->seed, "Set the seed of every chance: the same as --set seed=N.");
-    app.add_option("--schema", options->schema,
-                   "Write the rivers in the words of this schema too, as network_SCHEMA.gpkg: the same as --set "
-                   "output.schema=SCHEMA.")
+    app.add_option("--seed", options->seed, "Set the random seed; the same as --set seed=N.");
+    app.add_option(
+           "--schema", options->schema,
+           "Also write the network in this schema, as network_SCHEMA.gpkg; the same as --set output.schema=SCHEMA.")
         ->check(CLI::IsMember(schema_names()));
-    app.add_flag("--json", session.json, "Print report.json to stdout instead of the folder's name.");
+    app.add_flag("--json", session.json, "Print report.json to stdout instead of the name of the folder.");
     app.add_flag("--overwrite", options->overwrite,
-                 "Replace what an earlier make left in the folder. Files of others stay.");
-    app.footer("Rivers are grown, or read from a file of lines; they get heights, and the land is drawn around them. "
-               "All that decides the result is in the recipe: the same recipe gives the same bytes on any machine. "
-               "The folder appears whole or not at all.\n\n"
+                 "Replace the files that an earlier make wrote to the folder. Other files in the folder are kept.");
+    app.footer("Rivers are grown, or read from a file of lines; they get heights, and the terrain is shaped around "
+               "them. The recipe holds everything that decides the result: the same recipe gives the same bytes on any "
+               "machine. The folder is written completely or not at all.\n\n"
                "Examples:\n"
                "  thalweg make\n"
                "  thalweg make samples/dla.toml --seed 8 --set network.prune=40 -o out/sparse\n"

@@ -38,7 +38,7 @@ int print_keys() {
 
 Command add_recipe(CLI::App& app, Session&) {
     auto const dump = std::make_shared<bool>(false);
-    app.add_flag("--dump", *dump, "Print the recipe that make uses without one, as a file to begin with.");
+    app.add_flag("--dump", *dump, "Print the default recipe as a TOML file.");
     app.footer("Each key with its unit, range and default. thalweg-recipe(5) is the same as a manual page.\n\n"
                "Examples:\n"
                "  thalweg recipe\n"

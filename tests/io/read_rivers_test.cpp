@@ -189,7 +189,7 @@ TEST_F(ReadRivers, WhatCannotBeReprojected) {
     auto const refused = refusal({.path = file, .crs = "EPSG:32631"});
     EXPECT_TRUE(has(refused, "vertex 2 of feature 2 of a.gpkg, (0, 95), cannot be brought into EPSG:32631")) << refused;
     EXPECT_TRUE(has(refusal({.path = file, .crs = "EPSG:4326"}), "is geographic"));
-    EXPECT_TRUE(has(refusal({.path = file, .crs = "nonsense"}), "is no coordinate system"));
+    EXPECT_TRUE(has(refusal({.path = file, .crs = "nonsense"}), "is not a coordinate system"));
 }
 
 TEST_F(ReadRivers, CorruptFile) {

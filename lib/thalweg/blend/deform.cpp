@@ -19,7 +19,7 @@ using solver::outside_cell;
 
 void check(Raster<float> const& target, Mask const& region, DeformParams const& params) {
     if (!std::isfinite(params.scale)) {
-        throw BadParameter(fmt::format("blend.deform: a scale of {}; it is a number", params.scale));
+        throw BadParameter(fmt::format("blend.deform: a scale of {}; it must be a finite number", params.scale));
     }
     if (region.grid() != target.grid()) {
         throw BadInput(fmt::format("blend.deform: a region of {} x {} cells for a target of {} x {}: they share a grid",
@@ -54,7 +54,7 @@ Mask grip(Mask& cells, std::vector<Handle> const& handles, Raster<double>& heigh
             refuse(fmt::format("lies outside the target of {} x {} cells", cells.width(), cells.height()));
         }
         if (!std::isfinite(static_cast<float>(handle.z))) {
-            refuse("is no height");
+            refuse("is not a height");
         }
         if (held[c] != 0) {
             if (heights[c] != handle.z) {

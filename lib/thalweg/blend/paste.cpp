@@ -24,7 +24,7 @@ using solver::outside_cell;
 void check(Raster<float> const& target, Patch const& patch, PasteParams const& params) {
     if (!(params.feather_cells >= 0.0 && params.feather_cells <= 1e6)) {
         throw BadParameter(
-            fmt::format("blend.paste: a feather of {} cells; it lies between 0 and 1e6", params.feather_cells));
+            fmt::format("blend.paste: a feather of {} cells; it must lie between 0 and 1e6", params.feather_cells));
     }
     auto const require = [&](Grid const& grid, char const* what) {
         if (grid != target.grid()) {

@@ -67,9 +67,8 @@ Picture curve(std::vector<double> const& increments, CurveParams const& params) 
         double const x = static_cast<double>(i + 1);
         sum += increments[i];
         if (!std::isfinite(sum)) {
-            throw BadInput(
-                fmt::format("draw.curve: the increment at x = {} is {}, no finite number; mend its expression", i + 1,
-                            increments[i]));
+            throw BadInput(fmt::format("draw.curve: the increment at x = {} is {}, not finite; correct its expression",
+                                       i + 1, increments[i]));
         }
         if (i == 0) {
             sums.push_back({0.0, 0.0});

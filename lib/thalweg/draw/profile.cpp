@@ -40,7 +40,7 @@ std::vector<Reach> reaches_of(RaisedNetwork const& network, NetworkOrders const&
         std::vector<Vec2> const& line = network.plan[arc].line;
         std::vector<double> const& z = network.arc_z[k];
         if (z.size() != line.size()) {
-            throw BadInput(fmt::format("draw.profile: arc {} has {} vertices and {} heights; set heights anew", k + 1,
+            throw BadInput(fmt::format("draw.profile: arc {} has {} vertices and {} heights; set heights again", k + 1,
                                        line.size(), z.size()));
         }
         if (orders.arc_basin[k] < 1 || line.empty()) {

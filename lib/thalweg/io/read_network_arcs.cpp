@@ -217,7 +217,7 @@ private:
                         0,
                         {},
                         static_cast<double>(drawn_.no_lines),
-                        fmt::format("{}; {} such features were passed over", drawn_.first_no_line, drawn_.no_lines)});
+                        fmt::format("{}; {} such features were skipped", drawn_.first_no_line, drawn_.no_lines)});
         }
         if (drawn_.measured > 0) {
             notes_.add(arcs_.what, {"measures",
@@ -248,7 +248,7 @@ private:
             }
             notes_.add(
                 arcs_.what,
-                {"no_heights", 0, {}, static_cast<double>(drawn_.raised), "every height (Z) is 0: taken for none"});
+                {"no_heights", 0, {}, static_cast<double>(drawn_.raised), "every height (Z) is 0: treated as missing"});
         }
     }
 

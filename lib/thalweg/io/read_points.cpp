@@ -119,8 +119,8 @@ std::vector<Vec3> parse(std::string const& text, PointHeights heights, std::stri
             }
             auto const value = number(fields[columns[k]]);
             if (!value || !std::isfinite(*value)) {
-                refuse_points(fmt::format("{}, line {}: {} is '{}': a finite number is wanted", name, line, "xyz"[k],
-                                          fields[columns[k]]));
+                refuse_points(fmt::format("{}, line {}: {} is '{}': a finite number is required", name, line, "xyz"[k],
+                                   fields[columns[k]]));
             }
             values[k] = *value;
         }
@@ -168,8 +168,8 @@ void add(OGRGeometry const& geometry, double field_z, std::int64_t feature, std:
     auto const& p = *geometry.toPoint();
     double const z = p.Is3D() != 0 ? p.getZ() : field_z;
     if (!std::isfinite(p.getX()) || !std::isfinite(p.getY()) || !std::isfinite(z)) {
-        refuse_points(fmt::format("feature {} of {} lies at ({}, {}, {}): finite coordinates and a height are wanted",
-                                  feature, name, p.getX(), p.getY(), z));
+        refuse_points(fmt::format("feature {} of {} lies at ({}, {}, {}): finite coordinates and a height are required",
+                           feature, name, p.getX(), p.getY(), z));
     }
     points.push_back({p.getX(), p.getY(), z});
 }
@@ -198,8 +198,8 @@ std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::str
             }
         }
         if (!field_z) {
-            refuse_points(fmt::format("feature {} of {}: {} is '{}', no number", feature->GetFID(), name, z_field,
-                                      feature->GetFieldAsString(field)));
+            refuse_points(fmt::format("feature {} of {}: {} is '{}', not a number", feature->GetFID(), name, z_field,
+                               feature->GetFieldAsString(field)));
         }
         add(*geometry, *field_z, feature->GetFID(), name, points);
     }

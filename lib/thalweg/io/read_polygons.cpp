@@ -62,9 +62,8 @@ OGRLayer& choose_layer(GDALDataset& data, std::string const& name) {
     if (layers.empty()) {
         refuse_polygons(fmt::format("{} has no layer of polygons{}", name, names.empty() ? "" : " (" + names + ")"));
     }
-    refuse_polygons(
-        fmt::format("{} has {} layers of polygons; take out the one that is meant (ogr2ogr OUT {} LAYER; {})", name,
-                    layers.size(), name, names));
+    refuse_polygons(fmt::format("{} has {} layers of polygons; extract the one you mean (ogr2ogr OUT {} LAYER; {})", name,
+                       layers.size(), name, names));
 }
 
 void add_ring(OGRLinearRing const& drawn, Polygon& polygon, std::string const& name) {

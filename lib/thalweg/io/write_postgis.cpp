@@ -42,8 +42,8 @@ Names names_of(std::string const& text) {
     Names names{dot == std::string::npos ? "" : text.substr(0, dot),
                 dot == std::string::npos ? text : text.substr(dot + 1)};
     if ((dot != std::string::npos && !is_plain_word(names.schema)) || !is_plain_word(names.name)) {
-        throw BadParameter(fmt::format("io.write_postgis: '{}' is no name for tables: NAME or SCHEMA.NAME, of small "
-                                       "letters, digits and _, not longer than 50",
+        throw BadParameter(fmt::format("io.write_postgis: '{}' is not a valid table name: write NAME or SCHEMA.NAME in "
+                                       "lower-case letters, digits and _, at most 50",
                                        text));
     }
     return names;
@@ -169,7 +169,7 @@ std::vector<std::string> write_postgis(NetworkTables const& tables, std::string 
         }
         bool const is_view = routable && *relation == names.edges();
         if (kind != (is_view ? "v" : "r")) {
-            throw BadInput(fmt::format("{}: {} is no {} as thalweg makes it, and will not be replaced", what,
+            throw BadInput(fmt::format("{}: {} is not a {} written by thalweg, and is not replaced", what,
                                        names.full(*relation), is_view ? "view" : "table"));
         }
         database.ask(fmt::format("DROP {} {}", is_view ? "VIEW" : "TABLE", names.full(*relation)));

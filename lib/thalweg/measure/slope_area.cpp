@@ -35,7 +35,7 @@ void check(SlopeAreaParams const& params, Raster<float> const& dem, Drainage con
                                        params.least_bins));
     }
     if (!(dem.grid() == drainage.direction.grid())) {
-        throw BadInput("measure.slope_area: the DEM and its drainage have not one grid; drain this DEM");
+        throw BadInput("measure.slope_area: the DEM and its drainage have different grids; drain this DEM");
     }
 }
 

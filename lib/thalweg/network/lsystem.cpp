@@ -73,7 +73,7 @@ private:
             here_is_new_ = false;
             open_.pop_back();
             return;
-        default: refuse(at_, fmt::format("'{}' is none of F G + - [ ]", sign));
+        default: refuse(at_, fmt::format("'{}' is not one of F G + - [ ]", sign));
         }
     }
 

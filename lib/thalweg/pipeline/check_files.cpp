@@ -161,13 +161,12 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
         append(checked.checks, checked.certificate->checks());
         append(checked.findings, checked.certificate->findings);
     } else if (!job.dem.empty()) {
-        checked.notes.push_back(
-            {"no_certificate",
-             0,
-             {},
-             0.0,
-             "the DEM was not looked at: rivers run in circles, share ids or have vertices that are "
-             "no numbers"});
+        checked.notes.push_back({"no_certificate",
+                                 0,
+                                 {},
+                                 0.0,
+                                 "the DEM was not checked: rivers run in circles, share ids or have vertices that are "
+                                 "no numbers"});
     }
 
     for (CheckOutput const& output : fix) {

@@ -102,7 +102,7 @@ Grid grid_of(StreamNetwork const& plan, ConvertParams const& params, Raster<floa
         return dem->grid();
     }
     if (!(params.cell_m > 0.0)) {
-        throw BadParameter("pipeline.convert: a mask needs its cells: give a DEM whose they are, or a size");
+        throw BadParameter("pipeline.convert: a raster needs cells: give --dem or --cell");
     }
     RiverLines lines{{}, crs, params.path, false};
     NetworkIndex const index(plan);
@@ -155,7 +155,7 @@ void require_other(std::vector<std::string> const& files, fs::path const& folder
     for (std::string const& file : files) {
         if (may_be_read(folder / file, source)) {
             throw BadInput(
-                fmt::format("pipeline.convert: {} may be what is read: name another output", (folder / file).string()));
+                fmt::format("pipeline.convert: {} may be the input: name another output", (folder / file).string()));
         }
     }
 }
@@ -167,8 +167,7 @@ public:
         if (database_) {
             if (output == params.path && existing == io::Existing::replace) {
                 throw BadInput(
-                    "pipeline.convert: the database is the one that is read, where nothing is replaced: name "
-                    "another table without --overwrite");
+                    "pipeline.convert: the output is the input database: name another table and leave out --overwrite");
             }
             return;
         }
@@ -177,7 +176,7 @@ public:
         folder_ = path.has_parent_path() ? path.parent_path() : fs::path(".");
         std::error_code ignored;
         if (!path.has_filename()) {
-            throw BadParameter(fmt::format("pipeline.convert: '{}' is no name of a file", output));
+            throw BadParameter(fmt::format("pipeline.convert: '{}' is not a valid file name", output));
         }
         if (!fs::is_directory(folder_, ignored)) {
             throw BadInput(fmt::format("pipeline.convert: there is no folder {} for {}", folder_.string(), output));

@@ -49,12 +49,12 @@ void Range::require(double v) const {
 }
 
 void refuse(char const* wanted, Value const& v) {
-    throw BadParameter(fmt::format("{} is wanted, not {}", wanted, toml_text(v)));
+    throw BadParameter(fmt::format("{} is required, not {}", wanted, toml_text(v)));
 }
 
 void refuse_word(std::string const& word, std::vector<std::string> const& words) {
     throw BadParameter(
-        fmt::format("'{}' is none of its values.{} ({})", word, did_you_mean(word, words), fmt::join(words, ", ")));
+        fmt::format("'{}' is not one of its values.{} ({})", word, did_you_mean(word, words), fmt::join(words, ", ")));
 }
 
 std::string alternatives(std::vector<std::string> const& words) {

@@ -165,7 +165,7 @@ Raster<float> land_of_points(Terrain& terrain, FeaturePoints const& points, Grid
         params.slope_rad = s.slope.value_or(0.0);
         skeleton::Regression regression = skeleton::regress(points, grid, params, run);
         if (regression.rank < regression.terms) {
-            run.say(fmt::format("warning: the points tell {} of {} terms of the regression", regression.rank,
+            run.say(fmt::format("warning: the points determine {} of {} terms of the regression", regression.rank,
                                 regression.terms));
         }
         return std::move(regression.surface);
@@ -388,7 +388,7 @@ void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run c
         });
         diary.say(fmt::format("{} statistics within {:.2g} %, {} steps{}", terrain.projection->residuals.size(),
                               100.0 * terrain.projection->largest_error, terrain.projection->iterations,
-                              terrain.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian land" : ""));
+                              terrain.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian surface" : ""));
         check_residuals(terrain);
     }
     terrain.surface.emplace();

@@ -217,7 +217,7 @@ void add_side_valleys(Terrain& terrain, measure::Drainage const& drainage, Diary
     });
     terrain.equilibrium->side_valleys = made.grown;
     terrain.equilibrium->side_valleys_left_out = made.left_out;
-    diary.say(fmt::format("{} arcs that drain {} cells or more, beside {} given", made.grown,
+    diary.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown,
                           terrain.recipe.network->support_cells,
                           static_cast<std::int64_t>(boost::num_edges(made.network.plan)) - made.grown));
     terrain.network = std::move(made.network);

@@ -22,7 +22,7 @@ Raster<float> cut(Raster<float> const& source, blend::SourceWindow const& w, std
     if (w.col < 0 || w.row < 0 || w.width < 1 || w.height < 1 || w.width > source.width() ||
         w.height > source.height() || w.col > source.width() - w.width || w.row > source.height() - w.height) {
         throw BadInput(fmt::format("pipeline.make_blend: a window of {} x {} cells at column {}, row {} of {}, which "
-                                   "has {} x {}; it lies within",
+                                   "has {} x {}; it must lie within",
                                    w.width, w.height, w.col, w.row, path, source.width(), source.height()));
     }
     Grid frame = source.grid();
@@ -56,8 +56,8 @@ Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& pa
         return target;
     }
     if (io::ground_cell(target).unit != io::GridUnit::metres) {
-        throw BadInput(fmt::format("{} lies elsewhere than {}, whose cells are not in metres: there is nothing to "
-                                   "measure it by; warp the target (gdalwarp -t_srs)",
+        throw BadInput(fmt::format("{} does not overlap {}, whose cells are not in metres, so its size there is "
+                                   "unknown: warp the target (gdalwarp -t_srs)",
                                    whose, target_words));
     }
     as.is_elsewhere = true;
@@ -116,8 +116,8 @@ MadeBlend make_blend(MakeBlendParams const& params, Run const& run) {
 MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run) {
     Grid const& grid = target.grid();
     if (params.rotate_deg != 0.0 && io::ground_cell(grid).unit == io::GridUnit::degrees) {
-        throw BadInput(fmt::format("pipeline.make_blend: {} is in degrees, whose cells are no squares: no patch can be "
-                                   "turned in it; warp it (gdalwarp -t_srs)",
+        throw BadInput(fmt::format("pipeline.make_blend: {} is in degrees, so its cells are not square and a patch "
+                                   "cannot be rotated: warp it (gdalwarp -t_srs)",
                                    params.target));
     }
     PastedSource const source = read_source(params, grid, run);

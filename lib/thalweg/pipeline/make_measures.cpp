@@ -53,7 +53,7 @@ std::set<std::string> wanted_of(MakeMeasuresParams const& params, Measured const
     std::vector<std::string> const known = measure_names();
     for (std::string const& word : params.what) {
         if (std::find(known.begin(), known.end(), word) == known.end()) {
-            throw BadParameter(fmt::format("pipeline.make_measures: '{}' is no measure: {}.{}", word,
+            throw BadParameter(fmt::format("pipeline.make_measures: unknown measure '{}'; the measures are {}.{}", word,
                                            fmt::join(known, ", "), did_you_mean(word, known)));
         }
     }
@@ -65,7 +65,7 @@ std::set<std::string> wanted_of(MakeMeasuresParams const& params, Measured const
         }
     }
     if (wanted.count(outlines) != 0 && source.network.empty()) {
-        throw BadInput("pipeline.make_measures: catchments are those of rivers: name a network beside the DEM");
+        throw BadInput("pipeline.make_measures: catchments need rivers: name a network after the DEM");
     }
     return wanted;
 }
@@ -173,7 +173,7 @@ std::vector<std::string> notes_on(NetworkFile const& file, MeasuredCatchments co
             fmt::format("{} of {} arcs leave the DEM and {} lie outside it", c.arcs_cut, c.arcs, c.arcs_outside));
     }
     if (c.arcs_nowhere > 0) {
-        notes.push_back(fmt::format("{} arcs have a vertex that is no number, and were left out", c.arcs_nowhere));
+        notes.push_back(fmt::format("{} arcs have a vertex that is not a number and were left out", c.arcs_nowhere));
     }
     if (std::int64_t const idle = c.arcs - c.arcs_outside - c.count.catchments; idle > 0) {
         notes.push_back(fmt::format("{} arcs have no catchment: other arcs own their cells", idle));

@@ -34,7 +34,7 @@ Mask mask_of(std::string const& path, Grid const& grid, Run const& run) {
     Raster<float> const drawn = io::read_dem(path, run);
     if (drawn.grid() != grid) {
         throw BadInput(fmt::format("pipeline.make_points: {} has {} x {} cells, the DEM beside it {} x {}, or lies "
-                                   "elsewhere: they belong to different lands",
+                                   "elsewhere: they belong to different terrains",
                                    path, drawn.width(), drawn.height(), grid.width, grid.height));
     }
     Mask cells(grid);
@@ -71,9 +71,8 @@ MadePoints make_points(MakePointsParams const& params, std::string const& output
     std::error_code ignored;
     bool const is_folder = fs::is_directory(params.path, ignored);
     if (params.of == PointsOf::skeleton && !is_folder) {
-        throw BadParameter(fmt::format("pipeline.make_points: a skeleton is that of a folder which make wrote; {} is "
-                                       "none",
-                                       params.path));
+        throw BadParameter(
+            fmt::format("pipeline.make_points: --skeleton needs a folder written by make; {} is not one", params.path));
     }
     fs::path const folder(params.path);
     Raster<float> land = io::read_dem(is_folder ? (folder / "dem.tif").string() : params.path, run);

@@ -122,7 +122,7 @@ public:
         if (found_.upstream[a] != 0) {
             std::reverse(line.begin(), line.end());
             say("turned", arc.id, plan(line.front()), length_of_plan(line),
-                fmt::format("arc {}: is turned round, to run with the flow", arc.id));
+                fmt::format("arc {}: is reversed to run downstream", arc.id));
         }
         if (looped_.count(arc.id) > 0) {
             network::CutLine cut = network::cut_loops(line, near_m_);
@@ -132,7 +132,7 @@ public:
         }
         if (length_of_plan(line) <= 0.0) {
             say("left_out", arc.id, plan(line.front()), 0.0,
-                fmt::format("arc {}: nothing is left of it without its loop; it is left out", arc.id));
+                fmt::format("arc {}: it is a loop and is left out", arc.id));
             return;
         }
         result_.rivers.lines.push_back({arc.id, std::move(line), arc.type, 0, 0});
@@ -163,12 +163,12 @@ private:
         std::size_t const lost = arc.line.size() - line.size();
         if (lost > 0) {
             say("left_out", arc.id, line.empty() ? Vec2{} : plan(line.front()), static_cast<double>(lost),
-                fmt::format("arc {}: {} vertices that are no places are left out", arc.id, lost));
+                fmt::format("arc {}: {} vertices without finite coordinates are left out", arc.id, lost));
         }
         if (without_height > 0 && file_.says.heights) {
             say("level", arc.id, plan(line.front()), static_cast<double>(without_height),
-                fmt::format("arc {}: {} vertices without a height take that of the way between their neighbours",
-                            arc.id, without_height));
+                fmt::format("arc {}: {} vertices without a height are interpolated between their neighbours", arc.id,
+                            without_height));
         }
         return line;
     }

@@ -257,12 +257,12 @@ ordered_json notes_array(Terrain const& t, std::optional<PageHeights> const& hei
                          std::vector<std::string> const& further) {
     ordered_json out = further;
     if (!t.surface) {
-        out.push_back("the recipe asks for no surface: the page shows the rivers alone");
+        out.push_back("the recipe has no [surface]: the page shows the rivers alone");
     }
     if (t.fine_forms_cells > 0.0) {
         out.push_back(
             fmt::format("the statistics cannot be reached from this skeleton alone: forms finer than about {} "
-                        "cells come from a Gaussian land",
+                        "cells come from a Gaussian surface",
                         t.fine_forms_cells));
     }
     if (heights && heights->cells > 1) {

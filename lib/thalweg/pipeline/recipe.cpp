@@ -44,7 +44,7 @@ std::string unknown_key(std::string const& path) {
             }
         }
     }
-    return fmt::format("{} is not a key.{} `thalweg recipe` lists every key.", path,
+    return fmt::format("unknown key '{}'.{} `thalweg recipe` lists every key.", path,
                        near.empty() ? "" : " Did you mean '" + near + "'?");
 }
 
@@ -140,7 +140,7 @@ void read_table(toml::table const& table, std::string const& prefix, Recipe& rec
         auto const value = value_of(node);
         try {
             if (!value) {
-                throw BadParameter(fmt::format("its value has the wrong type; wanted: {}", key->help.type));
+                throw BadParameter(fmt::format("its value has the wrong type; required: {}", key->help.type));
             }
             key->put(recipe, *value);
         } catch (BadParameter const& fault) {
@@ -232,7 +232,7 @@ std::pair<std::string, std::size_t> without_number(std::string const& path) {
 void set_key(Recipe& recipe, std::string const& assignment) {
     auto const equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0) {
-        throw BadParameter(fmt::format("--set {}: section.key=value is wanted", cut(assignment)));
+        throw BadParameter(fmt::format("--set {}: write section.key=value", cut(assignment)));
     }
     auto const [path, patch] = without_number(assignment.substr(0, equals));
     std::string const text = assignment.substr(equals + 1);
@@ -340,7 +340,7 @@ void check_equilibrium(Recipe const& recipe, std::vector<std::string>& faults) {
                                          needs));
         }
         if (n.fill_space) {
-            faults.push_back(fmt::format("network.fill_space{}: other lands grow no side valleys", needs));
+            faults.push_back(fmt::format("network.fill_space{}: only equilibrium terrain grows side valleys", needs));
         }
         if (n.inland == InlandEnds::sink) {
             faults.push_back(fmt::format("network.inland = \"sink\"{}", needs));
@@ -349,14 +349,14 @@ void check_equilibrium(Recipe const& recipe, std::vector<std::string>& faults) {
     }
     EquilibriumRecipe const& e = recipe.surface->equilibrium;
     if (n.concavity < 0.1 || n.concavity > 0.9) {
-        faults.push_back(fmt::format("network.concavity = {}: land in equilibrium wants 0.1 to 0.9", n.concavity));
+        faults.push_back(fmt::format("network.concavity = {}: equilibrium terrain needs 0.1 to 0.9", n.concavity));
     }
     if (e.mean_slope_deg && recipe.surface->dilate.relief_m > 0.0) {
         faults.emplace_back("surface.relief and surface.mean_slope do not go together: one follows from the other");
     }
     if (!e.lakes.empty() && e.lake_share > 0.0) {
         faults.emplace_back(
-            "surface.lakes and surface.lake_share do not go together: lakes come from a file or chance");
+            "surface.lakes and surface.lake_share do not go together: lakes come from a file or are chosen at random");
     }
     if (recipe.skeleton && (recipe.skeleton->ridges != Ridges::none || !recipe.skeleton->points.empty())) {
         faults.emplace_back("[skeleton] does not go with surface.method = \"equilibrium\": its ridges and heights "
@@ -408,7 +408,7 @@ void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
         faults.emplace_back("skeleton.scatter draws heights by [statistics]: with [network] give skeleton.points");
     }
     if (recipe.detail && recipe.detail->method == DetailMethod::midpoint && !recipe.detail->midpoint.sigma) {
-        faults.emplace_back("detail.sigma is missing: with rivers it cannot be told from the land");
+        faults.emplace_back("detail.sigma is missing: with rivers it cannot be estimated");
     }
     if (recipe.detail && !recipe.surface) {
         faults.emplace_back("[detail] needs [surface]");
@@ -429,7 +429,7 @@ void check_land(Recipe const& recipe, bool has_points, std::vector<std::string>&
         faults.emplace_back("[skeleton] gives points: set statistics.skeleton = \"points\"");
     }
     if (!recipe.statistics && !has_points) {
-        faults.emplace_back("nothing tells what the land is like: give [network], [statistics], skeleton.points or "
+        faults.emplace_back("the recipe describes no terrain: give [network], [statistics], skeleton.points or "
                             "skeleton.scatter");
     }
     if ((method == Method::dilate || method == Method::equilibrium) && recipe.surface) {
@@ -460,11 +460,11 @@ void check_recipe(Recipe const& recipe) {
     }
     for (std::size_t i = 0; i < recipe.patches.size(); ++i) {
         if (recipe.patches[i].source.empty()) {
-            faults.push_back(fmt::format("patch {}: source is missing: which relief shall be pasted?", i + 1));
+            faults.push_back(fmt::format("patch {}: source is missing: name the relief to paste", i + 1));
         }
     }
     if (!recipe.patches.empty() && recipe.network && !recipe.surface) {
-        faults.emplace_back("[[patch]] needs [surface]: there is no land to paste into");
+        faults.emplace_back("[[patch]] needs [surface]: there is no surface to paste into");
     }
     if ((recipe.grid.width > 0) != (recipe.grid.height > 0)) {
         faults.emplace_back("grid.width and grid.height go together: give both or neither");
@@ -474,7 +474,7 @@ void check_recipe(Recipe const& recipe) {
     bool const framed =
         (recipe.network && !fills_a_frame) || (recipe.skeleton && !recipe.skeleton->points.empty() && !fills_a_frame);
     if (recipe.grid.width == 0 && !framed) {
-        faults.emplace_back("grid.width and grid.height are missing: nothing else tells how large the land is");
+        faults.emplace_back("grid.width and grid.height are missing: nothing else gives the size of the grid");
     }
     if (!faults.empty()) {
         throw BadParameter(fmt::format("pipeline.check_recipe: {}", fmt::join(faults, "\n")));
