@@ -12,7 +12,7 @@ namespace thalweg::pipeline {
 void require_metres(Grid const& grid, std::string const& path, char const* who) {
     io::GridUnit const unit = io::ground_cell(grid).unit;
     if (unit == io::GridUnit::degrees || unit == io::GridUnit::other) {
-        throw BadInput(fmt::format("{}: the coordinates of {} are {}: bring it into a projected CRS in metres first "
+        throw BadInput(fmt::format("{}: the coordinates of {} are {}: reproject it to a CRS in metres first "
                                    "(gdalwarp -t_srs)",
                                    who, path, unit == io::GridUnit::degrees ? "geographic" : "not in metres"));
     }
