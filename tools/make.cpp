@@ -98,7 +98,7 @@ Command add_make(CLI::App& app, Session& session) {
     app.add_option("INPUT", options->input,
                    "A recipe (TOML), or rivers: any file of lines that GDAL reads, or a folder written by make or convert. "
                    "Without it, thalweg grows a valley on 1024x1024 cells.")
-        ->type_name("FILE");
+        ->type_name("FILE(toml,gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)");
     app.add_option("-o,--output", options->folder, "Write to this folder.")->type_name("DIR")->capture_default_str();
     app.add_option("--set", options->set,
                    "Set a key of the recipe; it overrides the file. May be repeated; the last value wins. File names are "
