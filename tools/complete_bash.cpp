@@ -178,7 +178,7 @@ std::string bash_completion(CommandHelp const& program) {
         keys += fmt::format("{}{}=", keys.empty() ? "" : " ", key.path);
         if (!key.choices.empty()) {
             values += fmt::format("    {}) _thalweg_reply '{}' ;;\n", key.path, fmt::join(key.choices, " "));
-        } else if (key.range == "file name") {
+        } else if (key.is_file) {
             values += fmt::format("    {}) _thalweg_files ;;\n", key.path);
         }
     }

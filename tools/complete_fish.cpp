@@ -75,7 +75,7 @@ std::string fish_completion(CommandHelp const& program) {
         if (!key.choices.empty()) {
             values += fmt::format("        case '{}=*'\n            printf '%s\\n' {}={}\n", key.path, key.path,
                                   fmt::join(key.choices, fmt::format(" {}=", key.path)));
-        } else if (key.range == "file name") {
+        } else if (key.is_file) {
             values += fmt::format("        case '{}=*'\n            __fish_complete_path "
                                   "(string replace -r '^[^=]*=' '' -- $setting) | string replace -r '^' '{}='\n",
                                   key.path, key.path);

@@ -124,7 +124,7 @@ std::string zsh_completion(CommandHelp const& program) {
         keys += "    " + quoted(key.path + ":" + key.meaning) + "\n";
         if (!key.choices.empty()) {
             values += fmt::format("    {}) compadd -- {} ;;\n", key.path, fmt::join(key.choices, " "));
-        } else if (key.range == "file name") {
+        } else if (key.is_file) {
             values += fmt::format("    {}) _files ;;\n", key.path);
         }
     }

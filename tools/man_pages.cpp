@@ -179,7 +179,9 @@ std::string command_page(CommandHelp const& command, CommandHelp const& program)
 
 std::string key_text(pipeline::KeyHelp const& key) {
     std::string const out = fmt::format("{}.\n{}: {}.", key.meaning, key.type, key.range);
-    return key.standard.empty() ? out : out + fmt::format("\nDefault: {}.", key.standard);
+    std::string const standard = key.standard.empty() ? "" : fmt::format("\nDefault: {}.", key.standard);
+    std::string const used_by = key.used_by.empty() ? "" : fmt::format("\nUsed with {}.", key.used_by);
+    return out + standard + used_by;
 }
 
 std::string recipe_page(CommandHelp const& program) {
@@ -189,7 +191,10 @@ std::string recipe_page(CommandHelp const& program) {
            paragraph("A recipe is a TOML file. A key that is left out has its default; an unknown key is an error. The "
                      "option --set section.key=value of thalweg make overrides the file. File names are relative to "
                      "the recipe's folder. Without a [network] section there are no rivers; without a [surface] "
-                     "section only the network is made.");
+                     "section only the network is made.") +
+           paragraph("Many keys have an effect only with certain values of others: \"Used with\" names them. A key that is set "
+                     "and has no effect is an error, unless its value is its default or that of an earlier version. The "
+                     "recipe.toml that make writes holds every key that was used, with its value, and no other.");
     out += section("KEYS");
     std::string at;
     for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {

@@ -44,8 +44,12 @@ surface::EquilibriumParams params_of(Recipe& recipe, Mask const& land) {
     double const relief_m = recipe.surface->dilate.relief_m;
     surface::EquilibriumParams params;
     params.theta = recipe.network->concavity;
-    params.mean_slope_deg = wanted.mean_slope_deg.value_or(params.mean_slope_deg);
-    params.relief_m = relief_m > 0.0 ? std::optional(relief_m) : std::nullopt;
+    if (relief_m > 0.0) {
+        params.relief_m = relief_m;
+    } else {
+        wanted.mean_slope_deg = wanted.mean_slope_deg.value_or(params.mean_slope_deg);
+        params.mean_slope_deg = *wanted.mean_slope_deg;
+    }
     params.hillslope_cells =
         wanted.hillslope_m > 0.0 ? wanted.hillslope_m / recipe.grid.cell_m : params.hillslope_cells;
     params.floor_width = wanted.floor_width;
