@@ -95,14 +95,16 @@ int make(MakeOptions const& options, Session const& session) {
 
 Command add_make(CLI::App& app, Session& session) {
     auto const options = std::make_shared<MakeOptions>();
-    app.add_option("INPUT", options->input,
-                   "A recipe (TOML), or rivers: any file of lines that GDAL reads, or a folder written by make or convert. "
-                   "Without it, thalweg grows a valley on 1024x1024 cells.")
+    app.add_option(
+           "INPUT", options->input,
+           "A recipe (TOML), or rivers: any file of lines that GDAL reads, or a folder written by make or convert. "
+           "Without it, thalweg grows a valley on 1024x1024 cells.")
         ->type_name("FILE(toml,gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)");
     app.add_option("-o,--output", options->folder, "Write to this folder.")->type_name("DIR")->capture_default_str();
-    app.add_option("--set", options->set,
-                   "Set a key of the recipe; it overrides the file. May be repeated; the last value wins. File names are "
-                   "relative to the current folder.")
+    app.add_option(
+           "--set", options->set,
+           "Set a key of the recipe; it overrides the file. May be repeated; the last value wins. File names are "
+           "relative to the current folder.")
         ->type_name("KEY=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -117,19 +119,20 @@ Command add_make(CLI::App& app, Session& session) {
     app.add_flag("--json", session.json, "Print report.json to stdout instead of the name of the folder.");
     app.add_flag("--overwrite", options->overwrite,
                  "Replace the files that an earlier make wrote to the folder. Other files in the folder are kept.");
-    app.footer("Rivers are grown, or read from a file of lines; they get heights, and the terrain is shaped around "
-               "them. The recipe holds everything that decides the result: the same recipe gives the same bytes on any "
-               "machine. The folder is written completely or not at all.\n\n"
-               "Rivers need no recipe: thalweg chooses the grid and its cell size from the data and makes equilibrium "
-               "terrain around them. `thalweg recipe --for RIVERS` prints the recipe that it uses. From a folder written "
-               "by make or convert it takes the arcs.\n\n"
-               "Examples:\n"
-               "  thalweg make\n"
-               "  thalweg make samples/dla.toml --seed 8 --set network.prune=40 -o out/sparse\n"
-               "  thalweg make out/sparse/recipe.toml -o out/again\n"
-               "  thalweg make samples/walker_nhdplus.gpkg -o out/walker\n"
-               "  thalweg make samples/walker_nhdplus.gpkg --crs EPSG:26910 --set grid.cell=30 -o out/utm\n"
-               "  thalweg make out/walker --seed 8 -o out/other\n");
+    app.footer(
+        "Rivers are grown, or read from a file of lines; they get heights, and the terrain is shaped around "
+        "them. The recipe holds everything that decides the result: the same recipe gives the same bytes on any "
+        "machine. The folder is written completely or not at all.\n\n"
+        "Rivers need no recipe: thalweg chooses the grid and its cell size from the data and makes equilibrium "
+        "terrain around them. `thalweg recipe --for RIVERS` prints the recipe that it uses. From a folder written "
+        "by make or convert it takes the arcs.\n\n"
+        "Examples:\n"
+        "  thalweg make\n"
+        "  thalweg make samples/dla.toml --seed 8 --set network.prune=40 -o out/sparse\n"
+        "  thalweg make out/sparse/recipe.toml -o out/again\n"
+        "  thalweg make samples/walker_nhdplus.gpkg -o out/walker\n"
+        "  thalweg make samples/walker_nhdplus.gpkg --crs EPSG:26910 --set grid.cell=30 -o out/utm\n"
+        "  thalweg make out/walker --seed 8 -o out/other\n");
     return [options, &session] { return make(*options, session); };
 }
 

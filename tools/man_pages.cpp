@@ -187,14 +187,16 @@ std::string key_text(pipeline::KeyHelp const& key) {
 std::string recipe_page(CommandHelp const& program) {
     std::string out = heading("thalweg-recipe", '5', "File Formats");
     out += section("NAME") + roff("thalweg-recipe") + " \\- everything that decides a terrain, in one file\n";
-    out += section("DESCRIPTION") +
-           paragraph("A recipe is a TOML file. A key that is left out has its default; an unknown key is an error. The "
-                     "option --set section.key=value of thalweg make overrides the file. File names are relative to "
-                     "the recipe's folder. Without a [network] section there are no rivers; without a [surface] "
-                     "section only the network is made.") +
-           paragraph("Many keys have an effect only with certain values of others: \"Used with\" names them. A key that is set "
-                     "and has no effect is an error, unless its value is its default or that of an earlier version. The "
-                     "recipe.toml that make writes holds every key that was used, with its value, and no other.");
+    out +=
+        section("DESCRIPTION") +
+        paragraph("A recipe is a TOML file. A key that is left out has its default; an unknown key is an error. The "
+                  "option --set section.key=value of thalweg make overrides the file. File names are relative to "
+                  "the recipe's folder. Without a [network] section there are no rivers; without a [surface] "
+                  "section only the network is made.") +
+        paragraph(
+            "Many keys have an effect only with certain values of others: \"Used with\" names them. A key that is set "
+            "and has no effect is an error, unless its value is its default or that of an earlier version. The "
+            "recipe.toml that make writes holds every key that was used, with its value, and no other.");
     out += section("KEYS");
     std::string at;
     for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {
