@@ -5,6 +5,7 @@
 #include "terminal.hpp"
 
 #include <thalweg/io/files.hpp>
+#include <thalweg/pipeline/make_input.hpp>
 #include <thalweg/pipeline/recipe.hpp>
 #include <thalweg/pipeline/report.hpp>
 #include <thalweg/pipeline/terrain.hpp>
@@ -15,7 +16,6 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,25 +26,25 @@ namespace thalweg::tools {
 namespace {
 
 struct Options {
-    std::string recipe;
+    std::string input;
     std::string folder = "valley";
     std::vector<std::string> set;
     std::optional<std::uint64_t> seed;
+    std::string crs;
     std::string schema;
     bool overwrite = false;
 };
 
 pipeline::Recipe recipe_of(Options const& options) {
-    pipeline::Recipe recipe = pipeline::default_recipe();
-    if (!options.recipe.empty()) {
-        recipe = pipeline::read_recipe(io::read_text(options.recipe, 2 << 20), options.recipe);
-        recipe.folder = std::filesystem::path(options.recipe).parent_path().string();
-    }
+    pipeline::Recipe recipe = options.input.empty() ? pipeline::default_recipe() : pipeline::recipe_from(options.input);
     for (std::string const& assignment : options.set) {
         pipeline::set_key(recipe, assignment);
     }
     if (options.seed) {
         pipeline::set_key(recipe, fmt::format("seed={}", *options.seed));
+    }
+    if (!options.crs.empty()) {
+        pipeline::set_key(recipe, "grid.crs=" + options.crs);
     }
     if (!options.schema.empty()) {
         pipeline::set_key(recipe, fmt::format("output.schema={}", options.schema));
@@ -85,16 +85,21 @@ int make(Options const& options, Session const& session) {
 
 Command add_make(CLI::App& app, Session& session) {
     auto const options = std::make_shared<Options>();
-    app.add_option("RECIPE", options->recipe,
-                   "The recipe, a TOML file; without one, a valley is grown on 1024x1024 cells.")
-        ->type_name("FILE(toml)");
+    app.add_option("INPUT", options->input,
+                   "A recipe (TOML); or rivers: any file of lines that GDAL reads, or the folder that make or convert "
+                   "wrote. Without it, thalweg grows a valley on 1024x1024 cells.")
+        ->type_name("FILE");
     app.add_option("-o,--output", options->folder, "Write into this folder.")->type_name("DIR")->capture_default_str();
     app.add_option("--set", options->set,
-                   "Set a key of the recipe, over what the file says. May be given many times; the last holds.")
+                   "Set a key of the recipe, over what the file says. May be given many times; the last holds. Names "
+                   "of files are relative to the current folder.")
         ->type_name("KEY=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--seed", options->seed, "Set the seed of every chance: the same as --set seed=N.");
+    app.add_option("--crs", options->crs,
+                   "Make the terrain in this coordinate system, projected in metres: the same as --set grid.crs=CRS.")
+        ->type_name("EPSG:N");
     app.add_option("--schema", options->schema,
                    "Write the rivers in the words of this schema too, as network_SCHEMA.gpkg: the same as --set "
                    "output.schema=SCHEMA.")
@@ -105,10 +110,16 @@ Command add_make(CLI::App& app, Session& session) {
     app.footer("Rivers are grown, or read from a file of lines; they get heights, and the land is drawn around them. "
                "All that decides the result is in the recipe: the same recipe gives the same bytes on any machine. "
                "The folder appears whole or not at all.\n\n"
+               "Rivers need no recipe: thalweg chooses the grid and its cell size from the data and makes terrain in "
+               "equilibrium with them. thalweg recipe --for RIVERS prints the recipe that it uses. Of a folder that "
+               "make or convert wrote it takes the arcs.\n\n"
                "Examples:\n"
                "  thalweg make\n"
                "  thalweg make samples/dla.toml --seed 8 --set network.prune=40 -o out/sparse\n"
-               "  thalweg make out/sparse/recipe.toml -o out/again\n");
+               "  thalweg make out/sparse/recipe.toml -o out/again\n"
+               "  thalweg make samples/walker_nhdplus.gpkg -o out/walker\n"
+               "  thalweg make samples/walker_nhdplus.gpkg --crs EPSG:26910 --set grid.cell=30 -o out/utm\n"
+               "  thalweg make out/walker --seed 8 -o out/other\n");
     return [options, &session] { return make(*options, session); };
 }
 

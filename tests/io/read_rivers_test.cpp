@@ -132,8 +132,8 @@ TEST_F(ReadRivers, EmptyLayer) {
 
 TEST_F(ReadRivers, NoLayerOfLines) {
     auto const points = write("a.gpkg", {{.name = "wells", .type = wkbPoint, .features = {{"POINT(1 2)"}}}});
-    EXPECT_TRUE(has(refusal({.path = points}), "a.gpkg has no layer of lines (wells)"));
-    EXPECT_TRUE(has(refusal({.path = points, .layer = "wells"}), "layer wells of a.gpkg holds Point, not lines"));
+    EXPECT_TRUE(has(refusal({.path = points}), "a.gpkg has no layer with lines (wells)"));
+    EXPECT_TRUE(has(refusal({.path = points, .layer = "wells"}), "a.gpkg, layer wells: it holds Point, not lines"));
     auto const mixed = write("b.gpkg", {{.type = wkbUnknown, .features = {{"LINESTRING(0 0,1 1)"}, {"POINT(1 2)"}}}});
     EXPECT_TRUE(has(refusal({.path = mixed}), "feature 2 of b.gpkg is a Point, not a line"))
         << refusal({.path = mixed});
@@ -143,7 +143,19 @@ TEST_F(ReadRivers, LayersByName) {
     auto other = two_rivers;
     other.name = "canals";
     auto const file = write("a.gpkg", {two_rivers, other, {.name = "wells", .type = wkbPoint}});
-    EXPECT_TRUE(has(refusal({.path = file}), "a.gpkg has 2 layers of lines; name one of them (rivers, canals)"));
+    EXPECT_EQ(io::read_rivers({.path = file}).lines.size(), 2U); // its name says which
+    auto roads = two_rivers;
+    roads.name = "roads";
+    auto const unclear = write("c.gpkg", {other, roads});
+    EXPECT_TRUE(has(refusal({.path = unclear}), "c.gpkg has 2 layers with lines (canals, roads): name the one with the "
+                                                "rivers, --set network.lines.layer=NAME"));
+    auto streams = two_rivers;
+    streams.name = "Streams_2020";
+    auto const two = write("d.gpkg", {two_rivers, streams});
+    EXPECT_EQ(io::read_rivers({.path = two}).lines.size(), 2U); // rivers before streams
+    auto more = two_rivers;
+    more.name = "river_lines";
+    EXPECT_TRUE(has(refusal({.path = write("e.gpkg", {two_rivers, more})}), "e.gpkg has 2 layers with lines"));
     EXPECT_TRUE(has(refusal({.path = file, .layer = "rivrs"}),
                     "a.gpkg has no layer 'rivrs'. Did you mean 'rivers'? (rivers, canals, wells)"));
     EXPECT_FALSE(has(refusal({.path = file, .layer = "something"}), "Did you mean"));

@@ -13,6 +13,7 @@
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/archive.hpp>
 #include <thalweg/io/spatial_reference.hpp>
 #include <thalweg/io/undisturbed.hpp>
 
@@ -24,8 +25,8 @@ void CloseDataset::operator()(GDALDataset* dataset) const {
 
 Dataset open_undisturbed(std::string const& path, unsigned kinds, char const* const* drivers) {
     auto const file = std::make_shared<Undisturbed const>(path);
-    return Dataset(GDALDataset::Open(file->path().c_str(), kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers,
-                                     file->options()),
+    return Dataset(GDALDataset::Open(inside_archive(file->path()).c_str(),
+                                     kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers, file->options()),
                    {file});
 }
 

@@ -3,6 +3,7 @@
 #include <thalweg/io/dataset_files.hpp>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/archive.hpp>
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
 
@@ -18,6 +19,9 @@ std::vector<std::string> dataset_files(std::string const& path) {
     Dataset const source = open_undisturbed(path, GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr);
     if (!source) {
         throw BadInput("io.dataset_files: " + path + " is no vector or raster source");
+    }
+    if (inside_archive(path) != path) {
+        return {path};
     }
     CPLStringList const list(source->GetFileList(), TRUE);
     std::vector<std::string> files;

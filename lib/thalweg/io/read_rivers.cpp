@@ -22,6 +22,7 @@
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/into_metres.hpp>
+#include <thalweg/io/rivers_layer.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -44,47 +45,6 @@ std::string suggestion(std::string const& wanted, std::vector<std::string> const
         return "";
     }
     return did_you_mean(wanted, names) + " (" + listed(names) + ")";
-}
-
-bool may_hold_lines(OGRwkbGeometryType type) {
-    auto const flat = wkbFlatten(type);
-    return flat == wkbUnknown || OGR_GT_IsSubClassOf(flat, wkbCurve) != 0 ||
-           OGR_GT_IsSubClassOf(flat, wkbMultiCurve) != 0;
-}
-
-OGRLayer& choose_layer(GDALDataset& data, ReadRiversParams const& params, std::string const& name) {
-    std::vector<std::string> names;
-    std::vector<OGRLayer*> lines;
-    std::vector<OGRLayer*> unknown;
-    for (auto* const layer : data.GetLayers()) {
-        names.emplace_back(layer->GetName());
-        if (layer->GetName() == params.layer && !params.layer.empty()) {
-            if (!may_hold_lines(layer->GetGeomType())) {
-                refuse(fmt::format("layer {} of {} holds {}, not lines", params.layer, name,
-                                   OGRGeometryTypeToName(layer->GetGeomType())));
-            }
-            return *layer;
-        }
-        if (may_hold_lines(layer->GetGeomType())) {
-            (wkbFlatten(layer->GetGeomType()) == wkbUnknown ? unknown : lines).push_back(layer);
-        }
-    }
-    if (!params.layer.empty()) {
-        refuse(fmt::format("{} has no layer '{}'.{}", name, params.layer, suggestion(params.layer, names)));
-    }
-    auto const& candidates = lines.empty() ? unknown : lines;
-    if (candidates.empty()) {
-        refuse(fmt::format("{} has no layer of lines{}", name, names.empty() ? "" : " (" + listed(names) + ")"));
-    }
-    if (candidates.size() > 1) {
-        std::vector<std::string> of_lines;
-        for (auto* const layer : candidates) {
-            of_lines.emplace_back(layer->GetName());
-        }
-        refuse(
-            fmt::format("{} has {} layers of lines; name one of them ({})", name, candidates.size(), listed(of_lines)));
-    }
-    return *candidates.front();
 }
 
 std::vector<std::string> field_names(OGRFeatureDefn& schema) {
@@ -291,7 +251,7 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         }
         refuse(params.path + " is no vector file that GDAL can read (" + words + ")");
     }
-    OGRLayer& layer = choose_layer(*data, params, name);
+    OGRLayer& layer = rivers_layer(*data, params.layer, name, "io.read_rivers");
     RiverLines rivers;
     rivers.name = name;
     rivers.lines = read_lines(layer, params, name, run);

@@ -6,6 +6,7 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/read_rivers.hpp>
+#include <thalweg/network/choose_cell.hpp>
 #include <thalweg/network/clip_lines.hpp>
 #include <thalweg/network/keep_heights.hpp>
 #include <thalweg/network/rotate.hpp>
@@ -60,7 +61,35 @@ Grid turned_frame(network::Branch const& branch, Grid frame, GridRecipe const& w
     return frame;
 }
 
+/// Why the cell size is what it is.
+std::string reason(network::ChosenCell const& chosen) {
+    std::string words = fmt::format(", from {} lines of {:.4g} km in all, {:.2g} km apart", chosen.lines,
+                                    chosen.length_m / 1000.0, chosen.spacing_m / 1000.0);
+    if (chosen.shared_share >= 0.001) {
+        words += fmt::format("; {:.1f} % of the river cells hold two rivers", 100.0 * chosen.shared_share);
+    }
+    return words;
+}
+
 } // namespace
+
+RiverLines read_lines(Recipe const& recipe, Run const& run) {
+    LinesRecipe const& wanted = recipe.network->lines;
+    std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
+    return io::read_rivers({file_in(recipe, wanted.path), wanted.layer, wanted.type_field, wanted.rank_field, crs},
+                           run);
+}
+
+std::string settle_on_lines(Recipe& recipe, RiverLines const& lines, Run const& run) {
+    recipe.grid.crs = lines.crs;
+    if (recipe.grid.cell_m > 0.0) {
+        return "";
+    }
+    network::ChosenCell const chosen =
+        network::choose_cell(lines, {.width = recipe.grid.width, .height = recipe.grid.height}, run);
+    recipe.grid.cell_m = chosen.cell_m;
+    return reason(chosen);
+}
 
 Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     NetworkRecipe& wanted = *recipe.network;
@@ -99,14 +128,11 @@ Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run)
 
 Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     LinesRecipe const& wanted = recipe.network->lines;
-    std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
-    RiverLines lines = diary.stage("read", [&] {
-        return io::read_rivers({file_in(recipe, wanted.path), wanted.layer, wanted.type_field, wanted.rank_field, crs},
-                               run);
-    });
-    recipe.grid.crs = lines.crs;
+    RiverLines lines = diary.stage("read", [&] { return read_lines(recipe, run); });
     diary.say(fmt::format("{} lines from {}", lines.lines.size(), lines.name));
+    std::string const why = settle_on_lines(recipe, lines, run);
     Grid const grid = frame_lines(lines, recipe.grid);
+    run.say(fmt::format("{:<6} {}x{} cells of {} m{}", "grid", grid.width, grid.height, grid.cell_m, why));
     if (recipe.grid.clip) {
         lines = network::clip_lines(lines, grid);
         if (lines.lines.empty()) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/pipeline/diary.hpp>
 #include <thalweg/pipeline/terrain.hpp>
@@ -21,6 +23,13 @@ struct Planned {
     std::optional<RaisedNetwork> file_heights;
     Mask land = {}; ///< 0: sea; without cells: all is land
 };
+
+/// The lines that a recipe names.
+RiverLines read_lines(Recipe const& recipe, Run const& run);
+
+/// Sets the CRS and, where it is 0, the cell size of a recipe's grid by its lines. Gives: why the cell has its size, as
+/// the end of a sentence; "" where it was given.
+std::string settle_on_lines(Recipe& recipe, RiverLines const& lines, Run const& run);
 
 /// One arm of a cluster that grew by diffusion-limited aggregation, thinned and traced.
 Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run);

@@ -4,6 +4,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/suggest.hpp>
+#include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/pipeline/recipe_keys.hpp>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <map>
 #include <string_view>
 
@@ -224,6 +226,12 @@ std::pair<std::string, std::size_t> without_number(std::string const& path) {
     return {path, 0};
 }
 
+/// A file's name as seen from the working folder, for a recipe that may lie elsewhere.
+std::string from_here(Recipe const& recipe, std::string const& name) {
+    bool const stays = recipe.folder.empty() || name.empty() || is_address(name);
+    return stays ? name : std::filesystem::absolute(name).lexically_normal().string();
+}
+
 } // namespace
 
 void set_key(Recipe& recipe, std::string const& assignment) {
@@ -238,7 +246,7 @@ void set_key(Recipe& recipe, std::string const& assignment) {
         throw BadParameter(fmt::format("--set {}: {}", cut(assignment), unknown_key(cut(path))));
     }
     try {
-        Value value = text;
+        Value value = names_file(*key) ? from_here(recipe, text) : text;
         if (key->help.type != "text") {
             if (text.size() > 200) {
                 throw BadParameter("the value is too long");

@@ -32,7 +32,7 @@ namespace thalweg::pipeline {
 struct GridRecipe {
     std::int64_t width = 0;  ///< [cells] 0: the network's box and 5 % around it
     std::int64_t height = 0; ///< [cells] likewise
-    double cell_m = 30.0;    ///< [m] > 0
+    double cell_m = 30.0;    ///< [m] > 0; 0 chooses it from the lines of a file
     std::string crs;         ///< projected, metres; "": the line file's own or its UTM zone, else EPSG:32631
     std::optional<std::array<double, 2>> origin; ///< [m] west and north edge
     bool clip = false;                           ///< cut rivers at the grid's edge instead of refusing them
@@ -242,7 +242,7 @@ std::vector<KeyHelp> recipe_keys();
 Recipe read_recipe(std::string const& toml, std::string const& name);
 
 /// Sets one key from "section.key=value"; "patch.2.key=value" of the second patch, or a new
-/// one after the last. Throws BadParameter.
+/// one after the last. A file is found from the working folder, wherever the recipe lies. Throws BadParameter.
 void set_key(Recipe& recipe, std::string const& assignment);
 
 /// The recipe as TOML, every default written out, sections without a stage left out. read_recipe gives it back.

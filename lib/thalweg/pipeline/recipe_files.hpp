@@ -14,6 +14,12 @@ namespace thalweg::pipeline {
 /// A file the recipe names, found from the recipe's folder.
 std::string file_in(Recipe const& recipe, std::string const& name);
 
+/// Whether a name means a database or an address of GDAL's, which no folder holds.
+bool is_address(std::string const& name);
+
+/// The recipe with every file it names found from anywhere.
+Recipe with_absolute_files(Recipe recipe);
+
 /// The terrain lies on this grid, and its recipe says so.
 void take_frame(Terrain& terrain, Grid const& grid);
 

@@ -97,6 +97,10 @@ std::vector<Key> make_keys() {
 
 } // namespace
 
+bool names_file(Key const& key) {
+    return key.help.range == "file name";
+}
+
 std::vector<Key> const& all_keys() {
     static std::vector<Key> const keys = make_keys();
     return keys;

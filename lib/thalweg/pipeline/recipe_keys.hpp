@@ -32,6 +32,9 @@ struct Key {
     }
 };
 
+/// Whether the value is the name of a file.
+bool names_file(Key const& key);
+
 /// A value as TOML writes it.
 std::string toml_text(Value const& value);
 

@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `thalweg make RIVERS`: terrain around a file of lines, without a recipe.
+#include "command.hpp"
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <ogrsf_frmts.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+std::string const walker = THALWEG_SOURCE_DIR "/samples/walker_nhdplus.gpkg";
+std::string const coarse = " --set grid.cell=90"; // quick; what the data choose is another test's
+
+/// Runs one of GDAL's programs; messages of its own are not ours.
+void run_gdal(std::string const& command, Workplace const& place) {
+    std::string const line = "cd '" + place.path().string() + "' && " + command + " >/dev/null 2>&1";
+    ASSERT_EQ(std::system(line.c_str()), 0) << command;
+}
+
+json report_of(fs::path const& folder) {
+    return json::parse(file_bytes(folder / "report.json"));
+}
+
+struct Box {
+    double west, south, east, north;
+    bool holds(Box const& b) const { return west <= b.west && south <= b.south && east >= b.east && north >= b.north; }
+};
+
+Box box_of_dem(fs::path const& file) {
+    GDALAllRegister();
+    GDALDatasetUniquePtr const data(GDALDataset::Open(file.string().c_str()));
+    if (!data) {
+        return {0, 0, 0, 0};
+    }
+    double frame[6];
+    data->GetGeoTransform(frame);
+    return {frame[0], frame[3] + frame[5] * data->GetRasterYSize(), frame[0] + frame[1] * data->GetRasterXSize(),
+            frame[3]};
+}
+
+/// The extent of a file's lines in the CRS of a DEM.
+Box box_of_lines(fs::path const& file, fs::path const& dem) {
+    GDALDatasetUniquePtr const data(GDALDataset::Open(file.string().c_str(), GDAL_OF_VECTOR));
+    GDALDatasetUniquePtr const raster(GDALDataset::Open(dem.string().c_str()));
+    Box box{1e300, 1e300, -1e300, -1e300};
+    for (auto const& feature : *data->GetLayer(0)) {
+        OGRGeometry* const line = feature->GetGeometryRef();
+        OGRSpatialReference target = *raster->GetSpatialRef();
+        target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        line->transformTo(&target);
+        OGREnvelope e;
+        line->getEnvelope(&e);
+        box = {std::min(box.west, e.MinX), std::min(box.south, e.MinY), std::max(box.east, e.MaxX),
+               std::max(box.north, e.MaxY)};
+    }
+    return box;
+}
+
+/// Exit 0, every check holds, the DEM lies over the rivers. Gives the report.
+json made(Workplace const& place, std::string const& input, std::string const& options, std::string const& folder) {
+    Outcome const o = thalweg_run("make '" + input + "'" + options + " -o " + folder, place.path());
+    EXPECT_EQ(o.code, 0) << input << "\n" << o.err;
+    EXPECT_NE(o.err.find("\ngrid "), std::string::npos) << o.err;
+    if (o.code != 0) {
+        return {};
+    }
+    json const report = report_of(place / folder);
+    for (auto const& check : report["checks"]) {
+        EXPECT_TRUE(check["ok"].get<bool>()) << input << check;
+    }
+    return report;
+}
+
+void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
+    Outcome const o = thalweg_run("make " + arguments + " -o out", place.path());
+    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
+    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
+    EXPECT_FALSE(fs::exists(place / "out")) << arguments;
+}
+
+std::string const utm = R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":)"
+                        R"("urn:ogc:def:crs:EPSG::32631"}},"features":[)";
+
+std::string line(std::string const& coordinates) {
+    return R"({"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[)" + coordinates + "]}}";
+}
+
+} // namespace
+
+TEST(GivenRivers, TheDataChooseTheGrid) {
+    Workplace const place;
+    json const report = made(place, walker, "", "out");
+    ASSERT_TRUE(report.contains("recipe"));
+    EXPECT_EQ(report["recipe"]["grid"]["cell"], 25.0);
+    EXPECT_EQ(report["recipe"]["grid"]["crs"], "EPSG:32610");
+    EXPECT_EQ(report["recipe"]["surface"]["method"], "equilibrium");
+    double const cells = report["dem"]["cells"];
+    EXPECT_GT(cells, 5e5);
+    EXPECT_LE(cells, 2e6);
+    EXPECT_TRUE(box_of_dem(place / "out/dem.tif").holds(box_of_lines(walker, place / "out/dem.tif")));
+    EXPECT_EQ(thalweg_run("check out --dem out/dem.tif", place.path()).code, 0);
+    EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
+
+    // The recipe it would use makes the same land, from any folder.
+    Outcome const recipe = thalweg_run("recipe --for '" + walker + "'", place.path());
+    ASSERT_EQ(recipe.code, 0) << recipe.err;
+    fs::create_directories(place / "elsewhere");
+    place.write("elsewhere/r.toml", recipe.out);
+    made(place, "elsewhere/r.toml", "", "again");
+    for (char const* file : {"dem.tif", "network.gpkg"}) {
+        EXPECT_TRUE(file_bytes(place / "out" / file) == file_bytes(place / "again" / file)) << file;
+    }
+}
+
+TEST(GivenRivers, AnyFormatGivesTheSameLand) {
+    Workplace const place;
+    made(place, walker, coarse, "gpkg");
+    run_gdal("ogr2ogr -f FlatGeobuf -lco SPATIAL_INDEX=NO rivers.fgb '" + walker + "'", place);
+    run_gdal("ogr2ogr rivers.shp '" + walker + "'", place);
+    run_gdal("ogr2ogr -lco COORDINATE_PRECISION=15 rivers.geojson '" + walker + "'", place);
+    run_gdal("ogr2ogr -f KML rivers.kml '" + walker + "'", place);
+    run_gdal("mkdir shapes && cp rivers.shp rivers.shx rivers.dbf rivers.prj shapes", place);
+    run_gdal("/usr/bin/python3 -c \"import shutil; shutil.make_archive('packed', 'zip', '.', 'shapes')\"", place);
+    for (std::string const file :
+         {"rivers.fgb", "rivers.shp", "rivers.geojson", "rivers.kml", "shapes/", "packed.zip"}) {
+        std::string const folder = "of_" + std::to_string(file.size()) + file.substr(file.size() - 3, 2);
+        json const report = made(place, file, coarse, folder);
+        EXPECT_EQ(report["network"]["outlets"], 1) << file;
+        EXPECT_TRUE(box_of_dem(place / folder / "dem.tif").holds(box_of_lines(walker, place / folder / "dem.tif")));
+        EXPECT_EQ(thalweg_run("replay " + folder + " --verify", place.path()).code, 0) << file;
+    }
+    for (std::string const same : {"of_10sh", "of_10fg", "of_10zi"}) {
+        if (fs::exists(place / same)) {
+            EXPECT_TRUE(file_bytes(place / same / "dem.tif") == file_bytes(place / "gpkg/dem.tif")) << same;
+        }
+    }
+}
+
+TEST(GivenRivers, FoldersThatThalwegWrote) {
+    Workplace const place;
+    made(place, walker, coarse, "first");
+    json const again = made(place, "first/", coarse + " --seed 8", "second");
+    EXPECT_EQ(again["recipe"]["network"]["lines"]["path"], "inputs/network.gpkg");
+    EXPECT_EQ(again["recipe"]["network"]["lines"]["layer"], "arcs");
+    EXPECT_EQ(again["network"]["arcs"], report_of(place / "first")["network"]["arcs"]);
+    fs::create_directories(place / "converted");
+    ASSERT_EQ(thalweg_run("convert first -o converted/net.shp", place.path()).code, 0);
+    made(place, "converted", coarse, "third");
+    EXPECT_EQ(thalweg_run("replay third --verify", place.path()).code, 0);
+}
+
+TEST(GivenRivers, ALayerIsChosenByItsName) {
+    Workplace const place;
+    run_gdal("ogr2ogr -nln NHDFlowline nhd.gpkg '" + walker + "'", place);
+    run_gdal("ogr2ogr -update -nln NHDLine nhd.gpkg '" + walker + "' -where 'COMID < 0'", place); // empty
+    run_gdal("ogr2ogr -update -nln roads nhd.gpkg '" + walker + "'", place);
+    made(place, "nhd.gpkg", coarse, "out");
+    fs::remove_all(place / "out");
+    run_gdal("ogr2ogr -nln one two.gpkg '" + walker + "'", place);
+    run_gdal("ogr2ogr -update -nln other two.gpkg '" + walker + "'", place);
+    refused(place, "two.gpkg",
+            "two.gpkg has 2 layers with lines (one, other): name the one with the rivers, --set "
+            "network.lines.layer=NAME");
+    made(place, "two.gpkg", coarse + " --set network.lines.layer=other", "out");
+}
+
+TEST(GivenRivers, OneShortLine) {
+    Workplace const place;
+    place.write("line.geojson", utm + line("[500000,4000000],[501000,4000300]") + "]}");
+    json const report = made(place, "line.geojson", "", "out");
+    EXPECT_EQ(report["recipe"]["grid"]["cell"], 1.25);
+    json const small = made(place, "line.geojson", " --set grid.width=200 --set grid.height=200", "small");
+    EXPECT_EQ(small["recipe"]["grid"]["cell"], 6.0);
+}
+
+TEST(GivenRivers, WhatIsNeitherIsRefusedInWords) {
+    Workplace const place;
+    refused(place, "nothing.gpkg",
+            "nothing.gpkg does not exist; give a recipe (TOML), a file of river lines, or a "
+            "folder that make or convert wrote");
+    place.write("empty.gpkg", "");
+    refused(place, "empty.gpkg", "empty.gpkg is empty");
+    place.write("words.txt", "The quick brown fox\n");
+    refused(place, "words.txt", "words.txt is not a file with lines that GDAL can read");
+    fs::create_directories(place / "folder");
+    refused(place, "folder", "folder holds no rivers: the folder is empty");
+    place.write("folder/readme", "hello");
+    refused(place, "folder", "holds neither network.gpkg nor shapefiles");
+    refused(place, "'" THALWEG_SOURCE_DIR "/samples/bigtujunga_srtm1.tif'", "is a raster, not river lines");
+    place.write("points.geojson", R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},)"
+                                  R"("geometry":{"type":"Point","coordinates":[1,2]}}]})");
+    refused(place, "points.geojson", "points.geojson has no layer with lines (points)");
+    place.write("point.geojson", utm + line("[500000,4000000],[500000,4000000]") + "]}");
+    refused(place, "point.geojson", "all vertices lie at one place");
+    Outcome const points = thalweg_run("make '" THALWEG_SOURCE_DIR "/samples/points.toml' -q -o dots", place.path());
+    ASSERT_EQ(points.code, 0) << points.err;
+    refused(place, "dots", "its terrain has no rivers; to make it again, give its recipe.toml");
+}
+
+TEST(GivenRivers, ARecipeOfAnyNameIsARecipe) {
+    Workplace const place;
+    place.write("recipe", "# mine\n\n[grid]\nwidth = 64\nheight = 64\n[network]\n[network.dla]\nparticles = 500\n"
+                          "[surface]\n");
+    EXPECT_EQ(thalweg_run("make recipe -q -o out", place.path()).code, 0);
+    fs::remove_all(place / "out");
+    place.write("faulty.txt", "sed = 7\n");
+    refused(place, "faulty.txt", "Did you mean 'seed'?");
+    place.write("broken.toml", "\x01\x02");
+    refused(place, "broken.toml", "broken.toml: line 1");
+}
+
+TEST(GivenRivers, FilesInSetAreFoundFromTheCurrentFolder) {
+    Workplace const place;
+    fs::create_directories(place / "recipes/deep");
+    fs::create_directories(place / "data");
+    fs::copy_file(walker, place / "data/w.gpkg");
+    fs::copy_file(walker, place / "recipes/deep/own.gpkg");
+    place.write("recipes/deep/r.toml", "[grid]\ncell = 90\n[network]\nsource = \"lines\"\n[network.lines]\npath = "
+                                       "\"own.gpkg\"\n[surface]\n");
+    made(place, "recipes/deep/r.toml", "", "own");
+    json const set = made(place, "recipes/deep/r.toml", " --set network.lines.path=data/w.gpkg", "set");
+    EXPECT_EQ(set["recipe"]["network"]["lines"]["path"].get<std::string>().find("own"), std::string::npos);
+    EXPECT_TRUE(fs::exists(place / "set/inputs/w.gpkg"));
+    EXPECT_EQ(file_bytes(place / "set/recipe.toml").find(place.path().string()), std::string::npos);
+    EXPECT_EQ(thalweg_run("replay set --verify", place.path()).code, 0);
+    refused(place, "recipes/deep/r.toml --set network.lines.path=own.gpkg", "own.gpkg");
+}
+
+TEST(GivenRivers, TheCrsIsAsked) {
+    Workplace const place;
+    json const report = made(place, walker, coarse + " --crs EPSG:3310", "out");
+    EXPECT_EQ(report["recipe"]["grid"]["crs"], "EPSG:3310");
+    EXPECT_TRUE(box_of_dem(place / "out/dem.tif").holds(box_of_lines(walker, place / "out/dem.tif")));
+    fs::remove_all(place / "out");
+    refused(place, "'" + walker + "' --crs EPSG:4326", "geographic");
+    refused(place, "'" + walker + "' --crs EPSG:2227", "US survey foot");
+    refused(place, "'" + walker + "' --crs nonsense", "is no coordinate system");
+}
