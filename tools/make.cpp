@@ -88,7 +88,7 @@ Command add_make(CLI::App& app, Session& session) {
     app.add_option("INPUT", options->input,
                    "A recipe (TOML); or rivers: any file of lines that GDAL reads, or the folder that make or convert "
                    "wrote. Without it, thalweg grows a valley on 1024x1024 cells.")
-        ->type_name("FILE");
+        ->type_name("FILE(toml,gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)");
     app.add_option("-o,--output", options->folder, "Write into this folder.")->type_name("DIR")->capture_default_str();
     app.add_option("--set", options->set,
                    "Set a key of the recipe, over what the file says. May be given many times; the last holds. Names "

@@ -50,7 +50,7 @@ Command add_recipe(CLI::App& app, Session& session) {
     app.add_option("--for", *rivers,
                    "Print the recipe that make uses for these rivers: a file of lines, or the folder that make or "
                    "convert wrote.")
-        ->type_name("FILE");
+        ->type_name("FILE(gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)");
     app.footer("Each key with its unit, range and default. thalweg-recipe(5) is the same as a manual page.\n\n"
                "Examples:\n"
                "  thalweg recipe\n"

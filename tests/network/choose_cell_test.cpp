@@ -62,7 +62,7 @@ TEST(ChooseCell, OneShortLine) {
     EXPECT_EQ(chosen.cell_m, 1.25); // 1000 cells, although it is drawn with two vertices
     EXPECT_EQ(chosen.lines, 1);
     EXPECT_EQ(chosen.length_m, 1000.0);
-    EXPECT_EQ(chosen.shared_share, 0.0);
+    EXPECT_EQ(chosen.crowded_share, 0.0);
 }
 
 TEST(ChooseCell, SixtyMetresForABasinOfFiftyKilometres) {
@@ -73,27 +73,37 @@ TEST(ChooseCell, SixtyMetresForABasinOfFiftyKilometres) {
 }
 
 TEST(ChooseCell, RiversSideBySideAskForSmallerCells) {
-    // Twenty pairs 55 m apart that never meet: 60 m cells would hold both of most pairs.
+    // Twenty pairs 115 m apart that never meet: in cells of 60 m many would lie side by side.
     std::vector<std::vector<Vec3>> pairs;
     for (int i = 0; i < 20; ++i) {
-        double const y = 3500.0 * i;
+        double const y = 3500.0 * i + i;
         pairs.push_back(straight({0, y}, {50000, y}, 50));
-        pairs.push_back(straight({0, y + 55}, {50000, y + 55}, 50));
+        pairs.push_back(straight({0, y + 115}, {50000, y + 115}, 50));
     }
     network::ChosenCell const chosen = choose_cell(lines_of(pairs));
     EXPECT_EQ(chosen.cell_m, 50.0);
-    EXPECT_LE(chosen.shared_share, 0.01);
+    EXPECT_LE(chosen.crowded_share, 0.01);
     network::ChosenCell const usual = choose_cell(lines_of(pairs), {.most_cells = 1300000});
     EXPECT_EQ(usual.cell_m, 60.0);
-    EXPECT_GT(usual.shared_share, 0.01); // and it is said
+    EXPECT_GT(usual.crowded_share, 0.01); // and it is said what would be enough
+    EXPECT_EQ(usual.enough_m, 50.0);
 }
 
-TEST(ChooseCell, RiversThatMeetDoNotShareCells) {
-    std::vector<std::vector<Vec3>> comb{straight({0, 0}, {20000, 0}, 30)};
+TEST(ChooseCell, RiversThatMeetAreNotCrowded) {
+    std::vector<Vec3> trunk;
+    for (int i = 0; i <= 400; ++i) {
+        trunk.push_back({50.0 * i, 0, 0});
+    }
+    std::vector<std::vector<Vec3>> comb{trunk};
     for (int i = 1; i < 20; ++i) {
         comb.push_back(straight({1000.0 * i, 15000}, {1000.0 * i, 0}, 30));
     }
-    EXPECT_EQ(choose_cell(lines_of(comb)).shared_share, 0.0);
+    EXPECT_EQ(choose_cell(lines_of(comb)).crowded_share, 0.0);
+    // A head close to another river is no place where they meet.
+    for (auto& line : comb) {
+        line.back().y += line.back().y == 0.0 && line.front().y > 0.0 ? 15.0 : 0.0;
+    }
+    EXPECT_GT(choose_cell(lines_of(comb), {.most_cells = 1300000}).crowded_share, 0.0);
 }
 
 TEST(ChooseCell, OfAGivenGridItFits) {

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace thalweg::network {
@@ -18,7 +19,7 @@ namespace thalweg::network {
 namespace {
 
 constexpr double margin_share = 0.05;
-constexpr double most_shared = 0.01;
+constexpr double most_crowded = 0.01;
 
 struct Extent {
     double west = std::numeric_limits<double>::infinity();
@@ -100,31 +101,54 @@ Grid grid_of(Extent const& box, double cell_m) {
     return grid;
 }
 
-/// 1 near the ends of lines, where rivers meet.
-std::vector<std::uint8_t> near_ends(RiverLines const& rivers, Grid const& grid) {
-    constexpr std::int64_t reach = 3;
-    std::vector<std::uint8_t> near(static_cast<std::size_t>(grid.cells()));
+using Place = std::pair<double, double>;
+
+/// Places where a line ends at a vertex of another: there rivers meet.
+std::vector<Vec2> joints_of(RiverLines const& rivers) {
+    std::vector<Place> vertices;
+    for (RiverLine const& line : rivers.lines) {
+        std::size_t const first = vertices.size();
+        for (Vec3 const& p : line.vertices) {
+            vertices.emplace_back(p.x, p.y);
+        }
+        auto const own = vertices.begin() + static_cast<std::ptrdiff_t>(first);
+        std::sort(own, vertices.end()); // a vertex counts once a line
+        vertices.erase(std::unique(own, vertices.end()), vertices.end());
+    }
+    std::sort(vertices.begin(), vertices.end());
+    std::vector<Vec2> joints;
     for (RiverLine const& line : rivers.lines) {
         for (Vec3 const& end : {line.vertices.front(), line.vertices.back()}) {
-            Cell const at = grid.cell_of({end.x, end.y});
-            for (std::int64_t row = std::max<std::int64_t>(0, at.row - reach);
-                 row <= std::min(grid.height - 1, at.row + reach); ++row) {
-                for (std::int64_t col = std::max<std::int64_t>(0, at.col - reach);
-                     col <= std::min(grid.width - 1, at.col + reach); ++col) {
-                    near[static_cast<std::size_t>(grid.index({col, row}))] = 1;
-                }
+            auto const [first, last] = std::equal_range(vertices.begin(), vertices.end(), Place{end.x, end.y});
+            if (last - first > 1) {
+                joints.push_back({end.x, end.y});
             }
         }
     }
-    return near;
+    return joints;
 }
 
-double shared_share(RiverLines const& rivers, Grid const& grid, Run const& run) {
-    std::vector<std::uint8_t> const near = near_ends(rivers, grid);
-    std::vector<std::int32_t> owner(static_cast<std::size_t>(grid.cells()), -1);
-    constexpr std::int32_t counted = -2;
-    std::int64_t cells = 0;
-    std::int64_t shared = 0;
+/// Calls visit(index of the cell) for the cells at most so far from one, itself among them.
+template <class Visit> void around(Grid const& grid, Cell at, std::int64_t reach, Visit visit) {
+    for (std::int64_t row = std::max<std::int64_t>(0, at.row - reach); row <= std::min(grid.height - 1, at.row + reach);
+         ++row) {
+        for (std::int64_t col = std::max<std::int64_t>(0, at.col - reach);
+             col <= std::min(grid.width - 1, at.col + reach); ++col) {
+            visit(static_cast<std::size_t>(grid.index({col, row})));
+        }
+    }
+}
+
+double crowded_share(RiverLines const& rivers, std::vector<Vec2> const& joints, Grid const& grid, Run const& run) {
+    constexpr std::int64_t near_joint = 5;
+    constexpr std::int32_t nobody = -1;
+    constexpr std::int32_t several = -2;
+    std::vector<std::uint8_t> near(static_cast<std::size_t>(grid.cells()));
+    for (Vec2 const& joint : joints) {
+        around(grid, grid.cell_of(joint), near_joint, [&](std::size_t cell) { near[cell] = 1; });
+    }
+    std::vector<std::int32_t> owner(static_cast<std::size_t>(grid.cells()), nobody);
+    std::vector<Cell> used;
     std::vector<Vec2> plan;
     for (std::size_t i = 0; i < rivers.lines.size(); ++i) {
         run.check();
@@ -132,19 +156,24 @@ double shared_share(RiverLines const& rivers, Grid const& grid, Run const& run) 
         for (Vec3 const& p : rivers.lines[i].vertices) {
             plan.push_back({p.x, p.y});
         }
-        auto const own = static_cast<std::int32_t>(i);
         for (Cell const c : cells_along(plan, grid)) {
-            auto const cell = static_cast<std::size_t>(grid.index(c));
-            cells += owner[cell] == -1;
-            if (owner[cell] == -1) {
-                owner[cell] = own;
-            } else if (owner[cell] != own && owner[cell] != counted && near[cell] == 0) {
-                owner[cell] = counted;
-                ++shared;
+            std::int32_t& own = owner[static_cast<std::size_t>(grid.index(c))];
+            if (own == nobody) {
+                own = static_cast<std::int32_t>(i);
+                used.push_back(c);
+            } else if (own != static_cast<std::int32_t>(i)) {
+                own = several;
             }
         }
     }
-    return static_cast<double>(shared) / static_cast<double>(std::max<std::int64_t>(cells, 1));
+    std::int64_t crowded = 0;
+    for (Cell const c : used) {
+        auto const cell = static_cast<std::size_t>(grid.index(c));
+        bool other = owner[cell] == several;
+        around(grid, c, 1, [&](std::size_t n) { other = other || (owner[n] != nobody && owner[n] != owner[cell]); });
+        crowded += other && near[cell] == 0;
+    }
+    return static_cast<double>(crowded) / static_cast<double>(std::max<std::size_t>(used.size(), 1));
 }
 
 /// The least round number that is allowed by a predicate that holds for all larger ones.
@@ -180,10 +209,17 @@ ChosenCell choose_cell(RiverLines const& rivers, ChooseCellParams const& params,
         auto const usual = static_cast<double>(params.usual_cells);
         auto const most = static_cast<double>(params.most_cells);
         at = first_allowed(rounds, [&](double cell) { return cell >= drawn && cells_of(box, cell) <= usual; });
-        chosen.shared_share = shared_share(rivers, grid_of(box, rounds[at]), run);
-        while (at > 0 && chosen.shared_share > most_shared && cells_of(box, rounds[at - 1]) <= most) {
-            --at;
-            chosen.shared_share = shared_share(rivers, grid_of(box, rounds[at]), run);
+        std::vector<Vec2> const joints = joints_of(rivers);
+        auto const crowded = [&](std::size_t i) { return crowded_share(rivers, joints, grid_of(box, rounds[i]), run); };
+        chosen.crowded_share = crowded(at);
+        while (at > 0 && chosen.crowded_share > most_crowded && cells_of(box, rounds[at - 1]) <= most) {
+            chosen.crowded_share = crowded(--at);
+        }
+        constexpr double most_tried = 3e7;
+        double share = chosen.crowded_share;
+        for (std::size_t i = at; i > 0 && share > most_crowded && cells_of(box, rounds[i - 1]) <= most_tried; --i) {
+            share = crowded(i - 1);
+            chosen.enough_m = share > most_crowded ? 0.0 : rounds[i - 1];
         }
         chosen.cell_m = rounds[at];
     }

@@ -65,10 +65,19 @@ Grid turned_frame(network::Branch const& branch, Grid frame, GridRecipe const& w
 std::string reason(network::ChosenCell const& chosen) {
     std::string words = fmt::format(", from {} lines of {:.4g} km in all, {:.2g} km apart", chosen.lines,
                                     chosen.length_m / 1000.0, chosen.spacing_m / 1000.0);
-    if (chosen.shared_share >= 0.001) {
-        words += fmt::format("; {:.1f} % of the river cells hold two rivers", 100.0 * chosen.shared_share);
-    }
     return words;
+}
+
+/// Says where rivers lie too close together for the cells.
+void warn_of_crowding(network::ChosenCell const& chosen, Run const& run) {
+    constexpr double worth_a_word = 0.01;
+    if (chosen.crowded_share <= worth_a_word) {
+        return;
+    }
+    run.say(fmt::format("warning: {:.1f} % of the river cells lie beside another river. {}",
+                        100.0 * chosen.crowded_share,
+                        chosen.enough_m > 0.0 ? fmt::format("--set grid.cell={} keeps them apart.", chosen.enough_m)
+                                              : "Take a part of the rivers, or set a smaller grid.cell."));
 }
 
 } // namespace
@@ -88,6 +97,7 @@ std::string settle_on_lines(Recipe& recipe, RiverLines const& lines, Run const& 
     network::ChosenCell const chosen =
         network::choose_cell(lines, {.width = recipe.grid.width, .height = recipe.grid.height}, run);
     recipe.grid.cell_m = chosen.cell_m;
+    warn_of_crowding(chosen, run);
     return reason(chosen);
 }
 
