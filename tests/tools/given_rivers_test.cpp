@@ -148,7 +148,7 @@ TEST(GivenRivers, FoldersThatThalwegWrote) {
     Workplace const place;
     made(place, walker, coarse, "first");
     json const again = made(place, "first/", coarse + " --seed 8", "second");
-    EXPECT_EQ(again["recipe"]["network"]["lines"]["path"], "inputs/network.gpkg");
+    EXPECT_NE(file_bytes(place / "second/recipe.toml").find("path = 'inputs/network.gpkg'"), std::string::npos);
     EXPECT_EQ(again["recipe"]["network"]["lines"]["layer"], "arcs");
     EXPECT_EQ(again["network"]["arcs"], report_of(place / "first")["network"]["arcs"]);
     fs::create_directories(place / "converted");

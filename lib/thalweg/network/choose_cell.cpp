@@ -19,7 +19,7 @@ namespace thalweg::network {
 namespace {
 
 constexpr double margin_share = 0.05;
-constexpr double most_crowded = 0.01;
+constexpr double most_crowded = 0.002;
 
 struct Extent {
     double west = std::numeric_limits<double>::infinity();

@@ -70,7 +70,7 @@ std::string reason(network::ChosenCell const& chosen) {
 
 /// Says where rivers lie too close together for the cells.
 void warn_of_crowding(network::ChosenCell const& chosen, Run const& run) {
-    constexpr double worth_a_word = 0.01;
+    constexpr double worth_a_word = 0.002;
     if (chosen.crowded_share <= worth_a_word) {
         return;
     }
