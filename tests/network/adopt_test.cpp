@@ -17,10 +17,13 @@
 using namespace thalweg;
 using network::adopt;
 using network::Adopted;
+using network::AdoptParams;
+using network::Divergences;
 using network::Orientation;
 
 namespace {
 
+constexpr AdoptParams strictly{.divergences = Divergences::error};
 constexpr double no_z = std::numeric_limits<double>::quiet_NaN();
 
 RiverLine flat(std::int64_t feature, std::vector<Vec2> const& plan) {
@@ -182,34 +185,35 @@ TEST(AdoptRefuses, BadSnap) {
 
 TEST(AdoptRefuses, Cycles) {
     auto const triangle = message([] {
-        adopt(flats({{{0, 0}, {4, 0}}, {{4, 0}, {2, 3}}, {{2, 3}, {0, 0}}, {{9, 9}, {4, 0}}}));
+        adopt(flats({{{0, 0}, {4, 0}}, {{4, 0}, {2, 3}}, {{2, 3}, {0, 0}}, {{9, 9}, {4, 0}}}), strictly);
     });
     EXPECT_TRUE(has(triangle, "rivers 1, 2 and 3 in rivers.gpkg form a cycle through (2.000000, 3.000000)"))
         << triangle;
-    auto const braid = message([] { adopt(flats({{{0, 0}, {2, 1}, {4, 0}}, {{0, 0}, {2, -1}, {4, 0}}})); });
+    auto const braid = message([] { adopt(flats({{{0, 0}, {2, 1}, {4, 0}}, {{0, 0}, {2, -1}, {4, 0}}}), strictly); });
     EXPECT_TRUE(has(braid, "rivers 1 and 2 in rivers.gpkg form a cycle")) << braid;
-    auto const ring = message([] { adopt(flats({{{0, 0}, {2, 1}, {4, 0}, {0, 0}}})); });
+    auto const ring = message([] { adopt(flats({{{0, 0}, {2, 1}, {4, 0}, {0, 0}}}), strictly); });
     EXPECT_TRUE(has(ring, "river 1 in rivers.gpkg forms a cycle")) << ring;
-    auto const knot = message([] { adopt(flats({{{0, 0}, {4, 0}, {2, 2}, {2, -2}}})); });
+    auto const knot = message([] { adopt(flats({{{0, 0}, {4, 0}, {2, 2}, {2, -2}}}), strictly); });
     EXPECT_TRUE(has(knot, "river 1 in rivers.gpkg forms a cycle through (2.000000, 0.000000)")) << knot;
-    auto const twice = message([] { adopt(flats({{{0, 0}, {9, 0}}, {{1, 1}, {2, -1}, {3, 1}}})); });
+    auto const twice = message([] { adopt(flats({{{0, 0}, {9, 0}}, {{1, 1}, {2, -1}, {3, 1}}}), strictly); });
     EXPECT_TRUE(has(twice, "rivers 1 and 2 in rivers.gpkg form a cycle through")) << twice;
 }
 
 TEST(AdoptRefuses, Bifurcations) {
     auto const by_height = message([] {
-        adopt(with_heights({{{0, 0, 9}, {0, -5, 5}}, {{0, -5, 5}, {-4, -9, 1}}, {{0, -5, 5}, {3, -9, 2}}}));
+        adopt(with_heights({{{0, 0, 9}, {0, -5, 5}}, {{0, -5, 5}, {-4, -9, 1}}, {{0, -5, 5}, {3, -9, 2}}}), strictly);
     });
     EXPECT_TRUE(has(by_height, "rivers 3 and 2 in rivers.gpkg both run away from (0.000000, -5.000000) by height"))
         << by_height;
     auto const fork = flats({{{0, 0}, {0, -5}}, {{0, -5}, {-4, -9}}, {{0, -5}, {3, -9}}});
-    auto const drawn = message([&] { adopt(fork, {.orientation = Orientation::as_drawn}); });
+    auto const drawn =
+        message([&] { adopt(fork, {.orientation = Orientation::as_drawn, .divergences = Divergences::error}); });
     EXPECT_TRUE(has(drawn, "both run away from (0.000000, -5.000000) by the drawn direction")) << drawn;
     auto ranked = flats({{{0, 0}, {1, 0}}, {{1, 0}, {2, 0}}, {{2, 0}, {3, 0}}});
     ranked.lines[0].rank = 1;
     ranked.lines[1].rank = 5;
     ranked.lines[2].rank = 2;
-    auto const by_rank = message([&] { adopt(ranked); });
+    auto const by_rank = message([&] { adopt(ranked, strictly); });
     EXPECT_TRUE(has(by_rank, "both run away from") && has(by_rank, "by rank")) << by_rank;
 }
 

@@ -101,10 +101,11 @@ OGRLayer& create_layer(LayerTarget const& target, Table const& table) {
     CPLStringList options = options_of(target, table.shape != Table::Shape::none);
     OGRwkbGeometryType type = wkbNone;
     if (table.shape != Table::Shape::none) {
-        type = table.shape == Table::Shape::point     ? wkbPoint25D
-               : table.shape == Table::Shape::line    ? wkbLineString25D
-               : table.shape == Table::Shape::polygon ? wkbPolygon25D
-                                                      : wkbMultiPolygon;
+        type = table.shape == Table::Shape::point       ? wkbPoint25D
+               : table.shape == Table::Shape::line      ? wkbLineString25D
+               : table.shape == Table::Shape::plan_line ? wkbLineString
+               : table.shape == Table::Shape::polygon   ? wkbPolygon25D
+                                                        : wkbMultiPolygon;
     }
     OGRLayer* const layer = target.dataset.CreateLayer(table.name.c_str(), type == wkbNone ? nullptr : target.reference,
                                                        type, options.List());
@@ -182,9 +183,12 @@ void set_shape(OGRFeature& feature, Table const& table, std::int64_t row, LayerT
             line.setPoint(i++, p.x, p.y, p.z);
         }
     };
-    if (table.shape == Table::Shape::line) {
+    if (table.shape == Table::Shape::line || table.shape == Table::Shape::plan_line) {
         OGRLineString line;
         draw(line);
+        if (table.shape == Table::Shape::plan_line) {
+            line.flattenTo2D();
+        }
         target.require(feature.SetGeometry(&line) == OGRERR_NONE);
         return;
     }

@@ -141,4 +141,22 @@ Table ridges_table(RidgeLines const& ridges) {
     return table;
 }
 
+Table secondary_table(std::vector<SecondaryLine> const& secondary) {
+    auto const one = [&secondary](std::int64_t row) -> SecondaryLine const& { return secondary[at(row)]; };
+    Table table{"secondary", Table::Shape::plan_line, static_cast<std::int64_t>(secondary.size()), {}, {}};
+    table.shape_at = [one](std::int64_t row) {
+        std::vector<Vec3> line = one(row).vertices;
+        for (Vec3& v : line) {
+            v.z = 0.0;
+        }
+        return line;
+    };
+    table.columns = {
+        {"feature", Kind::wide_integer, 0, [one](std::int64_t row) { return one(row).feature; }},
+        text("reason", [one](auto row) { return one(row).reason; }),
+        real("length", length_decimals, [one](auto row) { return length_in_plan(one(row).vertices); }),
+    };
+    return table;
+}
+
 } // namespace thalweg::io

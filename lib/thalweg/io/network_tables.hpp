@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <thalweg/core/ridge_lines.hpp>
+#include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/table.hpp>
 #include <thalweg/io/write_network.hpp>
@@ -22,5 +23,8 @@ Table nodes_table(NetworkTables const& tables, NetworkIndex const& index);
 
 /// The layer ridges of the network schema. The argument must outlive the table; every ridge has a vertex.
 Table ridges_table(RidgeLines const& ridges);
+
+/// The layer secondary: lines that are not in the network, in plan. The argument must outlive the table.
+Table secondary_table(std::vector<SecondaryLine> const& secondary);
 
 } // namespace thalweg::io

@@ -23,6 +23,7 @@
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/into_metres.hpp>
+#include <thalweg/io/river_fields.hpp>
 #include <thalweg/io/rivers_layer.hpp>
 
 namespace thalweg::io {
@@ -80,14 +81,13 @@ int find_rank_field(OGRLayer& layer, ReadRiversParams const& params, std::string
     return is_number ? index : -1;
 }
 
-std::int64_t rank_of(OGRFeature const& feature, int field, std::string const& name) {
+std::int64_t rank_of(OGRFeature const& feature, int field, std::int64_t number, std::string const& name) {
     if (field < 0 || feature.IsFieldSetAndNotNull(field) == 0) {
         return 0;
     }
     double const value = feature.GetFieldAsDouble(field);
     if (!(std::fabs(value) < 9e15) || value != std::floor(value)) { // beyond, doubles leave out whole numbers
-        refuse_rivers(
-            fmt::format("feature {} of {} has the rank {}: a whole number is wanted", feature.GetFID(), name, value));
+        refuse_rivers(fmt::format("feature {} of {} has the rank {}: a whole number is required", number, name, value));
     }
     return feature.GetFieldAsInteger64(field);
 }
@@ -104,7 +104,7 @@ double number_in(OGRFeature const& feature, int field) {
     return error == std::errc{} && end == text.data() + text.size() ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-int lambda_of(OGRFeature const& feature, int field, Vec3 begin, std::string const& name) {
+int lambda_of(OGRFeature const& feature, int field, RiverLine const& line, std::string const& name) {
     if (field < 0 || feature.IsFieldSetAndNotNull(field) == 0) {
         return 0;
     }
@@ -112,9 +112,9 @@ int lambda_of(OGRFeature const& feature, int field, Vec3 begin, std::string cons
     if (!(value >= 1.0 && value <= 50.0) || value != std::floor(value)) {
         refuse_rivers(
             fmt::format("feature {} of {}, which begins at ({}, {}), has the {} '{}': a whole number from 1 to 50 "
-                        "is wanted, or none",
-                        feature.GetFID(), name, begin.x, begin.y, feature.GetFieldDefnRef(field)->GetNameRef(),
-                        feature.GetFieldAsString(field)));
+                        "is required, or none",
+                        line.feature, name, line.vertices.front().x, line.vertices.front().y,
+                        feature.GetFieldDefnRef(field)->GetNameRef(), feature.GetFieldAsString(field)));
     }
     return static_cast<int>(value);
 }
@@ -134,10 +134,6 @@ void add_parts(OGRGeometry const& geometry, RiverLine const& feature, std::strin
             fmt::format("feature {} of {} is a {}, not a line", feature.feature, name, OGRGeometryTypeToName(flat)));
     }
     auto const& drawn = *geometry.toLineString();
-    if (drawn.getNumPoints() < 2) {
-        refuse_rivers(fmt::format("feature {} of {} is a line of {} vertices; remove it", feature.feature, name,
-                                  drawn.getNumPoints()));
-    }
     RiverLine line = feature;
     for (int i = 0; i < drawn.getNumPoints(); ++i) {
         double const x = drawn.getX(i);
@@ -149,38 +145,72 @@ void add_parts(OGRGeometry const& geometry, RiverLine const& feature, std::strin
         }
         line.vertices.push_back({x, y, z});
     }
-    lines.push_back(std::move(line));
+    bool const has_length = std::ranges::any_of(
+        line.vertices, [&](Vec3 v) { return v.x != line.vertices.front().x || v.y != line.vertices.front().y; });
+    if (has_length) {
+        lines.push_back(std::move(line));
+    }
 }
 
-std::vector<RiverLine> read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string const& name,
-                                  Run const& run) {
+// A feature that holds no line.
+Finding left_out(std::int64_t feature, OGRGeometry const* drawn) {
+    OGREnvelope box;
+    if (drawn != nullptr && drawn->IsEmpty() == 0) {
+        drawn->getEnvelope(&box);
+    }
+    return {"left_out",
+            feature,
+            {box.IsInit() != 0 ? box.MinX : 0.0, box.IsInit() != 0 ? box.MinY : 0.0},
+            0.0,
+            fmt::format("feature {} {}; it is left out", feature,
+                        drawn == nullptr ? "has no geometry" : "has no line of any length")};
+}
+
+// Where lines of the layer go, in its coordinates.
+struct Read {
+    std::vector<RiverLine> lines;
+    std::vector<RiverLine> unnatural;
+    std::vector<std::string> reasons; ///< of these
+    std::vector<Finding> findings;
+};
+
+Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string const& name, Run const& run) {
     int const type_field =
         params.type_field.empty() ? -1 : find_field(layer, params.type_field, params.type_field == "rosgen", name);
     int const rank_field = find_rank_field(layer, params, name);
     int const lambda_field = params.lambda_field.empty()
                                  ? -1
                                  : find_field(layer, params.lambda_field, params.lambda_field == "lambda", name);
-    std::vector<RiverLine> lines;
+    RiverFields fields(layer);
+    Read read;
+    std::int64_t number = 0;
     for (auto const& feature : layer) {
         run.check();
         RiverLine line;
-        line.feature = feature->GetFID();
-        line.rank = rank_of(*feature, rank_field, name);
+        line.feature = ++number;
+        line.rank = rank_of(*feature, rank_field, number, name);
         if (type_field >= 0 && feature->IsFieldSetAndNotNull(type_field) != 0) {
             line.type = feature->GetFieldAsString(type_field);
         }
+        fields.read(*feature, line);
         OGRGeometry const* const drawn = feature->GetGeometryRef();
-        if (drawn == nullptr || drawn->IsEmpty() != 0) {
-            refuse_rivers(fmt::format("feature {} of {} has no line; remove it", line.feature, name));
-        }
-        std::unique_ptr<OGRGeometry> const straight(drawn->getLinearGeometry());
+        std::string const reason = params.filter == LineFilter::natural ? fields.unnatural(*feature) : "";
+        auto& lines = reason.empty() ? read.lines : read.unnatural;
         std::size_t const first = lines.size();
-        add_parts(*straight, line, name, lines);
-        for (std::size_t k = first; k < lines.size(); ++k) {
-            lines[k].lambda = lambda_of(*feature, lambda_field, lines[first].vertices.front(), name);
+        if (drawn != nullptr && drawn->IsEmpty() == 0) {
+            std::unique_ptr<OGRGeometry> const straight(drawn->getLinearGeometry());
+            add_parts(*straight, line, name, lines);
         }
+        if (lines.size() == first) {
+            read.findings.push_back(left_out(number, drawn));
+        }
+        for (std::size_t k = first; k < lines.size(); ++k) {
+            lines[k].lambda = lambda_of(*feature, lambda_field, lines[first], name);
+        }
+        read.reasons.resize(read.unnatural.size(), reason);
     }
-    return lines;
+    fields.link(read.lines);
+    return read;
 }
 
 struct Box {
@@ -221,6 +251,26 @@ void bring(std::vector<RiverLine>& lines, IntoMetres const& metres, std::string 
     }
 }
 
+void bring(std::vector<Finding>& findings, IntoMetres const& metres) {
+    for (Finding& finding : findings) {
+        Vec3 at{finding.where.x, finding.where.y, 0.0};
+        bool const has_place = finding.where.x != 0.0 || finding.where.y != 0.0;
+        finding.where = has_place && metres.apply({&at, 1}).front() != 0 ? Vec2{at.x, at.y} : Vec2{};
+    }
+}
+
+std::string nothing_left(Read const& read, std::string const& what) {
+    if (!read.unnatural.empty()) {
+        return fmt::format("{} holds no natural watercourse: {} lines are left out, the first of them for its {}; set "
+                           "network.lines.filter = \"none\" to take them all",
+                           what, read.unnatural.size(), read.reasons.front());
+    }
+    if (!read.findings.empty()) {
+        return fmt::format("{} holds no line: {}", what, read.findings.front().text);
+    }
+    return what + " is empty";
+}
+
 // As coarse as what was projected: a millionth of a metre.
 bool have_heights(std::vector<RiverLine> const& lines) {
     double const first = lines.front().vertices.front().z;
@@ -253,11 +303,13 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     OGRLayer& layer = rivers_layer(*data, params.layer, name, "io.read_rivers");
     RiverLines rivers;
     rivers.name = name;
-    rivers.lines = read_lines(layer, params, name, run);
+    Read read = read_lines(layer, params, name, run);
     driver.check("io.read_rivers: " + params.path);
-    if (rivers.lines.empty()) {
-        refuse_rivers(fmt::format("layer {} of {} is empty", layer.GetName(), name));
+    if (read.lines.empty()) {
+        refuse_rivers(nothing_left(read, fmt::format("layer {} of {}", layer.GetName(), name)));
     }
+    rivers.lines = std::move(read.lines);
+    rivers.findings = std::move(read.findings);
     OGRSpatialReference const* const own = layer.GetSpatialRef();
     if (own == nullptr || own->IsEmpty()) {
         refuse_rivers(
@@ -265,12 +317,19 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     }
     IntoMetres const metres(*own, params.crs, middle_of(rivers.lines), name);
     rivers.crs = metres.crs();
-    bring(rivers.lines, metres, name, driver, run);
-    for (auto& line : rivers.lines) {
-        for (auto& v : line.vertices) {
-            v = {rounded(v.x), rounded(v.y), metres.height_unit_m() * v.z};
+    for (auto* const lines : {&rivers.lines, &read.unnatural}) {
+        bring(*lines, metres, name, driver, run);
+        for (auto& line : *lines) {
+            for (auto& v : line.vertices) {
+                v = {rounded(v.x), rounded(v.y), metres.height_unit_m() * v.z};
+            }
         }
     }
+    for (std::size_t k = 0; k < read.unnatural.size(); ++k) {
+        rivers.secondary.push_back({read.unnatural[k].feature, std::move(read.unnatural[k].vertices),
+                                    std::move(read.reasons[k]), read.unnatural[k].feature});
+    }
+    bring(rivers.findings, metres);
     rivers.has_z = have_heights(rivers.lines);
     return rivers;
 }

@@ -26,7 +26,7 @@ struct Column {
 
 /// A layer of a vector file: its features are the rows [0, rows), numbered from 1.
 struct Table {
-    enum class Shape { none, point, line, polygon, multi_polygon };
+    enum class Shape { none, point, line, plan_line, polygon, multi_polygon }; ///< plan_line: without heights
 
     std::string name;
     Shape shape = Shape::none;

@@ -50,6 +50,9 @@ void write_geopackage(NetworkTables const& tables, std::string const& path, Run 
         require_lines(*tables.ridges, "io.write_geopackage: " + file);
         layers.push_back(ridges_table(*tables.ridges));
     }
+    if (tables.secondary != nullptr && !tables.secondary->empty()) {
+        layers.push_back(secondary_table(*tables.secondary));
+    }
     layers.push_back(run_table(tables.run));
     write_tables(layers, tables.crs, file, run);
 }

@@ -9,6 +9,7 @@
 
 #include <thalweg/core/grid.hpp>
 #include <thalweg/core/ridge_lines.hpp>
+#include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/schema.hpp>
@@ -23,10 +24,11 @@ struct NetworkTables {
     std::vector<double> const& ds_area_m2;   ///< by arc; likewise
     std::vector<double> const& node_area_m2; ///< by node; likewise
     std::string crs;
-    std::map<std::string, std::string> run;             ///< rows of the GeoPackage's run table
-    std::vector<std::uint8_t> const* braided = nullptr; ///< by arc, 1 or 0; without it all are 0
-    RidgeLines const* ridges = nullptr;                 ///< layer ridges of the GeoPackage; none when null or empty
-    bool heights = true;                                ///< else nobody knows them, and 0 stands for each
+    std::map<std::string, std::string> run;                ///< rows of the GeoPackage's run table
+    std::vector<std::uint8_t> const* braided = nullptr;    ///< by arc, 1 or 0; without it all are 0
+    RidgeLines const* ridges = nullptr;                    ///< layer ridges of the GeoPackage; none when null or empty
+    std::vector<SecondaryLine> const* secondary = nullptr; ///< layer secondary of the GeoPackage; likewise
+    bool heights = true;                                   ///< else nobody knows them, and 0 stands for each
 };
 
 /// Writes PATH (.gpkg is added where it is missing): layers arcs (LineStringZ) and nodes (PointZ), table run, with the
@@ -35,7 +37,8 @@ struct NetworkTables {
 /// has grown, else 1). dist_out of an arc counts from its downstream end, as NHDPlus (Pathlength) and HydroRIVERS
 /// (DIST_DN_KM) have it. arc_id is the arc's number + 1, node_id the node's
 /// + 1. Where there are ridges, also the layer ridges (LineStringZ): ridge_id, the ridge's number + 1; left and right,
-/// the labels of its streams; length [m] in plan; z_min and z_max [m]. Shapefiles have none.
+/// the labels of its streams; length [m] in plan; z_min and z_max [m]. Where there are lines that are not in the
+/// network, also the layer secondary (LineString): feature, reason (text) and length [m]. Shapefiles have neither.
 /// Gives: the same bytes for the same network, on any day. Throws: BadInput naming the arc or node when the values do
 /// not belong to the network, an arc's end is not its node, a node reaches no outlet, a ridge has fewer than two
 /// vertices, a number is not finite or, in a shapefile, has more digits than its field; IoError, also when the file

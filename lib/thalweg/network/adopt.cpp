@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -159,6 +160,19 @@ std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
     return result;
 }
 
+void add_stretch(std::vector<Stretch>& stretches, std::int64_t feature, double length_m) {
+    double const from_m = stretches.empty() ? 0.0 : stretches.back().to_m;
+    if (stretches.empty() || stretches.back().feature != feature) {
+        stretches.push_back({feature, from_m, from_m});
+    }
+    stretches.back().to_m += length_m;
+}
+
+// Of several as long the most upstream.
+std::int64_t longest_of(std::vector<Stretch> const& stretches) {
+    return std::ranges::max_element(stretches, {}, [](Stretch const& s) { return s.to_m - s.from_m; })->feature;
+}
+
 void add_arcs(Adopted& adopted, Flow const& flow, std::vector<double> const& node_z, bool join) {
     auto const inner = join ? vanishing(flow, adopted.repairs) : std::vector<char>(flow.leaves.size(), 0);
     auto const heads = [&] {
@@ -183,15 +197,12 @@ void add_arcs(Adopted& adopted, Flow const& flow, std::vector<double> const& nod
     for (std::size_t const head : heads) {
         Arc arc;
         std::vector<double> z;
-        double longest = -1.0;
+        std::vector<Stretch> stretches;
         std::size_t n = head;
         do {
             auto const& piece = flow.pieces.pieces[static_cast<std::size_t>(flow.leaves[n])];
-            if (piece.length_m > longest) {
-                longest = piece.length_m;
-                arc.feature = flow.line(n).feature;
-                arc.type = flow.line(n).type;
-            }
+            arc.type = flow.line(n).type;
+            add_stretch(stretches, flow.line(n).feature, piece.length_m);
             auto const vertices = flow.vertices(n);
             for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
                 arc.line.push_back({vertices[i].x, vertices[i].y});
@@ -200,6 +211,8 @@ void add_arcs(Adopted& adopted, Flow const& flow, std::vector<double> const& nod
             n = flow.downstream(n);
         } while (inner[n] != 0);
         arc.line.push_back(flow.pieces.nodes[n]);
+        arc.feature = longest_of(stretches);
+        adopted.stretches.push_back(std::move(stretches));
         NodeId const from = node(head);
         add_arc(adopted.network, from, node(n), std::move(arc));
         if (!node_z.empty()) {
@@ -241,8 +254,23 @@ Adopted adopt(RiverLines const& file, AdoptParams const& params, Run const& run)
     run.at(0.2, "adopt");
     adopt_steps::split(lines, run);
     run.at(0.7, "adopt");
-    auto const pieces = adopt_steps::cut(lines, file.name, repairs);
-    Flow const flow{pieces, lines, adopt_steps::orient(pieces, lines, file, params.orientation, repairs)};
+    auto pieces = adopt_steps::cut(lines, repairs);
+    std::vector<std::int64_t> leaves;
+    if (params.divergences == Divergences::error) {
+        adopt_steps::refuse_cycles(pieces, lines, file.name);
+        leaves = adopt_steps::orient(pieces, lines, file, params);
+    } else {
+        auto divided = adopt_steps::divide(pieces, lines, file, params.orientation, run);
+        leaves = adopt_steps::orient(pieces, lines, file, params);
+        adopt_steps::drop_unfed(pieces, divided, leaves);
+        adopted.secondary = adopt_steps::secondary_lines(pieces, divided, lines, repairs);
+    }
+    adopt_steps::report_turned(pieces, lines, leaves, repairs);
+    Flow const flow{pieces, lines, std::move(leaves)};
+    if (std::ranges::all_of(flow.leaves, [](std::int64_t k) { return k < 0; })) {
+        throw BadInput(
+            fmt::format("network.adopt: the lines of {} are closed rings: no river runs anywhere", file.name));
+    }
     add_arcs(adopted, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join);
     run.at(1.0, "adopt");
     return adopted;

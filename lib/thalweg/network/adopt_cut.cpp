@@ -64,6 +64,8 @@ std::vector<std::vector<std::size_t>> owners_of(Numbering const& numbering) {
     return owners;
 }
 
+} // namespace
+
 void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::string const& name) {
     std::vector<std::size_t> root(p.nodes.size());
     std::iota(root.begin(), root.end(), std::size_t{0});
@@ -113,15 +115,14 @@ void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::st
         Vec2 const at = p.nodes[piece.from];
         Vec2 const through = p.nodes[piece.to];
         throw BadInput(fmt::format("network.adopt: river{} {} in {} {} a cycle through ({:.6f}, {:.6f}) and ({:.6f}, "
-                                   "{:.6f}); water has one way down from every place: remove one branch",
+                                   "{:.6f}); water has one way down from every place: remove one "
+                                   "branch, or keep the main one by divergences = \"main\"",
                                    features.size() == 1 ? "" : "s", named, name,
                                    features.size() == 1 ? "forms" : "form", at.x, at.y, through.x, through.y));
     }
 }
 
-} // namespace
-
-Pieces cut(std::vector<RiverLine> const& lines, std::string const& name, std::vector<Finding>& repairs) {
+Pieces cut(std::vector<RiverLine> const& lines, std::vector<Finding>& repairs) {
     auto const numbering = number(lines);
     auto const owners = owners_of(numbering);
     std::vector<int> degree(numbering.at.size(), 0);
@@ -178,7 +179,6 @@ Pieces cut(std::vector<RiverLine> const& lines, std::string const& name, std::ve
             p.at_node[p.pieces[k].to].push_back(k);
         }
     }
-    refuse_cycles(p, lines, name);
     return p;
 }
 

@@ -56,7 +56,7 @@ struct Piece {
     double length_m = 0.0;
 };
 
-/// Lines cut where they meet: a forest of pieces over the nodes.
+/// Lines cut where they meet: pieces over the nodes.
 struct Pieces {
     std::vector<Piece> pieces;
     std::vector<Vec2> nodes;
@@ -64,11 +64,37 @@ struct Pieces {
 };
 
 /// Cuts split lines into pieces; what lies on an earlier line is dropped.
-/// Throws BadInput naming rivers and place when they form a cycle.
-Pieces cut(std::vector<RiverLine> const& lines, std::string const& name, std::vector<Finding>& repairs);
+Pieces cut(std::vector<RiverLine> const& lines, std::vector<Finding>& repairs);
+
+/// Throws BadInput naming rivers and place when pieces form a cycle.
+void refuse_cycles(Pieces const& pieces, std::vector<RiverLine> const& lines, std::string const& name);
+
+/// Which pieces are not in the network, and what is known of the direction of all.
+struct Divided {
+    std::vector<char const*> reason; ///< by piece: why it is secondary; null where it is not
+    std::vector<int> runs;           ///< by piece: 1 as drawn, -1 against it, 0 nobody knows
+};
+
+/// Keeps the main path wherever water could go more than one way, and takes the pieces of the others out of
+/// pieces.at_node: what stays there is a forest.
+Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
+               Run const& run);
 
 /// The piece that leaves each node, by node; -1 at outlets. The network flows along pieces towards them.
+/// Takes: a forest. Throws: BadInput naming rivers and place where two run away, under Divergences::error.
 std::vector<std::int64_t> orient(Pieces const& pieces, std::vector<RiverLine> const& lines, RiverLines const& file,
-                                 Orientation orientation, std::vector<Finding>& repairs);
+                                 AdoptParams const& params);
+
+/// Takes out of the network what a minor channel fed alone: from there down to the next node where something else
+/// flows in.
+void drop_unfed(Pieces& pieces, Divided& divided, std::vector<std::int64_t>& leaves);
+
+/// Tells of the lines that run against their drawn direction.
+void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::vector<std::int64_t> const& leaves,
+                   std::vector<Finding>& repairs);
+
+/// The secondary pieces as lines, each with a finding.
+std::vector<SecondaryLine> secondary_lines(Pieces const& pieces, Divided const& divided,
+                                           std::vector<RiverLine> const& lines, std::vector<Finding>& repairs);
 
 } // namespace thalweg::network::adopt_steps

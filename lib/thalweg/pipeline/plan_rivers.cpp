@@ -80,12 +80,31 @@ void warn_of_crowding(network::ChosenCell const& chosen, Run const& run) {
                                               : "Take a part of the rivers, or set a smaller grid.cell."));
 }
 
+/// What the file holds that is not a river.
+std::vector<Finding> left_out(RiverLines const& lines) {
+    std::vector<Finding> findings = lines.findings;
+    for (SecondaryLine const& one : lines.secondary) {
+        std::vector<Vec2> plan;
+        for (Vec3 const v : one.vertices) {
+            plan.push_back({v.x, v.y});
+        }
+        findings.push_back({"secondary", one.feature, plan.front(), length_of(plan),
+                            fmt::format("line {} is not a river: {}", one.feature, one.reason)});
+    }
+    return findings;
+}
+
 } // namespace
 
 RiverLines read_lines(Recipe const& recipe, Run const& run) {
     LinesRecipe const& wanted = recipe.network->lines;
     std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
-    return io::read_rivers({file_in(recipe, wanted.path), wanted.layer, wanted.type_field, wanted.rank_field, crs},
+    return io::read_rivers({.path = file_in(recipe, wanted.path),
+                            .layer = wanted.layer,
+                            .type_field = wanted.type_field,
+                            .rank_field = wanted.rank_field,
+                            .crs = crs,
+                            .filter = wanted.filter},
                            run);
 }
 
@@ -150,10 +169,16 @@ Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& ru
         }
     }
     network::Adopted adopted = diary.stage("adopt", [&] {
-        return network::adopt(lines, {wanted.snap_m, wanted.orientation}, run);
+        return network::adopt(
+            lines, {.snap_m = wanted.snap_m, .orientation = wanted.orientation, .divergences = wanted.divergences},
+            run);
     });
-    diary.say(fmt::format("{} arcs, {} repairs", boost::num_edges(adopted.network), adopted.repairs.size()));
-    terrain.story.repairs = adopted.repairs;
+    terrain.story.repairs = left_out(lines);
+    terrain.story.repairs.insert(terrain.story.repairs.end(), adopted.repairs.begin(), adopted.repairs.end());
+    terrain.secondary = lines.secondary;
+    terrain.secondary.insert(terrain.secondary.end(), adopted.secondary.begin(), adopted.secondary.end());
+    diary.say(fmt::format("{} arcs, {} repairs{}", boost::num_edges(adopted.network), terrain.story.repairs.size(),
+                          terrain.secondary.empty() ? "" : fmt::format(", {} secondary", terrain.secondary.size())));
 
     Planned planned{std::move(adopted.network), grid, {}};
     Heights& heights = recipe.network->heights;

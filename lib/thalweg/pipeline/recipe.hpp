@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <thalweg/detail/midpoint.hpp>
+#include <thalweg/io/read_rivers.hpp>
 #include <thalweg/io/schema.hpp>
 #include <thalweg/network/adopt.hpp>
 #include <thalweg/network/grow_dla.hpp>
@@ -63,6 +64,8 @@ struct LinesRecipe {
     std::string rank_field;
     double snap_m = 0.0; ///< [m] 0 takes 1e-6 of the box's diagonal
     network::Orientation orientation = network::Orientation::automatic;
+    network::Divergences divergences = network::Divergences::main;
+    io::LineFilter filter = io::LineFilter::natural;
 };
 
 struct TokunagaRecipe {

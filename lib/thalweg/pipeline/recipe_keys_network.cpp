@@ -178,6 +178,17 @@ void add_network_keys(std::vector<Key>& keys) {
          {"topology", Orientation::topology}},
         "what decides the flow direction of a line",
         in_network<Orientation>([](NetworkRecipe& n) -> Orientation& { return n.lines.orientation; })));
+    keys.push_back(choice<network::Divergences>(
+        "network.lines.divergences", {{"main", network::Divergences::main}, {"error", network::Divergences::error}},
+        "where water could go more than one way: keep the main path and report the other branches as secondary, or "
+        "refuse the file",
+        in_network<network::Divergences>(
+            [](NetworkRecipe& n) -> network::Divergences& { return n.lines.divergences; })));
+    keys.push_back(choice<io::LineFilter>(
+        "network.lines.filter", {{"natural", io::LineFilter::natural}, {"none", io::LineFilter::none}},
+        "natural leaves out canals, ditches, pipes, weirs and coastlines, as the fields of OSM and NHD name them; none "
+        "keeps all lines",
+        in_network<io::LineFilter>([](NetworkRecipe& n) -> io::LineFilter& { return n.lines.filter; })));
 }
 
 } // namespace thalweg::pipeline

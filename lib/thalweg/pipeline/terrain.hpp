@@ -13,6 +13,7 @@
 #include <thalweg/core/channels.hpp>
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/ridge_lines.hpp>
+#include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/tin.hpp>
@@ -96,7 +97,8 @@ struct Terrain {
     Recipe recipe; ///< every default resolved: made again, it gives the same terrain
     Grid grid;
     RaisedNetwork network;
-    Mask land; ///< 0: sea, which has no heights; without cells: all is land
+    std::vector<SecondaryLine> secondary; ///< lines of the file that are not in the network
+    Mask land;                            ///< 0: sea, which has no heights; without cells: all is land
     NetworkOrders orders;
     network::StreamCounts streams; ///< side branches, as drawn
     network::RiverTypes types;     ///< by arc, where rivers have types; else empty

@@ -131,7 +131,8 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
                                    t.grid.crs,
                                    about,
                                    t.types.braided.empty() ? nullptr : &t.types.braided,
-                                   &t.ridges};
+                                   &t.ridges,
+                                   &t.secondary};
     io::write_geopackage(tables, out.path("network"), run);
     io::write_shapefiles(tables, out.path("network"), run);
     if (t.recipe.output.schema != io::Schema::native) {

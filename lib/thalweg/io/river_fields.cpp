@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/river_fields.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <ogrsf_frmts.h>
+
+namespace thalweg::io {
+
+namespace {
+
+using Names = std::pair<std::string_view, std::string_view>;
+
+// The fields of a line's own id and of the id downstream; the first pair that a layer has counts.
+constexpr std::array<Names, 8> links{{
+    {"hydroseq", "dnhydroseq"},  // NHDPlus
+    {"comid", "tocomid"},        // nhdplusTools
+    {"hyriv_id", "next_down"},   // HydroRIVERS
+    {"object_id", "nextdownid"}, // EU-Hydro
+    {"arc_id", "ds_arc"},        // thalweg
+    {"linkno", "dslinkno"},      // TauDEM
+    {"stream", "next_stream"},   // GRASS
+    {"cat", "next_stream"},
+}};
+
+// How great a river is, the most telling first: what a minor channel carries, areas, discharge, orders.
+constexpr std::array<std::string_view, 15> sizes{"divdasqkm", "upland_skm", "dis_av_cms", "ds_area",     "dscontarea",
+                                                 "totdasqkm", "streamcalc", "streamorde", "streamorder", "ord_stra",
+                                                 "strahler",  "strmorder",  "stream_ord", "strord",      "horton"};
+
+constexpr std::array<std::string_view, 6> names{"name",       "gnis_name", "nametxtint",
+                                                "river_name", "rivername", "riv_name"};
+
+// Values of OpenStreetMap's key waterway that are natural watercourses.
+constexpr std::array<std::string_view, 8> natural_waterways{"river", "stream", "tidal_channel", "brook",
+                                                            "creek", "wadi",   "rapids",        "waterfall"};
+
+template <std::size_t N> int first_of(OGRFeatureDefn& schema, std::array<std::string_view, N> const& wanted) {
+    for (std::string_view const name : wanted) {
+        if (int const field = schema.GetFieldIndex(std::string(name).c_str()); field >= 0) {
+            return field;
+        }
+    }
+    return -1;
+}
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool is_number_field(OGRFeatureDefn& schema, int field) {
+    auto const type = schema.GetFieldDefn(field)->GetType();
+    return type == OFTInteger || type == OFTInteger64 || type == OFTReal;
+}
+
+// NHD: 566xx coastline, 428xx pipeline, 336xx canal or ditch.
+std::string kind_of_fcode(double code) {
+    switch (static_cast<int>(code) / 100) {
+    case 566: return "Coastline";
+    case 428: return "Pipeline";
+    case 336: return "CanalDitch";
+    default: return "";
+    }
+}
+
+} // namespace
+
+RiverFields::RiverFields(OGRLayer& layer) {
+    OGRFeatureDefn& schema = *layer.GetLayerDefn();
+    auto const find = [&](char const* name) { return schema.GetFieldIndex(name); };
+    for (auto const& [own, down] : links) {
+        id_ = find(std::string(own).c_str());
+        down_ = find(std::string(down).c_str());
+        if (id_ >= 0 && down_ >= 0) {
+            break;
+        }
+        id_ = down_ = -1;
+    }
+    auto const numeric = [&](int field) { return field >= 0 && is_number_field(schema, field) ? field : -1; };
+    divergence_ = numeric(find("divergence"));
+    calculated_order_ = numeric(find("streamcalc"));
+    order_ = numeric(find("streamorde") >= 0 ? find("streamorde") : find("streamorder"));
+    size_ = numeric(first_of(schema, sizes));
+    name_ = first_of(schema, names);
+    waterway_ = find("waterway");
+    tunnel_ = find("tunnel");
+    man_made_ = find("man_made");
+    ftype_ = find("ftype");
+    fcode_ = numeric(find("fcode"));
+}
+
+std::string RiverFields::text(OGRFeature const& feature, int field) const {
+    return field >= 0 && feature.IsFieldSetAndNotNull(field) != 0 ? feature.GetFieldAsString(field) : "";
+}
+
+double RiverFields::number(OGRFeature const& feature, int field) const {
+    double const value = field >= 0 && feature.IsFieldSetAndNotNull(field) != 0 ? feature.GetFieldAsDouble(field) : 0.0;
+    return std::isfinite(value) ? value : 0.0;
+}
+
+void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
+    line.size = std::max(0.0, number(feature, size_));
+    line.name = text(feature, name_);
+    double const divergence = number(feature, divergence_);
+    bool const minor_path = calculated_order_ >= 0 && feature.IsFieldSetAndNotNull(calculated_order_) != 0 &&
+                            number(feature, calculated_order_) == 0.0 && number(feature, order_) > 0.0;
+    if (divergence == 1.0) {
+        line.channel = Channel::main;
+    } else if (divergence == 2.0 || minor_path) {
+        line.channel = Channel::minor;
+    }
+    if (std::string const own = text(feature, id_); !own.empty()) {
+        feature_of_.try_emplace(own, line.feature);
+        if (std::string const down = text(feature, down_); !down.empty() && down != own) {
+            down_of_.emplace(line.feature, down);
+        }
+    }
+}
+
+std::string RiverFields::unnatural(OGRFeature const& feature) const {
+    if (std::string const kind = lower(text(feature, waterway_));
+        !kind.empty() && std::ranges::find(natural_waterways, kind) == natural_waterways.end()) {
+        return "waterway " + kind;
+    }
+    if (std::string const tunnel = lower(text(feature, tunnel_)); tunnel == "flooded") {
+        return "tunnel " + tunnel;
+    }
+    if (std::string const made = lower(text(feature, man_made_)); made == "pipeline") {
+        return "man_made " + made;
+    }
+    // NHD gives its types in words, or by their numbers.
+    std::string const type = text(feature, ftype_);
+    std::string const kind = lower(type);
+    if (kind == "coastline" || kind == "pipeline" || kind == "canalditch" || kind == "566" || kind == "428" ||
+        kind == "336") {
+        return "FTYPE " + type;
+    }
+    if (std::string const of_code = kind_of_fcode(number(feature, fcode_)); !of_code.empty()) {
+        return fmt::format("FCODE {} {}", text(feature, fcode_), of_code);
+    }
+    return "";
+}
+
+void RiverFields::link(std::vector<RiverLine>& lines) const {
+    for (RiverLine& line : lines) {
+        if (auto const down = down_of_.find(line.feature); down != down_of_.end()) {
+            auto const below = feature_of_.find(down->second);
+            line.down = below == feature_of_.end() || below->second == line.feature ? 0 : below->second;
+        }
+    }
+}
+
+} // namespace thalweg::io

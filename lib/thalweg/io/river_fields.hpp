@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <thalweg/core/river_lines.hpp>
+
+class OGRFeature;
+class OGRLayer;
+
+/// What the fields of river files say: NHDPlus, HydroRIVERS, EU-Hydro, OpenStreetMap, and the schemas of networks.
+/// docs/river_files.md lists them. Private to this module.
+namespace thalweg::io {
+
+class RiverFields {
+public:
+    /// Finds the known fields in any case of letters.
+    explicit RiverFields(OGRLayer& layer);
+
+    /// Sets channel, size and name, and remembers the links of the feature.
+    void read(OGRFeature const& feature, RiverLine& line);
+    /// Why a feature is no natural watercourse ("FTYPE Coastline"); "" where it is one, or no field says so.
+    std::string unnatural(OGRFeature const& feature) const;
+    /// Sets `down` of all lines, once every feature has been read.
+    void link(std::vector<RiverLine>& lines) const;
+
+private:
+    struct Ids {
+        std::string own;
+        std::string down;
+    };
+    std::string text(OGRFeature const& feature, int field) const;
+    double number(OGRFeature const& feature, int field) const;
+
+    int id_ = -1;
+    int down_ = -1;
+    int divergence_ = -1;
+    int calculated_order_ = -1; ///< StreamCalc of NHDPlus: 0 on minor paths
+    int order_ = -1;
+    int size_ = -1;
+    int name_ = -1;
+    int waterway_ = -1;
+    int tunnel_ = -1;
+    int man_made_ = -1;
+    int ftype_ = -1;
+    int fcode_ = -1;
+    std::map<std::string, std::int64_t> feature_of_; ///< by own id: the first feature that has it
+    std::map<std::int64_t, std::string> down_of_;    ///< by feature: the id downstream
+};
+
+} // namespace thalweg::io
