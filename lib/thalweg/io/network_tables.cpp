@@ -142,7 +142,7 @@ Table ridges_table(RidgeLines const& ridges) {
 }
 
 Table secondary_table(std::vector<SecondaryLine> const& secondary) {
-    auto const one = [&secondary](std::int64_t row) -> SecondaryLine const& { return secondary[at(row)]; };
+    auto const one = [&secondary](std::int64_t row) -> SecondaryLine const& { return secondary[as_index(row)]; };
     Table table{"secondary", Table::Shape::plan_line, static_cast<std::int64_t>(secondary.size()), {}, {}};
     table.shape_at = [one](std::int64_t row) {
         std::vector<Vec3> line = one(row).vertices;
