@@ -15,7 +15,7 @@
 #include <string>
 
 /// A folder with one small file for each key that names a file. All lie on or over the two places where recipes without
-/// `grid.origin` lie: 64 x 64 cells of 30 m south-east of (500000, 5000000), and the rivers around (500900, 5000800).
+/// `grid.origin` lie: south-east of (500000, 5000000), and around the rivers at (500900, 5000800).
 class WalkFiles {
 public:
     WalkFiles() {
@@ -30,6 +30,12 @@ public:
                                        line("[501050,5000900],[500200,5001500]", R"("rosgen":"A")")));
         write("one_stroke.geojson", layer(line("[501000,5000010],[501100,5001700]", "")));
         write("region.geojson", layer(polygon(square(500300, 5000300, 1300))));
+        write("second_region.geojson", layer(polygon(square(500300, 5000300, 1500))));
+        write("loop.geojson",
+              layer(upper + "," + lower + "," + line("[500700,5001200],[500500,5000900],[500900,5000700]", "")));
+        write("canal.geojson",
+              layer(upper + "," + lower + "," +
+                    line("[501500,5001600],[501200,5001100],[500900,5000700]", R"("waterway":"canal")")));
         write("outlets.csv", "x,y\n500000,4999000\n501900,4999500\n");
         write("lakes.geojson",
               layer(polygon(square(500700, 5000500, 400)) + "," + polygon(square(500600, 4998600, 800))));
@@ -73,7 +79,7 @@ private:
     static std::string points(double lift) {
         std::string text = "x,y,z\n";
         for (int i = 0; i < 14; ++i) {
-            for (int k = 0; k < 26; ++k) {
+            for (int k = 0; k < 14; ++k) {
                 double const x = 500010.0 + 140.0 * i + 17.0 * (k % 3);
                 double const y = 4998100.0 + 140.0 * k + 23.0 * (i % 4);
                 double const z = 100.0 + lift + 0.03 * (x - 500000.0) + 30.0 * std::sin(i * 1.3 + k * k * 0.7);

@@ -118,8 +118,7 @@ std::vector<Row> make_rows() {
     Use const relief_left_out =
         when("surface.relief = 0", [](Recipe const& r) { return r.surface && r.surface->dilate.relief_m <= 0.0; });
     return {
-        {"grid.clip", source_is("lines") || strokes || given("network.tokunaga.region") ||
-                          (source_is("forest") && given("network.forest.region"))},
+        {"grid.clip", source_is("lines") || (source_is("forest") && given("network.forest.region"))},
 
         {"network.slope", slope()},
         {"network.concavity", graded() || equilibrium()},

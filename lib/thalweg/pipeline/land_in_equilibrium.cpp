@@ -15,6 +15,7 @@
 #include <thalweg/network/side_valleys.hpp>
 #include <thalweg/pipeline/read_cells.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
+#include <thalweg/pipeline/rivers.hpp>
 
 #include <fmt/format.h>
 
@@ -198,6 +199,7 @@ void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run) {
         take_notes(terrain, shortened.notes);
         terrain.network.plan = std::move(shortened.network);
         rivers = std::move(shortened.drawn);
+        assign_types(terrain.network.plan, terrain, run);
     }
     diary.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", terrain.grid.width, terrain.grid.height,
                           rivers.channels.cell.size()));
@@ -227,6 +229,7 @@ void add_side_valleys(Terrain& terrain, measure::Drainage const& drainage, Diary
     terrain.network = std::move(made.network);
     terrain.network.plan =
         network::prune(terrain.network.plan, {0.0, terrain.grid.cell_m}, run).network; // lengths at which each is kept
+    assign_types(terrain.network.plan, terrain, run);
     terrain.orders = network::order(terrain.network.plan);
     terrain.streams = network::count_streams(terrain.network.plan);
     for (ArcId const arc : NetworkIndex(terrain.network.plan).arcs) {

@@ -103,7 +103,7 @@ std::vector<Key> make_keys() {
 } // namespace
 
 bool names_file(Key const& key) {
-    return key.help.range == "file name";
+    return key.help.is_file;
 }
 
 std::vector<Key> const& all_keys() {

@@ -15,16 +15,13 @@ namespace thalweg::pipeline {
 
 namespace {
 
-/// Defaults that recipe.toml files hold beside today's: those of earlier versions, and what "left out" and "auto"
-/// resolve to.
+/// Values that recipe.toml files of earlier versions hold for keys that their recipe did not use: defaults of then, and
+/// what those that were left out came to.
 std::multimap<std::string, Value> const earlier_defaults = {
     {"network.concavity", 0.45},
     {"surface.roughness", 0.4},
     {"surface.mean_slope", 25.0},
     {"network.meander", 0.0},
-    {"network.meander", 1.0},
-    {"surface.edge", std::string("open")},
-    {"surface.edge", std::string("coast")},
 };
 
 Recipe with_all_sections() {
