@@ -91,6 +91,8 @@ std::string key_as_text(KeyHelp const& key) {
     line("unit", key.unit);
     line("range", key.range);
     line("default", key.standard);
+    line("used by", key.used_by);
+    line("file", key.is_file ? "its value is a file name, relative to the recipe's folder" : "");
     return text;
 }
 
@@ -103,7 +105,9 @@ std::string keys_as_json(std::vector<KeyHelp> const& keys) {
                                 {"unit", key.unit},
                                 {"range", key.range},
                                 {"default", key.standard},
-                                {"choices", key.choices}});
+                                {"choices", key.choices},
+                                {"used_by", key.used_by},
+                                {"is_file", key.is_file}});
     }
     return json.dump(2) + "\n";
 }
