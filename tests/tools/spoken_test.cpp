@@ -3,6 +3,7 @@
 #include "command.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <regex>
 #include <string>
@@ -76,4 +77,21 @@ TEST(Spoken, MessagesNameNoFunction) {
             << words << "\n"
             << o.err;
     }
+}
+
+TEST(Spoken, ADryRunWritesNothing) {
+    Workplace const place;
+    Outcome const o = thalweg_run(small + "--dry-run", place.path());
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_TRUE(has(o.out, "stages     grow, thin, trace, prune, meander, channels, fill, carve, ")) << o.out;
+    EXPECT_TRUE(has(o.out, "grid       64 x 48 cells of 30 m, ")) << o.out;
+    EXPECT_TRUE(has(o.out, "\nmemory     at most ") && has(o.out, "\ntime       about 1 s on one core\n")) << o.out;
+    EXPECT_FALSE(std::filesystem::exists(place / "out"));
+    nlohmann::json const json = nlohmann::json::parse(thalweg_run(small + "--dry-run --json", place.path()).out);
+    EXPECT_EQ(json["grid"]["width"], 64);
+    EXPECT_EQ(json["stages"][0], "grow");
+    EXPECT_EQ(json["cells"], 64 * 48);
+    Outcome const wrong = thalweg_run(small + "--dry-run --set network.source=lines", place.path());
+    EXPECT_EQ(wrong.code, 2) << wrong.out;
+    EXPECT_TRUE(std::filesystem::is_empty(place.path()));
 }
