@@ -21,7 +21,7 @@ std::string section_of(std::string const& path) {
     return dot == std::string::npos ? "" : path.substr(0, dot);
 }
 
-std::string name_of(std::string const& path) {
+std::string key_name(std::string const& path) {
     return path.substr(path.rfind('.') + 1);
 }
 
@@ -51,7 +51,7 @@ std::vector<KeyHelp> keys_named(std::string const& word) {
             keys_where(all, [&](KeyHelp const& key) { return (section_of(key.path) + ".").rfind(name + ".", 0) == 0; });
     }
     if (found.empty()) {
-        found = keys_where(all, [&](KeyHelp const& key) { return name_of(key.path) == name; });
+        found = keys_where(all, [&](KeyHelp const& key) { return key_name(key.path) == name; });
     }
     if (found.empty()) {
         std::vector<std::string> known;
@@ -74,7 +74,7 @@ std::string keys_as_list(std::vector<KeyHelp> const& keys) {
             text += text.empty() ? "" : "\n";
             text += section.empty() ? "" : section == "patch" ? "[[patch]]\n" : "[" + section + "]\n";
         }
-        text += fmt::format("{:<18}{}{}\n{:<18}{}; {}{}\n", name_of(key.path), key.meaning,
+        text += fmt::format("{:<18}{}{}\n{:<18}{}; {}{}\n", key_name(key.path), key.meaning,
                             key.unit.empty() ? "" : " [" + key.unit + "]", "", key.type, key.range,
                             key.standard.empty() ? "" : "; default " + key.standard);
     }

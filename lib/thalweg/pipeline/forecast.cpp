@@ -27,7 +27,7 @@ namespace thalweg::pipeline {
 namespace {
 
 /// What is known before a run.
-struct Known {
+struct KnownBefore {
     std::optional<Grid> grid;
     std::int64_t cells = 0; ///< about, where the grid is unknown
     bool lines_have_z = false;
@@ -61,58 +61,58 @@ std::int64_t links_of(Recipe const& recipe, Run const& run) {
     return static_cast<std::int64_t>(network::grow_tokunaga(params, run).links.size());
 }
 
-Known of_grid(Grid const& grid) {
+KnownBefore known_of_grid(Grid const& grid) {
     return {grid, grid.cells(), false};
 }
 
-Known of_lines(Recipe recipe, Run const& run) {
+KnownBefore known_of_lines(Recipe recipe, Run const& run) {
     RiverLines const lines = read_lines(recipe, run);
     settle_on_lines(recipe, lines, run);
-    Known known = of_grid(frame_lines(lines, recipe.grid));
+    KnownBefore known = known_of_grid(frame_lines(lines, recipe.grid));
     known.lines_have_z = lines.has_z;
     return known;
 }
 
-Known of_strokes(Recipe const& recipe, Run const& run) {
+KnownBefore known_of_strokes(Recipe const& recipe, Run const& run) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
     std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
-    return of_grid(
+    return known_of_grid(
         frame_lines(io::read_rivers({.path = file_in(recipe, wanted.strokes), .layer = wanted.layer, .crs = crs}, run),
                     recipe.grid));
 }
 
-Known of_polygons(Recipe const& recipe, std::string const& path, Run const& run) {
+KnownBefore known_of_polygons(Recipe const& recipe, std::string const& path, Run const& run) {
     std::string const crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
-    return of_grid(frame_polygons(io::read_polygons(file_in(recipe, path), crs, run), recipe.grid));
+    return known_of_grid(frame_polygons(io::read_polygons(file_in(recipe, path), crs, run), recipe.grid));
 }
 
-Known of_rivers(Recipe const& recipe, Run const& run) {
+KnownBefore known_of_rivers(Recipe const& recipe, Run const& run) {
     NetworkRecipe const& rivers = *recipe.network;
     switch (rivers.source) {
-    case Source::lines: return of_lines(recipe, run);
+    case Source::lines: return known_of_lines(recipe, run);
     case Source::tokunaga:
         if (!rivers.tokunaga.strokes.empty()) {
-            return of_strokes(recipe, run);
+            return known_of_strokes(recipe, run);
         }
-        return rivers.tokunaga.region.empty() ? of_grid(frame_tree(links_of(recipe, run), recipe.grid))
-                                              : of_polygons(recipe, rivers.tokunaga.region, run);
+        return rivers.tokunaga.region.empty() ? known_of_grid(frame_tree(links_of(recipe, run), recipe.grid))
+                                              : known_of_polygons(recipe, rivers.tokunaga.region, run);
     case Source::forest:
         if (!rivers.forest.region.empty()) {
-            return of_polygons(recipe, rivers.forest.region, run);
+            return known_of_polygons(recipe, rivers.forest.region, run);
         }
-        return of_grid(frame_tree(1, recipe.grid)); // its size is given: check_recipe demands it
+        return known_of_grid(frame_tree(1, recipe.grid)); // its size is given: check_recipe demands it
     case Source::dla: break;
     }
     check_memory_of_cluster(rivers.dla.particles);
     if (recipe.grid.width > 0) {
-        return of_grid(frame_tree(1, recipe.grid));
+        return known_of_grid(frame_tree(1, recipe.grid));
     }
     return {std::nullopt, cells_of_cluster(rivers.dla.particles), false};
 }
 
-Known of_points(Recipe recipe, Run const& run) {
+KnownBefore known_of_points(Recipe recipe, Run const& run) {
     FeaturePoints const points = given_points(recipe, run);
-    return of_grid(frame_land(points, recipe.grid));
+    return known_of_grid(frame_land(points, recipe.grid));
 }
 
 /// The stages in which rivers are made, as make_rivers() runs them.
@@ -245,7 +245,7 @@ double seconds_of(Recipe const& recipe, Forecast const& found) {
 Forecast forecast(Recipe const& recipe, Run const& run) {
     check_recipe(recipe);
     require_files(recipe);
-    Known const known = recipe.network ? of_rivers(recipe, run) : of_points(recipe, run);
+    KnownBefore const known = recipe.network ? known_of_rivers(recipe, run) : known_of_points(recipe, run);
     Forecast found;
     found.grid = known.grid;
     found.cells = known.cells;
