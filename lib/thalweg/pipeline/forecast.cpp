@@ -81,9 +81,19 @@ KnownBefore known_of_strokes(Recipe const& recipe, Run const& run) {
                     recipe.grid));
 }
 
-KnownBefore known_of_polygons(Recipe const& recipe, std::string const& path, Run const& run) {
-    std::string const crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
-    return known_of_grid(frame_polygons(io::read_polygons(file_in(recipe, path), crs, run), recipe.grid));
+/// usual_crs: where the recipe names none.
+KnownBefore known_of_polygons(Recipe const& recipe, std::string const& path, std::string const& usual_crs,
+                              Run const& run) {
+    GridRecipe wanted = recipe.grid;
+    wanted.crs = wanted.crs.empty() ? usual_crs : io::projected_crs(wanted.crs);
+    return known_of_grid(frame_polygons(io::read_polygons(path, wanted.crs, run), wanted));
+}
+
+/// The grid that a recipe gives, or a square one for so many links.
+KnownBefore known_of_tree(Recipe const& recipe, std::int64_t links) {
+    GridRecipe wanted = recipe.grid;
+    wanted.crs = io::projected_crs(wanted.crs.empty() ? "EPSG:32631" : wanted.crs);
+    return known_of_grid(frame_tree(links, wanted));
 }
 
 KnownBefore known_of_rivers(Recipe const& recipe, Run const& run) {
@@ -94,18 +104,20 @@ KnownBefore known_of_rivers(Recipe const& recipe, Run const& run) {
         if (!rivers.tokunaga.strokes.empty()) {
             return known_of_strokes(recipe, run);
         }
-        return rivers.tokunaga.region.empty() ? known_of_grid(frame_tree(links_of(recipe, run), recipe.grid))
-                                              : known_of_polygons(recipe, rivers.tokunaga.region, run);
+        return rivers.tokunaga.region.empty()
+                   ? known_of_tree(recipe, links_of(recipe, run))
+                   : known_of_polygons(recipe, file_in(recipe, rivers.tokunaga.region), "EPSG:32631", run);
     case Source::forest:
         if (!rivers.forest.region.empty()) {
-            return known_of_polygons(recipe, rivers.forest.region, run);
+            std::string const path = file_in(recipe, rivers.forest.region);
+            return known_of_polygons(recipe, path, io::crs_for_polygons(path), run);
         }
-        return known_of_grid(frame_tree(1, recipe.grid)); // its size is given: check_recipe demands it
+        return known_of_tree(recipe, 1); // its size is given: check_recipe demands it
     case Source::dla: break;
     }
     check_memory_of_cluster(rivers.dla.particles);
     if (recipe.grid.width > 0) {
-        return known_of_grid(frame_tree(1, recipe.grid));
+        return known_of_tree(recipe, 1);
     }
     return {std::nullopt, cells_of_cluster(rivers.dla.particles), false};
 }
