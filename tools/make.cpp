@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "forecast_words.hpp"
 #include "network_options.hpp"
 #include "terminal.hpp"
 #include "verdict.hpp"
 
 #include <thalweg/io/files.hpp>
+#include <thalweg/pipeline/forecast.hpp>
 #include <thalweg/pipeline/make_input.hpp>
 #include <thalweg/pipeline/recipe.hpp>
 #include <thalweg/pipeline/report.hpp>
@@ -34,6 +36,7 @@ struct MakeOptions {
     std::string crs;
     std::string schema;
     bool overwrite = false;
+    bool dry_run = false;
 };
 
 pipeline::Recipe recipe_of(MakeOptions const& options) {
@@ -63,6 +66,10 @@ int make(MakeOptions const& options, Session const& session) {
     auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
     pipeline::Recipe const recipe = recipe_of(options);
     pipeline::check_folder(options.folder, existing);
+    if (options.dry_run) {
+        fmt::print("{}", forecast_in_words(pipeline::forecast(recipe, session.run), session.json));
+        return Exit::done;
+    }
     pipeline::Terrain const terrain = pipeline::make_terrain(recipe, session.run);
     pipeline::write_terrain(terrain, options.folder, existing, session.run);
     if (session.verbose) {
@@ -116,6 +123,9 @@ Command add_make(CLI::App& app, Session& session) {
            "--schema", options->schema,
            "Also write the network in this schema, as network_SCHEMA.gpkg; the same as --set output.schema=SCHEMA.")
         ->check(CLI::IsMember(schema_names()));
+    app.add_flag("--dry-run", options->dry_run,
+                 "Check the recipe and its input files, and print the stages, the grid, and estimates of memory and "
+                 "time. Nothing is written.");
     app.add_flag("--json", session.json, "Print report.json to stdout instead of the name of the folder.");
     app.add_flag("--overwrite", options->overwrite,
                  "Replace the files that an earlier make wrote to the folder. Other files in the folder are kept.");
@@ -132,7 +142,8 @@ Command add_make(CLI::App& app, Session& session) {
         "  thalweg make out/sparse/recipe.toml -o out/again\n"
         "  thalweg make samples/walker_nhdplus.gpkg -o out/walker\n"
         "  thalweg make samples/walker_nhdplus.gpkg --crs EPSG:26910 --set grid.cell=30 -o out/utm\n"
-        "  thalweg make out/walker --seed 8 -o out/other\n");
+        "  thalweg make out/walker --seed 8 -o out/other\n"
+        "  thalweg make samples/walker_nhdplus.gpkg --dry-run\n");
     return [options, &session] { return make(*options, session); };
 }
 

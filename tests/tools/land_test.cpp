@@ -159,7 +159,7 @@ TEST(Land, WhatCannotBeIsRefusedWithItsNumbers) {
     refused("make none.toml -o out", "none.csv");
     refused("make -o out --set skeleton.scatter=9", "with [network] give skeleton.points");
     refused("make -o out --set detail.levels=2", "detail.sigma is missing");
-    refused("make -o out --set detail.stencil=5", "none of 4, 12, 16");
+    refused("make -o out --set detail.stencil=5", "not one of 4, 12, 16");
 }
 
 TEST(Land, LengthsTheGridCannotShowAreWarnedOf) {

@@ -21,9 +21,9 @@ constexpr Colour ground{0.72, 0.56, 0.38, 0.22};
 void demand_curve(std::vector<Vec2> const& curve, double integral) {
     for (std::size_t i = 0; i < curve.size(); ++i) {
         if (!(curve[i].x >= 0.0 && curve[i].x <= 1.0) || !std::isfinite(curve[i].y)) {
-            throw BadInput(fmt::format("draw.hypsometry: point {} is ({}, {}): a share of the area in [0, 1] and a "
-                                       "height are wanted",
-                                       i + 1, curve[i].x, curve[i].y));
+            throw BadInput(fmt::format(
+                "draw.hypsometry: point {} is ({}, {}): a share of the area in [0, 1] and a height are required", i + 1,
+                curve[i].x, curve[i].y));
         }
     }
     if (!curve.empty() && !std::isnan(integral) && !(integral >= 0.0 && integral <= 1.0)) {

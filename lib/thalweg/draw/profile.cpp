@@ -28,10 +28,9 @@ std::vector<Reach> reaches_of(RaisedNetwork const& network, NetworkOrders const&
     std::size_t const arcs = boost::num_edges(network.plan);
     if (network.arc_z.size() != arcs || orders.hack.size() != arcs || orders.arc_basin.size() != arcs ||
         orders.node_dist_out_m.size() != boost::num_vertices(network.plan)) {
-        throw BadInput(
-            fmt::format("draw.profile: heights or orders are not those of the network of {} arcs; set heights "
-                        "and orders anew",
-                        arcs));
+        throw BadInput(fmt::format(
+            "draw.profile: heights or orders are not those of the network of {} arcs; set heights and orders again",
+            arcs));
     }
     std::vector<Reach> reaches;
     std::size_t number_of_arc = 0;

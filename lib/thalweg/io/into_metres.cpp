@@ -62,7 +62,7 @@ IntoMetres::IntoMetres(OGRSpatialReference const& own, std::string const& wanted
     OGRSpatialReference const to = read_reference(crs_);
     turn_->into.reset(OGRCreateCoordinateTransformation(&from, &to));
     if (!turn_->into) {
-        throw BadInput(fmt::format("io.into_metres: {} cannot be brought into {}", name, crs_));
+        throw BadInput(fmt::format("io.into_metres: {} cannot be reprojected to {}", name, crs_));
     }
 }
 

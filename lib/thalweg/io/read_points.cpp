@@ -120,7 +120,7 @@ std::vector<Vec3> parse(std::string const& text, PointHeights heights, std::stri
             auto const value = number(fields[columns[k]]);
             if (!value || !std::isfinite(*value)) {
                 refuse_points(fmt::format("{}, line {}: {} is '{}': a finite number is required", name, line, "xyz"[k],
-                                   fields[columns[k]]));
+                                          fields[columns[k]]));
             }
             values[k] = *value;
         }
@@ -169,7 +169,7 @@ void add(OGRGeometry const& geometry, double field_z, std::int64_t feature, std:
     double const z = p.Is3D() != 0 ? p.getZ() : field_z;
     if (!std::isfinite(p.getX()) || !std::isfinite(p.getY()) || !std::isfinite(z)) {
         refuse_points(fmt::format("feature {} of {} lies at ({}, {}, {}): finite coordinates and a height are required",
-                           feature, name, p.getX(), p.getY(), z));
+                                  feature, name, p.getX(), p.getY(), z));
     }
     points.push_back({p.getX(), p.getY(), z});
 }
@@ -199,7 +199,7 @@ std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::str
         }
         if (!field_z) {
             refuse_points(fmt::format("feature {} of {}: {} is '{}', not a number", feature->GetFID(), name, z_field,
-                               feature->GetFieldAsString(field)));
+                                      feature->GetFieldAsString(field)));
         }
         add(*geometry, *field_z, feature->GetFID(), name, points);
     }
@@ -236,7 +236,7 @@ FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name
     auto const done = metres.apply(read.points);
     for (std::size_t i = 0; i < done.size(); ++i) {
         if (done[i] == 0) {
-            refuse_points(fmt::format("point {} of {}, ({}, {}), cannot be brought into {}: {}", i + 1, name,
+            refuse_points(fmt::format("point {} of {}, ({}, {}), cannot be reprojected to {}: {}", i + 1, name,
                                       read.points[i].x, read.points[i].y, read.crs, driver.take()));
         }
         read.points[i].z *= metres.height_unit_m();

@@ -62,8 +62,8 @@ OGRLayer& choose_layer(GDALDataset& data, std::string const& name) {
     if (layers.empty()) {
         refuse_polygons(fmt::format("{} has no layer of polygons{}", name, names.empty() ? "" : " (" + names + ")"));
     }
-    refuse_polygons(fmt::format("{} has {} layers of polygons; extract the one you mean (ogr2ogr OUT {} LAYER; {})", name,
-                       layers.size(), name, names));
+    refuse_polygons(fmt::format("{} has {} layers of polygons; extract the one you mean (ogr2ogr OUT {} LAYER; {})",
+                                name, layers.size(), name, names));
 }
 
 void add_ring(OGRLinearRing const& drawn, Polygon& polygon, std::string const& name) {
@@ -154,7 +154,7 @@ void reproject(std::vector<Polygon>& polygons, OGRSpatialReference const& from, 
     OGRSpatialReference const to = read_reference(crs);
     std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &to));
     if (!turn) {
-        refuse_polygons(fmt::format("{} cannot be brought into {:.60}: {}", name, crs, driver.take()));
+        refuse_polygons(fmt::format("{} cannot be reprojected to {:.60}: {}", name, crs, driver.take()));
     }
     for (Polygon& polygon : polygons) {
         for (auto& ring : polygon.rings) {
@@ -162,8 +162,8 @@ void reproject(std::vector<Polygon>& polygons, OGRSpatialReference const& from, 
                 Vec2 p = ring[i];
                 if (turn->Transform(1, &p.x, &p.y) == 0 || !std::isfinite(p.x) || !std::isfinite(p.y)) {
                     refuse_polygons(
-                        fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be brought into {:.60}: {}", i + 1,
-                                    polygon.feature, name, ring[i].x, ring[i].y, crs, driver.take()));
+                        fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be reprojected to {:.60}: {}",
+                                    i + 1, polygon.feature, name, ring[i].x, ring[i].y, crs, driver.take()));
                 }
                 ring[i] = {rounded(p.x), rounded(p.y)};
             }

@@ -76,7 +76,7 @@ int find_rank_field(OGRLayer& layer, ReadRiversParams const& params, std::string
     auto const type = layer.GetLayerDefn()->GetFieldDefn(index)->GetType();
     bool const is_number = type == OFTInteger || type == OFTInteger64 || type == OFTReal;
     if (!is_number && !is_default) {
-        refuse_rivers(fmt::format("field {} of {} is no number: it cannot rank rivers", params.rank_field, name));
+        refuse_rivers(fmt::format("field {} of {} is not a number field: it cannot rank rivers", params.rank_field, name));
     }
     return is_number ? index : -1;
 }
@@ -244,7 +244,7 @@ void bring(std::vector<RiverLine>& lines, IntoMetres const& metres, std::string 
         for (std::size_t i = 0; i < done.size(); ++i) {
             auto const& v = line.vertices[i];
             if (done[i] == 0) {
-                refuse_rivers(fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be brought into {}: {}",
+                refuse_rivers(fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be reprojected to {}: {}",
                                           i + 1, line.feature, name, v.x, v.y, metres.crs(), driver.take()));
             }
         }
@@ -298,7 +298,7 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         if (params.path.empty() || VSIStatL(params.path.c_str(), &status) != 0) {
             refuse_rivers(fmt::format("there is no file '{}'{}", params.path, words.empty() ? "" : " (" + words + ")"));
         }
-        refuse_rivers(params.path + " is no vector file that GDAL can read (" + words + ")");
+        refuse_rivers(params.path + " is not a vector file that GDAL can read (" + words + ")");
     }
     OGRLayer& layer = rivers_layer(*data, params.layer, name, "io.read_rivers");
     RiverLines rivers;

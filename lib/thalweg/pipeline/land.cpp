@@ -297,7 +297,7 @@ void leave_out(Recipe const& recipe, Raster<float>& land) {
     }
     Mask const inside = read_mask_of_land(file_in(recipe, recipe.surface->mask), land.grid());
     if (std::all_of(inside.values().begin(), inside.values().end(), [](std::uint8_t v) { return v == 0; })) {
-        throw BadInput(fmt::format("surface.mask: {} leaves out every cell", recipe.surface->mask));
+        throw BadInput(fmt::format("surface.mask = \"{}\" leaves out every cell", recipe.surface->mask));
     }
     for (std::int64_t i = 0; i < land.cells(); ++i) {
         land[i] = inside[i] != 0 ? land[i] : std::numeric_limits<float>::quiet_NaN();

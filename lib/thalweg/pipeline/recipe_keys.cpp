@@ -39,7 +39,7 @@ std::vector<Key> make_keys() {
             if (p == nullptr || !std::isfinite((*p)[0]) || !std::isfinite((*p)[1]) || std::fabs((*p)[0]) > 1e9 ||
                 std::fabs((*p)[1]) > 1e9) {
                 throw BadParameter(
-                    fmt::format("two numbers [west, north] within 1e9 are wanted, not {}", toml_text(v)));
+                    fmt::format("two numbers [west, north] within 1e9 are required, not {}", toml_text(v)));
             }
             r.grid.origin = *p;
         };

@@ -170,7 +170,7 @@ void add_surface_keys(std::vector<Key>& keys) {
         in_surface<SlopeMode>([](SurfaceRecipe& s) -> SlopeMode& { return s.regress.slope; })));
     keys.push_back(
         choice<EighthTerm>("surface.eighth_term", {{"x2y2", EighthTerm::x2y2}, {"x3y", EighthTerm::x3y}},
-                           "the eighth term, whose exponents are illegible in the paper",
+                           "the eighth term, whose exponents are illegible in Zhang, Liu and Li",
                            in_surface<EighthTerm>([](SurfaceRecipe& s) -> EighthTerm& { return s.regress.eighth; })));
 }
 
@@ -247,7 +247,7 @@ void add_detail_keys(std::vector<Key>& keys) {
         key.put = [](Recipe& r, Value const& v) {
             std::int64_t const n = as_integer(v);
             if (n != 4 && n != 12 && n != 16) {
-                throw BadParameter(fmt::format("{} is none of 4, 12, 16", n));
+                throw BadParameter(fmt::format("{} is not one of 4, 12, 16", n));
             }
             if (!r.detail) {
                 r.detail.emplace();

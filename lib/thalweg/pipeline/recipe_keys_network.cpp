@@ -161,7 +161,7 @@ void add_network_keys(std::vector<Key>& keys) {
     keys.push_back(text("network.lines.layer", "name", "layer of the lines; \"\": the only line layer",
                         in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.lines.layer; })));
     keys.push_back(text("network.lines.type_field", "name",
-                        "field with the river type; a missing field rosgen is no error",
+                        "field with the river type; the field rosgen may be missing",
                         in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.lines.type_field; })));
     keys.push_back(text("network.lines.rank_field", "name",
                         "integer field that decreases downstream; \"\": hydroseq where there is one",

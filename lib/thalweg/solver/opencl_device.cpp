@@ -179,8 +179,9 @@ OpenClDevice const& opencl_device() {
     cl_int code = CL_SUCCESS;
     cl_context const context = clCreateContext(properties.data(), 1, &found.id, nullptr, nullptr, &code);
     if (code != CL_SUCCESS) {
-        throw IoError(fmt::format("solver.opencl_device: --device opencl: {} gives no context: {}; leave --device out",
-                                  found.name, opencl_error_name(code)));
+        throw IoError(
+            fmt::format("solver.opencl_device: --device opencl: {} cannot create a context: {}; leave --device out",
+                        found.name, opencl_error_name(code)));
     }
     OpenClDevice device;
     device.device = found.id;

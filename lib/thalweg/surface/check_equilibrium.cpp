@@ -94,9 +94,9 @@ void check_order(Channels const& rivers) {
             Cell const a = grid.at(cell);
             Cell const b = grid.at(rivers.cell[static_cast<std::size_t>(receiver)]);
             if (std::max(std::abs(a.col - b.col), std::abs(a.row - b.row)) != 1) {
-                throw BadInput(fmt::format("surface.equilibrium: river cell {} at {} flows to {}, which is no "
-                                           "neighbour",
-                                           n, place(grid, cell), place(grid, grid.index(b))));
+                throw BadInput(
+                    fmt::format("surface.equilibrium: river cell {} at {} flows to {}, which is not a neighbour", n,
+                                place(grid, cell), place(grid, grid.index(b))));
             }
         }
     }

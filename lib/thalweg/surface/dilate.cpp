@@ -22,10 +22,9 @@ constexpr float nan_height = std::numeric_limits<float>::quiet_NaN();
 
 void check_dilate_params(DilateParams const& params) {
     if (!(params.relief_m >= 0.0 && std::isfinite(params.relief_m))) {
-        throw BadParameter(
-            fmt::format("surface.dilate: relief is {} m; give a finite height above 0, or 0 for the papers' "
-                        "units",
-                        params.relief_m));
+        throw BadParameter(fmt::format("surface.dilate: relief is {} m; give a finite height above 0, or 0 for the "
+                                       "units of Cao, Long and Lü (2009)",
+                                       params.relief_m));
     }
     increments(0, params.increment); // what cannot be read is refused before the work
 }
