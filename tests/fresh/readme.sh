@@ -14,6 +14,7 @@ cp -R samples "$place"
 export PATH="$place/.bin:$PATH"
 run=0 failed=0
 while IFS= read -r line; do
+    line=${line#build/release/bin/}
     case $line in
     scripts/* | ./* | cmake\ * | git\ * | cd\ * | ctest\ * | build/*) continue ;;
     esac
