@@ -3,7 +3,7 @@
 # The Debian package of the program, as `scripts/package deb` makes it.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME thalweg)
-set(CPACK_PACKAGE_CONTACT "the thalweg authors <thalweg@users.noreply.github.com>")
+set(CPACK_PACKAGE_CONTACT "the thalweg authors <thalweg@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "terrain built from its rivers outward")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
