@@ -24,8 +24,6 @@ using namespace thalweg;
 using namespace thalweg::solver;
 using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr auto fixed = static_cast<std::uint8_t>(CellKind::fixed);
-
 Run one_thread() {
     Run run;
     run.threads = 1;
@@ -58,7 +56,7 @@ Assembled assembled(GridProblem const& problem) {
     Assembled made;
     std::vector<int> number(static_cast<std::size_t>(grid.cells()), -1);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        if (problem.kind[i] != fixed) {
+        if (problem.kind[i] != fixed_cell) {
             number[static_cast<std::size_t>(i)] = static_cast<int>(made.cells.size());
             made.cells.push_back(i);
         }
@@ -72,7 +70,7 @@ Assembled assembled(GridProblem const& problem) {
         for (Cell const near : {Cell{c.col - 1, c.row}, {c.col + 1, c.row}, {c.col, c.row - 1}, {c.col, c.row + 1}}) {
             if (grid.contains(near)) {
                 degree += 1.0;
-                if (problem.kind[near] == fixed) {
+                if (problem.kind[near] == fixed_cell) {
                     made.right[row] += problem.value[near];
                 } else {
                     entries.emplace_back(row, number[static_cast<std::size_t>(grid.index(near))], -1.0);

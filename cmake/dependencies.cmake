@@ -11,16 +11,18 @@ thalweg_find(Eigen3 3.4 CONFIG)
 thalweg_find(TBB)
 thalweg_find(fmt)
 thalweg_find(nlohmann_json)
-thalweg_find(OpenCL)
+find_package(OpenCL QUIET) # optional: --device opencl
 foreach(LIBRARY muparser cairo)
   if(NOT TARGET PkgConfig::${LIBRARY})
     pkg_check_modules(${LIBRARY} REQUIRED IMPORTED_TARGET GLOBAL ${LIBRARY})
   endif()
 endforeach()
-if(NOT TARGET libnoise::libnoise) # its package has no file for CMake or pkg-config
-  find_path(LIBNOISE_INCLUDE libnoise/noise.h REQUIRED)
-  find_library(LIBNOISE_LIBRARY noise REQUIRED)
-  add_library(libnoise::libnoise INTERFACE IMPORTED GLOBAL)
-  set_target_properties(libnoise::libnoise PROPERTIES
-    INTERFACE_INCLUDE_DIRECTORIES ${LIBNOISE_INCLUDE} INTERFACE_LINK_LIBRARIES ${LIBNOISE_LIBRARY})
+if(NOT TARGET libnoise::libnoise) # optional: skeleton.ridge_noise; its package has no file for CMake or pkg-config
+  find_path(LIBNOISE_INCLUDE libnoise/noise.h)
+  find_library(LIBNOISE_LIBRARY noise)
+  if(LIBNOISE_INCLUDE AND LIBNOISE_LIBRARY)
+    add_library(libnoise::libnoise INTERFACE IMPORTED GLOBAL)
+    set_target_properties(libnoise::libnoise PROPERTIES
+      INTERFACE_INCLUDE_DIRECTORIES ${LIBNOISE_INCLUDE} INTERFACE_LINK_LIBRARIES ${LIBNOISE_LIBRARY})
+  endif()
 endif()

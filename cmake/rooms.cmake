@@ -3,7 +3,14 @@
 add_library(thalweg_options INTERFACE)
 # No contraction, no fast-math, no -march: the same recipe gives the same bytes on every machine.
 target_compile_options(thalweg_options INTERFACE
-  -Wall -Wextra -Wshadow -Wconversion -Werror -ffp-contract=off)
+  -Wall -Wextra -Wconversion -Werror -ffp-contract=off)
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # Files that are compiled as one see one another's names, and g++ knows no main file whose types are its own;
+  # at -O3 it takes an inlined vector for memory that was never allocated.
+  target_compile_options(thalweg_options INTERFACE -Wshadow=local -Wno-subobject-linkage -Wno-free-nonheap-object)
+else()
+  target_compile_options(thalweg_options INTERFACE -Wshadow)
+endif()
 if(CMAKE_BUILD_TYPE STREQUAL "Debug")
   target_compile_definitions(thalweg_options INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
@@ -19,9 +26,13 @@ if(THALWEG_COVERAGE)
   target_link_options(thalweg_options INTERFACE --coverage)
 endif()
 
-# thalweg_room(NAME [foreign libraries its .cpp files may use]): one folder of lib/thalweg, compiled apart.
+# thalweg_room(NAME [foreign libraries its .cpp files may use]): one folder of lib/thalweg, compiled apart, without the
+# files that THALWEG_LEFT_OUT names (regular expression).
 function(thalweg_room NAME)
   file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/thalweg/${NAME}/*.cpp)
+  if(THALWEG_LEFT_OUT)
+    list(FILTER SOURCES EXCLUDE REGEX "${THALWEG_LEFT_OUT}")
+  endif()
   if(NOT SOURCES)
     return()
   endif()
@@ -33,7 +44,23 @@ function(thalweg_room NAME)
   target_link_libraries(thalweg PRIVATE ${ARGN})
 endfunction()
 
-# thalweg_tests(ROOM [libraries]): one executable test_ROOM of tests/ROOM/*.cpp, ctest label ROOM.
+# thalweg_precompile(TARGET): what every test includes is read once for all of them. They are compiled with the same flags.
+function(thalweg_precompile TARGET)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${TARGET} PRIVATE -fpch-preprocess) # for ccache
+  endif()
+  get_property(FIRST GLOBAL PROPERTY THALWEG_PRECOMPILED)
+  if(FIRST)
+    target_precompile_headers(${TARGET} REUSE_FROM ${FIRST})
+  else()
+    set_property(GLOBAL PROPERTY THALWEG_PRECOMPILED ${TARGET})
+    target_precompile_headers(${TARGET} PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <limits>
+      <map> <numeric> <set> <sstream> <string> <vector> <fmt/format.h> <gtest/gtest.h> <rapidcheck.h>
+      <thalweg/core/stream_network.hpp>)
+  endif()
+endfunction()
+
+# thalweg_tests(ROOM): one executable test_ROOM of tests/ROOM/*.cpp, ctest label ROOM.
 function(thalweg_tests NAME)
   file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp)
   if(NOT SOURCES)
@@ -44,9 +71,14 @@ function(thalweg_tests NAME)
   target_compile_definitions(test_${NAME} PRIVATE
     THALWEG_SOURCE_DIR="${PROJECT_SOURCE_DIR}" THALWEG_EXE="$<TARGET_FILE:thalweg_cli>" THALWEG_VERSION="${PROJECT_VERSION}")
   target_compile_options(test_${NAME} PRIVATE -O1) # what is tested keeps its own level; -O3 doubles the wait here
-  target_link_libraries(test_${NAME} PRIVATE thalweg thalweg_options GTest::gtest GTest::gtest_main rapidcheck ${ARGN})
-  gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. TEST_FILTER -Large*
+  target_link_libraries(test_${NAME} PRIVATE thalweg thalweg_options GTest::gtest GTest::gtest_main rapidcheck
+    fmt::fmt nlohmann_json::nlohmann_json GDAL::GDAL)
+  set_target_properties(test_${NAME} PROPERTIES UNITY_BUILD OFF) # tests may have the same names
+  if(THALWEG_UNITY)
+    thalweg_precompile(test_${NAME})
+  endif()
+  gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. TEST_FILTER -Long*
     PROPERTIES LABELS ${NAME} TIMEOUT 600 DISCOVERY_TIMEOUT 60)
-  gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. TEST_FILTER Large* TEST_LIST test_${NAME}_large
-    PROPERTIES LABELS "large" TIMEOUT 3600 PROCESSORS 2 DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. TEST_FILTER Long* TEST_LIST test_${NAME}_long
+    PROPERTIES LABELS long TIMEOUT 3600 PROCESSORS 2 DISCOVERY_TIMEOUT 60)
 endfunction()

@@ -78,7 +78,7 @@ void Pace::at(double share, double elapsed_s) {
 std::string bar_text(BarState const& state, int columns, Colour colour) {
     std::size_t const room = static_cast<std::size_t>(std::max(columns, 2)) - 1;
     double const share = std::clamp(state.share, 0.0, 1.0);
-    std::string const head = fmt::format("{:<7}", state.what);
+    std::string const head = fmt::format("{:<10} ", state.what);
     // Rounded down: 100 % is what is done.
     std::string const percent = fmt::format("{:>3} %", static_cast<int>(share * 100.0));
     std::string const left = left_text(state.left_s);

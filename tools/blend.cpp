@@ -20,7 +20,7 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct BlendOptions {
     pipeline::MakeBlendParams params;
     std::vector<double> at;
     std::vector<std::int64_t> window;
@@ -58,9 +58,9 @@ std::string as_json(pipeline::MadeBlend const& made, std::string const& file) {
 std::string in_words(pipeline::MadeBlend const& made, bool fills) {
     blend::Pasted const& pasted = made.pasted;
     std::string words = fmt::format(
-        "blend  {} cells around ({:.3f}, {:.3f}){}; seam {:.3f} m rms, {:.3f} m at most", pasted.cells, made.at.x,
-        made.at.y,
-        made.place == pipeline::PatchPlace::middle ? ", the middle of the target, for the source lies elsewhere" : "",
+        "{} cells around ({:.3f}, {:.3f}){}; seam {:.3f} m rms, {:.3f} m at most", pasted.cells, made.at.x, made.at.y,
+        made.place == pipeline::PatchPlace::middle ? ", the centre of the target, because the source lies outside it"
+                                                   : "",
         pasted.seam_rms_m, pasted.seam_max_m);
     if (pasted.kept > 0) {
         words += fmt::format("; {} cells keep their height", pasted.kept);
@@ -75,7 +75,7 @@ std::string in_words(pipeline::MadeBlend const& made, bool fills) {
     return words;
 }
 
-void take_numbers(Options& options) {
+void take_numbers(BlendOptions& options) {
     if (!options.at.empty()) {
         if (options.at.size() != 2) {
             throw BadParameter(fmt::format("--at has {} numbers; it takes two, X,Y", options.at.size()));
@@ -93,13 +93,13 @@ void take_numbers(Options& options) {
     options.params.holes = options.fills ? blend::Holes::fill : blend::Holes::leave;
 }
 
-int blend_files(Options& options, Session const& session) {
+int blend_files(BlendOptions& options, Session const& session) {
     take_numbers(options);
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     pipeline::MadeBlend const made = pipeline::make_blend(options.params, session.run);
     io::write_dem(made.pasted.dem, file.staging(), session.run);
     file.commit();
-    session.run.say(in_words(made, options.fills));
+    session.run.tell("blend", in_words(made, options.fills));
     fmt::print("{}", session.json ? as_json(made, options.file) : options.file + "\n");
     return Exit::done;
 }
@@ -107,53 +107,50 @@ int blend_files(Options& options, Session const& session) {
 } // namespace
 
 Command add_blend(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<BlendOptions>();
     pipeline::MakeBlendParams& params = options->params;
-    app.add_option("TARGET", params.target, "The DEM that takes the patch.")->type_name("FILE")->required();
+    app.add_option("TARGET", params.target, "The DEM to paste into.")->type_name("FILE")->required();
     app.add_option("SOURCE", params.source,
-                   "The DEM the patch is taken from. In another CRS or with other cells it is warped (bilinear).")
+                   "The DEM to take the patch from. It is warped (bilinear) if its CRS or cells differ.")
         ->type_name("FILE")
         ->required();
     app.add_option("-o,--output", options->file, "Write this GeoTIFF.")->type_name("FILE")->required();
-    app.add_option(
-           "--at", options->at,
-           "Put the middle of the patch there, in the target's coordinates. Without it the patch lies where its "
-           "own coordinates say, or, when that is outside the target, in the target's middle.")
+    app.add_option("--at", options->at,
+                   "Place the centre of the patch here, in the target's coordinates. Default: at the patch's own "
+                   "coordinates, or in the centre of the target if they lie outside it.")
         ->type_name("X,Y")
         ->delimiter(',')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--rotate", params.rotate_deg, "Turn the patch by this many degrees, counterclockwise.")
+    app.add_option("--rotate", params.rotate_deg, "Rotate the patch by this many degrees counterclockwise.")
         ->check(CLI::Range(-360.0, 360.0));
-    app.add_option("--scale", params.scale, "Make the patch so many times as large in plan.");
-    app.add_option("--gain", params.gain, "Make it so many times as high.");
+    app.add_option("--scale", params.scale, "Scale the patch in plan by this factor.");
+    app.add_option("--gain", params.gain, "Multiply heights by this factor.");
     app.add_option("--mask", params.mask,
-                   "Replace only these cells: a raster with the target's cells (neither 0 nor no-data), or polygons, "
-                   "any that OGR reads.")
+                   "Replace only these cells: a raster on the target's grid (neither 0 nor no-data), or polygons in "
+                   "any format OGR reads.")
         ->type_name("FILE");
-    app.add_option("--window", options->window,
-                   "Take only this part of the source: the column and row of its north-western cell, and how many "
-                   "columns and rows.")
+    app.add_option(
+           "--window", options->window,
+           "Take only this part of the source: column and row of its north-western cell, number of columns and rows.")
         ->type_name("C,R,W,H")
         ->delimiter(',')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--feather", params.feather_cells,
-                   "Over this many cells inside the edge let the target's relief become the patch's.")
+                   "Blend the target's relief into the patch's over this many cells inside the edge.")
         ->check(CLI::Range(0.0, 1e6));
-    app.add_option(
-           "--keep", params.keep,
-           "Let these cells keep their height: those under lines (a network, or any lines that OGR reads), or a "
-           "raster with the target's cells.")
+    app.add_option("--keep", params.keep,
+                   "Keep the heights of these cells: those under lines (a network, or any lines OGR reads), or a "
+                   "raster on the target's grid.")
         ->type_name("FILE");
-    app.add_flag("--mixed", options->mixed, "Between neighbours take the steeper of the patch and the target.");
+    app.add_flag("--mixed", options->mixed, "Between neighbouring cells, use the steeper slope of patch and target.");
     app.add_flag("--fill-holes", options->fills,
-                 "Carry the land through holes of the source too. Without it they keep the target's heights.");
+                 "Also fill holes of the source. Default: holes keep the target's heights.");
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
-    app.footer("The patch's relief is kept, its level is not: along its edge it takes the heights of the target "
-               "(Poisson blending), so that there is no step. Outside the patch the target's heights stay to the last "
-               "bit.\n\n"
+    app.footer("Keeps the relief of the patch and matches the target's heights along its edge (Poisson blending), so "
+               "that there is no step. Outside the patch the target's heights do not change by a single bit.\n\n"
                "Examples:\n"
                "  thalweg blend valley/dem.tif peaks.tif -o blended.tif --feather 8\n"
                "  thalweg blend valley/dem.tif peaks.tif -o blended.tif --mask where.gpkg --rotate 30 --gain 0.5\n"

@@ -21,6 +21,7 @@ struct Session {
     int threads = 0;
     std::string device = "cpu";
     bool quiet = false;
+    bool verbose = false;
     bool json = false;
     Run run; ///< ready when the command is called
 };

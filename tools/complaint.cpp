@@ -66,7 +66,7 @@ std::string unknown_option(CommandHelp const& command, CommandHelp const& progra
     bool const of_a_command = &command == &program && std::any_of(program.commands.begin(), program.commands.end(),
                                                                   [&](auto const& c) { return find_option(c, name); });
     if (of_a_command) {
-        meant = " Options stand behind the command.";
+        meant = " Options follow the command.";
     }
     return fmt::format("{} has no option '{}'.{}", &command == &program ? "thalweg" : "thalweg " + command.name, name,
                        meant);

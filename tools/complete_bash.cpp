@@ -54,7 +54,7 @@ std::string offers_of(CommandHelp const& command) {
     return fmt::format("    {}) offers='{}' ;;\n", command.name, names);
 }
 
-constexpr char const* machine = R"sh(
+constexpr char const* bash_machine = R"sh(
 _thalweg_reply() { # the words given that begin with $current
     local answer
     while IFS= read -r answer; do
@@ -178,7 +178,7 @@ std::string bash_completion(CommandHelp const& program) {
         keys += fmt::format("{}{}=", keys.empty() ? "" : " ", key.path);
         if (!key.choices.empty()) {
             values += fmt::format("    {}) _thalweg_reply '{}' ;;\n", key.path, fmt::join(key.choices, " "));
-        } else if (key.range == "file name") {
+        } else if (key.is_file) {
             values += fmt::format("    {}) _thalweg_files ;;\n", key.path);
         }
     }
@@ -188,7 +188,7 @@ std::string bash_completion(CommandHelp const& program) {
                        "_thalweg_offers() {{ # the options of a command\n    case $1 in\n{}    esac\n}}\n\n"
                        "_thalweg_takes() {{ # what stands behind an option, or at a place, of a command\n"
                        "    takes=nothing\n    case $1 in\n    'thalweg 1') takes='words {}' ;;\n{}    esac\n}}\n{}",
-                       pipeline::version(), keys, values, offers, names, takes, machine);
+                       pipeline::version(), keys, values, offers, names, takes, bash_machine);
 }
 
 } // namespace thalweg::tools

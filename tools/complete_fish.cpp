@@ -56,7 +56,7 @@ std::string lines_of(std::string const& when, CommandHelp const& command) {
     return out;
 }
 
-constexpr char const* machine = R"sh(
+constexpr char const* fish_machine = R"sh(
 function __thalweg_command -d 'Whether the command is the one given, or none is'
     set -l words (commandline -opc)
     test "$words[2]" = "$argv[1]"
@@ -75,7 +75,7 @@ std::string fish_completion(CommandHelp const& program) {
         if (!key.choices.empty()) {
             values += fmt::format("        case '{}=*'\n            printf '%s\\n' {}={}\n", key.path, key.path,
                                   fmt::join(key.choices, fmt::format(" {}=", key.path)));
-        } else if (key.range == "file name") {
+        } else if (key.is_file) {
             values += fmt::format("        case '{}=*'\n            __fish_complete_path "
                                   "(string replace -r '^[^=]*=' '' -- $setting) | string replace -r '^' '{}='\n",
                                   key.path, key.path);
@@ -91,7 +91,7 @@ std::string fish_completion(CommandHelp const& program) {
                        "function __thalweg_settings -d 'KEY=VALUE of a recipe'\n"
                        "    set -l setting (string replace -r '^--[a-z-]+=' '' -- (commandline -ct))\n"
                        "    switch \"$setting\"\n{}        case '*'\n{}    end\nend\n{}\n{}",
-                       pipeline::version(), values, keys, machine, lines);
+                       pipeline::version(), values, keys, fish_machine, lines);
 }
 
 } // namespace thalweg::tools

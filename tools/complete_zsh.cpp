@@ -72,7 +72,7 @@ std::string function_of(CommandHelp const& command) {
     return out + "\n}\n\n";
 }
 
-constexpr char const* machine = R"sh(
+constexpr char const* zsh_machine = R"sh(
 _thalweg_settings() {
     if compset -P '*='; then
         local key=${${IPREFIX%=}##*=}
@@ -124,7 +124,7 @@ std::string zsh_completion(CommandHelp const& program) {
         keys += "    " + quoted(key.path + ":" + key.meaning) + "\n";
         if (!key.choices.empty()) {
             values += fmt::format("    {}) compadd -- {} ;;\n", key.path, fmt::join(key.choices, " "));
-        } else if (key.range == "file name") {
+        } else if (key.is_file) {
             values += fmt::format("    {}) _files ;;\n", key.path);
         }
     }
@@ -132,7 +132,8 @@ std::string zsh_completion(CommandHelp const& program) {
                        "typeset -ga thalweg_commands thalweg_options thalweg_keys\n"
                        "thalweg_commands=(\n{})\nthalweg_options=(\n{})\nthalweg_keys=(\n{})\n\n"
                        "_thalweg_values() {{ # what a key of a recipe may be\n    case $1 in\n{}    esac\n}}\n\n{}{}",
-                       pipeline::version(), commands, options, keys, values, functions, std::string(machine).substr(1));
+                       pipeline::version(), commands, options, keys, values, functions,
+                       std::string(zsh_machine).substr(1));
 }
 
 } // namespace thalweg::tools

@@ -13,9 +13,9 @@ namespace thalweg::tools {
 
 Command add_completion(CLI::App& app) {
     auto const shell = std::make_shared<std::string>();
-    app.add_option("SHELL", *shell, "The shell it is for.")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
-    app.footer("The script completes commands, options, their values, files and the keys of a recipe. An installed "
-               "thalweg brings it along; from a build, source it.\n\n"
+    app.add_option("SHELL", *shell, "The shell.")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
+    app.footer("The script completes commands, options and their values, files and recipe keys. An installed thalweg "
+               "includes it; from a build, source it.\n\n"
                "Examples:\n"
                "  source <(thalweg completion bash)\n"
                "  thalweg completion fish > ~/.config/fish/completions/thalweg.fish\n");

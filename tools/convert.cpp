@@ -22,7 +22,7 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct ConvertOptions {
     pipeline::ConvertParams convert;
     NetworkOptions source;
     std::string schema = "native";
@@ -31,20 +31,20 @@ struct Options {
 };
 
 void tell(pipeline::Converted const& made, Session const& session) {
-    constexpr std::size_t shown = 10;
+    std::size_t const shown = session.verbose ? made.findings.size() : 10;
     for (std::size_t i = 0; i < std::min(shown, made.findings.size()); ++i) {
-        session.run.say(fmt::format("note   {}", made.findings[i].text));
+        session.run.tell("note", made.findings[i].text);
     }
     if (made.findings.size() > shown) {
-        session.run.say(fmt::format("note   ... and {} more: --json prints all", made.findings.size() - shown));
+        session.run.tell("note", fmt::format("... and {} more; --verbose prints all", made.findings.size() - shown));
     }
-    session.run.say(fmt::format("read   {} arcs and {} nodes, schema {}{}", made.arcs, made.nodes, made.schema,
-                                made.split > 0 ? fmt::format(", {} confluences moved", made.split) : ""));
+    session.run.tell("read", fmt::format("{} arcs and {} nodes, schema {}{}", made.arcs, made.nodes, made.schema,
+                                         made.split > 0 ? fmt::format(", {} confluences moved", made.split) : ""));
     if (std::string(made.heights) == "none") {
-        session.run.say("note   nobody knows the heights: 0 stands for them; --dem takes them from a DEM");
+        session.run.tell("note", "the heights are unknown and written as 0; --dem takes them from a DEM");
     }
     if (std::string(made.areas) == "none") {
-        session.run.say("note   nobody knows the contributing areas: -1 stands for them; --dem measures them");
+        session.run.tell("note", "the contributing areas are unknown and written as -1; --dem measures them");
     }
 }
 
@@ -63,7 +63,7 @@ std::string as_json(pipeline::Converted const& made) {
     return json.dump(2) + "\n";
 }
 
-int convert(Options& options, Session const& session) {
+int convert(ConvertOptions& options, Session const& session) {
     options.convert.schema = io::schema_named(options.schema);
     options.convert.read = options.source.params();
     options.convert.path = options.source.path;
@@ -83,7 +83,7 @@ int convert(Options& options, Session const& session) {
 } // namespace
 
 Command add_convert(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<ConvertOptions>();
     pipeline::ConvertParams& params = options->convert;
     std::string formats;
     for (auto const& f : io::network_formats()) {
@@ -91,44 +91,43 @@ Command add_convert(CLI::App& app, Session& session) {
     }
     add_network_options(app, options->source);
     app.add_option("-o,--output", options->output,
-                   "Write this file, or into a PostGIS database: PG:dbname=rivers host=db.")
+                   "Write this file, or tables in a PostGIS database: PG:dbname=rivers host=db.")
         ->type_name("FILE(gpkg,shp,fgb,geojson,graphml,csv,edges,tif)")
         ->required();
-    app.add_option("--schema", options->schema, "Name fields, units and directions as this one does.")
+    app.add_option("--schema", options->schema, "Use the field names, units and line directions of this schema.")
         ->check(CLI::IsMember(schema_names()))
         ->capture_default_str();
-    app.add_option("--format", params.format, "Write this format: " + formats + ". Without it, by the name's ending.");
+    app.add_option("--format", params.format, "Write this format: " + formats + ". Default: by the file extension.");
     app.add_option("--max-upstream", params.max_upstream,
-                   "Split nodes in which more arcs end: the others join a little downstream.")
+                   "Split nodes where more arcs than this end: the others join a little downstream.")
         ->type_name("N")
         ->check(CLI::Range(2, std::numeric_limits<int>::max()));
     app.add_option("--split-distance", params.split_distance_m,
-                   "How far splitting moves a confluence [m]. Without it, the median length of the lines' segments.")
+                   "Move split confluences by this distance [m]. Default: the median segment length.")
         ->type_name("M")
         ->check(CLI::PositiveNumber);
     app.add_option("--dem", params.dem,
-                   "Take heights and contributing areas from this DEM where the network has none; a raster gets its "
-                   "cells.")
+                   "Take missing heights and contributing areas from this DEM. A raster output gets its grid.")
         ->type_name("FILE(tif)");
-    app.add_option("--cell", params.cell_m, "Side of the cells of a raster without a DEM [m].")
+    app.add_option("--cell", params.cell_m, "Set the cell size of a raster output without a DEM [m].")
         ->type_name("M")
         ->check(CLI::PositiveNumber);
-    app.add_option("--table", params.table, "Name what is made in a database NAME or SCHEMA.NAME.")
+    app.add_option("--table", params.table, "Name the database tables NAME or SCHEMA.NAME.")
         ->type_name("NAME")
         ->capture_default_str();
     app.add_flag("--json", session.json, "Print one JSON object.");
-    app.add_flag("--overwrite", options->overwrite, "Replace existing files, or tables and view of a database.");
-    app.footer("A network is a set of trees: what is none is refused, and thalweg check says why. Arcs are numbered "
-               "anew; their ids in a foreign schema become the field feature of the native one. TauDEM knows no more "
-               "than two arcs upstream of one: give --max-upstream 2. In the native schema a shapefile, FlatGeobuf or "
-               "GeoJSON is two files, NAME_arcs and NAME_nodes. A raster has 1 in the cells of rivers, 0 elsewhere, as "
-               "RivGraph takes it. A database gets tables NAME_arcs and NAME_nodes, and a view NAME_edges for "
-               "pgRouting, in one transaction.\n\n"
-               "Examples:\n"
-               "  thalweg convert valley -o streams.shp --schema taudem --max-upstream 2\n"
-               "  thalweg convert walker_nhdplus.gpkg -o walker.gpkg\n"
-               "  thalweg convert valley -o 'PG:dbname=rivers' --table basin.network\n"
-               "  thalweg convert valley -o valley.graphml\n");
+    app.add_flag("--overwrite", options->overwrite, "Replace existing files, or the tables and view in a database.");
+    app.footer(
+        "Networks that are not trees are rejected; thalweg check tells why. Arcs get new numbers; the native field "
+        "feature keeps their ids of another schema. TauDEM allows two arcs upstream of one: use --max-upstream 2. In "
+        "the native schema, a shapefile, FlatGeobuf or GeoJSON output is two files, NAME_arcs and NAME_nodes. A raster "
+        "has 1 in river cells and 0 elsewhere, as RivGraph expects. A database gets tables NAME_arcs and NAME_nodes "
+        "and a view NAME_edges for pgRouting, in one transaction.\n\n"
+        "Examples:\n"
+        "  thalweg convert valley -o streams.shp --schema taudem --max-upstream 2\n"
+        "  thalweg convert walker_nhdplus.gpkg -o walker.gpkg\n"
+        "  thalweg convert valley -o 'PG:dbname=rivers' --table basin.network\n"
+        "  thalweg convert valley -o valley.graphml\n");
     return [options, &session] { return convert(*options, session); };
 }
 

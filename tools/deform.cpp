@@ -20,14 +20,14 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct DeformOptions {
     pipeline::MakeDeformParams params;
     std::vector<double> pull;
     std::string file;
     bool overwrite = false;
 };
 
-void take_handles(Options& options) {
+void take_handles(DeformOptions& options) {
     if (options.pull.size() % 3 != 0) {
         throw BadParameter(
             fmt::format("--pull has {} numbers; it takes three for each place, X,Y,Z", options.pull.size()));
@@ -37,13 +37,13 @@ void take_handles(Options& options) {
     }
 }
 
-int deform_file(Options& options, Session const& session) {
+int deform_file(DeformOptions& options, Session const& session) {
     take_handles(options);
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     blend::Deformed const made = pipeline::make_deform(options.params, session.run);
     io::write_dem(made.dem, file.staging(), session.run);
     file.commit();
-    session.run.say(fmt::format("deform {} cells, {} of them pulled", made.cells, options.params.handles.size()));
+    session.run.tell("deform", fmt::format("{} cells, {} of them pulled", made.cells, options.params.handles.size()));
     nlohmann::ordered_json const json{{"file", options.file},
                                       {"cells", made.cells},
                                       {"handles", options.params.handles.size()},
@@ -56,25 +56,26 @@ int deform_file(Options& options, Session const& session) {
 } // namespace
 
 Command add_deform(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<DeformOptions>();
     app.add_option("TARGET", options->params.target, "The DEM to bend.")->type_name("FILE")->required();
     app.add_option("-o,--output", options->file, "Write this GeoTIFF.")->type_name("FILE")->required();
     app.add_option("--mask", options->params.mask,
-                   "The region: a raster with the target's cells (neither 0 nor no-data), or polygons, any that OGR "
-                   "reads.")
+                   "Deform this region: a raster on the target's grid (neither 0 nor no-data), or polygons in any "
+                   "format OGR reads.")
         ->type_name("FILE")
         ->required();
-    app.add_option("--scale", options->params.scale,
-                   "Make the region's slopes so many times as steep: 0 levels it, below 0 turns hills to hollows.");
-    app.add_option("--pull", options->pull, "Pull the land to this height [m] there; may be given several times.")
+    app.add_option(
+        "--scale", options->params.scale,
+        "Multiply the region's slopes by this factor: 0 levels it, a negative factor turns hills into hollows.");
+    app.add_option("--pull", options->pull, "Pull the terrain at X,Y to the height Z [m]; may be repeated.")
         ->type_name("X,Y,Z")
         ->delimiter(',')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
-    app.footer("The region's relief is kept or scaled; its edge and all beyond keep their heights to the last bit, and "
-               "the land follows the places that are pulled (Poisson's equation).\n\n"
+    app.footer("Keeps or scales the relief of the region and pulls it smoothly to the given heights (Poisson's "
+               "equation). The edge of the region and everything outside keep their heights exactly.\n\n"
                "Examples:\n"
                "  thalweg deform valley/dem.tif -o bent.tif --mask region.gpkg --scale 1.5\n"
                "  thalweg deform valley/dem.tif -o bent.tif --mask region.gpkg --pull 512000,4990000,900\n");

@@ -21,7 +21,7 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct GrowOptions {
     network::TokunagaParams params;
     std::string rule = "tokunaga";
     bool lsystem = false;
@@ -58,7 +58,7 @@ Count count(network::TokunagaTree const& tree, int generator) {
     return c;
 }
 
-void print_json(Options const& options, Count const& c) {
+void print_json(GrowOptions const& options, Count const& c) {
     nlohmann::ordered_json const out{{"generator", options.params.generator},
                                      {"order", c.streams.order},
                                      {"rule", options.rule},
@@ -84,13 +84,13 @@ void print_table(Count const& c) {
     if (c.streams.side.empty()) {
         return;
     }
-    fmt::print("\norders less k    side branches T_k    law {:.3g} * {:.3f}^(k-1)\n", c.laws.a, c.laws.c);
+    fmt::print("\norders lower k   side branches T_k    law {:.3g} * {:.3f}^(k-1)\n", c.laws.a, c.laws.c);
     for (std::size_t k = 0; k < c.streams.side.size(); ++k) {
         fmt::print("{:13}  {:19.3f}  {:23.3f}\n", k + 1, c.streams.side[k], c.side_law[k]);
     }
 }
 
-int grow(Options const& options, Session const& session) {
+int grow(GrowOptions const& options, Session const& session) {
     network::TokunagaParams params = options.params;
     params.rule = rule_of(options.rule);
     if (options.lsystem) {
@@ -113,24 +113,25 @@ int grow(Options const& options, Session const& session) {
 } // namespace
 
 Command add_grow(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<GrowOptions>();
     network::TokunagaParams& params = options->params;
-    app.add_flag("--lsystem", options->lsystem, "Print the network as the word of an L-system, in one line.");
-    app.add_option("--generator", params.generator,
-                   "Number lambda of the generator, 1 to 50: 1 has no side branches, many make a feathered network.")
+    app.add_flag("--lsystem", options->lsystem, "Print the network as an L-system word on one line.");
+    app.add_option(
+           "--generator", params.generator,
+           "Use this generator (lambda), 1 to 50: 1 has no side branches, high numbers give a feathered network.")
         ->type_name("N")
         ->capture_default_str();
-    app.add_option("--order", params.order, "Strahler order of the outlet, 1 to 30.")
+    app.add_option("--order", params.order, "Set the Strahler order of the outlet, 1 to 30.")
         ->type_name("N")
         ->capture_default_str();
-    app.add_option("--rule", options->rule, "How many side branches a link gets when the network is refined.")
+    app.add_option("--rule", options->rule, "Choose how many side branches a link gets in each refinement.")
         ->check(CLI::IsMember({"tokunaga", "constant", "plane"}))
         ->capture_default_str();
-    app.add_option("--seed", params.seed, "Seed of chance.")->type_name("N")->capture_default_str();
+    app.add_option("--seed", params.seed, "Set the random seed.")->type_name("N")->capture_default_str();
     app.add_flag("--json", session.json, "Print one JSON object.");
-    app.footer("Refines a generator until the outlet has the order, and prints how many streams there are of each "
-               "order, and how many side branches a stream has, beside Tokunaga's law. A word is drawn from the outlet "
-               "upstream: F is a link, G a source's link, [ and ] enclose a branch, + and - turn left and right.\n\n"
+    app.footer("Refines a generator until the outlet has the given order, then prints the streams of each order and "
+               "the side branches per stream next to Tokunaga's law. A word starts at the outlet and goes upstream: F "
+               "is a link, G a source link, [ and ] enclose a branch, + and - turn left and right.\n\n"
                "Examples:\n"
                "  thalweg grow --order 8\n"
                "  thalweg grow --generator 4 --order 6 --seed 3 --json\n"

@@ -18,8 +18,7 @@ Command add_help(CLI::App& app) {
     for (CLI::App const* command : app.get_parent()->get_subcommands(nullptr)) {
         names.push_back(command->get_name());
     }
-    app.add_option("COMMAND", *name, "The command to explain; without one, thalweg itself.")
-        ->check(CLI::IsMember(names));
+    app.add_option("COMMAND", *name, "The command to explain. Default: thalweg itself.")->check(CLI::IsMember(names));
     return [name, &app] {
         CLI::App* const program = app.get_parent();
         fmt::print("{}", help_text(name->empty() ? *program : *program->get_subcommand(*name)));

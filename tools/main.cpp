@@ -7,6 +7,7 @@
 #include "terminal.hpp"
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/memory.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/pipeline/report.hpp>
 #include <thalweg/solver/devices.hpp>
@@ -14,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -51,13 +53,29 @@ int call(Command const& command, Terminal& terminal) {
     }
 }
 
+void tell_time(Run const& run, std::string const& stage, double seconds) {
+    run.tell(stage, fmt::format("{:<56}{:6.1f} s", "", seconds));
+}
+
+/// What ends a command: the time of all, and with -v that of each stage and the memory.
+void tell_times(Session const& session, Terminal& terminal, double seconds) {
+    if (session.verbose) {
+        session.run.say("time by stage");
+        for (auto const& [stage, time] : terminal.times()) {
+            tell_time(session.run, stage, time);
+        }
+        session.run.tell("memory", fmt::format("{:<52}{:7.1f} MB", "", static_cast<double>(peak_memory_bytes()) / 1e6));
+    }
+    tell_time(session.run, "total", seconds);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     Session session;
     session.run.stop = stop_at_interrupt();
 
-    CLI::App app("thalweg builds terrain from its valleys outward.", "thalweg");
+    CLI::App app("thalweg makes terrain from its rivers outward.", "thalweg");
     app.formatter_fn([](CLI::App const* of, std::string const&, CLI::AppFormatMode) { return help_text(*of); });
     app.set_help_flag("-h,--help", "Show this help.");
     app.set_version_flag("--version", fmt::format("thalweg {} ({})", pipeline::version(), io::gdal_version()),
@@ -67,31 +85,32 @@ int main(int argc, char** argv) {
     std::map<CLI::App*, Command> commands;
     auto const add = [&](char const* name, char const* words, auto const& add_command) {
         CLI::App* const sub = app.add_subcommand(name, words);
-        sub->add_option("--threads", session.threads, "Use this many workers; 0 takes every core.")
+        sub->add_option("--threads", session.threads, "Use this many threads; 0 takes every core.")
             ->check(CLI::Range(0, 1024));
         sub->add_option("--device", session.device,
-                        "Solve large systems on the grid here, or on an OpenCL device, where heights differ by less "
-                        "than 1e-6 m. What needs no such system is not concerned.")
+                        "Solve large grid systems on the CPU or on an OpenCL device; heights differ by less than 1e-6 "
+                        "m. Other stages always run on the CPU.")
             ->check(CLI::IsMember({"cpu", "opencl"}))
             ->capture_default_str();
-        sub->add_flag("-q,--quiet", session.quiet, "Say nothing but errors.");
+        CLI::Option* const quiet = sub->add_flag("-q,--quiet", session.quiet, "Print errors only.");
+        sub->add_flag("-v,--verbose", session.verbose, "Print every note and repair, and the time of each stage.")
+            ->excludes(quiet);
         commands[sub] = add_command(*sub, session);
     };
-    add("make", "Make a terrain from a recipe, or the sample valley without one.", add_make);
-    add("check", "Check the topology of a network's files.", add_check);
-    add("convert", "Write a network in anyone's schema and format.", add_convert);
-    add("stats", "Measure a DEM.", add_stats);
-    add("measure", "Measure where a DEM's water goes: contributing areas and catchments.", add_measure);
-    add("draw", "Draw pictures of a DEM, or of what make left.", add_draw);
+    add("make", "Make terrain and a river network from a recipe.", add_make);
+    add("check", "Check the topology of a river network, and its drainage on a DEM.", add_check);
+    add("convert", "Convert a river network to another schema or format.", add_convert);
+    add("stats", "Print statistics of a DEM.", add_stats);
+    add("measure", "Write contributing areas, flow directions and catchments of a DEM.", add_measure);
+    add("draw", "Draw pictures of a DEM or of a folder written by make.", add_draw);
     add("tin", "Make a TIN of a DEM, of points or of a network.", add_tin);
-    add("points", "Write the cells of a DEM as a cloud of points.", add_points);
-    add("blend", "Set a piece of one DEM into another without a seam.", add_blend);
-    add("deform", "Scale a region of a DEM, or pull it to heights.", add_deform);
+    add("points", "Write the cells of a DEM as a point cloud.", add_points);
+    add("blend", "Paste a part of one DEM into another without a seam.", add_blend);
+    add("deform", "Scale the relief of a region of a DEM, or pull it to heights.", add_deform);
     add("grow", "Grow a network by Tokunaga's law and count its streams.", add_grow);
-    add("replay", "Run a folder's recipe again and compare the bytes.", add_replay);
+    add("replay", "Run a folder's recipe again and compare every file.", add_replay);
     add("recipe", "List every key of a recipe.", add_recipe);
-    CLI::App* const completion =
-        app.add_subcommand("completion", "Write the script that completes thalweg's command line in a shell.");
+    CLI::App* const completion = app.add_subcommand("completion", "Print a completion script for a shell.");
     CLI::App* const man = app.add_subcommand("man", "Write the manual pages.");
     CLI::App* const help = app.add_subcommand("help", "Explain a command.");
     commands[completion] = add_completion(*completion);
@@ -125,11 +144,20 @@ int main(int argc, char** argv) {
     CLI::App* const chosen = app.get_subcommands().front();
     return call(
         [&] {
+            if (session.verbose) {
+                session.run.say(fmt::format("thalweg {} ({})", pipeline::version(), io::gdal_version()));
+            }
             if (session.device == "opencl") {
                 session.run.device = Device::opencl;
-                session.run.say(fmt::format("{:<6} {}", "device", solver::opencl_device_name()));
+                session.run.tell("device", solver::opencl_device_name());
             }
-            return commands.at(chosen)();
+            auto const begin = std::chrono::steady_clock::now();
+            int const code = commands.at(chosen)();
+            if (session.verbose || chosen->get_name() == "make") {
+                tell_times(session, terminal,
+                           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+            }
+            return code;
         },
         terminal);
 }

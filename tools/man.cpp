@@ -43,12 +43,12 @@ Command add_man(CLI::App& app) {
         names.push_back(command->get_name());
     }
     names.emplace_back("recipe.5");
-    app.add_option("PAGE", *name, "The page to print: of a command, or of recipe files.")
+    app.add_option("PAGE", *name, "The page to print: a command or recipe.5.")
         ->check(CLI::IsMember(names))
         ->capture_default_str();
-    app.add_option("-o,--output", *folder, "Write every page below this folder, as man1/*.1 and man5/*.5, instead.")
+    app.add_option("-o,--output", *folder, "Write all pages to this folder, as man1/*.1 and man5/*.5.")
         ->type_name("DIR");
-    app.footer("The pages are in man(7), and follow from what --help knows.\n\n"
+    app.footer("The pages are in man(7) format and say the same as --help.\n\n"
                "Examples:\n"
                "  thalweg man make | man -l -\n"
                "  thalweg man recipe.5 | man -l -\n");

@@ -22,17 +22,17 @@ using Rows = std::vector<std::pair<char const*, char const*>>;
 
 Rows const exit_codes{
     {"0", "Done."},
-    {"1", "Failed while running: no room on the disk, out of memory, a file that could not be written."},
+    {"1", "Failed while running: disk full, out of memory, a file that could not be written."},
     {"2", "The command line, the recipe or an input is wrong. Nothing was written."},
-    {"3", "A check failed, or a file differs from what its recipe makes. What was made stays, to be looked at."},
-    {"130", "Interrupted by Ctrl-C (or SIGTERM). Nothing was written. A second Ctrl-C ends at once."},
+    {"3", "A check failed, or a file differs from what its recipe makes. The output files are kept."},
+    {"130", "Interrupted by Ctrl-C (or SIGTERM). Nothing was written. A second Ctrl-C stops at once."},
 };
 
 Rows const environment{
-    {"NO_COLOR", "Where it is set to anything, nothing is coloured. Only a terminal gets colours in any case."},
-    {"TERM", "Where it is dumb or unset, there is neither colour nor progress bar."},
-    {"THALWEG_OPENCL_DEVICE", "The device of --device opencl as platform:device, 0:0 for the first of the first; else "
-                              "a graphics card is taken before an accelerator, that before the processor."},
+    {"NO_COLOR", "If set, output has no colours. Only terminals get colours."},
+    {"TERM", "If dumb or unset, there are no colours and no progress bar."},
+    {"THALWEG_OPENCL_DEVICE", "The device of --device opencl as platform:device, such as 0:0. Default: a GPU, else an "
+                              "accelerator, else the CPU."},
 };
 
 /// What make leaves.
@@ -40,16 +40,16 @@ Rows const made{
     {"dem.tif", "Heights: a cloud-optimised GeoTIFF of 32-bit floats with its CRS and no-data value."},
     {"network.gpkg", "The layers arcs (lines with heights, drawn downstream) and nodes, and the table run."},
     {"network_arcs.shp, network_nodes.shp", "The same as shapefiles."},
-    {"network_SCHEMA.gpkg", "The arcs in the words of another schema, where the recipe names one."},
-    {"network.tif", "The cells in which rivers run."},
+    {"network_SCHEMA.gpkg", "The arcs in another schema, if the recipe names one."},
+    {"network.tif", "River cells."},
     {"contours.gpkg", "Contour lines."},
-    {"catchments.gpkg", "The land that each arc drains, and each basin, as outlines."},
-    {"area_d8.tif, area_dinf.tif", "Contributing areas by cell, where the recipe asks for them."},
-    {"map.png, profile.svg, curve.svg", "A map, the long profiles of the streams, the curve of the increments."},
-    {"wireframe.svg, sections.svg", "The land as a net of lines seen up the valley, and sections across it."},
-    {"report.html", "Terrain, rivers, diagrams and figures on one page for any browser; it needs no internet."},
-    {"report.json", "Figures, timings, checks and repairs."},
-    {"recipe.toml, inputs/", "The recipe with every default written out, and the files it names."},
+    {"catchments.gpkg", "Catchments of arcs and basins, as polygons."},
+    {"area_d8.tif, area_dinf.tif", "Contributing areas by cell, if the recipe asks for them."},
+    {"map.png, profile.svg, curve.svg", "A map, long profiles of the streams, the increment curve."},
+    {"wireframe.svg, sections.svg", "A wireframe seen up the valley, and cross-sections."},
+    {"report.html", "Terrain, rivers, diagrams and statistics on one page for any browser; it needs no internet."},
+    {"report.json", "Statistics, timings, checks and repairs."},
+    {"recipe.toml, inputs/", "The recipe with every default written out, and copies of the files it names."},
 };
 
 std::string rows(Rows const& table) {
@@ -141,21 +141,19 @@ std::string see_also(std::string const& self, CommandHelp const& program) {
 
 std::string program_page(CommandHelp const& program) {
     std::string out = heading("thalweg", '1', "User Commands");
-    out += section("NAME") + "thalweg \\- terrain from its valleys outward\n";
+    out += section("NAME") + "thalweg \\- terrain from its rivers outward\n";
     out += section("SYNOPSIS") + ".B thalweg\n.I COMMAND\n.RI [ OPTIONS ]\n";
     out += section("DESCRIPTION") +
-           paragraph(
-               "thalweg starts where other generators of terrain end: with the rivers. A network of valleys is grown, "
-               "or taken from a file of lines; it is traced into arcs, pruned, ordered and given heights; and the "
-               "land is drawn around it. Out come a checked river network, a DEM through exactly those rivers, "
-               "contours and pictures.");
+           paragraph("thalweg starts with the rivers. It grows a river network or reads one from a line file, orders "
+                     "it, assigns heights and shapes the terrain around it. It writes a topology-checked network, a "
+                     "DEM that these rivers drain, contours and pictures.");
     out += section("COMMANDS");
     for (CommandHelp const& command : program.commands) {
         out += tagged(fmt::format(".BR {} (1)", roff("thalweg-" + command.name)), command.summary);
     }
     out += options(program);
     out += section("EXIT STATUS") + rows(exit_codes);
-    out += section("FILES") + roff("What make leaves in its folder:") + "\n" + rows(made);
+    out += section("FILES") + roff("Files that make writes to its folder:") + "\n" + rows(made);
     out += section("ENVIRONMENT") + rows(environment);
     return out + examples(program) + see_also("thalweg1", program);
 }
@@ -181,18 +179,24 @@ std::string command_page(CommandHelp const& command, CommandHelp const& program)
 
 std::string key_text(pipeline::KeyHelp const& key) {
     std::string const out = fmt::format("{}.\n{}: {}.", key.meaning, key.type, key.range);
-    return key.standard.empty() ? out : out + fmt::format("\nDefault: {}.", key.standard);
+    std::string const standard = key.standard.empty() ? "" : fmt::format("\nDefault: {}.", key.standard);
+    std::string const used_by = key.used_by.empty() ? "" : fmt::format("\nUsed with {}.", key.used_by);
+    return out + standard + used_by;
 }
 
 std::string recipe_page(CommandHelp const& program) {
     std::string out = heading("thalweg-recipe", '5', "File Formats");
     out += section("NAME") + roff("thalweg-recipe") + " \\- everything that decides a terrain, in one file\n";
-    out += section("DESCRIPTION") +
-           paragraph(
-               "A recipe is a TOML file. A key that is left out has its default; one that is unknown is an error. On "
-               "the command line of thalweg make, --set section.key=value sets a key over what the file says. File "
-               "names are relative to the recipe's folder. Without a section network nothing tells where rivers run; "
-               "without a section surface only the network is made.");
+    out +=
+        section("DESCRIPTION") +
+        paragraph("A recipe is a TOML file. A key that is left out has its default; an unknown key is an error. The "
+                  "option --set section.key=value of thalweg make overrides the file. File names are relative to "
+                  "the recipe's folder. Without a [network] section there are no rivers; without a [surface] "
+                  "section only the network is made.") +
+        paragraph(
+            "Many keys have an effect only with certain values of others: \"Used with\" names them. A key that is set "
+            "and has no effect is an error, unless its value is its default or that of an earlier version. The "
+            "recipe.toml that make writes holds every key that was used, with its value, and no other.");
     out += section("KEYS");
     std::string at;
     for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct MeasureOptions {
     pipeline::MakeMeasuresParams params;
     NetworkOptions network;
     std::string folder;
@@ -48,13 +48,13 @@ ordered_json json_of(pipeline::MadeMeasures const& made) {
     return json;
 }
 
-int measure(Options& options, Session const& session) {
+int measure(MeasureOptions& options, Session const& session) {
     options.params.network = options.network.path;
     options.params.read = options.network.params();
     auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
     pipeline::MadeMeasures const made = pipeline::make_measures(options.params, options.folder, existing, session.run);
     for (std::string const& note : made.notes) {
-        session.run.say("note   " + note);
+        session.run.tell("note", note);
     }
     if (session.json) {
         fmt::print("{}\n", json_of(made).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
@@ -69,29 +69,28 @@ int measure(Options& options, Session const& session) {
 } // namespace
 
 Command add_measure(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
-    app.add_option("DEM", options->params.dem, "A folder that make left, or any raster of heights that GDAL reads.")
+    auto const options = std::make_shared<MeasureOptions>();
+    app.add_option("DEM", options->params.dem, "A folder written by make, or any height raster GDAL reads.")
         ->type_name("FILE")
         ->required();
     add_network_options(app, options->network, "--schema,--from");
     app.get_option("NETWORK")->required(false)->description(
-        "Rivers for the catchments: a network that GDAL reads, in anyone's schema. Without it, those of the folder.");
-    app.add_option("-o,--output", options->folder, "Write into this folder.")->type_name("DIR")->required();
+        "Use these rivers for catchments: a network in any schema that convert reads. Default: those of the folder.");
+    app.add_option("-o,--output", options->folder, "Write to this folder.")->type_name("DIR")->required();
     app.add_option("--what", options->params.what,
-                   "Measure these, with commas between: d8 and dinf, contributing areas; directions, of both; "
-                   "catchments, one outline an arc. Without it, the areas and, with rivers, the catchments.")
+                   "Write these, separated by commas: d8 and dinf (contributing areas), directions (of both), "
+                   "catchments (one polygon per arc). Default: d8, dinf and, with rivers, catchments.")
         ->type_name("LIST")
         ->delimiter(',')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_flag("--overwrite", options->overwrite, "Replace files of the same names. Other files stay.");
+    app.add_flag("--overwrite", options->overwrite, "Replace files of the same names. Other files are kept.");
     app.add_flag("--json", session.json, "Print one JSON object.");
-    app.footer("Writes area_d8.tif and area_dinf.tif (contributing areas in m2, as D8 and D-infinity have them), "
-               "direction_d8.tif (1 to 128 clockwise from the east, 0 where water leaves), direction_dinf.tif (radians "
-               "counterclockwise from the east, -1 where water leaves) and catchments.gpkg (layers catchments and "
-               "basins). Water is led through depressions and flats; the DEM stays as it is. A catchment holds the "
-               "cells whose water meets a river first in a cell of its arc; together they tile all land that drains "
-               "to a river.\n\n"
+    app.footer("Writes area_d8.tif and area_dinf.tif (contributing areas in m2, by D8 and D-infinity), "
+               "direction_d8.tif (1 to 128 clockwise from east, 0 at outlets), direction_dinf.tif (radians "
+               "counterclockwise from east, -1 at outlets) and catchments.gpkg (layers catchments and basins). Flow is "
+               "routed through depressions and flats; the DEM is not changed. A catchment holds the cells whose flow "
+               "reaches a river first at its arc; the catchments tile all cells that drain to a river.\n\n"
                "Examples:\n"
                "  thalweg measure valley -o measures\n"
                "  thalweg measure dem.tif rivers.gpkg --what catchments -o measures\n"

@@ -18,7 +18,7 @@ io::ReadNetworkParams NetworkOptions::params() const {
     for (std::string const& field : fields) {
         std::size_t const equals = field.find('=');
         if (equals == std::string::npos || equals == 0 || equals + 1 == field.size()) {
-            throw BadParameter(fmt::format("--field {}: QUANTITY=NAME is wanted, such as ds_arc=NEXT_DOWN", field));
+            throw BadParameter(fmt::format("--field {}: write QUANTITY=NAME, such as ds_arc=NEXT_DOWN", field));
         }
         read.fields[field.substr(0, equals)] = field.substr(equals + 1);
     }
@@ -29,19 +29,19 @@ io::ReadNetworkParams NetworkOptions::params() const {
 
 void add_network_options(CLI::App& app, NetworkOptions& options, char const* schema_flag) {
     app.add_option("NETWORK", options.path,
-                   "A network that GDAL reads: a file, a folder that make left, a database (PG:dbname=rivers).")
+                   "A network: any vector file GDAL reads, a folder written by make, or a database (PG:dbname=rivers).")
         ->type_name("FILE(gpkg,shp,fgb,geojson)")
         ->required();
-    app.add_option(schema_flag, options.schema, "The schema of NETWORK. Without it, it is recognised by its fields.")
+    app.add_option(schema_flag, options.schema, "Set the schema of NETWORK. Default: recognised by its fields.")
         ->check(CLI::IsMember(schema_names()));
     app.add_option("--field", options.fields,
-                   "Which field of NETWORK holds a quantity of the network schema: ds_arc=NEXT_DOWN. May be given many "
-                   "times.")
+                   "Name the field of NETWORK that holds a quantity of the native schema, such as ds_arc=NEXT_DOWN. "
+                   "May be repeated.")
         ->type_name("QUANTITY=NAME")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--layer,--arcs-layer", options.layer, "The layer of NETWORK's arcs.")->type_name("NAME");
-    app.add_option("--nodes-layer", options.nodes_layer, "The layer of NETWORK's nodes.")->type_name("NAME");
+    app.add_option("--layer,--arcs-layer", options.layer, "Read arcs from this layer.")->type_name("NAME");
+    app.add_option("--nodes-layer", options.nodes_layer, "Read nodes from this layer.")->type_name("NAME");
 }
 
 std::vector<std::string> schema_names() {

@@ -20,7 +20,7 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct PointsOptions {
     pipeline::MakePointsParams source;
     std::string file;
     std::string format;
@@ -28,13 +28,13 @@ struct Options {
     bool overwrite = false;
 };
 
-int points(Options& options, Session const& session) {
+int points(PointsOptions& options, Session const& session) {
     options.source.write.format = io::point_format(options.format, options.file);
     options.source.of = options.skeleton ? pipeline::PointsOf::skeleton : pipeline::PointsOf::land;
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     pipeline::MadePoints const made = pipeline::make_points(options.source, file.staging(), session.run);
     file.commit();
-    session.run.say(fmt::format("points {}", made.count));
+    session.run.tell("points", fmt::format("{}", made.count));
     nlohmann::ordered_json const json{{"file", options.file}, {"crs", made.crs}, {"points", made.count}};
     fmt::print("{}\n", session.json ? json.dump(2) : options.file);
     return Exit::done;
@@ -43,26 +43,23 @@ int points(Options& options, Session const& session) {
 } // namespace
 
 Command add_points(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<PointsOptions>();
     std::string formats;
     for (auto const& f : io::point_formats()) {
         formats += (formats.empty() ? "" : ", ") + std::string(f.name);
     }
-    app.add_option("SOURCE", options->source.path, "A folder that make left, or any raster of heights that GDAL reads.")
+    app.add_option("SOURCE", options->source.path, "A folder written by make, or any height raster GDAL reads.")
         ->type_name("FILE")
         ->required();
     app.add_option("-o,--output", options->file, "Write this file.")->type_name("FILE(las,ply,xyz)")->required();
-    app.add_option("--every", options->source.write.every,
-                   "Take one of so many rows and columns. Without it, every cell.")
+    app.add_option("--every", options->source.write.every, "Take every Nth row and column. Default: every cell.")
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()));
-    app.add_flag("--skeleton", options->skeleton,
-                 "Take only the cells of rivers and ridges, of a folder that make left.");
-    app.add_option("--format", options->format,
-                   "Write this format: " + formats + ". Without it, by the name's ending.");
+    app.add_flag("--skeleton", options->skeleton, "Take only river and ridge cells of a folder written by make.");
+    app.add_option("--format", options->format, "Write this format: " + formats + ". Default: by the file extension.");
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
-    app.footer("One point a cell, at its centre; cells without data are left out. LAS is version 1.2, point format 0: "
-               "land is ground (class 2), rivers are water (9).\n\n"
+    app.footer("Writes one point per cell, at its centre; cells without data are left out. LAS is version 1.2, point "
+               "format 0, with ground in class 2 and rivers in class 9 (water).\n\n"
                "Examples:\n"
                "  thalweg points out -o land.las\n"
                "  thalweg points out -o rivers.ply --skeleton\n"

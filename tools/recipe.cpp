@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "print_keys.hpp"
 
 #include <thalweg/pipeline/make_input.hpp>
 #include <thalweg/pipeline/recipe.hpp>
@@ -11,27 +12,17 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace thalweg::tools {
 
 namespace {
 
-int print_keys() {
-    std::string section = " ";
-    for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {
-        auto const dot = key.path.rfind('.');
-        std::string const its_section = dot == std::string::npos ? "" : key.path.substr(0, dot);
-        if (its_section != section) {
-            section = its_section;
-            fmt::print("{}{}", section.empty() ? "" : "\n",
-                       section.empty()      ? ""
-                       : section == "patch" ? "[[patch]]\n"
-                                            : "[" + section + "]\n");
-        }
-        fmt::print("{:<18}{}{}\n{:<18}{}; {}{}\n", key.path.substr(dot == std::string::npos ? 0 : dot + 1), key.meaning,
-                   key.unit.empty() ? "" : " [" + key.unit + "]", "", key.type, key.range,
-                   key.standard.empty() ? "" : "; default " + key.standard);
-    }
+int print_keys(std::string const& word, Session const& session) {
+    std::vector<pipeline::KeyHelp> const keys = keys_named(word);
+    fmt::print("{}", session.json       ? keys_as_json(keys)
+                     : keys.size() == 1 ? key_as_text(keys.front())
+                                        : keys_as_list(keys));
     return Exit::done;
 }
 
@@ -46,17 +37,23 @@ int print_for(std::string const& rivers, Session const& session) {
 Command add_recipe(CLI::App& app, Session& session) {
     auto const dump = std::make_shared<bool>(false);
     auto const rivers = std::make_shared<std::string>();
-    app.add_flag("--dump", *dump, "Print the recipe that make uses without one, as a file to begin with.");
+    auto const key = std::make_shared<std::string>();
+    app.add_option("KEY", *key,
+                   "Show this key, such as network.prune, or the keys of this section. Default: every key.");
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    app.add_flag("--dump", *dump, "Print the default recipe as a TOML file.");
     app.add_option("--for", *rivers,
-                   "Print the recipe that make uses for these rivers: a file of lines, or the folder that make or "
-                   "convert wrote.")
+                   "Print the recipe that make uses for these rivers: a file of lines, or a folder written by make or "
+                   "convert.")
         ->type_name("FILE(gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)");
-    app.footer("Each key with its unit, range and default. thalweg-recipe(5) is the same as a manual page.\n\n"
+    app.footer("Prints keys with their unit, range and default. thalweg-recipe(5) is the same as a manual page.\n\n"
                "Examples:\n"
                "  thalweg recipe\n"
+               "  thalweg recipe network.prune\n"
+               "  thalweg recipe surface --json\n"
                "  thalweg recipe --dump > mine.toml\n"
                "  thalweg recipe --for samples/walker_nhdplus.gpkg > walker.toml\n");
-    return [dump, rivers, &session] {
+    return [dump, rivers, key, &session] {
         if (!rivers->empty()) {
             return print_for(*rivers, session);
         }
@@ -64,7 +61,7 @@ Command add_recipe(CLI::App& app, Session& session) {
             fmt::print("{}", pipeline::write_recipe(pipeline::default_recipe()));
             return static_cast<int>(Exit::done);
         }
-        return print_keys();
+        return print_keys(*key, session);
     };
 }
 

@@ -35,9 +35,9 @@ int replay(std::string const& folder, Session const& session) {
 Command add_replay(CLI::App& app, Session& session) {
     auto const folder = std::make_shared<std::string>();
     auto const verify = std::make_shared<bool>(true);
-    app.add_option("DIR", *folder, "What an earlier make left.")->type_name("DIR")->required();
-    app.add_flag("--verify", *verify, "Compare the bytes. It always does; the option is for the reader of a script.");
-    app.footer("Makes the folder's recipe.toml again, beside it, and compares each file. Exit status 3 tells that one "
+    app.add_option("DIR", *folder, "A folder written by make.")->type_name("DIR")->required();
+    app.add_flag("--verify", *verify, "Compare the bytes. This is always done; the option makes scripts readable.");
+    app.footer("Runs recipe.toml again in a temporary folder and compares each file. The exit status is 3 when a file "
                "differs or is missing. Nothing is changed.\n\n"
                "Examples:\n"
                "  thalweg replay valley --verify\n");

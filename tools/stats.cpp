@@ -34,7 +34,7 @@ std::string length(solver::CorrelationLength const& l) {
     return known(l.cells, 2) + (l.extrapolated ? " (extrapolated)" : "");
 }
 
-struct Options {
+struct StatsOptions {
     std::string path;
     bool recipe = false;
     bool laws = false;
@@ -65,7 +65,7 @@ void print_relief(pipeline::LandRelief const& found) {
     for (measure::RealLand const& land : measure::real_lands()) {
         fmt::print("  {:>11}", land.name);
     }
-    fmt::print("  real land\n");
+    fmt::print("  reference range\n");
     for (pipeline::ReliefRow const& row : pipeline::relief_rows(found)) {
         fmt::print("{:<42}{:>8}", row.name, row.value ? fmt::format("{:.3g}", *row.value) : "unknown");
         for (double const figure : row.beside) {
@@ -85,7 +85,7 @@ void print_recipe(pipeline::DemRecipe const& made) {
     fmt::print("{}", pipeline::write_recipe(made.recipe));
 }
 
-int stats(Options const& options, Session const& session) {
+int stats(StatsOptions const& options, Session const& session) {
     if (options.recipe && session.json) {
         throw BadParameter("thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
     }
@@ -132,24 +132,25 @@ int stats(Options const& options, Session const& session) {
 } // namespace
 
 Command add_stats(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
-    app.add_option("DEM", options->path, "Any raster of heights that GDAL reads.")->type_name("FILE")->required();
+    auto const options = std::make_shared<StatsOptions>();
+    app.add_option("DEM", options->path, "Any height raster GDAL reads.")->type_name("FILE")->required();
     app.add_flag("--json", session.json, "Print one JSON object.");
-    CLI::Option* const recipe =
-        app.add_flag("--recipe", options->recipe, "Print a recipe of other land with the same statistics, for make.");
-    CLI::Option* const laws = app.add_flag("--laws", options->laws,
-                                           "Print the laws of the rivers that the DEM's water draws, beside nature's.")
-                                  ->excludes(recipe);
-    app.add_flag("--relief", options->relief,
-                 "Print the figures by which experts judge land, beside those of real land.")
+    CLI::Option* const recipe = app.add_flag("--recipe", options->recipe,
+                                             "Print a recipe of other terrain with the same statistics, for make.");
+    CLI::Option* const laws =
+        app.add_flag("--laws", options->laws,
+                     "Print network laws of the streams extracted from the DEM, with natural ranges.")
+            ->excludes(recipe);
+    app.add_flag("--relief", options->relief, "Print morphometric indices, with those of reference DEMs.")
         ->excludes(recipe);
-    app.add_option("--support", options->support_cells, "Cells that drain through the first cell of a river.")
+    app.add_option("--support", options->support_cells, "Start a stream where this many cells drain.")
         ->type_name("CELLS")
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
         ->capture_default_str()
         ->needs(laws);
-    app.footer("Count, mean, standard deviation, lowest and highest cell, mean slope, shape, roughness, correlation "
-               "lengths and fractal dimension. Cells without data are left out. With --laws: Horton's ratios, "
+    app.footer("Prints count, mean, standard deviation, lowest and highest cell, mean slope, skewness and kurtosis, "
+               "roughness, correlation lengths and fractal dimension. Cells without data are left out. With --laws: "
+               "Horton's ratios, "
                "Tokunaga's a and c, Hack's exponent, concavity, drainage density, junction angles and links. "
                "With --relief: slopes, slope against area, pits, geomorphons, aspects (docs/relief_measures.md).\n\n"
                "Examples:\n"

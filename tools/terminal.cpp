@@ -95,6 +95,15 @@ void Terminal::begin_stage(std::string_view what) {
     }
 }
 
+std::vector<std::pair<std::string, double>> Terminal::times() {
+    std::lock_guard const lock(mutex_);
+    return times_.until(seconds());
+}
+
+double Terminal::seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
 void Terminal::show(double share) {
     auto const now = std::chrono::steady_clock::now();
     std::chrono::duration<double> const gone = now - begin_;
@@ -114,10 +123,12 @@ void Terminal::show(double share) {
 
 int Terminal::progress(double share, char const* what, void* terminal) {
     auto& self = *static_cast<Terminal*>(terminal);
+    std::lock_guard const lock(self.mutex_);
+    std::string_view const name = what == nullptr ? "" : what;
+    self.times_.at(name.substr(0, name.find(' ')), share >= 1.0, self.seconds());
     if (!self.talks_ || !self.abilities_.moves) {
         return 1;
     }
-    std::lock_guard const lock(self.mutex_);
     self.begin_stage(what == nullptr ? "" : what);
     if (share >= 1.0) {
         self.take_bar_away();

@@ -3,12 +3,15 @@
 #pragma once
 
 #include "bar.hpp"
+#include "stage_times.hpp"
 
 #include <chrono>
 #include <cstdio>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace thalweg::tools {
 
@@ -42,12 +45,15 @@ public:
     void line(std::string_view text);
     /// Takes the bar away; another report brings it back.
     void wipe();
+    /// Seconds by stage so far, as StageTimes.
+    std::vector<std::pair<std::string, double>> times();
     /// Run::progress; argument: the Terminal.
     static int progress(double share, char const* what, void* terminal);
 
 private:
     void take_bar_away();
     void begin_stage(std::string_view what);
+    double seconds() const; ///< since the beginning
     void show(double share);
 
     std::mutex mutex_;
@@ -56,6 +62,8 @@ private:
     bool bar_shown_ = false;
     BarState state_;
     Pace pace_;
+    StageTimes times_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::chrono::steady_clock::time_point begin_;
     std::chrono::steady_clock::time_point last_;
 };

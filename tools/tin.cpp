@@ -19,7 +19,7 @@ namespace thalweg::tools {
 
 namespace {
 
-struct Options {
+struct TinOptions {
     pipeline::MakeTinParams source;
     std::string file;
     std::string format;
@@ -44,32 +44,31 @@ std::string as_json(pipeline::MadeTin const& made, std::string const& file) {
 }
 
 std::string in_words(pipeline::MadeTin const& made) {
-    std::string words =
-        fmt::format("tin    {} vertices, {} triangles", made.tin.vertices.size(), made.tin.triangles.size());
+    std::string words = fmt::format("{} vertices, {} triangles", made.tin.vertices.size(), made.tin.triangles.size());
     if (made.error_m) {
         words += fmt::format(", within {:.3f} m", *made.error_m);
     }
     if (made.left_out > 0) {
-        words += fmt::format("; {} cells with data touch no others and are left out", made.left_out);
+        words += fmt::format("; {} isolated cells are left out", made.left_out);
     }
     if (made.merged > 0 && (made.source == "points" || made.merged_dz_m > 0.0)) { // arcs of a network meet anyway
-        words += fmt::format("; {} points where one lay already, up to {:.3f} m apart in height: the first stands",
-                             made.merged, made.merged_dz_m);
+        words += fmt::format("; {} duplicate points, up to {:.3f} m apart in height: the first is kept", made.merged,
+                             made.merged_dz_m);
     }
     if (made.crossings > 0) {
-        words += fmt::format("; {} crossings of lines, up to {:.3f} m apart: the height of the first", made.crossings,
-                             made.crossings_dz_m);
+        words += fmt::format("; {} line crossings, up to {:.3f} m apart in height: the first line is kept",
+                             made.crossings, made.crossings_dz_m);
     }
     return words;
 }
 
-int tin(Options const& options, Session const& session) {
+int tin(TinOptions const& options, Session const& session) {
     auto const format = io::tin_format(options.format, options.file);
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     pipeline::MadeTin const made = pipeline::make_tin(options.source, session.run);
     io::write_tin(made.tin, made.crs, file.staging(), format, session.run);
     file.commit();
-    session.run.say(in_words(made));
+    session.run.tell("tin", in_words(made));
     fmt::print("{}", session.json ? as_json(made, options.file) : options.file + "\n");
     return Exit::done;
 }
@@ -77,21 +76,23 @@ int tin(Options const& options, Session const& session) {
 } // namespace
 
 Command add_tin(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<TinOptions>();
     std::string formats;
     for (auto const& f : io::tin_formats()) {
         formats += (formats.empty() ? "" : ", ") + std::string(f.name);
     }
     app.add_option("SOURCE", options->source.path,
-                   "a DEM; points (CSV or XYZ text, any point layer); lines with heights, or a folder that make wrote")
+                   "A DEM, points (CSV or XYZ text, any point layer), lines with heights, or a folder written by make.")
         ->required();
-    app.add_option("-o,--output", options->file, "the file to be written")->required();
-    app.add_option("--error", options->source.error_m, "greatest vertical error of a DEM's TIN [m]; 1 without it");
-    app.add_option("--breaklines", options->source.breaklines, "lines with heights that become edges, beside points");
-    app.add_option("--crs", options->source.crs, "CRS of the points (text has none) or to bring points and lines into");
-    app.add_option("--format", options->format, formats + "; without it, by the name's ending");
-    app.add_flag("--json", session.json, "one JSON object on stdout");
-    app.add_flag("--overwrite", options->overwrite, "replace an existing file");
+    app.add_option("-o,--output", options->file, "Write this file.")->required();
+    app.add_option("--error", options->source.error_m, "Limit the vertical error of a DEM's TIN [m]. Default: 1.");
+    app.add_option("--breaklines", options->source.breaklines,
+                   "Use these lines with heights as edges, in addition to points.");
+    app.add_option("--crs", options->source.crs,
+                   "Set the CRS of text points, or reproject points and lines to this CRS.");
+    app.add_option("--format", options->format, formats + ". Default: by the file extension.");
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
     return [options, &session] { return tin(*options, session); };
 }
 

@@ -43,7 +43,7 @@ TEST(Deform, RefusesWhatCannotBeBent) {
     EXPECT_TRUE(contains(refused(target, region, {{{6, 0}, 1.0}}), "column 6, row 0 to 1 m lies outside"));
     EXPECT_TRUE(contains(refused(target, region, {{{0, 0}, 1.0}}), "lies in no cell of the region"));
     EXPECT_TRUE(contains(refused(target, region, {{{2, 2}, 1.0}}), "lies in no cell of the region"));
-    EXPECT_TRUE(contains(refused(target, region, {{{1, 1}, std::nan("")}}), "is no height"));
+    EXPECT_TRUE(contains(refused(target, region, {{{1, 1}, std::nan("")}}), "is not a height"));
     EXPECT_TRUE(contains(refused(target, region, {{{1, 1}, 5.0}, {{1, 1}, 6.0}}), "is there already, to 5 m"));
     EXPECT_EQ(deform(target, region, {{{1, 1}, 5.0}, {{1, 1}, 5.0}}).cells, 8);
     target[{3, 3}] = std::numeric_limits<float>::infinity();

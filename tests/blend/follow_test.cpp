@@ -12,12 +12,10 @@
 
 using namespace thalweg;
 using namespace thalweg::blend;
-using solver::CellKind;
+using solver::fixed_cell;
+using solver::free_cell;
 
 namespace {
-
-constexpr auto free_kind = static_cast<std::uint8_t>(CellKind::free);
-constexpr auto fixed_kind = static_cast<std::uint8_t>(CellKind::fixed);
 
 solver::PoissonParams tight() {
     solver::PoissonParams params;
@@ -31,11 +29,11 @@ Raster<double> doubles(Raster<float> const& land) {
 
 /// A frame of fixed cells around free ones, some fixed among them.
 Raster<std::uint8_t> framed(Grid const& grid, std::uint64_t seed) {
-    Raster<std::uint8_t> kind(grid, free_kind);
+    Raster<std::uint8_t> kind(grid, free_cell);
     Mask const drawn = lands::mask_by_chance(grid, seed, 0.05);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         if (grid.on_border(grid.at(i)) || drawn[i] != 0) {
-            kind[i] = fixed_kind;
+            kind[i] = fixed_cell;
         }
     }
     return kind;
@@ -68,7 +66,7 @@ double farthest(Raster<double> const& a, Raster<double> const& b) {
 TEST(Follow, CellsWithoutFreeOnesStay) {
     Grid const grid = lands::frame(3, 2);
     Raster<double> const fixed = doubles(lands::by_chance(grid, 1));
-    auto const solution = follow(Raster<std::uint8_t>(grid, fixed_kind), fixed, Raster<double>(grid), {});
+    auto const solution = follow(Raster<std::uint8_t>(grid, fixed_cell), fixed, Raster<double>(grid), {});
     EXPECT_EQ(farthest(solution.value, fixed), 0.0);
 }
 
@@ -84,7 +82,7 @@ TEST(Follow, CarrierWithHarmonicExtensionEqualsTheGradientForm) {
         auto const gradients = follow(kind, target, Raster<double>(grid), differences_of(source), tight());
         RC_ASSERT(farthest(extended.value, gradients.value) <= 1e-8);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            RC_ASSERT((kind[i] == free_kind || extended.value[i] == target[i]));
+            RC_ASSERT((kind[i] == free_cell || extended.value[i] == target[i]));
         }
     }));
 }

@@ -66,7 +66,7 @@ template <class Error, class Act> std::string message(Act const& act) {
     try {
         act();
     } catch (Error const& e) {
-        return e.what();
+        return std::string(e.where()) + ": " + e.what();
     }
     return "nothing was thrown";
 }

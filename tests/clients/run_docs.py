@@ -5,8 +5,8 @@
 
 A command is a line that begins with "$ " in a fenced block marked sh. Each page runs in a folder of its own that
 holds a copy of samples/, with thalweg in PATH; what the commands of a page leave, later ones find. A command whose
-line ends in "# exit N" must exit with N, every other with 0. Commands of scripts/ and the compilers' build are run by
-scripts/test itself and only checked to exist. python3 is Debian's, whose packages the pages speak of; psql, createdb and
+line ends in "# exit N" must exit with N, every other with 0. build/release/bin/thalweg stands for the thalweg in PATH.
+Commands of scripts/ and the compilers' build are run by scripts/test itself and only checked to exist. python3 is Debian's, whose packages the pages speak of; psql, createdb and
 databases "PG:dbname=..." are those of a PostgreSQL of this run's own.
 """
 import contextlib
@@ -56,6 +56,7 @@ for page in pages:
         (bin_dir / "python3").symlink_to("/usr/bin/python3")
         environment = dict(os.environ, PATH=f"{bin_dir}:{os.environ['PATH']}", **found)
         for command in commands:
+            command = command.removeprefix("build/release/bin/")
             if elsewhere.match(command):
                 script = command.split()[0]
                 if script.startswith("scripts/") and not os.access(source / script, os.X_OK):

@@ -47,6 +47,8 @@ UNREPEATABLE = re.compile(r"\bstd::(?:shuffle|sample|random_device|reduce|transf
 DISTRIBUTION = re.compile(r"\b(?:std::)?(?:uniform_int|uniform_real|normal|bernoulli|binomial|geometric|poisson|exponential|"
                           r"gamma|weibull|extreme_value|lognormal|chi_squared|cauchy|fisher_f|student_t|discrete|"
                           r"piecewise_constant|piecewise_linear)_distribution\b")
+# thalweg::Error takes such a beginning for the function that throws and shows users the rest.
+PREFIX = re.compile(r'"([a-z]+)\.\w+: ')
 # rapidcheck gives its verdict back; a test that does not look at it cannot fail.
 UNASKED = re.compile(r"^\s*rc::check\(")
 # What opens and closes a namespace, and a type defined in one, as clang-format writes them.
@@ -132,6 +134,8 @@ def check_source(name, lines):
             yield number, "a .cpp file is included"
         if found := DISTRIBUTION.search(code):
             yield number, f"{found[0]}: distributions differ between libraries; use core/chance.hpp"
+        if room and (found := PREFIX.search(code)) and found[1] in ROOMS and found[1] != room:
+            yield number, f"{found[0]}: an error names its own module first; write a key as key = value or [section]"
         if not in_lib:
             if UNASKED.search(code) and not lines[max(number - 2, 0)].endswith("("):
                 yield number, "rc::check: its verdict is not looked at; write ASSERT_TRUE(rc::check(...))"

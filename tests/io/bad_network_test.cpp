@@ -264,7 +264,7 @@ TEST(BadNetwork, LayersInDifferentCrsAreRefused) {
                        .fields = {{"node_id", OFTInteger}},
                        .rows = {{"POINT Z (0 1 1)", {"1"}}, {"POINT Z (0 0 0)", {"2"}}}};
     ScratchFolder const folder;
-    EXPECT_TRUE(says(refusal(written(folder, "mixed.gpkg", "GPKG", {arcs, nodes})), "bring both into one CRS"));
+    EXPECT_TRUE(says(refusal(written(folder, "mixed.gpkg", "GPKG", {arcs, nodes})), "reproject both to one CRS"));
     nodes.epsg = 32631;
     NetworkFile const file =
         io::read_network(written(folder, "n.gpkg", "GPKG", {arcs, nodes}), io::ReadNetworkParams{});

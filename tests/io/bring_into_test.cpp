@@ -33,7 +33,7 @@ template <class Act> std::string refused(Act const& act) {
     try {
         act();
     } catch (BadInput const& error) {
-        return error.what();
+        return std::string(error.where()) + ": " + error.what();
     }
     return "nothing was thrown";
 }

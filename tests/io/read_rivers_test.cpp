@@ -123,7 +123,7 @@ TEST_F(ReadRivers, MissingFile) {
 
 TEST_F(ReadRivers, NoVectorFile) {
     std::ofstream(path("text.gpkg")) << "this is no GeoPackage";
-    EXPECT_TRUE(has(refusal({.path = path("text.gpkg")}), "is no vector file"));
+    EXPECT_TRUE(has(refusal({.path = path("text.gpkg")}), "is not a vector file"));
 }
 
 TEST_F(ReadRivers, EmptyLayer) {
@@ -208,9 +208,9 @@ TEST_F(ReadRivers, WhatCannotBeReprojected) {
     auto const file =
         write("a.gpkg", {{.epsg = 4326, .features = {{"LINESTRING(0 0,1 1)"}, {"LINESTRING(0 2,0 95)"}}}});
     auto const refused = refusal({.path = file, .crs = "EPSG:32631"});
-    EXPECT_TRUE(has(refused, "vertex 2 of feature 2 of a.gpkg, (0, 95), cannot be brought into EPSG:32631")) << refused;
+    EXPECT_TRUE(has(refused, "vertex 2 of feature 2 of a.gpkg, (0, 95), cannot be reprojected to EPSG:32631")) << refused;
     EXPECT_TRUE(has(refusal({.path = file, .crs = "EPSG:4326"}), "is geographic"));
-    EXPECT_TRUE(has(refusal({.path = file, .crs = "nonsense"}), "is no coordinate system"));
+    EXPECT_TRUE(has(refusal({.path = file, .crs = "nonsense"}), "is not a coordinate system"));
 }
 
 TEST_F(ReadRivers, CorruptFile) {
@@ -350,7 +350,7 @@ TEST_F(ReadRivers, FieldsOfTypeAndRank) {
     EXPECT_TRUE(has(refusal({.path = file, .type_field = "kint"}),
                     "layer rivers of a.gpkg has no field 'kint'. Did you mean 'kind'?"));
     EXPECT_TRUE(has(refusal({.path = file, .rank_field = "order"}), "has no field 'order'"));
-    EXPECT_TRUE(has(refusal({.path = file, .rank_field = "kind"}), "field kind of a.gpkg is no number"));
+    EXPECT_TRUE(has(refusal({.path = file, .rank_field = "kind"}), "field kind of a.gpkg is not a number field"));
     auto broken = layer;
     broken.features[0].fields["HYDROSEQ"] = "1.5";
     EXPECT_TRUE(has(refusal({.path = write("b.gpkg", {broken})}), "feature 1 of b.gpkg has the rank 1.5"));

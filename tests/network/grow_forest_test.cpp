@@ -99,7 +99,8 @@ TEST(GrowForest, refuses_parameters_and_seeds) {
     try {
         grow_forest(land, {{0, 0}, {1, 0}}, growth(1, 7));
     } catch (BadInput const& e) {
-        EXPECT_STREQ(e.what(), "network.grow_forest: the seed (1, 0) lies nearer than 2 cells to another");
+        EXPECT_STREQ(e.where(), "network.grow_forest");
+        EXPECT_STREQ(e.what(), "the seed (1, 0) lies nearer than 2 cells to another");
     }
 }
 

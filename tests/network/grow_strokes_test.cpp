@@ -62,7 +62,7 @@ void refused(RiverLines const& strokes, std::string const& words, StrokesParams 
         FAIL() << "not refused: " << words;
     } catch (Fault const& e) {
         EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
-        EXPECT_EQ(std::string(e.what()).rfind("network.grow_strokes: ", 0), 0U) << e.what();
+        EXPECT_STREQ(e.where(), "network.grow_strokes");
     }
 }
 
@@ -206,7 +206,7 @@ TEST(GrowStrokes, WhatIsNoStrokeIsRefusedWithItsPlace) {
                       "stroke 8 of hand.geojson at (2000.500, 400.000) leaves the grid");
     refused<BadInput>(drawn({stroke(8, {{300.0, 400.0}, {unknown, 400.0}, {500.0, 400.0}})}), "leaves the grid");
     refused<BadInput>(drawn({good, stroke(9, {{300.0, 400.0}, {400.0, 400.0}}, "Aaa+")}),
-                      "stroke 9 of hand.geojson at (300.000, 400.000) has the river type 'Aaa+', which nobody knows. "
+                      "stroke 9 of hand.geojson at (300.000, 400.000) has the unknown river type 'Aaa+'. "
                       "Did you mean 'Aa+'?");
     refused<BadInput>(drawn({good, stroke(9, {{998.0, 400.0}, {1001.0, 400.0}, {1000.0, 400.0}})}), "stroke 9");
     refused<BadInput>(drawn({good, stroke(9, {{1004.0, 400.0}, {1000.0, 400.0}})}),

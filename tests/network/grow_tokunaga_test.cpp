@@ -29,7 +29,8 @@ TEST(GrowTokunaga, RefusesWhatCannotGrow) {
         grow_tokunaga({.generator = 50, .order = 30});
         FAIL();
     } catch (BadParameter const& e) {
-        EXPECT_EQ(std::string(e.what()), "network.grow_tokunaga: order 30 with generator 50 has more than 2000000 "
+        EXPECT_STREQ(e.where(), "network.grow_tokunaga");
+        EXPECT_EQ(std::string(e.what()), "order 30 with generator 50 has more than 2000000 "
                                          "links; lower the order or raise max_links");
     }
     EXPECT_NO_THROW(grow_tokunaga({.order = 8, .max_links = 21845}));

@@ -22,7 +22,7 @@ std::string complaint(std::string const& word) {
     try {
         read_lsystem(word);
     } catch (BadInput const& e) {
-        return e.what();
+        return std::string(e.where()) + ": " + e.what();
     }
     return "";
 }
@@ -61,7 +61,7 @@ TEST(LSystem, RefusesWhatIsNoWord) {
     EXPECT_EQ(at("F[---G]G"), 5);
     EXPECT_EQ(at("F[-G]X"), 6);
     EXPECT_EQ(at("G[-G][+G]"), 4);
-    EXPECT_EQ(complaint("F[-G]X"), "network.read_lsystem: at position 6: 'X' is none of F G + - [ ]");
+    EXPECT_EQ(complaint("F[-G]X"), "network.read_lsystem: at position 6: 'X' is not one of F G + - [ ]");
 }
 
 TEST(LSystem, GeneratorTwoFollowsThePapersRules) {

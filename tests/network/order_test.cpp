@@ -21,7 +21,7 @@ std::string refusal(StreamNetwork const& net) {
     try {
         order(net);
     } catch (BadInput const& e) {
-        return e.what();
+        return std::string(e.where()) + ": " + e.what();
     }
     return "";
 }

@@ -61,7 +61,8 @@ TEST(PlantForest, refuses_what_leaves_no_room) {
     try {
         plant_forest(land, {{20, 20}});
     } catch (BadInput const& e) {
-        EXPECT_STREQ(e.what(), "network.plant_forest: the outlet (20, 20) lies off the land's coast");
+        EXPECT_STREQ(e.where(), "network.plant_forest");
+        EXPECT_STREQ(e.what(), "the outlet (20, 20) lies off the land's coast");
     }
 }
 

@@ -195,7 +195,7 @@ std::string refusal(StreamNetwork const& net, network::PruneParams const& params
     try {
         prune(net, params);
     } catch (BadParameter const& e) {
-        return e.what();
+        return std::string(e.where()) + ": " + e.what();
     }
     return "";
 }

@@ -28,7 +28,7 @@ std::string refusal(RaisedNetwork const& net, Grid const& grid) {
     try {
         rasterise(net, grid);
     } catch (BadInput const& e) {
-        return e.what();
+        return std::string(e.where()) + ": " + e.what();
     }
     return "";
 }

@@ -157,7 +157,7 @@ TEST(LandInEquilibrium, KeysThatDoNotGoTogetherAreNamed) {
     EXPECT_TRUE(has(fault_of(lines + "rotate = 20\n" + path + equilibrium, files), "network.rotate turns a cluster"));
     EXPECT_TRUE(has(fault_of(lines + "concavity = 0.95\n" + path + equilibrium, files), "0.1 to 0.9"));
     EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nlakes = \"lakes.geojson\"\nlake_share = 0.5\n", files),
-                    "lakes come from a file or chance"));
+                    "lakes come from a file or are chosen at random"));
     EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nmean_slope = 0\n", files), "surface.mean_slope"));
     EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nrelief = -1\n", files), "surface.relief"));
     EXPECT_TRUE(has(fault_of("[grid]\nwidth = 60\nheight = 60\n[surface]\n", files), "needs [network]"));

@@ -146,7 +146,7 @@ TEST(PlanForest, AnIslandComesIntoEquilibrium) {
     expect_lawful(t);
     EXPECT_EQ(t.pits, 0);
     EXPECT_TRUE(has(fault_of(small_grid + forest + "meander = 1\n[network.forest]\nshape = \"island\"\n[surface]\n"),
-                    "network.meander: rivers that end on a coast"));
+                    "network.meander cannot bend rivers that end on a coast"));
 }
 
 TEST(PlanForest, ARegionsPolygonsAreTheLandAndFrameTheGrid) {

@@ -63,7 +63,7 @@ TEST(Recipe, DefaultIsTheSample) {
 
 TEST(Recipe, UnknownKeysAreNamedWithTheNearestOne) {
     EXPECT_TRUE(
-        has(fault_of("[network]\nprun = 3\n"), "line 2: network.prun is not a key. Did you mean 'network.prune'?"));
+        has(fault_of("[network]\nprun = 3\n"), "line 2: unknown key 'network.prun'. Did you mean 'network.prune'?"));
     EXPECT_TRUE(has(fault_of("[netwrk]\nprune = 3\n"), "netwrk"));
     EXPECT_TRUE(has(fault_of("particles = 3\n"), "Did you mean 'network.dla.particles'?"));
     EXPECT_TRUE(has(fault_of("[network]\nsource = \"dlaa\"\n"), "Did you mean 'dla'?"));
@@ -72,7 +72,7 @@ TEST(Recipe, UnknownKeysAreNamedWithTheNearestOne) {
 
 TEST(Recipe, AllFaultsAtOnce) {
     std::string const fault = fault_of("[grid]\ncell = 0\nwidth = \"wide\"\n[network.dla]\nsticking = 2\nvisits = 0\n");
-    for (char const* part : {"grid.cell: 0 is outside", "grid.width: an integer is wanted", "sticking: 2 is outside",
+    for (char const* part : {"grid.cell: 0 is outside", "grid.width: an integer is required", "sticking: 2 is outside",
                              "visits: 0 is outside"}) {
         EXPECT_TRUE(has(fault, part)) << fault;
     }

@@ -199,7 +199,7 @@ template <class Thrown> std::string message(auto const& act) {
     try {
         act();
     } catch (Thrown const& e) {
-        return e.what();
+        return std::string(e.where()) + ": " + e.what();
     }
     return "nothing was thrown";
 }

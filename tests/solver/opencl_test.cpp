@@ -159,7 +159,7 @@ template <class Failure, class Work> std::string message_of(Work work) {
     try {
         work();
     } catch (Failure const& e) {
-        return e.what();
+        return std::string(e.where()) + ": " + e.what();
     }
     return "nothing was thrown";
 }

@@ -28,9 +28,6 @@ using test::winding_lines;
 
 namespace {
 
-constexpr auto outside = static_cast<std::uint8_t>(CellKind::outside);
-constexpr auto free_cell = static_cast<std::uint8_t>(CellKind::free);
-constexpr auto fixed = static_cast<std::uint8_t>(CellKind::fixed);
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Grid frame(std::int64_t width, std::int64_t height) {
@@ -42,7 +39,7 @@ GridProblem all_free(std::int64_t width, std::int64_t height) {
 }
 
 void fix(GridProblem& problem, Cell c, double value) {
-    problem.kind[c] = fixed;
+    problem.kind[c] = fixed_cell;
     problem.value[c] = value;
 }
 
@@ -64,7 +61,7 @@ template <class Thrown, class F> std::string message(F const& f) {
 std::vector<Cell> neighbours(GridProblem const& problem, Cell c) {
     std::vector<Cell> near;
     for (Cell const n : {Cell{c.col - 1, c.row}, {c.col + 1, c.row}, {c.col, c.row - 1}, {c.col, c.row + 1}}) {
-        if (problem.kind.grid().contains(n) && problem.kind[n] != outside) {
+        if (problem.kind.grid().contains(n) && problem.kind[n] != outside_cell) {
             near.push_back(n);
         }
     }
@@ -77,8 +74,8 @@ GridProblem by_chance(std::int64_t width, std::int64_t height, double share, dou
     for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
         auto const [kind, value, a, b] = chance_block(seed, 1, static_cast<std::uint64_t>(i));
         double const u = unit(kind);
-        problem.kind[i] = u < share ? fixed : (u < share + holes ? outside : free_cell);
-        problem.value[i] = problem.kind[i] == fixed ? 1000.0 * unit(value) : 0.0;
+        problem.kind[i] = u < share ? fixed_cell : (u < share + holes ? outside_cell : free_cell);
+        problem.value[i] = problem.kind[i] == fixed_cell ? 1000.0 * unit(value) : 0.0;
     }
     for (auto lost = unreached(problem.kind); !lost.empty(); lost = unreached(problem.kind)) {
         fix(problem, {lost.front().begin, lost.front().row}, 1000.0 * unit(chance(seed, 2, lost.size())));
@@ -102,7 +99,7 @@ std::vector<double> eliminated(GridProblem const& problem) {
         a[i][n] = problem.source.cells() > 0 ? problem.source[cells[i]] : 0.0;
         for (Cell const near : neighbours(problem, problem.kind.grid().at(cells[i]))) {
             a[i][i] += 1.0;
-            if (problem.kind[near] == fixed) {
+            if (problem.kind[near] == fixed_cell) {
                 a[i][n] += problem.value[near];
             } else {
                 a[i][static_cast<std::size_t>(number[static_cast<std::size_t>(problem.kind.grid().index(near))])] -=
@@ -144,7 +141,7 @@ bool same_bytes(Raster<double> const& a, Raster<double> const& b) {
 TEST(Poisson, NothingToDo) {
     EXPECT_EQ(solve_poisson({}).iterations, 0);
     GridProblem problem = all_free(1, 1);
-    problem.kind[0] = outside;
+    problem.kind[0] = outside_cell;
     problem.value[0] = nan;
     EXPECT_TRUE(std::isnan(solve_poisson(problem).value[0]));
     fix(problem, {0, 0}, -0.0);
@@ -161,7 +158,7 @@ TEST(Poisson, RefusesWhatHasNoSolution) {
     EXPECT_NE(message<BadInput>([&] { solve_poisson(problem); }).find("column 0, row 0"), std::string::npos);
     fix(problem, {0, 0}, 1.0);
     for (std::int64_t row = 0; row < 5; ++row) {
-        problem.kind[{4, row}] = outside; // a wall
+        problem.kind[{4, row}] = outside_cell; // a wall
     }
     EXPECT_NE(message<BadInput>([&] { solve_poisson(problem); }).find("column 5, row 0"), std::string::npos);
     fix(problem, {6, 4}, 1.0);
@@ -236,7 +233,7 @@ TEST(Poisson, KeepsTheMaximumPrinciple) {
         double least = 1e9;
         double greatest = -1e9;
         for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
-            if (problem.kind[i] == fixed) {
+            if (problem.kind[i] == fixed_cell) {
                 least = std::min(least, problem.value[i]);
                 greatest = std::max(greatest, problem.value[i]);
             }
@@ -251,11 +248,11 @@ TEST(Poisson, KeepsTheMaximumPrinciple) {
 TEST(Poisson, EqualBordersMakeAPlain) {
     GridProblem problem = by_chance(131, 77, 0.01, 0.1, 8);
     for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
-        problem.value[i] = problem.kind[i] == fixed ? 413.7 : 0.0;
+        problem.value[i] = problem.kind[i] == fixed_cell ? 413.7 : 0.0;
     }
     GridSolution const solution = solve_poisson(problem);
     for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
-        EXPECT_TRUE(problem.kind[i] == outside || solution.value[i] == 413.7);
+        EXPECT_TRUE(problem.kind[i] == outside_cell || solution.value[i] == 413.7);
     }
 }
 
@@ -385,17 +382,17 @@ TEST(Unreached, FindsPartsWithoutFixedCells) {
         GridProblem problem = all_free(width, height);
         for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
             double const u = unit(chance(seed, 1, static_cast<std::uint64_t>(i)));
-            problem.kind[i] = u < 0.02 ? fixed : (u < 0.02 + holes ? outside : free_cell);
+            problem.kind[i] = u < 0.02 ? fixed_cell : (u < 0.02 + holes ? outside_cell : free_cell);
         }
         Mask reached(problem.kind.grid(), 0);
         for (bool changed = true; changed;) {
             changed = false;
             for (std::int64_t i = 0; i < reached.cells(); ++i) {
-                bool now = problem.kind[i] == fixed;
+                bool now = problem.kind[i] == fixed_cell;
                 for (Cell const n : neighbours(problem, problem.kind.grid().at(i))) {
                     now = now || reached[n] != 0;
                 }
-                if (now && reached[i] == 0 && problem.kind[i] != outside) {
+                if (now && reached[i] == 0 && problem.kind[i] != outside_cell) {
                     reached[i] = 1;
                     changed = true;
                 }
@@ -410,7 +407,7 @@ TEST(Unreached, FindsPartsWithoutFixedCells) {
             }
         }
         for (std::int64_t i = 0; i < reached.cells(); ++i) {
-            RC_ASSERT((found[i] != 0) == (problem.kind[i] != outside && reached[i] == 0));
+            RC_ASSERT((found[i] != 0) == (problem.kind[i] != outside_cell && reached[i] == 0));
         }
     }));
 }

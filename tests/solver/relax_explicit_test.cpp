@@ -18,10 +18,6 @@ using namespace thalweg::solver;
 
 namespace {
 
-constexpr auto outside = static_cast<std::uint8_t>(CellKind::outside);
-constexpr auto free_cell = static_cast<std::uint8_t>(CellKind::free);
-constexpr auto fixed = static_cast<std::uint8_t>(CellKind::fixed);
-
 /// Fixed cells of 0 and 1 among others, and all holes isolated: no part is without a fixed cell.
 GridProblem by_chance(std::int64_t width, std::int64_t height, std::uint64_t seed) {
     Grid const grid{width, height, 1.0, 0.0, 0.0, ""};
@@ -30,12 +26,12 @@ GridProblem by_chance(std::int64_t width, std::int64_t height, std::uint64_t see
         Cell const c = grid.at(i);
         auto const words = chance_block(seed, 1, static_cast<std::uint64_t>(i));
         bool const hole = c.col % 2 == 1 && c.row % 2 == 1 && unit(words[0]) < 0.3;
-        problem.kind[i] = hole ? outside : (unit(words[1]) < 0.05 ? fixed : free_cell);
+        problem.kind[i] = hole ? outside_cell : (unit(words[1]) < 0.05 ? fixed_cell : free_cell);
         problem.value[i] = unit(words[2]);
     }
-    problem.kind[0] = fixed;
+    problem.kind[0] = fixed_cell;
     problem.value[0] = 0.0;
-    problem.kind[grid.cells() - 1] = fixed;
+    problem.kind[grid.cells() - 1] = fixed_cell;
     problem.value[grid.cells() - 1] = 1.0;
     return problem;
 }
@@ -50,7 +46,7 @@ Raster<double> swept(GridProblem const& problem, double alpha, int sweeps) {
             Cell const c = grid.at(i);
             double sum = 0.0;
             for (Cell const n : {Cell{c.col - 1, c.row}, {c.col + 1, c.row}, {c.col, c.row - 1}, {c.col, c.row + 1}}) {
-                sum += grid.contains(n) && problem.kind[n] != outside ? u[n] - u[i] : 0.0;
+                sum += grid.contains(n) && problem.kind[n] != outside_cell ? u[n] - u[i] : 0.0;
             }
             next[i] += problem.kind[i] == free_cell ? alpha * sum : 0.0;
         }

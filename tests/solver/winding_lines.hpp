@@ -13,10 +13,8 @@ namespace thalweg::test {
 
 /// Winding rivers and ridges of about 150 to 950 m through a share of the cells of a square; all others are free.
 inline solver::GridProblem winding_lines(std::int64_t side, double share) {
-    constexpr auto fixed = static_cast<std::uint8_t>(solver::CellKind::fixed);
     Grid const grid{side, side, 1.0, 0.0, 0.0, ""};
-    solver::GridProblem problem{
-        Raster<std::uint8_t>(grid, static_cast<std::uint8_t>(solver::CellKind::free)), Raster<double>(grid), {}};
+    solver::GridProblem problem{Raster<std::uint8_t>(grid, solver::free_cell), Raster<double>(grid), {}};
     ChanceStream chance(7, 1, 0);
     auto const size = static_cast<double>(side);
     auto wanted = static_cast<std::int64_t>(share * size * size);
@@ -34,8 +32,8 @@ inline solver::GridProblem winding_lines(std::int64_t side, double share) {
             if (!grid.contains(cell)) {
                 break;
             }
-            wanted -= problem.kind[cell] == fixed ? 0 : 1;
-            problem.kind[cell] = fixed;
+            wanted -= problem.kind[cell] == solver::fixed_cell ? 0 : 1;
+            problem.kind[cell] = solver::fixed_cell;
             problem.value[cell] = 500.0 + 200.0 * std::sin(8.0 * x / size) + 150.0 * std::cos(10.0 * y / size) +
                                   step_m + 0.05 * static_cast<double>(i);
         }

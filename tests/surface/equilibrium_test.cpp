@@ -456,7 +456,7 @@ TEST(Equilibrium, RefusesWhatCannotBe) {
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.cell[1] = 64; }), "outside"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.cell[1] = s.rivers.cell[0]; }), "column 4, row 7"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.receiver[1] = 2; }), "downstream first"));
-    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.receiver[3] = 0; }), "no neighbour"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.receiver[3] = 0; }), "not a neighbour"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.fields.land = Mask(frame(7, 8), 1); }), "another frame"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.fields.land = Mask(frame(8, 8), 0); }), "no land"));
     EXPECT_TRUE(has(bad_input([](Scene& s) {

@@ -111,7 +111,7 @@ template <class Thrown, class F> std::string message(F const& f) {
     try {
         f();
     } catch (Thrown const& e) {
-        return e.what();
+        return std::string(e.where()) + ": " + e.what();
     }
     return "nothing was thrown";
 }

@@ -52,7 +52,7 @@ TEST(BadInput, CommandLine) {
     refused(place, "make --theads=3", "Did you mean '--threads'? See thalweg make --help.");
     refused(place, "make -seed 3", "thalweg make has no option '-seed'. Did you mean '--seed'?");
     refused(place, "make -Q", "Did you mean '-q'?");
-    refused(place, "--seed 3 make", "Options stand behind the command.");
+    refused(place, "--seed 3 make", "Options follow the command.");
     refused(place, "--sed 3 make", "thalweg has no option '--sed'.");
     refused(place, "make -o make --overwrit", "'--overwrit'");
     refused(place, "make --seed", "thalweg make --seed is missing its N");
@@ -93,7 +93,7 @@ TEST(BadInput, RecipeKeys) {
     refused(place, small + "--set network.dla.sticking=1.5", "network.dla.sticking");
     refused(place, small + "--set network.dla.visits=0", "network.dla.visits");
     refused(place, small + "--set network.dla.particles=0", "network.dla.particles");
-    refused(place, small + "--set network.dla.particles=many", "an integer is wanted");
+    refused(place, small + "--set network.dla.particles=many", "an integer is required");
     refused(place, small + "--set grid.width=0", "grid.width");
     refused(place, small + "--set grid.cell=0", "grid.cell");
     refused(place, small + "--set grid.cell=-3", "grid.cell");
@@ -101,8 +101,8 @@ TEST(BadInput, RecipeKeys) {
     refused(place, small + "--set grid.crs=nonsense", "nonsense");
     refused(place, "make --set grid.width=900000 --set grid.height=900000", "GB are free");
     place.write("bad.toml", "[grid]\ncell = \"wide\"\n[network]\nprun = 3\n");
-    refused(place, "make bad.toml", "line 2: grid.cell: a number is wanted");
-    refused(place, "make bad.toml", "line 4: network.prun is not a key");
+    refused(place, "make bad.toml", "line 2: grid.cell: a number is required");
+    refused(place, "make bad.toml", "line 4: unknown key 'network.prun'");
 }
 
 TEST(BadInput, PruningBeyondEveryPathNamesTheLongest) {

@@ -27,17 +27,18 @@ BarState half() {
 } // namespace
 
 TEST(Bar, NothingKnownYet) {
-    EXPECT_EQ(bar_text({}, 80, Colour::none), "       [..............................]   0 %");
+    EXPECT_EQ(bar_text({}, 80, Colour::none), "           [..............................]   0 %");
     EXPECT_EQ(bar_text({}, 0, Colour::none), " ");
     EXPECT_LE(bar_text(half(), -5, Colour::none).size(), 1U);
 }
 
 TEST(Bar, ShareRateAndTimeLeft) {
     EXPECT_EQ(bar_text(half(), 80, Colour::none),
-              "grow   [###############...............]  50 %  50.0 k particles/s  20 s left");
+              "grow       [###############...............]  50 %  50.0 k particles/s  20 s left");
     BarState state = half();
     state.amount = 0.0;
-    EXPECT_EQ(bar_text(state, 80, Colour::none), "grow   [###############...............]  50 %  2.5 %/s  20 s left");
+    EXPECT_EQ(bar_text(state, 80, Colour::none),
+              "grow       [###############...............]  50 %  2.5 %/s  20 s left");
     state.left_s = 4000.0;
     EXPECT_NE(bar_text(state, 80, Colour::none).find("  1 h 06 min left"), std::string::npos);
     state.left_s = 65.0;
@@ -45,10 +46,16 @@ TEST(Bar, ShareRateAndTimeLeft) {
 }
 
 TEST(Bar, NarrowTerminalsLoseTheRateThenTheBarThenTheTime) {
-    EXPECT_EQ(bar_text(half(), 50, Colour::none), "grow   [###########............]  50 %  20 s left");
-    EXPECT_EQ(bar_text(half(), 30, Colour::none), "grow    50 %  20 s left");
-    EXPECT_EQ(bar_text(half(), 20, Colour::none), "grow    50 %");
+    EXPECT_EQ(bar_text(half(), 50, Colour::none), "grow       [#########..........]  50 %  20 s left");
+    EXPECT_EQ(bar_text(half(), 30, Colour::none), "grow        50 %  20 s left");
+    EXPECT_EQ(bar_text(half(), 20, Colour::none), "grow        50 %");
     EXPECT_EQ(bar_text(half(), 6, Colour::none), "grow ");
+    // A name as long as its column still keeps a space before the bar.
+    BarState longest = half();
+    longest.what = "catchments";
+    EXPECT_EQ(bar_text(longest, 80, Colour::none).rfind("catchments [", 0), 0U);
+    longest.what = "catchments2";
+    EXPECT_EQ(bar_text(longest, 80, Colour::none).rfind("catchments2 [", 0), 0U);
 }
 
 TEST(Bar, NeverAsWideAsTheTerminalAndPlainAscii) {

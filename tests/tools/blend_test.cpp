@@ -145,7 +145,7 @@ TEST(Blend, GoesWhereItIsAskedToAndElseToTheMiddle) {
     EXPECT_EQ(json["place"], "middle");
     EXPECT_EQ(json["at"], (nlohmann::json{500915.0, 3999250.0})); // 15 columns: the middle of a cell
     EXPECT_EQ(json["cells"], 13 * 14);
-    EXPECT_NE(middle.err.find("the middle of the target, for the source lies elsewhere"), std::string::npos);
+    EXPECT_NE(middle.err.find("the centre of the target, because the source lies outside it"), std::string::npos);
 }
 
 TEST(Blend, RealLandOfAnotherCrsAndSomewhereElse) {

@@ -110,7 +110,7 @@ TEST(Convert, RefusesWhatCannotBeAndLeavesNothing) {
     refused(place, "folder/arcs.shp -o folder/nodes.shp --schema grass", "folder/arcs.shp");
     refused(place, "PG:dbname=x -o PG:dbname=x --overwrite", "is the one that is read");
     refused(place, "rivers.geojson --field nr -o a.gpkg", "QUANTITY=NAME");
-    refused(place, read_lines + "-o PG:dbname=x --table 'a; drop table b'", "is no name for tables");
+    refused(place, read_lines + "-o PG:dbname=x --table 'a; drop table b'", "is not a valid table name");
 }
 
 TEST(Convert, ForeignLinesBecomeEverySchemaAndFormat) {

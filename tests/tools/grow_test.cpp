@@ -75,7 +75,7 @@ TEST(Grow, TableOfAGenerator) {
                      "      1               11        3.667\n"
                      "      2                3        3.000\n"
                      "      3                1\n\n"
-                     "orders less k    side branches T_k    law 1 * 2.000^(k-1)\n"
+                     "orders lower k   side branches T_k    law 1 * 2.000^(k-1)\n"
                      "            1                1.000                    1.000\n"
                      "            2                2.000                    2.000\n");
 }

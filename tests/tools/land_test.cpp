@@ -131,7 +131,7 @@ TEST(Land, ARecipeOfLandThatIsHardlyLand) {
         0);
     Outcome const row = thalweg_run("stats row.tif --recipe", place.path());
     EXPECT_EQ(row.code, 0) << row.err;
-    EXPECT_NE(row.out.find("# statistics.length is left out: the heights tell none along columns"), std::string::npos);
+    EXPECT_NE(row.out.find("# statistics.length is left out: the heights do not determine it along columns"), std::string::npos);
     place.write("row.toml", row.out);
     EXPECT_EQ(thalweg_run("make row.toml -o out -q", place.path()).code, 0);
     Outcome const flat = thalweg_run("stats flat.tif --recipe", place.path());
@@ -144,7 +144,7 @@ TEST(Land, WhatCannotBeIsRefusedWithItsNumbers) {
     refused(table4 + "--set statistics.std=9999", "the most is 361.276 m");
     refused(table4 + "--set 'statistics.max=[1038,129,26]'", "both at column 129, row 26");
     refused(table4 + "--set 'statistics.max=[1038,500,1]'", "lies off the grid of 130 x 40 cells");
-    refused(table4 + "--set 'statistics.length=[0,5]'", "[Lx, Ly] above 0 is wanted");
+    refused(table4 + "--set 'statistics.length=[0,5]'", "[Lx, Ly] above 0 is required");
     refused(table4 + "--set statistics.dimension=3.5", "outside its range");
     refused(table4 + "--set statistics.skeleton=points", "needs skeleton.points or skeleton.scatter");
     refused(table4 + "--set statistics.skeleton=points --set skeleton.scatter=5000 --set skeleton.spacing=3",
@@ -159,7 +159,7 @@ TEST(Land, WhatCannotBeIsRefusedWithItsNumbers) {
     refused("make none.toml -o out", "none.csv");
     refused("make -o out --set skeleton.scatter=9", "with [network] give skeleton.points");
     refused("make -o out --set detail.levels=2", "detail.sigma is missing");
-    refused("make -o out --set detail.stencil=5", "none of 4, 12, 16");
+    refused("make -o out --set detail.stencil=5", "not one of 4, 12, 16");
 }
 
 TEST(Land, LengthsTheGridCannotShowAreWarnedOf) {

@@ -28,7 +28,7 @@ TEST(ReportPage, EveryMakeLeavesOneAndNamesItLast) {
     Workplace const place;
     Outcome const o = thalweg_run(small + "-o out --json", place.path());
     ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(o.err.find("open   out/report.html   (no internet needed)\n"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("open       out/report.html   (no internet needed)\n"), std::string::npos) << o.err;
     std::string const page = file_bytes(place / "out/report.html");
     for (char const* marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@"}) {
         EXPECT_EQ(page.find(marker), std::string::npos) << marker;

@@ -127,7 +127,7 @@ TEST(Points, BadInputIsRefused) {
     refused(place, "nowhere.tif -o a.las", "nowhere.tif does not exist");
     refused(place, "nothing -o a.las", "nothing/dem.tif");
     refused(place, "dem.asc -o a.laz", "says no format; name one of las, ply, xyz");
-    refused(place, "dem.asc -o a.las --format e57", "'e57' is no format");
+    refused(place, "dem.asc -o a.las --format e57", "'e57' is not a format");
     refused(place, "dem.asc -o none/a.las", "there is no folder none");
     refused(place, "dem.asc -o a.las --every 0", "--every");
     refused(place, "dem.asc -o a.las --every some", "--every");

@@ -333,7 +333,7 @@ TEST(Rivers, LinksWithoutRoomAreWarnedOfOrRefused) {
                                         stroke(2, "[500300,4001000],[500300,4001300]", "\"lambda\":20")));
     Outcome const o = thalweg_run("make r.toml -o out", place.path());
     EXPECT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(o.err.find("warning: network.tokunaga: "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("warning: [network.tokunaga]: "), std::string::npos) << o.err;
     EXPECT_NE(o.err.find(" links found no room on 200 x 200 cells: lower network.tokunaga.order"), std::string::npos)
         << o.err;
 }

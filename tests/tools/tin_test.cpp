@@ -108,7 +108,7 @@ TEST(Tin, BadInputIsRefused) {
     refused(place, "p.csv", "--output");
     refused(place, "nowhere.tif -o a.2dm", "nowhere.tif does not exist");
     refused(place, "p.csv -o a.dxf", "says no format; name one of 2dm, ply, gpkg");
-    refused(place, "p.csv -o a.2dm --format dxf", "'dxf' is no format");
+    refused(place, "p.csv -o a.2dm --format dxf", "'dxf' is not a format");
     refused(place, "p.csv -o none/a.2dm", "there is no folder none");
     refused(place, "p.csv -o .", "");
     refused(place, "line.csv -o a.2dm", "3 points lie on one line, from (0, 0) to (2, 2)");
@@ -120,7 +120,7 @@ TEST(Tin, BadInputIsRefused) {
     refused(place, "dem.asc -o a.2dm --error nan", "above 0");
     refused(place, "dem.asc -o a.2dm --error much", "--error");
     refused(place, "dem.asc -o a.2dm --breaklines flat.geojson", "not with a DEM");
-    refused(place, "p.csv -o a.2dm --error 3", "an error goes with a DEM");
+    refused(place, "p.csv -o a.2dm --error 3", "--error applies to a DEM only");
     refused(place, "p.csv -o a.2dm --breaklines dem.asc", "holds no lines");
     refused(place, "p.csv -o a.2dm --breaklines flat.geojson", "have no heights");
     refused(place, "flat.geojson -o a.2dm", "have no heights");

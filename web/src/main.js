@@ -147,7 +147,7 @@ function start() {
     if (found.arc) {
       const a = found.arc;
       lines.push(`arc ${a.id}: order ${a.strahler} (Shreve ${a.shreve}, Hack ${a.hack}), ${number(a.length)} m, ${number(a.z_up)} → ${number(a.z_down)} m, drains ${number(a.ds_area / 1e6)} km²`,
-        a.survives === null ? 'never pruned' : `goes at L > ${number(a.survives)} cells` + (a.ds ? `, flows into arc ${a.ds}` : ', ends at the outlet'));
+        a.survives === null ? 'never pruned' : `pruned at L > ${number(a.survives)} cells` + (a.ds ? `, flows into arc ${a.ds}` : ', ends at the outlet'));
     }
     $('point').replaceChildren(...lines.map((text) => Object.assign(document.createElement('div'), { textContent: text })));
   }

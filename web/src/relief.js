@@ -15,7 +15,7 @@ function figures({ figures: all, beside }) {
   };
   const t = table(['figure', 'here', ...beside.map((land) => land.name), ''],
     Object.values(all).map((f) => [f.unit ? `${f.name} [${f.unit}]` : f.name, number(f.value, 3),
-      ...beside.map((land) => number(f.beside?.[land.name], 3)), range(f)]), 'Relief beside real land');
+      ...beside.map((land) => number(f.beside?.[land.name], 3)), range(f)]), 'Relief compared with reference DEMs');
   t.className = 'relief';
   return t;
 }
@@ -36,7 +36,7 @@ function forms({ forms: here, beside }) {
   if (!Object.values(here).some((share) => share > 0)) return null;
   return bars(shown, [{ name: 'here', values: here }, ...beside.map((land) => ({ name: land.name, values: land.forms }))]
     .map(({ name, values }) => ({ name, values: shown.map((form) => 100 * values[form]) })),
-  { title: 'Geomorphons: what each cell looks like from where it stands', unit: '% of cells' });
+  { title: 'Geomorphons: the landform of each cell', unit: '% of cells' });
 }
 
 function slopeArea({ slope_area: here, beside }) {
@@ -52,6 +52,6 @@ export function relief(data) {
   if (!data) return [];
   const lands = data.beside.map((land) => `${land.name}: ${land.source}, cells of ${number(land.cell_m)} m`).join('. ');
   return [figures(data),
-    make('p', { className: 'hint', textContent: `✓: no farther from real land than a quarter. ${lands}.` }),
+    make('p', { className: 'hint', textContent: `✓: within a quarter of the reference DEMs. ${lands}.` }),
     slopes(data), forms(data), slopeArea(data)];
 }

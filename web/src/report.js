@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The written part of the page: diagrams, tables, what was asked and what came of it.
+// The written part of the page: diagrams, tables, targets and results.
 import { chart, number } from './chart.js';
 import { make, section, table } from './elements.js';
 import { relief } from './relief.js';
@@ -25,7 +25,7 @@ function lawTable(law) {
     of.note && make('small', { textContent: of.note }));
   const nature = (r) => (r.nature
     ? make('span', {}, `${number(r.nature[0], 3)} to ${number(r.nature[1], 3)}`, make('sup', { textContent: ` ${sources.indexOf(r.source) + 1}` })) : '–');
-  const t = table(['law', ...sides.map(([head]) => head), 'in nature'],
+  const t = table(['law', ...sides.map(([head]) => head), 'natural range'],
     law.rows.map((r) => [r.name, ...sides.map(([, key]) => figure(r[key], r.unit)), nature(r)]), 'Network laws');
   t.className = 'laws';
   return [t, make('ol', { className: 'sources' }, ...sources.map((text) => make('li', { textContent: text })))];
@@ -34,8 +34,8 @@ function lawTable(law) {
 function support(law) {
   if (!law.support) return null;
   const { cells, km2, as_dense } = law.support;
-  return make('p', { className: 'hint', textContent: `DEM: the rivers where at least ${number(cells)} cells (${number(km2, 3)} km²) drain by D8` +
-    (as_dense ? ', so many that they are as long together as the network' : '') + '.' });
+  return make('p', { className: 'hint', textContent: `DEM: streams where at least ${number(cells)} cells (${number(km2, 3)} km²) drain by D8` +
+    (as_dense ? ', which gives them the total length of the network' : '') + '.' });
 }
 
 function laws(law) {
@@ -62,7 +62,7 @@ function laws(law) {
     byOrder((o) => o.length_m / 1000, 'Law of stream lengths', 'mean length [km]'),
     byOrder((o) => o.area_m2 / 1e6, 'Law of drainage areas', 'mean area [km²]'),
     byArea(law.concavity, 'Slope against area, means of bins', 'slope [m/m]'),
-    byArea(law.hack, 'Hack’s law: longest way of water against area', 'length [km]'),
+    byArea(law.hack, 'Hack’s law: longest flow path against area', 'length [km]'),
   ];
 }
 
@@ -103,7 +103,7 @@ function copyable(text, label) {
 }
 
 export function fillReport(parent, data) {
-  const verdict = (ok) => make('span', { className: ok ? 'ok' : 'bad', textContent: ok ? 'ok' : 'not ok' });
+  const verdict = (ok) => make('span', { className: ok ? 'ok' : 'bad', textContent: ok ? 'ok' : 'failed' });
   const failed = data.checks.filter((c) => !c.ok).length;
   const whole = data.timings.reduce((sum, [, s]) => sum + s, 0);
   const km = data.profile.length > 1 && data.profile[0][0] >= 2000;
@@ -113,17 +113,17 @@ export function fillReport(parent, data) {
       { title: 'Main stem, from the outlet up to its farthest source', x: km ? 'distance from the outlet [km]' : 'distance from the outlet [m]', y: 'height [m]', zeroX: true }) : null),
     section('Hypsometry', data.hypsometry ? chart(
       [{ points: data.hypsometry.points.map(([a, z]) => [100 * a, z]), kind: 'area', name: 'height' }],
-      { title: `Share of the land above a height; integral ${number(data.hypsometry.integral, 3)}`, x: 'area above [%]', y: 'height [m]', zeroX: true }) : null),
+      { title: `Share of the area above a height; integral ${number(data.hypsometry.integral, 3)}`, x: 'area above [%]', y: 'height [m]', zeroX: true }) : null),
     section('Increment', ...increments(data.curve)),
-    section('Relief beside real land', ...relief(data.relief)),
+    section('Relief compared with reference DEMs', ...relief(data.relief)),
     section('Network laws', ...laws(data.laws)),
-    section('Statistics', data.statistics.length ? table(['', 'asked', 'got', ''],
-      data.statistics.map((s) => [s.name, s.asked === null ? '–' : number(s.asked, 5), number(s.got, 5), s.unit]), 'Statistics asked and got') : null),
+    section('Statistics', data.statistics.length ? table(['', 'target', 'result', ''],
+      data.statistics.map((s) => [s.name, s.asked === null ? '–' : number(s.asked, 5), number(s.got, 5), s.unit]), 'Statistics, target and result') : null),
     section('Checks', data.checks.length ? make('details', { open: failed > 0 },
       make('summary', {}, failed ? `${failed} of ${data.checks.length} checks failed ` : `${data.checks.length} checks passed `, verdict(failed === 0)),
-      table(['check', 'found', 'limit', ''], data.checks.map((c) => [words(c.name), number(c.value), number(c.limit), verdict(c.ok)]), 'Checks')) : null,
+      table(['check', 'found', 'limit', ''], data.checks.map((c) => [words(c.name), number(c.value), `${c.bound === 'at_least' ? '≥' : '≤'} ${number(c.limit)}`, verdict(c.ok)]), 'Checks')) : null,
     listed('finding', data.findings), listed('repair', data.repairs)),
-    section('Time', data.timings.length && table(['stage', 'seconds'], [...data.timings.map(([name, s]) => [name, s.toFixed(2)]), ['all', whole.toFixed(2)]], 'Time by stage')),
+    section('Time', data.timings.length && table(['stage', 'seconds'], [...data.timings.map(([name, s]) => [name, s.toFixed(2)]), ['total', whole.toFixed(2)]], 'Time by stage')),
     section('Make it again', copyable(data.command, 'the command'), data.recipe && make('details', {}, make('summary', { textContent: 'recipe.toml' }),
       copyable(data.recipe, 'the recipe'))),
     section('Notes', data.notes.length ? make('ul', {}, ...data.notes.map((text) => make('li', { textContent: text }))) : null),

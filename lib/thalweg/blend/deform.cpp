@@ -14,14 +14,12 @@
 namespace thalweg::blend {
 namespace {
 
-using solver::CellKind;
-
-constexpr auto outside_kind = static_cast<std::uint8_t>(CellKind::outside);
-constexpr auto free_kind = static_cast<std::uint8_t>(CellKind::free);
+using solver::free_cell;
+using solver::outside_cell;
 
 void check(Raster<float> const& target, Mask const& region, DeformParams const& params) {
     if (!std::isfinite(params.scale)) {
-        throw BadParameter(fmt::format("blend.deform: a scale of {}; it is a number", params.scale));
+        throw BadParameter(fmt::format("blend.deform: a scale of {}; it must be a finite number", params.scale));
     }
     if (region.grid() != target.grid()) {
         throw BadInput(fmt::format("blend.deform: a region of {} x {} cells for a target of {} x {}: they share a grid",
@@ -56,7 +54,7 @@ Mask grip(Mask& cells, std::vector<Handle> const& handles, Raster<double>& heigh
             refuse(fmt::format("lies outside the target of {} x {} cells", cells.width(), cells.height()));
         }
         if (!std::isfinite(static_cast<float>(handle.z))) {
-            refuse("is no height");
+            refuse("is not a height");
         }
         if (held[c] != 0) {
             if (heights[c] != handle.z) {
@@ -112,7 +110,7 @@ Deformed deform(Raster<float> const& target, Mask const& region, std::vector<Han
     Opening opening = open_target(target, free, held, "blend.deform", run);
     Raster<double> carrier = opening.target;
     for (std::int64_t i = 0; i < carrier.cells(); ++i) {
-        if (opening.kind[i] == outside_kind) {
+        if (opening.kind[i] == outside_cell) {
             continue;
         }
         Cell const c = carrier.grid().at(i);
@@ -126,7 +124,7 @@ Deformed deform(Raster<float> const& target, Mask const& region, std::vector<Han
     solving.tolerance = params.tolerance;
     auto const solution = follow(opening.kind, opening.target, carrier, {}, solving, run);
     for (std::int64_t i = 0; i < opening.kind.cells(); ++i) {
-        if (opening.kind[i] == free_kind) {
+        if (opening.kind[i] == free_cell) {
             Cell const c = opening.kind.grid().at(i);
             deformed.dem[{c.col + opening.corner.col, c.row + opening.corner.row}] =
                 static_cast<float>(solution.value[i]);

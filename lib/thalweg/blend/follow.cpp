@@ -8,11 +8,9 @@
 namespace thalweg::blend {
 namespace {
 
-using solver::CellKind;
-
-constexpr auto free_kind = static_cast<std::uint8_t>(CellKind::free);
-constexpr auto fixed_kind = static_cast<std::uint8_t>(CellKind::fixed);
-constexpr auto outside_kind = static_cast<std::uint8_t>(CellKind::outside);
+using solver::fixed_cell;
+using solver::free_cell;
+using solver::outside_cell;
 
 struct Mean {
     double sum = 0.0;
@@ -31,7 +29,7 @@ void set_values(solver::GridProblem& problem, Raster<double> const& fixed, Raste
     auto const mean = sum_rows(run, fixed.height(), [&](std::int64_t row) {
         Mean of_row;
         for (std::int64_t i = row * width; i < (row + 1) * width; ++i) {
-            if (problem.kind[i] == fixed_kind) {
+            if (problem.kind[i] == fixed_cell) {
                 problem.value[i] = fixed[i] - carrier[i];
                 of_row += {problem.value[i], 1.0};
             }
@@ -41,7 +39,7 @@ void set_values(solver::GridProblem& problem, Raster<double> const& fixed, Raste
     double const guess = mean.cells > 0.0 ? mean.sum / mean.cells : 0.0;
     parallel_ranges(run, fixed.cells(), 1 << 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            if (problem.kind[i] == free_kind) {
+            if (problem.kind[i] == free_cell) {
                 problem.value[i] = guess;
             }
         }
@@ -53,12 +51,12 @@ void set_source(solver::GridProblem& problem, Raster<double> const& carrier, Gui
     std::int64_t const width = carrier.width();
     parallel_ranges(run, carrier.height(), 8, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin * width; i < end * width; ++i) {
-            if (problem.kind[i] != free_kind) {
+            if (problem.kind[i] != free_cell) {
                 continue;
             }
             // By how much more than the carrier's own each difference shall be.
             auto const more = [&](Raster<double> const& wanted, std::int64_t here, std::int64_t there) {
-                return problem.kind[here] == outside_kind || problem.kind[there] == outside_kind
+                return problem.kind[here] == outside_cell || problem.kind[there] == outside_cell
                            ? 0.0
                            : wanted[here] - (carrier[there] - carrier[here]);
             };
@@ -85,9 +83,9 @@ solver::GridSolution follow(Raster<std::uint8_t> const& kind, Raster<double> con
     solver::GridSolution solution = solver::solve_poisson(std::move(problem), params, run);
     parallel_ranges(run, kind.cells(), 1 << 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            if (kind[i] == free_kind) {
+            if (kind[i] == free_cell) {
                 solution.value[i] += carrier[i];
-            } else if (kind[i] == fixed_kind) {
+            } else if (kind[i] == fixed_cell) {
                 solution.value[i] = fixed[i];
             }
         }

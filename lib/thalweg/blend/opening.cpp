@@ -16,10 +16,8 @@
 namespace thalweg::blend {
 namespace {
 
-using solver::CellKind;
-
-constexpr auto free_kind = static_cast<std::uint8_t>(CellKind::free);
-constexpr auto fixed_kind = static_cast<std::uint8_t>(CellKind::fixed);
+using solver::fixed_cell;
+using solver::free_cell;
 
 std::array<Cell, 4> neighbours_of(Cell c) {
     return {Cell{c.col - 1, c.row}, Cell{c.col + 1, c.row}, Cell{c.col, c.row - 1}, Cell{c.col, c.row + 1}};
@@ -66,7 +64,7 @@ void require_held(Opening const& opening, Grid const& target, std::string const&
     Mask seen(grid);
     std::vector<std::int64_t> reached;
     for (std::int64_t start = 0; start < grid.cells(); ++start) {
-        if (opening.kind[start] != free_kind || seen[start] != 0) {
+        if (opening.kind[start] != free_cell || seen[start] != 0) {
             continue;
         }
         run.check();
@@ -82,8 +80,8 @@ void require_held(Opening const& opening, Grid const& target, std::string const&
                 if (!grid.contains(n)) {
                     continue;
                 }
-                held = held || opening.kind[n] == fixed_kind;
-                if (opening.kind[n] == free_kind && seen[n] == 0) {
+                held = held || opening.kind[n] == fixed_cell;
+                if (opening.kind[n] == free_cell && seen[n] == 0) {
                     seen[n] = 1;
                     reached.push_back(grid.index(n));
                 }
@@ -119,7 +117,7 @@ Opening open_target(Raster<float> const& target, Mask const& changes, Mask const
         Cell const there{c.col + box.first.col, c.row + box.first.row};
         opening.target[i] = target[there];
         if (changes[there] != 0) {
-            opening.kind[i] = free_kind;
+            opening.kind[i] = free_cell;
             ++opening.cells;
             continue;
         }
@@ -132,7 +130,7 @@ Opening open_target(Raster<float> const& target, Mask const& changes, Mask const
             throw BadInput(fmt::format("{}: the target's height at column {}, row {} is infinite: correct it", stage,
                                        there.col, there.row));
         }
-        opening.kind[i] = fixed_kind;
+        opening.kind[i] = fixed_cell;
         ++opening.neighbours;
     }
     require_held(opening, target.grid(), stage, run);

@@ -17,16 +17,14 @@
 namespace thalweg::blend {
 namespace {
 
-using solver::CellKind;
-
-constexpr auto outside_kind = static_cast<std::uint8_t>(CellKind::outside);
-constexpr auto free_kind = static_cast<std::uint8_t>(CellKind::free);
-constexpr auto fixed_kind = static_cast<std::uint8_t>(CellKind::fixed);
+using solver::fixed_cell;
+using solver::free_cell;
+using solver::outside_cell;
 
 void check(Raster<float> const& target, Patch const& patch, PasteParams const& params) {
     if (!(params.feather_cells >= 0.0 && params.feather_cells <= 1e6)) {
         throw BadParameter(
-            fmt::format("blend.paste: a feather of {} cells; it lies between 0 and 1e6", params.feather_cells));
+            fmt::format("blend.paste: a feather of {} cells; it must lie between 0 and 1e6", params.feather_cells));
     }
     auto const require = [&](Grid const& grid, char const* what) {
         if (grid != target.grid()) {
@@ -81,7 +79,7 @@ Raster<double> carrier_of(Raster<double> const& source, Opening const& opening) 
     double sum = 0.0;
     double count = 0.0;
     for (std::int64_t i = 0; i < carrier.cells(); ++i) {
-        if (opening.kind[i] == fixed_kind) {
+        if (opening.kind[i] == fixed_cell) {
             sum += opening.target[i];
             count += 1.0;
         }
@@ -103,7 +101,7 @@ public:
             Mask changes(opening.kind.grid());
             for (std::int64_t i = 0; i < changes.cells(); ++i) {
                 // What is outside keeps no height that the land could differ from.
-                changes[i] = opening.kind[i] == fixed_kind ? 0 : 1;
+                changes[i] = opening.kind[i] == fixed_cell ? 0 : 1;
             }
             distance_ = distance_within(changes, run);
         }
@@ -138,7 +136,7 @@ private:
 
 bool has_gap(Raster<double> const& source, Opening const& opening) {
     for (std::int64_t i = 0; i < source.cells(); ++i) {
-        if (opening.kind[i] != outside_kind && std::isnan(source[i])) {
+        if (opening.kind[i] != outside_cell && std::isnan(source[i])) {
             return true;
         }
     }
@@ -172,8 +170,8 @@ Seam seam_of(Raster<double> const& z, Opening const& opening) {
     Seam seam;
     std::int64_t const width = z.width();
     auto const meet = [&](std::int64_t a, std::int64_t b) {
-        bool const is_seam = (opening.kind[a] == free_kind && opening.kind[b] == fixed_kind) ||
-                             (opening.kind[a] == fixed_kind && opening.kind[b] == free_kind);
+        bool const is_seam = (opening.kind[a] == free_cell && opening.kind[b] == fixed_cell) ||
+                             (opening.kind[a] == fixed_cell && opening.kind[b] == free_cell);
         double const own = opening.target[a] - opening.target[b];
         if (!is_seam || std::isnan(own)) {
             return;
@@ -208,7 +206,7 @@ Pasted paste(Raster<float> const& target, Patch const& patch, PasteParams const&
     Seam const seam = seam_of(solution.value, opening);
     pasted.dem = target;
     for (std::int64_t i = 0; i < opening.kind.cells(); ++i) {
-        if (opening.kind[i] == free_kind) {
+        if (opening.kind[i] == free_cell) {
             Cell const c = opening.kind.grid().at(i);
             pasted.dem[{c.col + opening.corner.col, c.row + opening.corner.row}] =
                 static_cast<float>(solution.value[i]);

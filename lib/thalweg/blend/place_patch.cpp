@@ -150,14 +150,14 @@ private:
 
 void check(PlacePatchParams const& params) {
     if (!(std::fabs(params.rotate_deg) <= 360.0)) {
-        throw BadParameter(fmt::format("blend.place_patch: a rotation of {} degrees; it lies between -360 and 360",
+        throw BadParameter(fmt::format("blend.place_patch: a rotation of {} degrees; it must lie between -360 and 360",
                                        params.rotate_deg));
     }
     if (!(params.scale > 0.0) || !std::isfinite(params.scale)) {
-        throw BadParameter(fmt::format("blend.place_patch: a scale of {}; it is above 0", params.scale));
+        throw BadParameter(fmt::format("blend.place_patch: a scale of {}; it must be above 0", params.scale));
     }
     if (!std::isfinite(params.gain)) {
-        throw BadParameter(fmt::format("blend.place_patch: a gain of {}; it is a number", params.gain));
+        throw BadParameter(fmt::format("blend.place_patch: a gain of {}; it must be a finite number", params.gain));
     }
     if (params.at && (!std::isfinite(params.at->x) || !std::isfinite(params.at->y))) {
         throw BadParameter(

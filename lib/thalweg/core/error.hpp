@@ -7,10 +7,21 @@
 
 namespace thalweg {
 
-/// Root of every exception thalweg throws. The text reads "room.verb: what, where, what to do".
+/// Root of every exception thalweg throws.
 class Error : public std::runtime_error {
 public:
-    using std::runtime_error::runtime_error;
+    /// Takes "module.function: what is wrong, where, what to do" and keeps the two parts apart. Without a module of
+    /// thalweg in front (core, geometry, solver, ...) the whole text is the message. A message of several lines may
+    /// repeat the prefix at the beginning of each; every repetition is removed.
+    explicit Error(std::string const& text);
+
+    // what() gives the message, for users of a program.
+
+    /// The function that threw, "module.function", for users of the library; "" when it is not known.
+    char const* where() const noexcept { return where_.what(); }
+
+private:
+    std::runtime_error where_; ///< not a string: copying an exception must not throw
 };
 
 /// A parameter is outside its range.
@@ -19,7 +30,7 @@ public:
     using Error::Error;
 };
 
-/// The data handed in cannot be used: the message names the feature and its place.
+/// The input data cannot be used: the message names the feature and its place.
 class BadInput : public Error {
 public:
     using Error::Error;
@@ -31,7 +42,7 @@ public:
     using Error::Error;
 };
 
-/// A file or the memory failed.
+/// A file operation or a memory allocation failed.
 class IoError : public Error {
 public:
     using Error::Error;

@@ -18,12 +18,20 @@ struct Finding {
     std::string text;         ///< one readable line
 };
 
+/// On which side of its limit a value passes.
+enum class Bound : std::uint8_t { at_most, at_least };
+
+constexpr char const* word_of(Bound bound) {
+    return bound == Bound::at_least ? "at_least" : "at_most";
+}
+
 /// One line of report.json's checks.
 struct Check {
     std::string name;
     double value = 0.0;
     double limit = 0.0;
     bool ok = false;
+    Bound bound = Bound::at_most;
 };
 
 } // namespace thalweg

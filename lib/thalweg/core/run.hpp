@@ -30,11 +30,16 @@ struct Run {
     void at(double share, char const* what) const;
     /// Throws Cancelled when the work shall stop.
     void check() const;
+    /// Logs a line about a stage, its name in a column of its own: "grow       100000 particles".
+    void tell(std::string_view stage, std::string_view words) const;
     void say(std::string_view line) const {
         if (log) {
             log(line);
         }
     }
 };
+
+/// Cells that a loop may pass before it looks whether it shall stop.
+inline constexpr std::int64_t cells_between_checks = 1 << 18;
 
 } // namespace thalweg

@@ -90,18 +90,16 @@ std::vector<FixedHeight> kept_heights(Raster<float> const& dem, Targets const& t
     auto const keep = [&](FixedHeight const& one) {
         Cell const cell = one.cell;
         if (!dem.grid().contains(cell) || std::isnan(dem[cell]) || !std::isfinite(one.z)) {
-            throw BadInput(fmt::format(
-                "detail.project: the fixed height of {} m at column {}, row {} is no height or lies off the "
-                "grid or in a hole; leave it out",
-                one.z, cell.col, cell.row));
+            throw BadInput(fmt::format("detail.project: the fixed height of {} m at column {}, row {} is not finite, "
+                                       "or lies off the grid or in a hole; leave it out",
+                                       one.z, cell.col, cell.row));
         }
         auto const [at, fresh] = seen.emplace(dem.grid().index(cell), one.z);
         if (fresh) {
             kept.push_back(one);
         } else if (at->second != one.z) {
             throw BadInput(fmt::format(
-                "detail.project: the cell at column {}, row {} shall have heights of {} m and of {} m; give "
-                "one",
+                "detail.project: the cell at column {}, row {} has two target heights, {} m and {} m; give one",
                 cell.col, cell.row, at->second, one.z));
         }
     };

@@ -91,8 +91,8 @@ Raster<float> with_fine_forms(Raster<float> const& land, Raster<float> const& fi
     auto const finite = [](float z) { return std::isfinite(z); };
     if (land.grid() != fine.grid() || !std::all_of(land.values().begin(), land.values().end(), finite) ||
         !std::all_of(fine.values().begin(), fine.values().end(), finite)) {
-        throw BadInput(fmt::format("detail.with_fine_forms: lands of {} x {} and {} x {} cells, or heights that are no "
-                                   "numbers: give two whole lands on one grid",
+        throw BadInput(fmt::format("detail.with_fine_forms: DEMs of {} x {} and {} x {} cells, or heights that are not "
+                                   "finite: give two complete DEMs on one grid",
                                    land.width(), land.height(), fine.width(), fine.height()));
     }
     Raster<double> const means = difference_of_means(land, fine, cells, run);

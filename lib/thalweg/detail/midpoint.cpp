@@ -26,7 +26,7 @@ void check_params(MidpointParams const& params) {
             fmt::format("detail.midpoint: levels is {}; choose from 0 to {}", params.levels, most_levels));
     }
     if (params.width < 0 || params.height < 0) {
-        throw BadParameter(fmt::format("detail.midpoint: the result is asked to have {} x {} cells; give a width and "
+        throw BadParameter(fmt::format("detail.midpoint: a result of {} x {} cells; give a width and "
                                        "height above 0, or 0 for all the coarse raster covers",
                                        params.width, params.height));
     }

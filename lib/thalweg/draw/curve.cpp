@@ -15,7 +15,7 @@
 namespace thalweg::draw {
 namespace {
 
-constexpr Colour stroke{0.05, 0.28, 0.58};
+constexpr Colour curve_colour{0.05, 0.28, 0.58};
 constexpr Colour fill{0.30, 0.52, 0.76, 0.14};
 
 void draw_curve(Cairo* sheet, Box box, std::vector<Vec2> const& points, std::string const& name, double unit) {
@@ -42,7 +42,7 @@ void draw_curve(Cairo* sheet, Box box, std::vector<Vec2> const& points, std::str
     set_colour(sheet, fill);
     cairo_fill(sheet);
     trace_line(sheet, line, 0.0);
-    set_colour(sheet, stroke);
+    set_colour(sheet, curve_colour);
     cairo_set_line_width(sheet, 0.15 * unit);
     cairo_stroke(sheet);
     // Steps are whole numbers: dots while they can be told apart, and always where a line has no length.
@@ -67,9 +67,8 @@ Picture curve(std::vector<double> const& increments, CurveParams const& params) 
         double const x = static_cast<double>(i + 1);
         sum += increments[i];
         if (!std::isfinite(sum)) {
-            throw BadInput(
-                fmt::format("draw.curve: the increment at x = {} is {}, no finite number; mend its expression", i + 1,
-                            increments[i]));
+            throw BadInput(fmt::format("draw.curve: the increment at x = {} is {}, not finite; correct its expression",
+                                       i + 1, increments[i]));
         }
         if (i == 0) {
             sums.push_back({0.0, 0.0});

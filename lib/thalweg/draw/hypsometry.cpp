@@ -15,15 +15,15 @@
 namespace thalweg::draw {
 namespace {
 
-constexpr Colour stroke{0.45, 0.28, 0.14};
+constexpr Colour line_colour{0.45, 0.28, 0.14};
 constexpr Colour ground{0.72, 0.56, 0.38, 0.22};
 
 void demand_curve(std::vector<Vec2> const& curve, double integral) {
     for (std::size_t i = 0; i < curve.size(); ++i) {
         if (!(curve[i].x >= 0.0 && curve[i].x <= 1.0) || !std::isfinite(curve[i].y)) {
-            throw BadInput(fmt::format("draw.hypsometry: point {} is ({}, {}): a share of the area in [0, 1] and a "
-                                       "height are wanted",
-                                       i + 1, curve[i].x, curve[i].y));
+            throw BadInput(fmt::format(
+                "draw.hypsometry: point {} is ({}, {}): a share of the area in [0, 1] and a height are required", i + 1,
+                curve[i].x, curve[i].y));
         }
     }
     if (!curve.empty() && !std::isnan(integral) && !(integral >= 0.0 && integral <= 1.0)) {
@@ -75,7 +75,7 @@ Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryPa
         set_colour(sheet, ground);
         cairo_fill(sheet);
         trace_line(sheet, line, 0.0);
-        set_colour(sheet, stroke);
+        set_colour(sheet, line_colour);
         cairo_set_line_width(sheet, 0.17 * unit);
         cairo_stroke(sheet);
         if (!has_integral) {

@@ -28,10 +28,9 @@ std::vector<Reach> reaches_of(RaisedNetwork const& network, NetworkOrders const&
     std::size_t const arcs = boost::num_edges(network.plan);
     if (network.arc_z.size() != arcs || orders.hack.size() != arcs || orders.arc_basin.size() != arcs ||
         orders.node_dist_out_m.size() != boost::num_vertices(network.plan)) {
-        throw BadInput(
-            fmt::format("draw.profile: heights or orders are not those of the network of {} arcs; set heights "
-                        "and orders anew",
-                        arcs));
+        throw BadInput(fmt::format(
+            "draw.profile: heights or orders are not those of the network of {} arcs; set heights and orders again",
+            arcs));
     }
     std::vector<Reach> reaches;
     std::size_t number_of_arc = 0;
@@ -40,7 +39,7 @@ std::vector<Reach> reaches_of(RaisedNetwork const& network, NetworkOrders const&
         std::vector<Vec2> const& line = network.plan[arc].line;
         std::vector<double> const& z = network.arc_z[k];
         if (z.size() != line.size()) {
-            throw BadInput(fmt::format("draw.profile: arc {} has {} vertices and {} heights; set heights anew", k + 1,
+            throw BadInput(fmt::format("draw.profile: arc {} has {} vertices and {} heights; set heights again", k + 1,
                                        line.size(), z.size()));
         }
         if (orders.arc_basin[k] < 1 || line.empty()) {

@@ -14,7 +14,7 @@
 namespace thalweg::geometry {
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
+using Doubles = CGAL::Simple_cartesian<double>;
 
 template <class Point> std::array<double, 3> of_triangle(Point const& a, Point const& b, Point const& c) {
     namespace weights = CGAL::Weights;
@@ -64,9 +64,9 @@ std::vector<std::array<double, 3>> half_cotangents(Tin const& tin, Measured meas
         Vec3 const c = off(t[2]);
         cotangents.push_back(
             measured == Measured::in_plan
-                ? of_triangle(Kernel::Point_2(0, 0), Kernel::Point_2(b.x, b.y), Kernel::Point_2(c.x, c.y))
-                : of_triangle(Kernel::Point_3(0, 0, 0), Kernel::Point_3(b.x, b.y, b.z),
-                              Kernel::Point_3(c.x, c.y, c.z)));
+                ? of_triangle(Doubles::Point_2(0, 0), Doubles::Point_2(b.x, b.y), Doubles::Point_2(c.x, c.y))
+                : of_triangle(Doubles::Point_3(0, 0, 0), Doubles::Point_3(b.x, b.y, b.z),
+                              Doubles::Point_3(c.x, c.y, c.z)));
     }
     return cotangents;
 }

@@ -37,10 +37,6 @@ int side(Vec2 a, Vec2 b, Vec2 p) {
     return static_cast<int>(CGAL::orientation(Point(a.x, a.y), Point(b.x, b.y), Point(p.x, p.y)));
 }
 
-bool before(Vec2 a, Vec2 b) {
-    return std::tie(a.x, a.y) < std::tie(b.x, b.y);
-}
-
 Vec2 without_minus_zero(Vec2 p) {
     return {p.x + 0.0, p.y + 0.0};
 }

@@ -38,10 +38,6 @@ bool disjoint(std::vector<std::int64_t> const& a, std::vector<std::int64_t> cons
     return true;
 }
 
-bool before(Vec2 a, Vec2 b) {
-    return std::tie(a.x, a.y) < std::tie(b.x, b.y);
-}
-
 /// Groups of faces whose vertices are one.
 class Groups {
 public:

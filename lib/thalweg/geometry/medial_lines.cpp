@@ -27,10 +27,10 @@
 namespace thalweg::geometry {
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Point = Kernel::Point_2;
+using Doubles = CGAL::Simple_cartesian<double>;
+using GraphPoint = Doubles::Point_2;
 using Graph =
-    CGAL::Segment_Delaunay_graph_2<CGAL::Segment_Delaunay_graph_filtered_traits_without_intersections_2<Kernel>>;
+    CGAL::Segment_Delaunay_graph_2<CGAL::Segment_Delaunay_graph_filtered_traits_without_intersections_2<Doubles>>;
 
 void require_vertices_where_lines_meet(std::vector<LabelledLine> const& lines, Run const& run) {
     std::vector<std::vector<Vec2>> drawn;
@@ -77,11 +77,11 @@ struct Built {
 };
 
 void build(Built& built, LabelledSites const& sites, Origin const& origin, Run const& run) {
-    using Entry = std::pair<Point, std::size_t>;
+    using Entry = std::pair<GraphPoint, std::size_t>;
     std::vector<Entry> points;
     auto const local = [&](Vec2 p) {
         Vec2 const q = origin.to_local(p);
-        return Point(q.x, q.y);
+        return GraphPoint(q.x, q.y);
     };
     for (std::size_t s = 0; s < sites.points; ++s) {
         points.emplace_back(local(sites.sites[s].a), s);
@@ -94,7 +94,7 @@ void build(Built& built, LabelledSites const& sites, Origin const& origin, Run c
     for (std::size_t k = 0; k < sites.ends.size(); ++k) {
         segments.emplace_back(local(sites.sites[sites.points + k].a), k);
     }
-    using Traits = CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::First_of_pair_property_map<Entry>>;
+    using Traits = CGAL::Spatial_sort_traits_adapter_2<Doubles, CGAL::First_of_pair_property_map<Entry>>;
     CGAL::spatial_sort(points.begin(), points.end(), Traits());
     CGAL::spatial_sort(segments.begin(), segments.end(), Traits());
 
@@ -146,7 +146,7 @@ RawDiagram raw_of(Built const& built, LabelledSites const& sites, Origin const& 
             run.check();
         }
         int const next = Graph::ccw(of.first);
-        Point const guess =
+        GraphPoint const guess =
             vertex(face->vertex(of.first)->site(), face->vertex(next)->site(), face->vertex(Graph::ccw(next))->site());
         Vec2 const at = equidistant({site(of.sites[0]), site(of.sites[1]), site(of.sites[2])}, {guess.x(), guess.y()});
         number_of[face] = raw.at.size();

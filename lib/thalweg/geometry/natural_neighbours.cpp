@@ -22,9 +22,9 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_2;
-using Vertices = CGAL::Triangulation_vertex_base_with_info_2<double, Kernel>;
-using Mesh = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertices>>;
-using Share = std::pair<Mesh::Vertex_handle, double>;
+using HeightVertices = CGAL::Triangulation_vertex_base_with_info_2<double, Kernel>;
+using HeightMesh = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<HeightVertices>>;
+using Share = std::pair<HeightMesh::Vertex_handle, double>;
 
 struct Itself {
     using argument_type = Share;
@@ -33,13 +33,13 @@ struct Itself {
 };
 
 // triangulate() has judged the points and thrown out twins; its triangles are CGAL's once more.
-Mesh mesh_of(Tin const& tin) {
+HeightMesh mesh_of(Tin const& tin) {
     std::vector<std::pair<Point, double>> entries;
     entries.reserve(tin.vertices.size());
     for (Vec3 const& v : tin.vertices) {
         entries.emplace_back(Point(v.x, v.y), v.z);
     }
-    Mesh mesh;
+    HeightMesh mesh;
     mesh.insert(entries.begin(), entries.end());
     return mesh;
 }
@@ -48,7 +48,7 @@ Mesh mesh_of(Tin const& tin) {
 
 Raster<float> natural_neighbours(std::vector<Vec3> const& points, Grid const& grid,
                                  NaturalNeighboursParams const& params, Run const& run) {
-    Mesh const mesh = mesh_of(triangulate(points, {}, run).tin);
+    HeightMesh const mesh = mesh_of(triangulate(points, {}, run).tin);
     bool const extend = params.outside == NaturalNeighboursParams::Outside::nearest;
     Raster<float> dem(grid, std::numeric_limits<float>::quiet_NaN());
     parallel_ranges(run, grid.height, 1, [&](std::int64_t begin, std::int64_t end) {
@@ -56,7 +56,7 @@ Raster<float> natural_neighbours(std::vector<Vec3> const& points, Grid const& gr
         for (std::int64_t row = begin; row < end; ++row) {
             run.check();
             // Each row begins its walk at the same face: where it stands must not depend on who drew the row before.
-            Mesh::Face_handle near = mesh.infinite_face();
+            HeightMesh::Face_handle near = mesh.infinite_face();
             for (std::int64_t col = 0; col < grid.width; ++col) {
                 Vec2 const at = grid.centre({col, row});
                 Point const p(at.x, at.y);

@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 #include <thalweg/geometry/triangle_order.hpp>
@@ -80,10 +81,6 @@ Places collect(std::vector<Vec3> const& points, std::vector<std::vector<Vec3>> c
     }
     places.given = places.at.size();
     return places;
-}
-
-Vec2 plan(Vec3 const& p) {
-    return {p.x, p.y};
 }
 
 std::vector<std::vector<Vec2>> plans(Places const& places) {
@@ -159,7 +156,7 @@ std::vector<typename Mesh::Vertex_handle> insert(Mesh& mesh, Places const& place
     std::int64_t done = 0;
     for (auto const& [point, place] : entries) {
         if ((done++ & 0x3fff) == 0) {
-            run.at(static_cast<double>(done) / static_cast<double>(entries.size()), "triangulate");
+            run.at(static_cast<double>(done) / static_cast<double>(entries.size()), "tin");
         }
         auto const vertex = mesh.insert(point, hint);
         vertex->info() = unnumbered;

@@ -21,11 +21,11 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_2;
-using Mesh = CGAL::Delaunay_triangulation_2<
+using LabelMesh = CGAL::Delaunay_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_with_info_2<std::size_t, Kernel>,
                                                  CGAL::Triangulation_face_base_with_info_2<std::size_t, Kernel>>>;
 
-Mesh mesh_of(LabelledSites const& sites, Run const& run) {
+LabelMesh mesh_of(LabelledSites const& sites, Run const& run) {
     using Entry = std::pair<Point, std::size_t>;
     std::vector<Entry> entries;
     for (auto const& site : sites.sites) {
@@ -36,8 +36,8 @@ Mesh mesh_of(LabelledSites const& sites, Run const& run) {
     }
     CGAL::spatial_sort(entries.begin(), entries.end(),
                        CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::First_of_pair_property_map<Entry>>());
-    Mesh mesh;
-    Mesh::Face_handle hint;
+    LabelMesh mesh;
+    LabelMesh::Face_handle hint;
     std::size_t done = 0;
     for (auto const& [point, site] : entries) {
         if ((done++ & 0x3fff) == 0) {
@@ -51,8 +51,8 @@ Mesh mesh_of(LabelledSites const& sites, Run const& run) {
 }
 
 /// The finite faces, sorted by the sites around them.
-std::vector<std::pair<Around, Mesh::Face_handle>> faces_of(Mesh const& mesh) {
-    std::vector<std::pair<Around, Mesh::Face_handle>> faces;
+std::vector<std::pair<Around, LabelMesh::Face_handle>> faces_of(LabelMesh const& mesh) {
+    std::vector<std::pair<Around, LabelMesh::Face_handle>> faces;
     for (auto const face : mesh.finite_face_handles()) {
         auto const site = [&](int i) { return face->vertex(i)->info(); };
         faces.emplace_back(least_first({site(0), site(1), site(2)}), face);
@@ -68,21 +68,21 @@ Diagram voronoi(std::vector<LabelledLine> const& lines, Bounds const& bounds, Ru
     if (sites.points < 2) {
         return {};
     }
-    Mesh const mesh = mesh_of(sites, run);
+    LabelMesh const mesh = mesh_of(sites, run);
     RawDiagram raw;
     for (auto const& [around, face] : faces_of(mesh)) {
         face->info() = raw.at.size();
-        int const next = Mesh::ccw(around.first);
+        int const next = LabelMesh::ccw(around.first);
         Point const at = CGAL::circumcenter(face->vertex(around.first)->point(), face->vertex(next)->point(),
-                                            face->vertex(Mesh::ccw(next))->point());
+                                            face->vertex(LabelMesh::ccw(next))->point());
         raw.at.push_back({at.x(), at.y()});
         raw.sites.push_back(around.sites);
     }
     for (auto const& [face, i] : mesh.finite_edges()) {
         auto const beyond = face->neighbor(i);
         if (!mesh.is_infinite(face) && !mesh.is_infinite(beyond)) {
-            raw.links.push_back(
-                {face->info(), beyond->info(), face->vertex(Mesh::cw(i))->info(), face->vertex(Mesh::ccw(i))->info()});
+            raw.links.push_back({face->info(), beyond->info(), face->vertex(LabelMesh::cw(i))->info(),
+                                 face->vertex(LabelMesh::ccw(i))->info()});
         }
     }
     return finish(

@@ -57,8 +57,7 @@ Grid frame_for(GDALDataset& source, Grid const& grid, std::string const& wkt, st
     if (!transformer ||
         GDALSuggestedWarpOutput2(GDALDataset::ToHandle(&source), GDALGenImgProjTransform, transformer.get(),
                                  suggested.data(), &columns, &rows, box.data(), 0) != CE_None) {
-        throw BadInput(
-            fmt::format("{} cannot be brought into the coordinates of {:.60}: {}", what, grid.crs, driver.take()));
+        throw BadInput(fmt::format("{} cannot be reprojected to {:.60}: {}", what, grid.crs, driver.take()));
     }
     double const west = std::floor((box[0] - grid.west) / grid.cell_m);
     double const east = std::ceil((box[2] - grid.west) / grid.cell_m);
@@ -112,8 +111,7 @@ Raster<float> bring_into(Raster<float> const& dem, Grid const& grid, std::string
     Dataset const warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &from, options.get(), nullptr)));
     watch.settle();
     if (warped == nullptr) {
-        throw BadInput(
-            fmt::format("{} cannot be brought into the coordinates of {:.60}: {}", what, grid.crs, driver.take()));
+        throw BadInput(fmt::format("{} cannot be reprojected to {:.60}: {}", what, grid.crs, driver.take()));
     }
     Raster<float> result(frame);
     int const width = warped->GetRasterXSize();

@@ -7,6 +7,11 @@
 
 namespace thalweg::io {
 
+std::string in_message(std::string const& crs) {
+    constexpr std::size_t most = 60;
+    return crs.empty() ? "no CRS" : crs.size() <= most ? crs : crs.substr(0, most) + "...";
+}
+
 int epsg_code(std::string const& crs) {
     constexpr std::string_view prefix = "EPSG:";
     if (!crs.starts_with(prefix) || crs.size() > prefix.size() + 6) {

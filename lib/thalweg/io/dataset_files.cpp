@@ -18,7 +18,7 @@ std::vector<std::string> dataset_files(std::string const& path) {
     Driver const driver;
     Dataset const source = open_undisturbed(path, GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr);
     if (!source) {
-        throw BadInput("io.dataset_files: " + path + " is no vector or raster source");
+        throw BadInput("io.dataset_files: " + path + " is not a vector or raster source");
     }
     if (inside_archive(path) != path) {
         return {path};

@@ -49,7 +49,7 @@ bool is_plain(fs::path const& name) {
 void require_removable(fs::path const& folder, std::string const& name) {
     if (!is_plain(name)) {
         throw BadInput(
-            fmt::format("io.output_folder: '{}', an old file of {}, is no name within it", name, folder.string()));
+            fmt::format("io.output_folder: '{}' in report.json is not a valid path within {}", name, folder.string()));
     }
     fs::path place = folder;
     fs::path const relative(name);
@@ -63,7 +63,7 @@ void require_removable(fs::path const& folder, std::string const& name) {
         }
         if (last ? !fs::is_regular_file(status) : !fs::is_directory(status)) {
             throw BadInput(fmt::format(
-                "io.output_folder: {}, which an earlier run left, is not what it was: move it away", place.string()));
+                "io.output_folder: {} is no longer the file that an earlier run wrote: move it away", place.string()));
         }
     }
 }
@@ -187,7 +187,7 @@ OutputFolder::~OutputFolder() {
 
 std::string OutputFolder::path(std::string const& name) const {
     if (!is_plain(name)) {
-        throw BadParameter(fmt::format("io.output_folder: '{}' is no name within {}", name, folder_));
+        throw BadParameter(fmt::format("io.output_folder: '{}' is not a valid path within {}", name, folder_));
     }
     fs::path const place = fs::path(staging_) / name;
     std::error_code error;
@@ -285,7 +285,7 @@ void write_text(std::string const& path, std::string const& text) {
 void copy_file(std::string const& from, std::string const& to) {
     std::error_code error;
     if (!fs::is_regular_file(from, error)) {
-        throw BadInput(fmt::format("io.copy_file: {} is no file", from));
+        throw BadInput(fmt::format("io.copy_file: {} is not a file", from));
     }
     fs::copy_file(from, to, fs::copy_options::none, error);
     require(error, fmt::format("io.copy_file: {} to {}", from, to));

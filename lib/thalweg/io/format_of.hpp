@@ -26,8 +26,8 @@ auto format_of(std::vector<Named> const& formats, std::string const& name, std::
         }
         known += (known.empty() ? "" : ", ") + std::string(f.name);
     }
-    throw BadParameter(name.empty() ? who + ": the name of " + path + " says no format; name one of " + known
-                                    : who + ": '" + name + "' is no format; there are " + known);
+    throw BadParameter(name.empty() ? who + ": the name of " + path + " does not tell the format; name one of " + known
+                                    : who + ": '" + name + "' is not a format; the formats are " + known);
 }
 
 } // namespace thalweg::io

@@ -9,6 +9,7 @@
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/spatial_reference.hpp>
 
@@ -35,10 +36,6 @@ std::string zone_of(Vec2 at, OGRSpatialReference const& from, std::string const&
 }
 
 // PROJ's last bits differ between machines: a millionth of a metre does not.
-double rounded(double v) {
-    return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0;
-}
-
 } // namespace
 
 bool is_missing(OGRSpatialReference const* reference) {
@@ -65,7 +62,7 @@ IntoMetres::IntoMetres(OGRSpatialReference const& own, std::string const& wanted
     OGRSpatialReference const to = read_reference(crs_);
     turn_->into.reset(OGRCreateCoordinateTransformation(&from, &to));
     if (!turn_->into) {
-        throw BadInput(fmt::format("io.into_metres: {} cannot be brought into {}", name, crs_));
+        throw BadInput(fmt::format("io.into_metres: {} cannot be reprojected to {}", name, crs_));
     }
 }
 

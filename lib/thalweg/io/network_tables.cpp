@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include <thalweg/core/index.hpp>
 #include <thalweg/io/decimals.hpp>
 #include <thalweg/io/user_columns.hpp>
 
@@ -26,10 +27,6 @@ template <class Get> Column real(char const* name, int decimals, Get get) {
 
 template <class Get> Column text(char const* name, Get get) {
     return {name, Kind::text, 0, [get](std::int64_t row) { return std::string(get(row)); }};
-}
-
-std::size_t at(std::int64_t row) {
-    return static_cast<std::size_t>(row);
 }
 
 double length_in_plan(std::vector<Vec3> const& line) {
@@ -56,15 +53,15 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool sh
     StreamNetwork const& plan = tables.network.plan;
     auto const& arc_z = tables.network.arc_z;
     NetworkOrders const& orders = tables.orders;
-    auto const arc = [&](std::int64_t row) -> Arc const& { return plan[index.arcs[at(row)]]; };
-    auto const up = [&](std::int64_t row) { return index.from[at(row)]; };
-    auto const down = [&](std::int64_t row) { return index.to[at(row)]; };
+    auto const arc = [&](std::int64_t row) -> Arc const& { return plan[index.arcs[as_index(row)]]; };
+    auto const up = [&](std::int64_t row) { return index.from[as_index(row)]; };
+    auto const down = [&](std::int64_t row) { return index.to[as_index(row)]; };
 
     Table table{"arcs", Table::Shape::line, static_cast<std::int64_t>(index.arcs.size()), {}, {}};
     table.shape_at = [arc, &arc_z](std::int64_t row) {
         std::vector<Vec3> line;
         for (std::size_t i = 0; Vec2 const p : arc(row).line) {
-            line.push_back({p.x, p.y, arc_z[at(row)][i++]});
+            line.push_back({p.x, p.y, arc_z[as_index(row)][i++]});
         }
         return line;
     };
@@ -74,36 +71,37 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool sh
         integer("to_node", [down](auto row) { return down(row) + 1; }),
         integer("ds_arc", [down, &index](auto row) { return index.out[down(row)] + 1; }),
         integer("n_up", [up, &index](auto row) { return index.in[up(row)].size(); }),
-        integer("basin_id", [&orders](auto row) { return orders.arc_basin[at(row)]; }),
-        integer("topo_ord", [&orders](auto row) { return orders.topological[at(row)]; }),
-        integer("strahler", [&orders](auto row) { return orders.strahler[at(row)]; }),
-        integer("shreve", [&orders](auto row) { return orders.shreve[at(row)]; }),
-        integer("hack", [&orders](auto row) { return orders.hack[at(row)]; }),
-        real("length", length_decimals, [&index](auto row) { return index.length_m[at(row)]; }),
+        integer("basin_id", [&orders](auto row) { return orders.arc_basin[as_index(row)]; }),
+        integer("topo_ord", [&orders](auto row) { return orders.topological[as_index(row)]; }),
+        integer("strahler", [&orders](auto row) { return orders.strahler[as_index(row)]; }),
+        integer("shreve", [&orders](auto row) { return orders.shreve[as_index(row)]; }),
+        integer("hack", [&orders](auto row) { return orders.hack[as_index(row)]; }),
+        real("length", length_decimals, [&index](auto row) { return index.length_m[as_index(row)]; }),
         real("length_3d", length_decimals,
-             [arc, &arc_z](auto row) { return length_in_space(arc(row).line, arc_z[at(row)]); }),
+             [arc, &arc_z](auto row) { return length_in_space(arc(row).line, arc_z[as_index(row)]); }),
         real("straight", length_decimals,
              [arc](auto row) { return distance(arc(row).line.front(), arc(row).line.back()); }),
-        real("z_up", length_decimals, [&arc_z](auto row) { return arc_z[at(row)].front(); }),
-        real("z_down", length_decimals, [&arc_z](auto row) { return arc_z[at(row)].back(); }),
+        real("z_up", length_decimals, [&arc_z](auto row) { return arc_z[as_index(row)].front(); }),
+        real("z_down", length_decimals, [&arc_z](auto row) { return arc_z[as_index(row)].back(); }),
         real("dist_out", length_decimals, [down, &orders](auto row) { return orders.node_dist_out_m[down(row)]; }),
         real("slope", slope_decimals,
              [&arc_z, &index](auto row) {
-                 return (arc_z[at(row)].front() - arc_z[at(row)].back()) / index.length_m[at(row)];
+                 return (arc_z[as_index(row)].front() - arc_z[as_index(row)].back()) / index.length_m[as_index(row)];
              }),
-        real("us_area", area_decimals, [&area = tables.us_area_m2](auto row) { return area[at(row)]; }),
-        real("ds_area", area_decimals, [&area = tables.ds_area_m2](auto row) { return area[at(row)]; }),
+        real("us_area", area_decimals, [&area = tables.us_area_m2](auto row) { return area[as_index(row)]; }),
+        real("ds_area", area_decimals, [&area = tables.ds_area_m2](auto row) { return area[as_index(row)]; }),
         real("survives", length_decimals,
              [arc](auto row) { return std::isinf(arc(row).survives) ? -1.0 : arc(row).survives; }),
         {"feature", Kind::wide_integer, 0, [arc](std::int64_t row) { return arc(row).feature; }},
         // A shapefile reads an empty text back as NULL.
         text("type", [arc](auto row) { return arc(row).type.empty() ? "none" : arc(row).type; }),
-        integer("braided", [of = tables.braided](auto row) { return of != nullptr && (*of)[at(row)] != 0 ? 1 : 0; }),
+        integer("braided",
+                [of = tables.braided](auto row) { return of != nullptr && (*of)[as_index(row)] != 0 ? 1 : 0; }),
         integer("given", [arc](auto row) { return arc(row).given ? 1 : 0; }),
     };
     if (tables.user != nullptr) {
         add_user_columns(
-            table, tables.user->attributes, [&user = *tables.user](std::int64_t row) { return user.record[at(row)]; },
+            table, tables.user->attributes, [&user = *tables.user](std::int64_t row) { return user.record[as_index(row)]; },
             short_names);
     }
     return table;
@@ -116,25 +114,25 @@ Table nodes_table(NetworkTables const& tables, NetworkIndex const& index) {
 
     Table table{"nodes", Table::Shape::point, static_cast<std::int64_t>(boost::num_vertices(plan)), {}, {}};
     table.shape_at = [&](std::int64_t row) {
-        Vec2 const p = plan[at(row)].at;
-        return std::vector<Vec3>{{p.x, p.y, node_z[at(row)]}};
+        Vec2 const p = plan[as_index(row)].at;
+        return std::vector<Vec3>{{p.x, p.y, node_z[as_index(row)]}};
     };
     table.columns = {
         integer("node_id", [](auto row) { return row + 1; }),
-        text("kind", [&plan](auto row) { return name_of(kind_of(plan, at(row))); }),
-        integer("deg_in", [&index](auto row) { return index.in[at(row)].size(); }),
-        integer("deg_out", [&index](auto row) { return index.out[at(row)] < 0 ? 0 : 1; }),
-        integer("basin_id", [&orders](auto row) { return orders.node_basin[at(row)]; }),
-        integer("strahler", [&orders](auto row) { return orders.node_strahler[at(row)]; }),
-        real("z", length_decimals, [&node_z](auto row) { return node_z[at(row)]; }),
-        real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[at(row)]; }),
-        real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[at(row)]; }),
+        text("kind", [&plan](auto row) { return name_of(kind_of(plan, as_index(row))); }),
+        integer("deg_in", [&index](auto row) { return index.in[as_index(row)].size(); }),
+        integer("deg_out", [&index](auto row) { return index.out[as_index(row)] < 0 ? 0 : 1; }),
+        integer("basin_id", [&orders](auto row) { return orders.node_basin[as_index(row)]; }),
+        integer("strahler", [&orders](auto row) { return orders.node_strahler[as_index(row)]; }),
+        real("z", length_decimals, [&node_z](auto row) { return node_z[as_index(row)]; }),
+        real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[as_index(row)]; }),
+        real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[as_index(row)]; }),
     };
     return table;
 }
 
 Table ridges_table(RidgeLines const& ridges) {
-    auto const ridge = [&ridges](std::int64_t row) -> RidgeLine const& { return ridges.lines[at(row)]; };
+    auto const ridge = [&ridges](std::int64_t row) -> RidgeLine const& { return ridges.lines[as_index(row)]; };
     auto const lower = [](Vec3 const& a, Vec3 const& b) { return a.z < b.z; };
 
     Table table{"ridges", Table::Shape::line, static_cast<std::int64_t>(ridges.lines.size()), {}, {}};
@@ -151,7 +149,7 @@ Table ridges_table(RidgeLines const& ridges) {
 }
 
 Table secondary_table(std::vector<SecondaryLine> const& secondary, UserData const* user) {
-    auto const one = [&secondary](std::int64_t row) -> SecondaryLine const& { return secondary[at(row)]; };
+    auto const one = [&secondary](std::int64_t row) -> SecondaryLine const& { return secondary[as_index(row)]; };
     Table table{"secondary", Table::Shape::plan_line, static_cast<std::int64_t>(secondary.size()), {}, {}};
     table.shape_at = [one](std::int64_t row) {
         std::vector<Vec3> line = one(row).vertices;
@@ -185,10 +183,10 @@ Table sources_table(UserData const& user) {
     }
     Table table{"sources", Table::Shape::none, static_cast<std::int64_t>(rows->size()), {}, {}};
     table.columns = {
-        integer("arc_id", [rows](auto row) { return (*rows)[at(row)].arc; }),
-        {"feature", Kind::wide_integer, 0, [rows](std::int64_t row) { return (*rows)[at(row)].stretch.feature; }},
-        real("from_m", length_decimals, [rows](auto row) { return (*rows)[at(row)].stretch.from_m; }),
-        real("to_m", length_decimals, [rows](auto row) { return (*rows)[at(row)].stretch.to_m; }),
+        integer("arc_id", [rows](auto row) { return (*rows)[as_index(row)].arc; }),
+        {"feature", Kind::wide_integer, 0, [rows](std::int64_t row) { return (*rows)[as_index(row)].stretch.feature; }},
+        real("from_m", length_decimals, [rows](auto row) { return (*rows)[as_index(row)].stretch.from_m; }),
+        real("to_m", length_decimals, [rows](auto row) { return (*rows)[as_index(row)].stretch.to_m; }),
     };
     return table;
 }

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 OutputFile::OutputFile(std::string const& path, Existing existing) : path_(path), existing_(existing) {
     if (!fs::path(path).has_filename()) {
-        throw BadParameter(fmt::format("io.output_file: '{}' is no name of a file", path));
+        throw BadParameter(fmt::format("io.output_file: '{}' is not a valid file name", path));
     }
     fs::path const folder = fs::path(path).parent_path();
     std::error_code ignored;
@@ -40,7 +40,7 @@ void OutputFile::require_place() const {
         return;
     }
     if (!fs::is_regular_file(status)) {
-        throw BadInput(fmt::format("io.output_file: {} exists and is no plain file: name another", path_));
+        throw BadInput(fmt::format("io.output_file: {} exists and is not a regular file: name another", path_));
     }
     if (existing_ == Existing::refuse) {
         throw BadInput(fmt::format("io.output_file: {} already exists: name another or use --overwrite", path_));

@@ -26,7 +26,7 @@ void require_numbers(Raster<std::int32_t> const& numbers, std::int64_t count, st
     auto const beyond = std::find_if(values.begin(), values.end(), [&](std::int32_t n) { return n >= count; });
     if (beyond != values.end()) {
         Cell const c = numbers.grid().at(beyond - values.begin());
-        throw BadInput(fmt::format("{}: {} at column {}, row {} is none of {}", what, *beyond, c.col, c.row, count));
+        throw BadInput(fmt::format("{}: {} at column {}, row {} is not one of {}", what, *beyond, c.col, c.row, count));
     }
 }
 

@@ -8,19 +8,10 @@
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/crs_text.hpp>
 #include <thalweg/io/spatial_reference.hpp>
 
 namespace thalweg::io {
-namespace {
-
-// A CRS in a message: WKT would fill the screen.
-std::string shortened(std::string const& text) {
-    constexpr std::size_t most = 60;
-    return text.size() <= most ? text : text.substr(0, most) + "...";
-}
-
-} // namespace
-
 std::string projected_crs(std::string const& text) {
     OGRSpatialReference reference = read_reference(text);
     reference.StripVertical();
@@ -29,7 +20,7 @@ std::string projected_crs(std::string const& text) {
         reference.GetLinearUnits(&unit);
         throw BadInput(fmt::format("io.projected_crs: {} is {}; give a projected one in metres, such as a UTM zone "
                                    "(EPSG:32633)",
-                                   shortened(text),
+                                   in_message(text),
                                    reference.IsGeographic() != 0  ? "geographic: its cells would not be square"
                                    : reference.IsProjected() != 0 ? fmt::format("in '{}'", unit)
                                                                   : "not projected"));

@@ -15,17 +15,12 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
+#include <thalweg/io/plausible.hpp>
 #include <thalweg/io/spatial_reference.hpp>
 
 namespace thalweg::io {
 
 namespace {
-
-// No landscape is so high; a damaged DEFLATE tile reads without an error and gives such numbers.
-constexpr double implausible_height = 1e30;
-
-// Sides of a cell that differ less are equal but for the rounding of who wrote them.
-constexpr double square_within = 1e-6;
 
 Grid frame_of(GDALDataset& dataset, std::string const& what) {
     Grid grid;

@@ -18,6 +18,7 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
+#include <thalweg/io/plausible.hpp>
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/spatial_reference.hpp>
 #include <thalweg/io/watch.hpp>
@@ -28,9 +29,6 @@ namespace {
 
 using Frame = std::array<double, 6>;
 
-// As in read_dem: a damaged tile reads without an error and gives such numbers.
-constexpr double implausible_height = 1e30;
-constexpr double square_within = 1e-6;
 constexpr double widest_zone_deg = 12.0;
 
 OGRSpatialReference const* reference_of(GDALDataset& dataset) {

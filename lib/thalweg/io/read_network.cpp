@@ -18,6 +18,7 @@
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/into_metres.hpp>
 #include <thalweg/io/read_network_arcs.hpp>
+#include <thalweg/io/read_network_columns.hpp>
 #include <thalweg/io/read_network_layers.hpp>
 #include <thalweg/io/read_network_links.hpp>
 #include <thalweg/io/read_network_notes.hpp>
@@ -29,8 +30,6 @@ namespace thalweg::io {
 namespace {
 
 using FileArc = NetworkFile::FileArc;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Wish wish_of(ReadNetworkParams const& params) {
     Wish wish{
@@ -46,8 +45,8 @@ Wish wish_of(ReadNetworkParams const& params) {
             for (std::size_t q = 0; q < static_cast<std::size_t>(Quantity::constant); ++q) {
                 names.emplace_back(name_of(static_cast<Quantity>(q)));
             }
-            throw BadInput(fmt::format("io.read_network: '{}' is nothing that a field can tell.{} ({})", quantity,
-                                       did_you_mean(quantity, names), fmt::join(names, ", ")));
+            throw BadInput(fmt::format("io.read_network: '{}' is not a quantity of the network schema.{} ({})",
+                                       quantity, did_you_mean(quantity, names), fmt::join(names, ", ")));
         }
         wish.fields[*known] = field;
     }
@@ -74,13 +73,13 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes,
     if (nodes != nullptr) {
         OGRSpatialReference const* const other = nodes->layer->GetSpatialRef();
         if (!is_missing(own) && !is_missing(other) && own->IsSame(other) == FALSE && name_of(*own) != name_of(*other)) {
-            throw BadInput(fmt::format("{} is in {} and {} in {}: bring both into one CRS", arcs.what, own->GetName(),
+            throw BadInput(fmt::format("{} is in {} and {} in {}: reproject both to one CRS", arcs.what, own->GetName(),
                                        nodes->what, other->GetName()));
         }
     }
     if (is_missing(own)) {
         if (file.schema != "native") {
-            notes.add(arcs.what, {"no_crs", 0, {}, 0.0, "no CRS: its coordinates are taken for metres"});
+            notes.add(arcs.what, {"no_crs", 0, {}, 0.0, "no CRS: its coordinates are treated as metres"});
         }
         return;
     }
@@ -116,7 +115,7 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes,
                               0,
                               {},
                               0.0,
-                              fmt::format("its coordinates, in {}, were brought into {}", own->GetName(), file.crs)});
+                              fmt::format("its coordinates were reprojected from {} to {}", own->GetName(), file.crs)});
     }
 }
 

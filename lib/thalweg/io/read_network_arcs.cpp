@@ -27,8 +27,6 @@ namespace {
 using Q = Quantity;
 using FileArc = NetworkFile::FileArc;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 void require_fields(Layer const& arcs, ArcColumns const& columns, std::optional<Schema> schema, Notes& notes) {
     std::vector<std::string> missing;
     for (Quantity const q : {Q::arc_id, Q::from_node, Q::to_node, Q::ds_arc, Q::strahler, Q::shreve, Q::basin_id}) {
@@ -232,7 +230,7 @@ private:
                         0,
                         {},
                         static_cast<double>(drawn_.no_lines),
-                        fmt::format("{}; {} such features were passed over", drawn_.first_no_line, drawn_.no_lines)});
+                        fmt::format("{}; {} such features were skipped", drawn_.first_no_line, drawn_.no_lines)});
         }
         if (drawn_.measured > 0) {
             notes_.add(arcs_.what, {"measures",
@@ -263,7 +261,7 @@ private:
             }
             notes_.add(
                 arcs_.what,
-                {"no_heights", 0, {}, static_cast<double>(drawn_.raised), "every height (Z) is 0: taken for none"});
+                {"no_heights", 0, {}, static_cast<double>(drawn_.raised), "every height (Z) is 0: treated as missing"});
         }
     }
 

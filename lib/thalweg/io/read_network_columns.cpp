@@ -21,8 +21,6 @@ namespace thalweg::io {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 std::vector<std::string> words_of(std::string_view text) {
     std::vector<std::string> words;
     while (!text.empty()) {
@@ -124,11 +122,8 @@ void FileColumn::require_numbers(OGRLayer& layer, std::string const& what, Notes
     }
     OGRFieldType const type = layer.GetLayerDefn()->GetFieldDefn(field_)->GetType();
     if (is_text_) {
-        notes.add(what, {"text_number",
-                         0,
-                         {},
-                         0.0,
-                         fmt::format("field {} does not hold numbers, but texts, which are read as numbers", name_)});
+        notes.add(what,
+                  {"text_number", 0, {}, 0.0, fmt::format("field {} holds text, which is read as numbers", name_)});
     } else if (type != OFTInteger && type != OFTInteger64 && type != OFTReal) {
         throw BadInput(fmt::format("{}: field {} does not hold numbers, but {}; name another field", what, name_,
                                    OGRFieldDefn::GetFieldTypeName(type)));

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -17,6 +18,9 @@ class OGRLayer;
 
 /// Which column of a layer holds what. Private to this room.
 namespace thalweg::io {
+
+/// What a file does not say.
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A column of numbers or texts, found by its name in any case of letters; the feature id of the format is one too.
 class FileColumn {

@@ -92,13 +92,13 @@ std::optional<Schema> choose_schema(Layer const& arcs, Wish const& wish) {
     }
     if (found.empty()) {
         throw BadInput(fmt::format(
-            "{}: its fields ({}) are those of no schema ({}); name the schema, or the fields "
+            "{}: its fields ({}) match no schema ({}); name the schema, or the fields "
             "that hold arc_id and ds_arc, or arc_id, from_node and to_node{}",
             arcs.what, fields_of(*arcs.layer), what_tells(),
             arcs.layer->GetLayerDefn()->GetFieldCount() == 0 ? "; a shapefile without fields has lost its .dbf" : ""));
     }
-    throw BadInput(fmt::format("{}: its fields are those of several schemas ({}); name one of them", arcs.what,
-                               fmt::join(names, ", ")));
+    throw BadInput(
+        fmt::format("{}: its fields match several schemas ({}); name one of them", arcs.what, fmt::join(names, ", ")));
 }
 
 std::optional<Layer> choose_nodes(NetworkSource const* source, NetworkSource const& arcs_source, Layer const& arcs,

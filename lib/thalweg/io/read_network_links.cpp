@@ -40,10 +40,6 @@ std::vector<Named> by_id(NetworkFile const& file) {
     return by_number(file.arcs.size(), [&](std::size_t i) { return file.arcs[i].id; });
 }
 
-Vec2 plan(Vec3 const& p) {
-    return {p.x, p.y};
-}
-
 // Bits order every place, NaN among them; 0 and -0 are one.
 std::uint64_t bits(double v) {
     return std::bit_cast<std::uint64_t>(v + 0.0);
@@ -81,7 +77,7 @@ void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes) {
                    id,
                    {},
                    static_cast<double>(below),
-                   fmt::format("arc {} flows on into {}, which is not in the file: taken for an outlet", id, below)});
+                   fmt::format("arc {} flows into {}, which is not in the file: treated as an outlet", id, below)});
         file.says.basin = false; // those of outlets beyond
         arc.ds_arc = 0;
     }
@@ -107,9 +103,9 @@ void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& 
         }
     }
     if (upstream != drawn_upstream) {
-        std::string const text = fmt::format(
-            "most lines are drawn {}, which is not what this schema does: all of {} were {}",
-            upstream ? "upstream" : "downstream", file.arcs.size(), upstream ? "turned" : "left as they are drawn");
+        std::string const text = fmt::format("most lines are drawn {}, against this schema: all {} were {}",
+                                             upstream ? "upstream" : "downstream", file.arcs.size(),
+                                             upstream ? "reversed" : "left as they are drawn");
         notes.add(what, {"turned", 0, {}, static_cast<double>(file.arcs.size()), text});
     }
 }

@@ -29,7 +29,7 @@
 namespace thalweg::io {
 namespace {
 
-[[noreturn]] void refuse(std::string const& text) {
+[[noreturn]] void refuse_points(std::string const& text) {
     throw BadInput("io.read_points: " + text);
 }
 
@@ -78,8 +78,8 @@ std::optional<std::array<std::size_t, 3>> columns_of(std::vector<std::string_vie
         auto const is_it = [&](std::string_view f) { return f.size() == 1 && lowered(f[0]) == "xyz"[k]; };
         auto const at = std::ranges::find_if(names, is_it);
         if (at == names.end()) {
-            refuse(fmt::format("{}, first line: no column '{}'; name them x, y and z, or begin with three numbers",
-                               name, "xyz"[k]));
+            refuse_points(fmt::format(
+                "{}, first line: no column '{}'; name them x, y and z, or begin with three numbers", name, "xyz"[k]));
         }
         columns[k] = static_cast<std::size_t>(at - names.begin());
     }
@@ -114,13 +114,13 @@ std::vector<Vec3> parse(std::string const& text, PointHeights heights, std::stri
         std::array<double, 3> values{};
         for (std::size_t k = 0; k < wanted; ++k) {
             if (columns[k] >= fields.size()) {
-                refuse(
+                refuse_points(
                     fmt::format("{}, line {}: {} of the columns, {} is missing", name, line, fields.size(), "xyz"[k]));
             }
             auto const value = number(fields[columns[k]]);
             if (!value || !std::isfinite(*value)) {
-                refuse(fmt::format("{}, line {}: {} is '{}': a finite number is wanted", name, line, "xyz"[k],
-                                   fields[columns[k]]));
+                refuse_points(fmt::format("{}, line {}: {} is '{}': a finite number is required", name, line, "xyz"[k],
+                                          fields[columns[k]]));
             }
             values[k] = *value;
         }
@@ -144,10 +144,10 @@ OGRLayer& choose_layer(GDALDataset& data, std::string const& wanted, std::string
         }
     }
     if (found.size() != 1) {
-        refuse(found.empty()
-                   ? fmt::format("{} has no layer of points{} ({})", name,
-                                 wanted.empty() ? "" : " named '" + wanted + "'", names)
-                   : fmt::format("{} has {} layers of points; name one of them ({})", name, found.size(), names));
+        refuse_points(found.empty() ? fmt::format("{} has no layer of points{} ({})", name,
+                                                  wanted.empty() ? "" : " named '" + wanted + "'", names)
+                                    : fmt::format("{} has {} layers of points; name one of them ({})", name,
+                                                  found.size(), names));
     }
     return *found.front();
 }
@@ -162,14 +162,14 @@ void add(OGRGeometry const& geometry, double field_z, std::int64_t feature, std:
         return;
     }
     if (flat != wkbPoint || geometry.IsEmpty() != 0) {
-        refuse(fmt::format("feature {} of {} is {}, not a point", feature, name,
-                           geometry.IsEmpty() != 0 ? "empty" : OGRGeometryTypeToName(flat)));
+        refuse_points(fmt::format("feature {} of {} is {}, not a point", feature, name,
+                                  geometry.IsEmpty() != 0 ? "empty" : OGRGeometryTypeToName(flat)));
     }
     auto const& p = *geometry.toPoint();
     double const z = p.Is3D() != 0 ? p.getZ() : field_z;
     if (!std::isfinite(p.getX()) || !std::isfinite(p.getY()) || !std::isfinite(z)) {
-        refuse(fmt::format("feature {} of {} lies at ({}, {}, {}): finite coordinates and a height are wanted", feature,
-                           name, p.getX(), p.getY(), z));
+        refuse_points(fmt::format("feature {} of {} lies at ({}, {}, {}): finite coordinates and a height are required",
+                                  feature, name, p.getX(), p.getY(), z));
     }
     points.push_back({p.getX(), p.getY(), z});
 }
@@ -183,12 +183,12 @@ std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::str
         run.check();
         auto const* const geometry = feature->GetGeometryRef();
         if (geometry == nullptr) {
-            refuse(fmt::format("feature {} of {} has no point; remove it", feature->GetFID(), name));
+            refuse_points(fmt::format("feature {} of {} has no point; remove it", feature->GetFID(), name));
         }
         bool const has_field = field >= 0 && feature->IsFieldSetAndNotNull(field) != 0;
         if (!has_field && !in_plan && geometry->Is3D() == 0) {
-            refuse(fmt::format("feature {} of {} has no height: neither Z nor a field '{}'", feature->GetFID(), name,
-                               z_field));
+            refuse_points(fmt::format("feature {} of {} has no height: neither Z nor a field '{}'", feature->GetFID(),
+                                      name, z_field));
         }
         std::optional<double> field_z = 0.0;
         if (has_field) {
@@ -198,8 +198,8 @@ std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::str
             }
         }
         if (!field_z) {
-            refuse(fmt::format("feature {} of {}: {} is '{}', no number", feature->GetFID(), name, z_field,
-                               feature->GetFieldAsString(field)));
+            refuse_points(fmt::format("feature {} of {}: {} is '{}', not a number", feature->GetFID(), name, z_field,
+                                      feature->GetFieldAsString(field)));
         }
         add(*geometry, *field_z, feature->GetFID(), name, points);
     }
@@ -225,7 +225,8 @@ FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name
     OGRSpatialReference const* const own = layer.GetSpatialRef();
     if (is_missing(own)) {
         if (params.crs.empty()) {
-            refuse(fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
+            refuse_points(
+                fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
         }
         read.crs = projected_crs(params.crs);
         return read;
@@ -235,8 +236,8 @@ FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name
     auto const done = metres.apply(read.points);
     for (std::size_t i = 0; i < done.size(); ++i) {
         if (done[i] == 0) {
-            refuse(fmt::format("point {} of {}, ({}, {}), cannot be brought into {}: {}", i + 1, name, read.points[i].x,
-                               read.points[i].y, read.crs, driver.take()));
+            refuse_points(fmt::format("point {} of {}, ({}, {}), cannot be reprojected to {}: {}", i + 1, name,
+                                      read.points[i].x, read.points[i].y, read.crs, driver.take()));
         }
         read.points[i].z *= metres.height_unit_m();
     }
@@ -262,7 +263,7 @@ FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
         read = read_layer(params, name, run);
     }
     if (read.points.empty()) {
-        refuse(name + " holds no points");
+        refuse_points(name + " holds no points");
     }
     if (params.heights == PointHeights::passed_over) {
         for (Vec3& p : read.points) {

@@ -12,6 +12,7 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/into_metres.hpp>
@@ -21,7 +22,7 @@
 namespace thalweg::io {
 namespace {
 
-[[noreturn]] void refuse(std::string const& text) {
+[[noreturn]] void refuse_polygons(std::string const& text) {
     throw BadInput("io.read_polygons: " + text);
 }
 
@@ -59,10 +60,10 @@ OGRLayer& choose_layer(GDALDataset& data, std::string const& name) {
         names += (names.empty() ? "" : ", ") + std::string(layer->GetName());
     }
     if (layers.empty()) {
-        refuse(fmt::format("{} has no layer of polygons{}", name, names.empty() ? "" : " (" + names + ")"));
+        refuse_polygons(fmt::format("{} has no layer of polygons{}", name, names.empty() ? "" : " (" + names + ")"));
     }
-    refuse(fmt::format("{} has {} layers of polygons; take out the one that is meant (ogr2ogr OUT {} LAYER; {})", name,
-                       layers.size(), name, names));
+    refuse_polygons(fmt::format("{} has {} layers of polygons; extract the one you mean (ogr2ogr OUT {} LAYER; {})",
+                                name, layers.size(), name, names));
 }
 
 void add_ring(OGRLinearRing const& drawn, Polygon& polygon, std::string const& name) {
@@ -70,8 +71,8 @@ void add_ring(OGRLinearRing const& drawn, Polygon& polygon, std::string const& n
     for (int i = 0; i < drawn.getNumPoints(); ++i) {
         Vec2 const p{drawn.getX(i), drawn.getY(i)};
         if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
-            refuse(fmt::format("vertex {} of feature {} of {} is not finite: ({}, {}); correct the file", i + 1,
-                               polygon.feature, name, p.x, p.y));
+            refuse_polygons(fmt::format("vertex {} of feature {} of {} is not finite: ({}, {}); correct the file",
+                                        i + 1, polygon.feature, name, p.x, p.y));
         }
         ring.push_back(p);
     }
@@ -92,7 +93,8 @@ void add_parts(OGRGeometry const& geometry, std::int64_t feature, std::string co
         return;
     }
     if (flat != wkbPolygon && flat != wkbTriangle) {
-        refuse(fmt::format("feature {} of {} is a {}, not a polygon", feature, name, OGRGeometryTypeToName(flat)));
+        refuse_polygons(
+            fmt::format("feature {} of {} is a {}, not a polygon", feature, name, OGRGeometryTypeToName(flat)));
     }
     Polygon polygon{feature, {}};
     for (auto const* const ring : *geometry.toPolygon()) {
@@ -109,7 +111,8 @@ int field_in(OGRLayer& layer, std::string const& name, std::string const& field)
     }
     OGRFieldType const type = at < 0 ? OFTString : layer.GetLayerDefn()->GetFieldDefn(at)->GetType();
     if (type != OFTReal && type != OFTInteger && type != OFTInteger64) {
-        refuse(fmt::format("layer {} of {} has no field {} of numbers; add one", layer.GetName(), name, field));
+        refuse_polygons(
+            fmt::format("layer {} of {} has no field {} of numbers; add one", layer.GetName(), name, field));
     }
     return at;
 }
@@ -120,8 +123,8 @@ double value_in(OGRFeature const& feature, int field, std::string const& name) {
     }
     double const value = feature.IsFieldSetAndNotNull(field) ? feature.GetFieldAsDouble(field) : std::nan("");
     if (!std::isfinite(value)) {
-        refuse(fmt::format("feature {} of {} has no finite value in the field {}", feature.GetFID(), name,
-                           feature.GetFieldDefnRef(field)->GetNameRef()));
+        refuse_polygons(fmt::format("feature {} of {} has no finite value in the field {}", feature.GetFID(), name,
+                                    feature.GetFieldDefnRef(field)->GetNameRef()));
     }
     return value;
 }
@@ -133,7 +136,7 @@ std::vector<Polygon> take(OGRLayer& layer, std::string const& name, std::string 
         run.check();
         OGRGeometry const* const drawn = feature->GetGeometryRef();
         if (drawn == nullptr || drawn->IsEmpty() != 0) {
-            refuse(fmt::format("feature {} of {} has no polygon; remove it", feature->GetFID(), name));
+            refuse_polygons(fmt::format("feature {} of {} has no polygon; remove it", feature->GetFID(), name));
         }
         std::unique_ptr<OGRGeometry> const straight(drawn->getLinearGeometry());
         std::size_t const first = polygons.size();
@@ -146,24 +149,21 @@ std::vector<Polygon> take(OGRLayer& layer, std::string const& name, std::string 
 }
 
 // PROJ's last bits differ between machines: a millionth of a unit does not.
-double rounded(double v) {
-    return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0;
-}
-
 void reproject(std::vector<Polygon>& polygons, OGRSpatialReference const& from, std::string const& crs,
                std::string const& name, Driver const& driver) {
     OGRSpatialReference const to = read_reference(crs);
     std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &to));
     if (!turn) {
-        refuse(fmt::format("{} cannot be brought into {:.60}: {}", name, crs, driver.take()));
+        refuse_polygons(fmt::format("{} cannot be reprojected to {:.60}: {}", name, crs, driver.take()));
     }
     for (Polygon& polygon : polygons) {
         for (auto& ring : polygon.rings) {
             for (std::size_t i = 0; i < ring.size(); ++i) {
                 Vec2 p = ring[i];
                 if (turn->Transform(1, &p.x, &p.y) == 0 || !std::isfinite(p.x) || !std::isfinite(p.y)) {
-                    refuse(fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be brought into {:.60}: {}",
-                                       i + 1, polygon.feature, name, ring[i].x, ring[i].y, crs, driver.take()));
+                    refuse_polygons(
+                        fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be reprojected to {:.60}: {}",
+                                    i + 1, polygon.feature, name, ring[i].x, ring[i].y, crs, driver.take()));
                 }
                 ring[i] = {rounded(p.x), rounded(p.y)};
             }
@@ -186,8 +186,8 @@ std::string crs_for_polygons(std::string const& path) {
     OGRLayer& layer = choose_layer(*data, name);
     OGREnvelope box;
     if (is_missing(layer.GetSpatialRef()) || layer.GetExtent(&box) != OGRERR_NONE) {
-        refuse(fmt::format("layer {} of {} has no CRS or no polygons; assign one (ogr2ogr -a_srs EPSG:n)",
-                           layer.GetName(), name));
+        refuse_polygons(fmt::format("layer {} of {} has no CRS or no polygons; assign one (ogr2ogr -a_srs EPSG:n)",
+                                    layer.GetName(), name));
     }
     Vec2 const middle{0.5 * (box.MinX + box.MaxX), 0.5 * (box.MinY + box.MaxY)};
     return IntoMetres(*layer.GetSpatialRef(), "", middle, name).crs();
@@ -205,7 +205,7 @@ Polygons read_polygons(std::string const& path, std::string const& crs, std::str
     Polygons read{take(layer, name, field, run), crs, name};
     driver.check("io.read_polygons: " + path);
     if (read.polygons.empty()) {
-        refuse(fmt::format("layer {} of {} is empty", layer.GetName(), name));
+        refuse_polygons(fmt::format("layer {} of {} is empty", layer.GetName(), name));
     }
     OGRSpatialReference const* const own = layer.GetSpatialRef();
     OGRSpatialReference from;

@@ -19,6 +19,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/suggest.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/into_metres.hpp>
@@ -29,7 +30,7 @@
 namespace thalweg::io {
 namespace {
 
-[[noreturn]] void refuse(std::string const& text) {
+[[noreturn]] void refuse_rivers(std::string const& text) {
     throw BadInput("io.read_rivers: " + text);
 }
 
@@ -61,8 +62,8 @@ std::vector<std::string> field_names(OGRFeatureDefn& schema) {
 int find_field(OGRLayer& layer, std::string const& field, bool may_miss, std::string const& name) {
     int const index = layer.GetLayerDefn()->GetFieldIndex(field.c_str());
     if (index < 0 && !may_miss) {
-        refuse(fmt::format("layer {} of {} has no field '{}'.{}", layer.GetName(), name, field,
-                           suggestion(field, field_names(*layer.GetLayerDefn()))));
+        refuse_rivers(fmt::format("layer {} of {} has no field '{}'.{}", layer.GetName(), name, field,
+                                  suggestion(field, field_names(*layer.GetLayerDefn()))));
     }
     return index;
 }
@@ -76,7 +77,7 @@ int find_rank_field(OGRLayer& layer, ReadRiversParams const& params, std::string
     auto const type = layer.GetLayerDefn()->GetFieldDefn(index)->GetType();
     bool const is_number = type == OFTInteger || type == OFTInteger64 || type == OFTReal;
     if (!is_number && !is_default) {
-        refuse(fmt::format("field {} of {} is no number: it cannot rank rivers", params.rank_field, name));
+        refuse_rivers(fmt::format("field {} of {} is not a number field: it cannot rank rivers", params.rank_field, name));
     }
     return is_number ? index : -1;
 }
@@ -87,7 +88,7 @@ std::int64_t rank_of(OGRFeature const& feature, int field, std::int64_t number, 
     }
     double const value = feature.GetFieldAsDouble(field);
     if (!(std::fabs(value) < 9e15) || value != std::floor(value)) { // beyond, doubles leave out whole numbers
-        refuse(fmt::format("feature {} of {} has the rank {}: a whole number is wanted", number, name, value));
+        refuse_rivers(fmt::format("feature {} of {} has the rank {}: a whole number is required", number, name, value));
     }
     return feature.GetFieldAsInteger64(field);
 }
@@ -110,10 +111,11 @@ int lambda_of(OGRFeature const& feature, int field, RiverLine const& line, std::
     }
     double const value = number_in(feature, field);
     if (!(value >= 1.0 && value <= 50.0) || value != std::floor(value)) {
-        refuse(fmt::format("feature {} of {}, which begins at ({}, {}), has the {} '{}': a whole number from 1 to 50 "
-                           "is wanted, or none",
-                           line.feature, name, line.vertices.front().x, line.vertices.front().y,
-                           feature.GetFieldDefnRef(field)->GetNameRef(), feature.GetFieldAsString(field)));
+        refuse_rivers(
+            fmt::format("feature {} of {}, which begins at ({}, {}), has the {} '{}': a whole number from 1 to 50 "
+                        "is required, or none",
+                        line.feature, name, line.vertices.front().x, line.vertices.front().y,
+                        feature.GetFieldDefnRef(field)->GetNameRef(), feature.GetFieldAsString(field)));
     }
     return static_cast<int>(value);
 }
@@ -129,7 +131,8 @@ void add_parts(OGRGeometry const& geometry, RiverLine const& feature, std::strin
         return;
     }
     if (flat != wkbLineString) {
-        refuse(fmt::format("feature {} of {} is a {}, not a line", feature.feature, name, OGRGeometryTypeToName(flat)));
+        refuse_rivers(
+            fmt::format("feature {} of {} is a {}, not a line", feature.feature, name, OGRGeometryTypeToName(flat)));
     }
     auto const& drawn = *geometry.toLineString();
     RiverLine line = feature;
@@ -138,8 +141,8 @@ void add_parts(OGRGeometry const& geometry, RiverLine const& feature, std::strin
         double const y = drawn.getY(i);
         double const z = drawn.Is3D() != 0 ? drawn.getZ(i) : std::numeric_limits<double>::quiet_NaN();
         if (!std::isfinite(x) || !std::isfinite(y) || std::isinf(z)) {
-            refuse(fmt::format("vertex {} of feature {} of {} is not finite: ({}, {}, {}); correct the file", i + 1,
-                               feature.feature, name, x, y, z));
+            refuse_rivers(fmt::format("vertex {} of feature {} of {} is not finite: ({}, {}, {}); correct the file",
+                                      i + 1, feature.feature, name, x, y, z));
         }
         line.vertices.push_back({x, y, z});
     }
@@ -247,8 +250,8 @@ void bring(std::vector<RiverLine>& lines, IntoMetres const& metres, std::string 
         for (std::size_t i = 0; i < done.size(); ++i) {
             auto const& v = line.vertices[i];
             if (done[i] == 0) {
-                refuse(fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be brought into {}: {}", i + 1,
-                                   line.feature, name, v.x, v.y, metres.crs(), driver.take()));
+                refuse_rivers(fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be reprojected to {}: {}",
+                                          i + 1, line.feature, name, v.x, v.y, metres.crs(), driver.take()));
             }
         }
     }
@@ -275,10 +278,6 @@ std::string nothing_left(Read const& read, std::string const& what) {
 }
 
 // As coarse as what was projected: a millionth of a metre.
-double rounded(double v) {
-    return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0;
-}
-
 bool have_heights(std::vector<RiverLine> const& lines) {
     double const first = lines.front().vertices.front().z;
     bool differ = false;
@@ -303,9 +302,9 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         auto const words = driver.take();
         VSIStatBufL status;
         if (params.path.empty() || VSIStatL(params.path.c_str(), &status) != 0) {
-            refuse(fmt::format("there is no file '{}'{}", params.path, words.empty() ? "" : " (" + words + ")"));
+            refuse_rivers(fmt::format("there is no file '{}'{}", params.path, words.empty() ? "" : " (" + words + ")"));
         }
-        refuse(params.path + " is no vector file that GDAL can read (" + words + ")");
+        refuse_rivers(params.path + " is not a vector file that GDAL can read (" + words + ")");
     }
     OGRLayer& layer = rivers_layer(*data, params.layer, name, "io.read_rivers");
     RiverLines rivers;
@@ -313,14 +312,15 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     Read read = read_lines(layer, params, name, run);
     driver.check("io.read_rivers: " + params.path);
     if (read.lines.empty()) {
-        refuse(nothing_left(read, fmt::format("layer {} of {}", layer.GetName(), name)));
+        refuse_rivers(nothing_left(read, fmt::format("layer {} of {}", layer.GetName(), name)));
     }
     rivers.lines = std::move(read.lines);
     rivers.findings = std::move(read.findings);
     rivers.attributes = std::move(read.attributes);
     OGRSpatialReference const* const own = layer.GetSpatialRef();
     if (own == nullptr || own->IsEmpty()) {
-        refuse(fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
+        refuse_rivers(
+            fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
     }
     IntoMetres const metres(*own, params.crs, middle_of(rivers.lines), name);
     rivers.crs = metres.crs();

@@ -8,24 +8,15 @@
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/crs_text.hpp>
 #include <thalweg/io/spatial_reference.hpp>
 
 namespace thalweg::io {
-namespace {
-
-// WKT would fill the screen.
-std::string shortened(std::string const& crs) {
-    constexpr std::size_t most = 60;
-    return crs.empty() ? "no CRS" : crs.size() <= most ? crs : crs.substr(0, most) + "...";
-}
-
-} // namespace
-
 bool same_crs(std::string const& a, std::string const& b, std::string const& of_a, std::string const& of_b) {
     if (a.empty() != b.empty()) {
         throw BadInput(fmt::format("{} has {}, {} has {}: assign the missing one (gdal_edit.py or ogr2ogr -a_srs "
                                    "EPSG:n)",
-                                   of_a, shortened(a), of_b, shortened(b)));
+                                   of_a, in_message(a), of_b, in_message(b)));
     }
     if (a == b) {
         return true;

@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include <thalweg/core/index.hpp>
 #include <thalweg/io/network_tables.hpp>
 #include <thalweg/io/user_columns.hpp>
 
@@ -21,10 +22,6 @@ namespace thalweg::io {
 namespace {
 
 using Value = Column::Value;
-
-std::size_t at(std::int64_t number) {
-    return static_cast<std::size_t>(number);
-}
 
 /// What the quantities of an arc are, by its number; links to arcs are numbers too, -1 for none.
 class Arcs {
@@ -40,19 +37,19 @@ public:
         for (NodeId const n : index.upstream_order) { // outlets first
             if (std::int64_t const a = index.out[n]; a >= 0) {
                 std::int64_t const below = down(a);
-                key_[at(a)] = ++key;
-                outlet_[at(a)] = below < 0 ? a : outlet_[at(below)];
-                mouth_[at(a)] = below >= 0 && hack(below) == hack(a) ? mouth_[at(below)] : a;
+                key_[as_index(a)] = ++key;
+                outlet_[as_index(a)] = below < 0 ? a : outlet_[as_index(below)];
+                mouth_[as_index(a)] = below >= 0 && hack(below) == hack(a) ? mouth_[as_index(below)] : a;
             }
         }
         for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) { // sources first
             if (std::int64_t const a = index.out[*n]; a >= 0) {
                 for (std::int64_t const above : index.in[*n]) {
-                    length_up_m_[at(a)] += length_up_m_[at(above)];
-                    longest_up_m_[at(a)] = std::max(longest_up_m_[at(a)], longest_up_m_[at(above)]);
+                    length_up_m_[as_index(a)] += length_up_m_[as_index(above)];
+                    longest_up_m_[as_index(a)] = std::max(longest_up_m_[as_index(a)], longest_up_m_[as_index(above)]);
                 }
-                length_up_m_[at(a)] += length(a);
-                longest_up_m_[at(a)] += length(a);
+                length_up_m_[as_index(a)] += length(a);
+                longest_up_m_[as_index(a)] += length(a);
             }
         }
     }
@@ -78,39 +75,40 @@ public:
         case us_arc_3: return up(a, 2);
         case us_arc_4: return up(a, 3);
         case us_arc_5: return up(a, 4);
-        case outlet_arc: return outlet_[at(a)];
+        case outlet_arc: return outlet_[as_index(a)];
         case us_key: return main_up(a);
-        case path: return mouth_[at(a)];
-        case ds_path: return down(a) < 0 ? -1 : mouth_[at(down(a))];
-        case us_path: return main_up(a) < 0 ? -1 : mouth_[at(main_up(a))];
-        case outlet_path: return mouth_[at(outlet_[at(a)])];
+        case path: return mouth_[as_index(a)];
+        case ds_path: return down(a) < 0 ? -1 : mouth_[as_index(down(a))];
+        case us_path: return main_up(a) < 0 ? -1 : mouth_[as_index(main_up(a))];
+        case outlet_path: return mouth_[as_index(outlet_[as_index(a)])];
         default: return -1;
         }
     }
-    std::int64_t key_of(std::int64_t a) const { return key_[at(a)]; }
+    std::int64_t key_of(std::int64_t a) const { return key_[as_index(a)]; }
 
     std::int64_t count(Quantity quantity, std::int64_t a) const {
         using enum Quantity;
         NetworkOrders const& orders = tables_.orders;
         switch (quantity) {
-        case from_node: return static_cast<std::int64_t>(index_.from[at(a)]) + 1;
-        case to_node: return static_cast<std::int64_t>(index_.to[at(a)]) + 1;
+        case from_node: return static_cast<std::int64_t>(index_.from[as_index(a)]) + 1;
+        case to_node: return static_cast<std::int64_t>(index_.to[as_index(a)]) + 1;
         case n_up: return static_cast<std::int64_t>(above(a).size());
-        case basin_id: return orders.arc_basin[at(a)];
-        case topo_ord: return orders.topological[at(a)];
-        case strahler: return orders.strahler[at(a)];
-        case shreve: return orders.shreve[at(a)];
+        case basin_id: return orders.arc_basin[as_index(a)];
+        case topo_ord: return orders.topological[as_index(a)];
+        case strahler: return orders.strahler[as_index(a)];
+        case shreve: return orders.shreve[as_index(a)];
         case hack: return this->hack(a);
         case feature: return arc(a).feature;
-        case braided: return tables_.braided != nullptr && (*tables_.braided)[at(a)] != 0 ? 1 : 0;
+        case braided: return tables_.braided != nullptr && (*tables_.braided)[as_index(a)] != 0 ? 1 : 0;
         case given: return arc(a).given ? 1 : 0;
         case ds_hack: return down(a) < 0 ? 0 : this->hack(down(a));
         case n_down: return down(a) < 0 ? 0 : 1;
         case is_source: return above(a).empty() ? 1 : 0;
         case is_outlet: return down(a) < 0 ? 1 : 0;
-        case horton: return orders.strahler[at(mouth_[at(a)])]; // orders never fall downstream
-        case scheidegger: return 2 * orders.shreve[at(a)];
-        case drwal: return static_cast<std::int64_t>(std::bit_width(static_cast<std::uint64_t>(orders.shreve[at(a)])));
+        case horton: return orders.strahler[as_index(mouth_[as_index(a)])]; // orders never fall downstream
+        case scheidegger: return 2 * orders.shreve[as_index(a)];
+        case drwal:
+            return static_cast<std::int64_t>(std::bit_width(static_cast<std::uint64_t>(orders.shreve[as_index(a)])));
         default: return 0;
         }
     }
@@ -122,9 +120,9 @@ public:
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         double const drop_m = z(a).front() - z(a).back();
         double const straight_m = distance(arc(a).line.front(), arc(a).line.back());
-        double const dist_out_m = orders.node_dist_out_m[index_.to[at(a)]];
-        double const us_m2 = tables_.us_area_m2[at(a)];
-        double const ds_m2 = tables_.ds_area_m2[at(a)];
+        double const dist_out_m = orders.node_dist_out_m[index_.to[as_index(a)]];
+        double const us_m2 = tables_.us_area_m2[as_index(a)];
+        double const ds_m2 = tables_.ds_area_m2[as_index(a)];
         auto const known = [&](bool is_known, double value) { return is_known ? value : unknown; };
         switch (quantity) {
         case length: return this->length(a);
@@ -137,8 +135,8 @@ public:
         case dist_out: return dist_out_m;
         case dist_mid: return dist_out_m + this->length(a) / 2.0;
         case dist_up: return dist_out_m + this->length(a);
-        case dist_source: return longest_up_m_[at(a)];
-        case length_us: return length_up_m_[at(a)];
+        case dist_source: return longest_up_m_[as_index(a)];
+        case length_us: return length_up_m_[as_index(a)];
         case sinuosity: return known(straight_m > 0.0, this->length(a) / straight_m);
         case us_area: return known(us_m2 >= 0.0, us_m2);
         case ds_area: return known(ds_m2 >= 0.0, ds_m2);
@@ -151,12 +149,12 @@ public:
     std::string const& type(std::int64_t a) const { return arc(a).type; }
 
 private:
-    Arc const& arc(std::int64_t a) const { return tables_.network.plan[index_.arcs[at(a)]]; }
-    std::vector<double> const& z(std::int64_t a) const { return tables_.network.arc_z[at(a)]; }
-    double length(std::int64_t a) const { return index_.length_m[at(a)]; }
-    int hack(std::int64_t a) const { return tables_.orders.hack[at(a)]; }
-    std::int64_t down(std::int64_t a) const { return index_.out[index_.to[at(a)]]; }
-    std::vector<std::int64_t> const& above(std::int64_t a) const { return index_.in[index_.from[at(a)]]; }
+    Arc const& arc(std::int64_t a) const { return tables_.network.plan[index_.arcs[as_index(a)]]; }
+    std::vector<double> const& z(std::int64_t a) const { return tables_.network.arc_z[as_index(a)]; }
+    double length(std::int64_t a) const { return index_.length_m[as_index(a)]; }
+    int hack(std::int64_t a) const { return tables_.orders.hack[as_index(a)]; }
+    std::int64_t down(std::int64_t a) const { return index_.out[index_.to[as_index(a)]]; }
+    std::vector<std::int64_t> const& above(std::int64_t a) const { return index_.in[index_.from[as_index(a)]]; }
     std::int64_t up(std::int64_t a, std::size_t k) const { return k < above(a).size() ? above(a)[k] : -1; }
     /// The arc upstream on the same main stem.
     std::int64_t main_up(std::int64_t a) const {

@@ -32,9 +32,10 @@ OGRSpatialReference read_reference(std::string const& text) {
     if (text.empty() || is_mistyped_code(text) ||
         reference.SetFromUserInput(text.c_str(), options.List()) != OGRERR_NONE) {
         auto const words = driver.take();
-        throw BadInput(fmt::format("io.read_reference: '{}' is no coordinate system{}; give a code such as EPSG:32633, "
-                                   "or WKT",
-                                   text.substr(0, 60), words.empty() ? "" : " (" + words + ")"));
+        throw BadInput(
+            fmt::format("io.read_reference: '{}' is not a coordinate system{}; give a code such as EPSG:32633, "
+                        "or WKT",
+                        text.substr(0, 60), words.empty() ? "" : " (" + words + ")"));
     }
     reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     return reference;

@@ -57,7 +57,7 @@ void write_file(std::vector<Table const*> const& tables, std::string const& crs,
     Dataset dataset(writer == nullptr ? nullptr : writer->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
     if (dataset == nullptr) {
         driver.check(what);
-        throw IoError(what + " could not be made");
+        throw IoError(what + " could not be created");
     }
     LayerTarget const target{format, what, driver, *dataset, used};
     bool const transactions = format == LayerFormat::geopackage;

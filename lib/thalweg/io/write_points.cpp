@@ -92,10 +92,9 @@ std::uint64_t write(Source const& source, std::string const& path, PointFormat f
         throw BadInput(fmt::format("io.write_points: {}: there is no point to write", path));
     }
     if (format == PointFormat::las && count > std::numeric_limits<std::uint32_t>::max()) {
-        throw BadInput(
-            fmt::format("io.write_points: {}: LAS 1.2 counts no more than {} points, here are {}; take every "
-                        "second, or PLY",
-                        path, std::numeric_limits<std::uint32_t>::max(), count));
+        throw BadInput(fmt::format("io.write_points: {}: LAS 1.2 holds at most {} points, not {}; take every "
+                                   "second, or PLY",
+                                   path, std::numeric_limits<std::uint32_t>::max(), count));
     }
 
     std::string bytes;
@@ -111,7 +110,7 @@ std::uint64_t write(Source const& source, std::string const& path, PointFormat f
     NewFile file(path, "io.write_points: " + path);
     source.each(
         [&](double share) {
-            run.at(share, "write_points");
+            run.at(share, "write");
             file.append(bytes);
             bytes.clear();
         },
@@ -125,7 +124,7 @@ std::uint64_t write(Source const& source, std::string const& path, PointFormat f
         });
     file.append(bytes);
     file.close();
-    run.at(1.0, "write_points");
+    run.at(1.0, "write");
     return count;
 }
 

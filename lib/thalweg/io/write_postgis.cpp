@@ -30,7 +30,7 @@ struct Names {
     std::string edges() const { return name + "_edges"; }
 };
 
-bool is_plain(std::string_view word) {
+bool is_plain_word(std::string_view word) {
     auto const letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
     constexpr std::size_t most = 50; // PostgreSQL cuts names after 63 bytes, ours get endings
     return !word.empty() && word.size() <= most && letter(word.front()) &&
@@ -41,9 +41,9 @@ Names names_of(std::string const& text) {
     std::size_t const dot = text.find('.');
     Names names{dot == std::string::npos ? "" : text.substr(0, dot),
                 dot == std::string::npos ? text : text.substr(dot + 1)};
-    if ((dot != std::string::npos && !is_plain(names.schema)) || !is_plain(names.name)) {
-        throw BadParameter(fmt::format("io.write_postgis: '{}' is no name for tables: NAME or SCHEMA.NAME, of small "
-                                       "letters, digits and _, not longer than 50",
+    if ((dot != std::string::npos && !is_plain_word(names.schema)) || !is_plain_word(names.name)) {
+        throw BadParameter(fmt::format("io.write_postgis: '{}' is not a valid table name: write NAME or SCHEMA.NAME in "
+                                       "lower-case letters, digits and _, at most 50",
                                        text));
     }
     return names;
@@ -169,7 +169,7 @@ std::vector<std::string> write_postgis(NetworkTables const& tables, std::string 
         }
         bool const is_view = routable && *relation == names.edges();
         if (kind != (is_view ? "v" : "r")) {
-            throw BadInput(fmt::format("{}: {} is no {} as thalweg makes it, and will not be replaced", what,
+            throw BadInput(fmt::format("{}: {} is not a {} written by thalweg, and is not replaced", what,
                                        names.full(*relation), is_view ? "view" : "table"));
         }
         database.ask(fmt::format("DROP {} {}", is_view ? "VIEW" : "TABLE", names.full(*relation)));

@@ -26,7 +26,6 @@ void require_countable(std::size_t count, char const* what) {
 
 Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, Drainage const& drainage, Run const& run) {
     constexpr std::int32_t unknown = -2;
-    constexpr std::int64_t cells_between_checks = 1 << 20;
     require_countable(cells.size(), "river cells");
     Grid const& grid = drainage.direction.grid();
     Raster<std::int32_t> to(grid, unknown);

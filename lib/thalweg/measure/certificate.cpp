@@ -291,7 +291,7 @@ Check at_most(char const* name, std::int64_t value) {
 }
 
 Check at_least(char const* name, double value, double limit) {
-    return {name, value, limit, value >= limit};
+    return {name, value, limit, value >= limit, Bound::at_least};
 }
 
 } // namespace

@@ -25,7 +25,7 @@ void check(ChiParams const& params, Raster<float> const& dem, Drainage const& dr
                                        params.theta, params.support_cells, params.most_stems, params.least_cells));
     }
     if (!(dem.grid() == drainage.direction.grid())) {
-        throw BadInput("measure.chi: the DEM and its drainage have not one grid; drain this DEM");
+        throw BadInput("measure.chi: the DEM and its drainage have different grids; drain this DEM");
     }
 }
 

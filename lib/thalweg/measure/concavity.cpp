@@ -14,7 +14,7 @@ std::optional<PowerLaw> concavity(RaisedNetwork const& network, ContributingArea
     std::size_t const arcs = index.arcs.size();
     if (areas.us_area_m2.size() != arcs || areas.ds_area_m2.size() != arcs || network.arc_z.size() != arcs) {
         throw BadInput(fmt::format("measure.concavity: {} and {} areas and heights of {} for {} arcs; measure the "
-                                   "network anew",
+                                   "network again",
                                    areas.us_area_m2.size(), areas.ds_area_m2.size(), network.arc_z.size(), arcs));
     }
     std::vector<AtArea> slopes;

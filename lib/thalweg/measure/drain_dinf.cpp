@@ -19,11 +19,10 @@ namespace thalweg::measure {
 
 namespace {
 
-constexpr std::int64_t cells_between_checks = 1 << 18;
 constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
 
 [[noreturn]] void refuse(std::string const& why) {
-    throw BadInput(fmt::format("measure.drain_dinf: {}; take what drain gives for this DEM", why));
+    throw BadInput(fmt::format("measure.drain_dinf: {}; take the drainage of this DEM", why));
 }
 
 /// The filled DEM in its frame: from where water leaves, up the ways it comes.

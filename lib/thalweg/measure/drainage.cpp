@@ -18,7 +18,6 @@ namespace thalweg::measure {
 namespace {
 
 constexpr std::int8_t unreached = -3;
-constexpr std::int64_t cells_between_checks = 1 << 18;
 
 /// Raises depressions to the level at which they spill. Gives: the way back to where the flood came from.
 Raster<std::int8_t> flood(Raster<float>& level, Run const& run) {

@@ -19,8 +19,6 @@ namespace thalweg::measure {
 
 namespace {
 
-constexpr std::int64_t cells_between_checks = 1 << 20;
-
 /// Where the water of a cell goes; -1 where it leaves.
 class Ways {
 public:

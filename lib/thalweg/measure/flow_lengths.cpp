@@ -9,7 +9,6 @@
 namespace thalweg::measure {
 
 Raster<float> flow_lengths(Drainage const& drainage, Run const& run) {
-    constexpr std::int64_t cells_between_checks = 1 << 20;
     constexpr std::int8_t done = -1;
     Raster<std::int8_t> const& direction = drainage.direction;
     Grid const& grid = direction.grid();

@@ -16,7 +16,7 @@ std::optional<PowerLaw> hack(StreamNetwork const& network, std::vector<double> c
     std::size_t const nodes = index.out.size();
     if (ds_area_m2.size() != index.arcs.size() || (!head_m.empty() && head_m.size() != nodes)) {
         throw BadInput(fmt::format("measure.hack: {} areas for {} arcs and {} heads for {} nodes; measure the network "
-                                   "anew",
+                                   "again",
                                    ds_area_m2.size(), index.arcs.size(), head_m.size(), nodes));
     }
     std::vector<double> longest(nodes, 0.0); // way of water above a node

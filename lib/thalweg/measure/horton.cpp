@@ -19,7 +19,7 @@ namespace {
 void require_all(std::size_t arcs, NetworkOrders const& orders, std::vector<double> const& areas) {
     if (orders.strahler.size() != arcs || areas.size() != arcs) {
         throw BadInput(fmt::format("measure.horton: {} orders and {} areas for {} arcs; order and measure the network "
-                                   "anew",
+                                   "again",
                                    orders.strahler.size(), areas.size(), arcs));
     }
     auto const low = std::find_if(orders.strahler.begin(), orders.strahler.end(), [](int s) { return s < 1; });

@@ -15,7 +15,7 @@ namespace thalweg::measure {
 std::vector<Reach> reaches_of(StreamNetwork const& network) {
     for (NodeId n = 0; n < boost::num_vertices(network); ++n) {
         if (boost::out_degree(n, network) > 1) {
-            throw BadInput(fmt::format("measure.reaches_of: {} arcs leave node {} at ({}, {}); a river must not part",
+            throw BadInput(fmt::format("measure.reaches_of: {} arcs leave node {} at ({}, {}); a river must not split",
                                        boost::out_degree(n, network), n + 1, network[n].at.x, network[n].at.y));
         }
     }

@@ -32,7 +32,7 @@ constexpr std::array<ReliefFigure, relief_figure_count> figures = {{
      [](Relief const& r) { return r.chi ? r.chi->r2 : unknown; }},
     {"hypsometric_integral", "hypsometric integral", "", Judges::yes,
      [](Relief const& r) { return r.hypsometric_integral; }},
-    {"peaks", "peaks a thousand cells", "", Judges::yes,
+    {"peaks", "peaks per thousand cells", "", Judges::yes,
      [](Relief const& r) { return 1000.0 * over(r.extremes.peaks, r.extremes.cells); }},
     {"pits_over_peaks", "pits over peaks", "", Judges::no,
      [](Relief const& r) { return over(r.extremes.pits, r.extremes.peaks); }},

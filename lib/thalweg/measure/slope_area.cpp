@@ -35,13 +35,12 @@ void check(SlopeAreaParams const& params, Raster<float> const& dem, Drainage con
                                        params.least_bins));
     }
     if (!(dem.grid() == drainage.direction.grid())) {
-        throw BadInput("measure.slope_area: the DEM and its drainage have not one grid; drain this DEM");
+        throw BadInput("measure.slope_area: the DEM and its drainage have different grids; drain this DEM");
     }
 }
 
 std::map<std::int64_t, Reach> reaches_by_area(Raster<float> const& dem, Drainage const& drainage,
                                               SlopeAreaParams const& params, Run const& run) {
-    constexpr std::int64_t cells_between_checks = 1 << 20;
     double const cell_m = dem.grid().cell_m;
     double const bins_a_fold = params.bins_per_decade / exact::log(10.0);
     auto const offsets = d8_offsets(dem.grid());

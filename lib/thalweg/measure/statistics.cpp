@@ -20,7 +20,7 @@ namespace thalweg::measure {
 
 namespace {
 
-constexpr std::int64_t rows_a_range = 8;
+constexpr std::int64_t rows_a_sum = 8;
 
 /// What one row adds. The rows are put together in their order, whichever thread made them.
 struct RowSums {
@@ -148,7 +148,7 @@ Statistics statistics(Raster<float> const& dem, Run const& run) {
     }
     std::vector<RowSums> rows(static_cast<std::size_t>(dem.height()));
     auto const for_rows = [&](auto const& add) {
-        parallel_ranges(run, dem.height(), rows_a_range, [&](std::int64_t begin, std::int64_t end) {
+        parallel_ranges(run, dem.height(), rows_a_sum, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t r = begin; r < end; ++r) {
                 run.check();
                 add(r, rows[static_cast<std::size_t>(r)]);

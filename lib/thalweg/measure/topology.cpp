@@ -52,7 +52,7 @@ std::vector<std::string> topology_kinds() {
 TopologyReport check_topology(NetworkFile const& file, TopologyParams const& params, Run const& run) {
     if (!(params.near_m >= 0.0) || !is_number(params.near_m)) {
         throw BadParameter(
-            fmt::format("measure.check_topology: near_m = {}, it is a distance [m] >= 0", params.near_m));
+            fmt::format("measure.check_topology: near_m = {}, it must be a distance [m] >= 0", params.near_m));
     }
     TopologyReport report;
     Findings& findings = report.findings;

@@ -138,7 +138,7 @@ Plans check_shapes(NetworkFile const& file, Findings& findings) {
             bad > 0) {
             findings.push_back(
                 {"nan", number_of(file, arc), start_of(arc), static_cast<double>(bad),
-                 fmt::format("arc {}: {} of its {} vertices have coordinates that are no numbers below {}",
+                 fmt::format("arc {}: {} of its {} vertices have coordinates that are not numbers below {}",
                              number_of(file, arc), bad, arc.line.size(), greatest_coordinate)});
             continue;
         }
@@ -163,7 +163,7 @@ Plans check_shapes(NetworkFile const& file, Findings& findings) {
                                 node.id,
                                 {},
                                 1.0,
-                                fmt::format("node {}: its coordinates ({}, {}, {}) are no numbers below {}", node.id,
+                                fmt::format("node {}: its coordinates ({}, {}, {}) are not numbers below {}", node.id,
                                             node.at.x, node.at.y, node.at.z, greatest_coordinate)});
         }
     }

@@ -14,7 +14,7 @@
 namespace thalweg::network::adopt_steps {
 namespace {
 
-constexpr std::size_t none = static_cast<std::size_t>(-1);
+constexpr std::size_t no_owner = static_cast<std::size_t>(-1);
 
 struct Hash {
     static std::size_t mix(std::uint64_t a, std::uint64_t b) {
@@ -58,7 +58,7 @@ std::vector<std::vector<std::size_t>> owners_of(Numbering const& numbering) {
         auto& of_line = owners.emplace_back();
         for (std::size_t i = 0; i + 1 < v.size(); ++i) {
             auto const [entry, fresh] = known.try_emplace(std::minmax(v[i], v[i + 1]), l);
-            of_line.push_back(fresh ? none : entry->second);
+            of_line.push_back(fresh ? no_owner : entry->second);
         }
     }
     return owners;
@@ -84,7 +84,7 @@ void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::st
             continue;
         }
         // The way round: breadth first through the pieces before the closing one.
-        std::vector<std::size_t> came_by(p.nodes.size(), none);
+        std::vector<std::size_t> came_by(p.nodes.size(), no_owner);
         std::vector<std::size_t> queue{piece.from};
         auto const other = [&](std::size_t k, std::size_t n) {
             return p.pieces[k].from == n ? p.pieces[k].to : p.pieces[k].from;
@@ -92,7 +92,7 @@ void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::st
         for (std::size_t i = 0; i < queue.size(); ++i) {
             for (std::size_t const k : p.at_node[queue[i]]) {
                 std::size_t const n = other(k, queue[i]);
-                if (k < closing && n != piece.from && came_by[n] == none) {
+                if (k < closing && n != piece.from && came_by[n] == no_owner) {
                     came_by[n] = k;
                     queue.push_back(n);
                 }
@@ -131,16 +131,16 @@ Pieces cut(std::vector<RiverLine> const& lines, std::vector<Finding>& repairs) {
         auto const& v = numbering.of_line[l];
         is_end[v.front()] = is_end[v.back()] = 1;
         for (std::size_t i = 0; i + 1 < v.size(); ++i) {
-            if (owners[l][i] == none) {
+            if (owners[l][i] == no_owner) {
                 ++degree[v[i]];
                 ++degree[v[i + 1]];
             }
         }
     }
     Pieces p;
-    std::vector<std::size_t> node_of(numbering.at.size(), none);
+    std::vector<std::size_t> node_of(numbering.at.size(), no_owner);
     auto const node = [&](std::size_t vertex) {
-        if (node_of[vertex] == none) {
+        if (node_of[vertex] == no_owner) {
             node_of[vertex] = p.nodes.size();
             p.nodes.push_back(numbering.at[vertex]);
             p.at_node.emplace_back();
@@ -157,9 +157,9 @@ Pieces cut(std::vector<RiverLine> const& lines, std::vector<Finding>& repairs) {
                 length += distance(numbering.at[v[i]], numbering.at[v[i + 1]]);
                 ++i;
             } while (i + 1 < v.size() && owners[l][i] == owner &&
-                     (owner != none || (degree[v[i]] == 2 && is_end[v[i]] == 0)));
+                     (owner != no_owner || (degree[v[i]] == 2 && is_end[v[i]] == 0)));
             Vec2 const at = numbering.at[v[i]];
-            if (owner == none) {
+            if (owner == no_owner) {
                 p.pieces.push_back({l, first, i, node(v[first]), node(v[i]), length});
             } else {
                 repairs.push_back({"duplicate", lines[l].feature, numbering.at[v[first]], length,

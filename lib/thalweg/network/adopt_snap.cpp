@@ -7,20 +7,12 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/segments_near.hpp>
 #include <thalweg/network/adopt_steps.hpp>
 
 namespace thalweg::network::adopt_steps {
 namespace {
-
-Vec2 plan(Vec3 v) {
-    return {v.x, v.y};
-}
-
-Vec2 rounded(Vec2 p) {
-    auto const step = [](double v) { return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0; };
-    return {step(p.x), step(p.y)};
-}
 
 double greatest_distance(std::vector<Vec3> const& a, std::vector<Vec3> const& b, bool turned) {
     double most = 0.0;

@@ -24,9 +24,9 @@ namespace {
         list += (list.empty() ? "" : ", ") + known.back();
     }
     Vec2 const at = arc.line.front();
-    throw BadInput(
-        fmt::format("network.assign_types: '{}', the type of arc {} (feature {}) at ({:.3f}, {:.3f}), is none of {}.{}",
-                    arc.type, number + 1, arc.feature, at.x, at.y, list, did_you_mean(arc.type, known)));
+    throw BadInput(fmt::format(
+        "network.assign_types: '{}', the type of arc {} (feature {}) at ({:.3f}, {:.3f}), is not one of {}.{}",
+        arc.type, number + 1, arc.feature, at.x, at.y, list, did_you_mean(arc.type, known)));
 }
 
 Rosgen of_order(int order, int highest, std::vector<Rosgen> const& types) {
@@ -53,7 +53,7 @@ RiverTypes assign_types(StreamNetwork const& network, NetworkOrders const& order
                       std::ranges::all_of(orders.strahler, [](int w) { return w >= 1; });
     if (!fits) {
         throw BadInput(fmt::format("network.assign_types: the orders are not those of a network of {} arcs and {} "
-                                   "nodes; hand in what network.order gives for it",
+                                   "nodes; give the orders that network.order returns",
                                    arcs, index.out.size()));
     }
     run.check();

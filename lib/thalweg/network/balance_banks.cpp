@@ -13,7 +13,7 @@ namespace thalweg::network {
 
 namespace {
 
-struct Branch {
+struct Wing {
     std::size_t link;
     std::int64_t links; ///< with all above
 };
@@ -48,7 +48,7 @@ void balance_banks(TokunagaTree& tree, double share_left) {
     std::vector<std::int64_t> const sizes = sizes_of(tree);
     std::int64_t left = 0;
     std::int64_t right = 0;
-    std::vector<Branch> branches;
+    std::vector<Wing> branches;
     for (std::size_t const t : trunk_of(tree)) {
         for (std::int64_t const up : tree.links[t].up) {
             if (up < 0 || tree.links[static_cast<std::size_t>(up)].turn == 0) {
@@ -63,15 +63,14 @@ void balance_banks(TokunagaTree& tree, double share_left) {
             }
         }
     }
-    std::stable_sort(branches.begin(), branches.end(),
-                     [](Branch const& a, Branch const& b) { return a.links > b.links; });
+    std::stable_sort(branches.begin(), branches.end(), [](Wing const& a, Wing const& b) { return a.links > b.links; });
     std::int64_t all = left + right;
-    for (Branch const& branch : branches) {
+    for (Wing const& branch : branches) {
         all += branch.links;
     }
     double const wanted_left = share_left * static_cast<double>(all);
     double const wanted_right = static_cast<double>(all) - wanted_left;
-    for (Branch const& branch : branches) {
+    for (Wing const& branch : branches) {
         double const lacks_left = wanted_left - static_cast<double>(left);
         double const lacks_right = wanted_right - static_cast<double>(right);
         bool const goes_left =

@@ -27,7 +27,7 @@ Direction uniform_direction(ChanceStream& chance) {
     }
 }
 
-Site rounded(double x, double y) {
+Site nearest_site(double x, double y) {
     return {static_cast<std::int32_t>(std::floor(x + 0.5)), static_cast<std::int32_t>(std::floor(y + 0.5))};
 }
 
@@ -42,7 +42,7 @@ BirthCircle birth_circle(double cluster_radius) {
 
 Site born(BirthCircle const& circle, ChanceStream& chance) {
     Direction const w = uniform_direction(chance);
-    return rounded(circle.birth * w.x, circle.birth * w.y);
+    return nearest_site(circle.birth * w.x, circle.birth * w.y);
 }
 
 Site back_from_afar(BirthCircle const& circle, Site from, ChanceStream& chance) {
@@ -55,7 +55,7 @@ Site back_from_afar(BirthCircle const& circle, Site from, ChanceStream& chance) 
     double const low_x = 1.0 + ax * w.x + ay * w.y;
     double const low_y = ax * w.y - ay * w.x;
     double const length = circle.birth / (low_x * low_x + low_y * low_y);
-    return rounded(length * (top_x * low_x + top_y * low_y), length * (top_y * low_x - top_x * low_y));
+    return nearest_site(length * (top_x * low_x + top_y * low_y), length * (top_y * low_x - top_x * low_y));
 }
 
 } // namespace thalweg::network

@@ -15,19 +15,11 @@
 #include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/network/require_trees.hpp>
+#include <thalweg/network/segment_grid.hpp>
 
 namespace thalweg::network {
 
 namespace {
-
-struct Segment {
-    Vec2 a;
-    Vec2 b;
-};
-
-double cross(Vec2 o, Vec2 a, Vec2 b) {
-    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-}
 
 /// a and b lie on one side of the line through s, farther from it than slack.
 bool on_one_side(Segment s, Vec2 a, Vec2 b, double slack) {

@@ -14,16 +14,13 @@
 
 #include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/index.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/network/require_trees.hpp>
 
 namespace thalweg::network {
 
 namespace {
-
-std::size_t z(std::int64_t number) {
-    return static_cast<std::size_t>(number);
-}
 
 bool is_diagonal(Cell a, Cell b) {
     return a.col != b.col && a.row != b.row;
@@ -70,10 +67,10 @@ public:
 
     std::int64_t number(Cell c) const { return number_[c]; }
     std::int64_t size() const { return static_cast<std::int64_t>(cell_.size()); }
-    std::int64_t receiver(std::int64_t i) const { return receiver_[z(i)]; }
-    std::int64_t donors(std::int64_t i) const { return donors_[z(i)]; }
-    bool is_gone(std::int64_t i) const { return gone_[z(i)] != 0; }
-    Cell at(std::int64_t i) const { return number_.grid().at(cell_[z(i)]); }
+    std::int64_t receiver(std::int64_t i) const { return receiver_[as_index(i)]; }
+    std::int64_t donors(std::int64_t i) const { return donors_[as_index(i)]; }
+    bool is_gone(std::int64_t i) const { return gone_[as_index(i)] != 0; }
+    Cell at(std::int64_t i) const { return number_.grid().at(cell_[as_index(i)]); }
 
     void add(Cell c, std::int64_t receiver) {
         if (size() >= std::numeric_limits<std::int32_t>::max()) {
@@ -85,19 +82,19 @@ public:
         donors_.push_back(0);
         gone_.push_back(0);
         if (receiver >= 0) {
-            ++donors_[z(receiver)];
+            ++donors_[as_index(receiver)];
         }
     }
     void lead(std::int64_t i, std::int64_t to) {
-        --donors_[z(receiver_[z(i)])];
-        ++donors_[z(to)];
-        receiver_[z(i)] = to;
+        --donors_[as_index(receiver_[as_index(i)])];
+        ++donors_[as_index(to)];
+        receiver_[as_index(i)] = to;
     }
     void leave_out(std::int64_t i) {
-        gone_[z(i)] = 1;
-        number_[cell_[z(i)]] = -1;
-        if (std::int64_t const below = receiver_[z(i)]; below >= 0) {
-            --donors_[z(below)];
+        gone_[as_index(i)] = 1;
+        number_[cell_[as_index(i)]] = -1;
+        if (std::int64_t const below = receiver_[as_index(i)]; below >= 0) {
+            --donors_[as_index(below)];
         }
     }
 
@@ -121,7 +118,7 @@ public:
             if (gone_[i] == 0) {
                 now[i] = static_cast<std::int64_t>(out.cell.size());
                 out.cell.push_back(cell_[i]);
-                out.receiver.push_back(receiver_[i] < 0 ? -1 : now[z(receiver_[i])]);
+                out.receiver.push_back(receiver_[i] < 0 ? -1 : now[as_index(receiver_[i])]);
             }
         }
         return now;
@@ -141,9 +138,9 @@ std::vector<std::size_t> downstream_first(NetworkIndex const& index) {
     std::vector<std::size_t> order;
     for (NodeId const n : index.upstream_order) {
         if (std::int64_t const out = index.out[n]; out >= 0) {
-            std::int64_t const below = index.out[index.to[z(out)]];
-            steps[z(out)] = below < 0 ? 0 : steps[z(below)] + 1;
-            order.push_back(z(out));
+            std::int64_t const below = index.out[index.to[as_index(out)]];
+            steps[as_index(out)] = below < 0 ? 0 : steps[as_index(below)] + 1;
+            order.push_back(as_index(out));
         }
     }
     std::sort(order.begin(), order.end(),
@@ -191,8 +188,9 @@ public:
 
 private:
     bool is_downstream(std::size_t of, std::size_t a) const {
-        for (std::int64_t below = static_cast<std::int64_t>(of); below >= 0; below = index_.out[index_.to[z(below)]]) {
-            if (z(below) == a) {
+        for (std::int64_t below = static_cast<std::int64_t>(of); below >= 0;
+             below = index_.out[index_.to[as_index(below)]]) {
+            if (as_index(below) == a) {
                 return true;
             }
         }
@@ -200,7 +198,7 @@ private:
     }
 
     void note_capture(std::size_t a, std::size_t i, std::int64_t receiver) {
-        std::size_t const by = owner_[z(receiver)];
+        std::size_t const by = owner_[as_index(receiver)];
         if (by == a || index_.to[by] == index_.to[a] || is_downstream(a, by)) {
             return;
         }
@@ -225,23 +223,23 @@ private:
 /// short ones, which are left out.
 std::vector<std::uint8_t> sources(Drawer& drawer, NetworkIndex const& index, std::int64_t stub_cells) {
     Drawing& drawing = drawer.drawing;
-    std::vector<std::uint8_t> begins(z(drawing.size()), 0);
+    std::vector<std::uint8_t> begins(as_index(drawing.size()), 0);
     for (std::size_t a = 0; a < index.arcs.size(); ++a) {
         if (index.in[index.from[a]].empty()) {
-            begins[z(drawing.number(drawer.way[a].front()))] = 1;
+            begins[as_index(drawing.number(drawer.way[a].front()))] = 1;
         }
     }
     for (std::int64_t i = drawing.size() - 1; i >= 0; --i) {
-        if (begins[z(i)] != 0 || drawing.is_gone(i) || drawing.donors(i) != 0) {
+        if (begins[as_index(i)] != 0 || drawing.is_gone(i) || drawing.donors(i) != 0) {
             continue;
         }
         std::vector<std::int64_t> stub{i};
         while (drawing.receiver(stub.back()) >= 0 && drawing.donors(drawing.receiver(stub.back())) == 1 &&
-               begins[z(drawing.receiver(stub.back()))] == 0) {
+               begins[as_index(drawing.receiver(stub.back()))] == 0) {
             stub.push_back(drawing.receiver(stub.back()));
         }
         if (static_cast<std::int64_t>(stub.size()) >= stub_cells) {
-            begins[z(i)] = 1;
+            begins[as_index(i)] = 1;
             continue;
         }
         for (std::int64_t const cell : stub) {
@@ -275,7 +273,7 @@ void take_short_cuts(Drawing& drawing, std::vector<std::uint8_t> const& begins, 
             if (drawing.is_gone(i)) {
                 continue;
             }
-            if (drawing.donors(i) == 0 && begins[z(i)] == 0) {
+            if (drawing.donors(i) == 0 && begins[as_index(i)] == 0) {
                 drawing.leave_out(i);
                 changed = true;
                 continue;
@@ -319,7 +317,7 @@ ChannelsOfArcs channels(StreamNetwork const& network, Grid const& grid, Channels
     for (std::size_t a = 0; a < index.arcs.size(); ++a) {
         for (Cell const c : drawer.way[a]) {
             if (std::int64_t const i = drawer.drawing.number(c); i >= 0) {
-                out.of_arc[a].push_back(now[z(i)]);
+                out.of_arc[a].push_back(now[as_index(i)]);
             }
         }
     }

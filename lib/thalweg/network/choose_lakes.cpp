@@ -25,9 +25,9 @@ namespace thalweg::network {
 
 namespace {
 
-constexpr std::uint64_t stage = 0x6c616b65; // "lake"
-constexpr std::int64_t fewest_cells = 16;
-constexpr std::int64_t apart = 3; // [cells]
+constexpr std::uint64_t lake_stage = 0x6c616b65; // "lake"
+constexpr std::int64_t fewest_lake_cells = 16;
+constexpr std::int64_t lakes_apart = 3; // [cells]
 
 void check(ChannelsOfArcs const& drawn, std::vector<double> const& area_m2, ChooseLakesParams const& params) {
     if (!(params.share >= 0.0 && params.share <= 1.0)) {
@@ -61,7 +61,7 @@ public:
         for (std::int64_t const i : way) {
             river.insert(drawn_.channels.cell[static_cast<std::size_t>(i)]);
         }
-        std::uint64_t const own_seed = chance(seed_, stage, arc);
+        std::uint64_t const own_seed = chance(seed_, lake_stage, arc);
         double const wave = std::max(3.0, 0.6 * std::sqrt(static_cast<double>(cells)));
         using Entry = std::pair<double, std::int64_t>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -86,7 +86,7 @@ public:
                 queue.emplace(cost + ease * (0.15 + rough * rough) / d8_per_length[k], grid.index(n));
             }
         }
-        if (static_cast<std::int64_t>(lake.size()) >= fewest_cells) {
+        if (static_cast<std::int64_t>(lake.size()) >= fewest_lake_cells) {
             take(rounded(lake));
         }
     }
@@ -95,8 +95,8 @@ private:
     bool is_free(std::int64_t cell) const {
         Grid const& grid = labels.grid();
         Cell const c = grid.at(cell);
-        return is_taken_[cell] == 0 && c.col >= apart && c.row >= apart && c.col < grid.width - apart &&
-               c.row < grid.height - apart;
+        return is_taken_[cell] == 0 && c.col >= lakes_apart && c.row >= lakes_apart &&
+               c.col < grid.width - lakes_apart && c.row < grid.height - lakes_apart;
     }
 
     /// Its shores without single cells: what most of its neighbours are.
@@ -123,7 +123,7 @@ private:
         Grid const& grid = labels.grid();
         for (std::int64_t const cell : lake) {
             labels[cell] = last_;
-            cells_around(grid, grid.at(cell), apart, [&](Cell near) { is_taken_[near] = 1; });
+            cells_around(grid, grid.at(cell), lakes_apart, [&](Cell near) { is_taken_[near] = 1; });
         }
     }
 
@@ -143,11 +143,11 @@ Raster<std::int32_t> choose_lakes(ChannelsOfArcs const& drawn, std::vector<doubl
     for (std::size_t a = 0; a < area_m2.size(); ++a) {
         run.check();
         double const area = area_m2[a] / (grid.cell_m * grid.cell_m);
-        auto const words = chance_block(params.seed, stage, ~0ULL, a);
+        auto const words = chance_block(params.seed, lake_stage, ~0ULL, a);
         if (!(area >= params.min_area_cells) || drawn.of_arc[a].empty() || !(unit(words[0]) < params.share)) {
             continue;
         }
-        auto const least = static_cast<double>(fewest_cells);
+        auto const least = static_cast<double>(fewest_lake_cells);
         double const most = std::max(least, std::min(area / 50.0, static_cast<double>(params.max_cells)));
         // Small lakes are many, large ones few: the logarithm is uniform.
         double const size = least * exact::pow(most / least, unit(words[1]));

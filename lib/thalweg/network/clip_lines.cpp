@@ -11,7 +11,7 @@ namespace thalweg::network {
 
 namespace {
 
-struct Box {
+struct Window {
     double west;
     double east;
     double south;
@@ -20,7 +20,7 @@ struct Box {
 };
 
 /// The share [first, last] of segment a-b inside the box (Liang and Barsky 1984).
-std::optional<std::pair<double, double>> inside(Vec3 a, Vec3 b, Box const& box) {
+std::optional<std::pair<double, double>> inside(Vec3 a, Vec3 b, Window const& box) {
     double first = 0.0;
     double last = 1.0;
     double const dx = b.x - a.x;
@@ -41,7 +41,7 @@ std::optional<std::pair<double, double>> inside(Vec3 a, Vec3 b, Box const& box) 
     return first < last ? std::optional(std::pair(first, last)) : std::nullopt;
 }
 
-Vec3 on_edge(Vec3 a, Vec3 b, double share, Box const& box) {
+Vec3 on_edge(Vec3 a, Vec3 b, double share, Window const& box) {
     return {std::clamp(a.x + share * (b.x - a.x), box.west, box.east),
             std::clamp(a.y + share * (b.y - a.y), box.south, box.north), a.z + share * (b.z - a.z)};
 }
@@ -49,7 +49,7 @@ Vec3 on_edge(Vec3 a, Vec3 b, double share, Box const& box) {
 } // namespace
 
 RiverLines clip_lines(RiverLines const& lines, Grid const& grid) {
-    Box const box{grid.west, grid.east(), grid.south(), grid.north};
+    Window const box{grid.west, grid.east(), grid.south(), grid.north};
     RiverLines out = lines;
     out.lines.clear();
     for (RiverLine const& line : lines.lines) {

@@ -8,16 +8,11 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/index.hpp>
 
 namespace thalweg::network {
 
-namespace {
-
-std::size_t z(std::int64_t number) {
-    return static_cast<std::size_t>(number);
-}
-
-} // namespace
+namespace {} // namespace
 
 StreamCounts count_streams(std::vector<std::int64_t> const& down) {
     std::size_t const links = down.size();
@@ -35,7 +30,7 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
         order[i] = std::max(1, highest[i] + (equals[i] > 1 ? 1 : 0));
         counts.order = std::max(counts.order, order[i]);
         if (down[i] >= 0) {
-            std::size_t const below = z(down[i]);
+            std::size_t const below = as_index(down[i]);
             if (order[i] > highest[below]) {
                 highest[below] = order[i];
                 equals[below] = 0;
@@ -43,7 +38,7 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
             equals[below] += order[i] == highest[below] ? 1 : 0;
         }
     }
-    auto const orders = z(counts.order);
+    auto const orders = as_index(counts.order);
     counts.streams.assign(orders, 0);
     counts.branches.assign(orders, {});
     for (std::size_t w = 0; w < orders; ++w) {
@@ -51,13 +46,14 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
     }
     for (std::size_t i = 0; i < links; ++i) {
         bool const mouth = down[i] < 0;
-        if (mouth || order[z(down[i])] != order[i]) {
-            ++counts.streams[z(order[i]) - 1];
+        if (mouth || order[as_index(down[i])] != order[i]) {
+            ++counts.streams[as_index(order[i]) - 1];
         }
         // The two that make a stream of the next order are none of its side branches.
-        if (!mouth && order[z(down[i])] > order[i] &&
-            !(highest[z(down[i])] == order[i] && order[z(down[i])] == order[i] + 1)) {
-            ++counts.branches[z(order[z(down[i])]) - 1][z(order[z(down[i])] - order[i]) - 1];
+        if (!mouth && order[as_index(down[i])] > order[i] &&
+            !(highest[as_index(down[i])] == order[i] && order[as_index(down[i])] == order[i] + 1)) {
+            ++counts
+                  .branches[as_index(order[as_index(down[i])]) - 1][as_index(order[as_index(down[i])] - order[i]) - 1];
         }
     }
     for (std::size_t k = 1; k < orders; ++k) {
@@ -78,9 +74,9 @@ StreamCounts count_streams(StreamNetwork const& network) {
     std::vector<std::int64_t> down;
     for (NodeId const n : index.upstream_order) {
         if (std::int64_t const arc = index.out[n]; arc >= 0) {
-            std::int64_t const below = index.out[index.to[z(arc)]];
-            place[z(arc)] = static_cast<std::int64_t>(down.size());
-            down.push_back(below < 0 ? -1 : place[z(below)]);
+            std::int64_t const below = index.out[index.to[as_index(arc)]];
+            place[as_index(arc)] = static_cast<std::int64_t>(down.size());
+            down.push_back(below < 0 ? -1 : place[as_index(below)]);
         }
     }
     return count_streams(down);

@@ -6,15 +6,12 @@
 #include <map>
 #include <utility>
 
+#include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/segments_near.hpp>
 
 namespace thalweg::network {
 namespace {
-
-Vec2 plan(Vec3 p) {
-    return {p.x, p.y};
-}
 
 std::vector<Vec2> plan_of(std::vector<Vec3> const& line) {
     std::vector<Vec2> result;

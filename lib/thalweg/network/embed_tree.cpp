@@ -10,6 +10,7 @@
 
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/join_links.hpp>
 #include <thalweg/network/polygon.hpp>
@@ -20,11 +21,7 @@ namespace thalweg::network {
 
 namespace {
 
-constexpr std::uint64_t stage = 0x656d626564; // "embed"
-
-double rounded(double v) {
-    return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0;
-}
+constexpr std::uint64_t embed_stage = 0x656d626564; // "embed"
 
 bool finite(Vec2 p) {
     return std::isfinite(p.x) && std::isfinite(p.y);
@@ -176,7 +173,7 @@ EmbeddedTree embed_tree(TokunagaTree const& tree, EmbedParams const& params, Run
     SettledLinks settled;
     std::int64_t most = -1;
     for (std::uint64_t k = 0; k < beginnings; ++k) {
-        forest.seed = k == 0 ? params.seed : chance(params.seed, stage, k);
+        forest.seed = k == 0 ? params.seed : chance(params.seed, embed_stage, k);
         SettledLinks found = settle_links(forest, spread_forest(forest, run));
         std::int64_t const placed = std::count(found.stays.begin(), found.stays.end(), std::uint8_t{1});
         if (placed > most) {

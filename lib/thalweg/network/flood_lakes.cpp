@@ -11,18 +11,15 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/index.hpp>
 #include <thalweg/network/lake_basins.hpp>
 
 namespace thalweg::network {
 
 namespace {
 
-constexpr std::int64_t none = -1;
-constexpr std::int64_t fewest_cells = 4;
-
-std::size_t z(std::int64_t number) {
-    return static_cast<std::size_t>(number);
-}
+constexpr std::int64_t no_cell = -1;
+constexpr std::int64_t fewest_flooded_cells = 4;
 
 /// Channels while lakes are laid into them.
 class Lakes {
@@ -34,8 +31,8 @@ public:
         for (std::size_t i = cell.size(); i-- > 0;) {
             number_[cell[i]] = static_cast<std::int32_t>(i);
             if (receiver[i] >= 0) {
-                above_[z(receiver[i])] += above_[i];
-                ++donors_[z(receiver[i])];
+                above_[as_index(receiver[i])] += above_[i];
+                ++donors_[as_index(receiver[i])];
             }
         }
     }
@@ -47,17 +44,17 @@ public:
         }
         std::int64_t cut = basin.cut;
         std::int64_t const outlet = outlet_of(basin);
-        if (outlet != none) {
+        if (outlet != no_cell) {
             cut += keep_from_rivers(basin, outlet);
         }
-        std::vector<Link> const links = outlet == none ? std::vector<Link>{} : links_to(outlet);
+        std::vector<Link> const links = outlet == no_cell ? std::vector<Link>{} : links_to(outlet);
         auto const size = static_cast<std::int64_t>(links.size());
         for (std::int64_t const c : basin.cells) {
             lake_[c] = 0;
         }
-        if (size < fewest_cells) {
+        if (size < fewest_flooded_cells) {
             note("lake_left_out", basin, static_cast<double>(basin.cells.size()),
-                 outlet == none ? "no river runs through it" : "too little of it lies where its water can leave");
+                 outlet == no_cell ? "no river runs through it" : "too little of it lies where its water can leave");
             return;
         }
         lay(links);
@@ -87,11 +84,11 @@ private:
         std::int64_t towards; ///< cell
     };
 
-    bool is_in(std::int64_t channel) const { return lake_[cell[z(channel)]] != 0; }
+    bool is_in(std::int64_t channel) const { return lake_[cell[as_index(channel)]] != 0; }
 
     /// Whether the water of a channel cell comes into the lake below it.
     bool comes_in(std::int64_t channel) const {
-        for (std::int64_t i = receiver[z(channel)]; i >= 0; i = receiver[z(i)]) {
+        for (std::int64_t i = receiver[as_index(channel)]; i >= 0; i = receiver[as_index(i)]) {
             if (is_in(i)) {
                 return true;
             }
@@ -100,15 +97,15 @@ private:
     }
 
     std::int64_t outlet_of(Basin const& basin) const {
-        std::int64_t best = none;
+        std::int64_t best = no_cell;
         for (std::int64_t const c : basin.cells) {
             std::int64_t const i = number_[c];
-            if (i < 0 || (receiver[z(i)] >= 0 && is_in(receiver[z(i)])) || comes_in(i)) {
+            if (i < 0 || (receiver[as_index(i)] >= 0 && is_in(receiver[as_index(i)])) || comes_in(i)) {
                 continue;
             }
-            bool const more =
-                best != none && (above_[z(i)] > above_[z(best)] || (above_[z(i)] == above_[z(best)] && i < best));
-            best = best == none || more ? i : best;
+            bool const more = best != no_cell && (above_[as_index(i)] > above_[as_index(best)] ||
+                                                  (above_[as_index(i)] == above_[as_index(best)] && i < best));
+            best = best == no_cell || more ? i : best;
         }
         return best;
     }
@@ -120,7 +117,7 @@ private:
             changed = false;
             std::unordered_map<std::int64_t, bool> passes; // looked up only, never walked
             for (std::int64_t const c : basin.cells) {
-                if (lake_[c] == 0 || c == cell[z(outlet)]) {
+                if (lake_[c] == 0 || c == cell[as_index(outlet)]) {
                     continue;
                 }
                 bool leaks = false;
@@ -147,21 +144,21 @@ private:
 
     /// Whether all that flows into a channel cell comes from the lake, not by its outlet: it will be taken off.
     bool is_dry_below(std::int64_t channel, std::int64_t outlet) const {
-        if (receiver[z(outlet)] == channel) {
+        if (receiver[as_index(outlet)] == channel) {
             return false;
         }
         std::int64_t from_lake = 0;
-        each_neighbour(grid_, cell[z(channel)], [&](std::int64_t n) {
+        each_neighbour(grid_, cell[as_index(channel)], [&](std::int64_t n) {
             std::int64_t const i = number_[n];
-            from_lake += i >= 0 && lake_[n] != 0 && receiver[z(i)] == channel ? 1 : 0;
+            from_lake += i >= 0 && lake_[n] != 0 && receiver[as_index(i)] == channel ? 1 : 0;
         });
-        return from_lake > 0 && from_lake == donors_[z(channel)];
+        return from_lake > 0 && from_lake == donors_[as_index(channel)];
     }
 
     /// The cells of the lake that hang together with its outlet, nearest first, each with the next on its way there.
     std::vector<Link> links_to(std::int64_t outlet) {
         std::vector<Link> out;
-        std::vector<std::int64_t> front{cell[z(outlet)]};
+        std::vector<std::int64_t> front{cell[as_index(outlet)]};
         lake_[front.front()] = 0;
         for (std::size_t k = 0; k < front.size(); ++k) {
             each_neighbour(grid_, front[k], [&](std::int64_t n) {
@@ -180,7 +177,7 @@ private:
             if (number_[link.cell] < 0) {
                 number_[link.cell] = static_cast<std::int32_t>(cell.size());
                 cell.push_back(link.cell);
-                receiver.push_back(none);
+                receiver.push_back(no_cell);
                 is_gone.push_back(0);
                 is_level.push_back(0);
                 above_.push_back(1);
@@ -191,12 +188,12 @@ private:
         for (Link const& link : links) {
             std::int64_t const i = number_[link.cell];
             std::int64_t const to = number_[link.towards];
-            std::int64_t const before = receiver[z(i)];
-            is_level[z(i)] = 1;
-            receiver[z(i)] = to;
-            ++donors_[z(to)];
+            std::int64_t const before = receiver[as_index(i)];
+            is_level[as_index(i)] = 1;
+            receiver[as_index(i)] = to;
+            ++donors_[as_index(to)];
             if (before >= 0) {
-                --donors_[z(before)];
+                --donors_[as_index(before)];
                 left_.push_back(before);
             }
         }
@@ -208,32 +205,33 @@ private:
         for (Link const& link : links) {
             lake_[link.cell] = 1;
         }
-        lake_[cell[z(outlet)]] = 1;
+        lake_[cell[as_index(outlet)]] = 1;
         std::sort(left_.begin(), left_.end());
         left_.erase(std::unique(left_.begin(), left_.end()), left_.end());
         std::int64_t rivers = 0;
         for (std::int64_t i : left_) {
             rivers += is_in(i) ? 0 : 1;
             bool const returns = comes_in(i);
-            while (i >= 0 && !is_in(i) && donors_[z(i)] == 0 && is_level[z(i)] == 0 && (returns || touches(i))) {
-                is_gone[z(i)] = 1;
-                number_[cell[z(i)]] = -1;
-                i = receiver[z(i)];
+            while (i >= 0 && !is_in(i) && donors_[as_index(i)] == 0 && is_level[as_index(i)] == 0 &&
+                   (returns || touches(i))) {
+                is_gone[as_index(i)] = 1;
+                number_[cell[as_index(i)]] = -1;
+                i = receiver[as_index(i)];
                 if (i >= 0) {
-                    --donors_[z(i)];
+                    --donors_[as_index(i)];
                 }
             }
         }
         for (Link const& link : links) {
             lake_[link.cell] = 0;
         }
-        lake_[cell[z(outlet)]] = 0;
+        lake_[cell[as_index(outlet)]] = 0;
         return rivers;
     }
 
     bool touches(std::int64_t channel) const {
         bool any = false;
-        each_neighbour(grid_, cell[z(channel)], [&](std::int64_t n) { any |= lake_[n] != 0; });
+        each_neighbour(grid_, cell[as_index(channel)], [&](std::int64_t n) { any |= lake_[n] != 0; });
         return any;
     }
 
@@ -254,12 +252,12 @@ private:
 
 /// Old numbers in an order in which receivers come first.
 std::vector<std::int64_t> downstream_first(Lakes const& lakes) {
-    std::vector<std::int64_t> first(lakes.cell.size(), none); // donor, and the next one of the same receiver
-    std::vector<std::int64_t> next(lakes.cell.size(), none);
+    std::vector<std::int64_t> first(lakes.cell.size(), no_cell); // donor, and the next one of the same receiver
+    std::vector<std::int64_t> next(lakes.cell.size(), no_cell);
     std::vector<std::int64_t> order;
     for (std::size_t i = lakes.cell.size(); i-- > 0;) {
         if (lakes.is_gone[i] == 0 && lakes.receiver[i] >= 0) {
-            next[i] = std::exchange(first[z(lakes.receiver[i])], static_cast<std::int64_t>(i));
+            next[i] = std::exchange(first[as_index(lakes.receiver[i])], static_cast<std::int64_t>(i));
         }
     }
     for (std::size_t i = 0; i < lakes.cell.size(); ++i) {
@@ -268,7 +266,7 @@ std::vector<std::int64_t> downstream_first(Lakes const& lakes) {
         }
     }
     for (std::size_t k = 0; k < order.size(); ++k) {
-        for (std::int64_t i = first[z(order[k])]; i >= 0; i = next[z(i)]) {
+        for (std::int64_t i = first[as_index(order[k])]; i >= 0; i = next[as_index(i)]) {
             order.push_back(i);
         }
     }
@@ -277,31 +275,31 @@ std::vector<std::int64_t> downstream_first(Lakes const& lakes) {
 
 /// Level cells beside a river that does not flow into their lake: what it ran into before may have become another's.
 std::vector<std::int64_t> leaks(Lakes const& lakes, std::vector<std::int64_t> const& order, Grid const& grid) {
-    std::vector<std::int64_t> outlet(lakes.cell.size(), none); // by level cell
-    std::unordered_map<std::int64_t, std::int64_t> number;     // looked up only, never walked
+    std::vector<std::int64_t> outlet(lakes.cell.size(), no_cell); // by level cell
+    std::unordered_map<std::int64_t, std::int64_t> number;        // looked up only, never walked
     for (std::int64_t const i : order) {
-        number[lakes.cell[z(i)]] = i;
-        if (lakes.is_level[z(i)] != 0) {
-            std::int64_t const to = lakes.receiver[z(i)];
-            outlet[z(i)] = lakes.is_level[z(to)] != 0 ? outlet[z(to)] : to;
+        number[lakes.cell[as_index(i)]] = i;
+        if (lakes.is_level[as_index(i)] != 0) {
+            std::int64_t const to = lakes.receiver[as_index(i)];
+            outlet[as_index(i)] = lakes.is_level[as_index(to)] != 0 ? outlet[as_index(to)] : to;
         }
     }
     auto const flows_into = [&](std::int64_t i, std::int64_t lake) {
-        for (; i >= 0 && i != lake && outlet[z(i)] != lake; i = lakes.receiver[z(i)]) {
+        for (; i >= 0 && i != lake && outlet[as_index(i)] != lake; i = lakes.receiver[as_index(i)]) {
         }
         return i >= 0;
     };
     std::vector<std::int64_t> out;
     for (std::int64_t const i : order) {
         bool leaks = false;
-        if (outlet[z(i)] >= 0) {
-            each_neighbour(grid, lakes.cell[z(i)], [&](std::int64_t n) {
+        if (outlet[as_index(i)] >= 0) {
+            each_neighbour(grid, lakes.cell[as_index(i)], [&](std::int64_t n) {
                 auto const river = number.find(n);
-                leaks |= river != number.end() && !flows_into(river->second, outlet[z(i)]);
+                leaks |= river != number.end() && !flows_into(river->second, outlet[as_index(i)]);
             });
         }
         if (leaks) {
-            out.push_back(lakes.cell[z(i)]);
+            out.push_back(lakes.cell[as_index(i)]);
         }
     }
     return out;
@@ -313,7 +311,7 @@ void raise_to_lakes(Channels& channels) {
         if (channels.receiver[i] < 0) {
             continue;
         }
-        float const below = channels.z[z(channels.receiver[i])];
+        float const below = channels.z[as_index(channels.receiver[i])];
         channels.z[i] = channels.level[i] != 0 || channels.z[i] < below ? below : channels.z[i];
     }
 }
@@ -321,32 +319,33 @@ void raise_to_lakes(Channels& channels) {
 /// The channels with their lakes, in a new order.
 Flooded with_lakes(ChannelsOfArcs const& drawn, Lakes lakes, std::vector<std::int64_t> const& order) {
     Flooded out;
-    std::vector<std::int64_t> now(lakes.cell.size(), none);
+    std::vector<std::int64_t> now(lakes.cell.size(), no_cell);
     Channels& channels = out.drawn.channels;
     channels.grid = drawn.channels.grid;
     for (std::int64_t const i : order) {
-        now[z(i)] = static_cast<std::int64_t>(channels.cell.size());
-        channels.cell.push_back(lakes.cell[z(i)]);
-        channels.receiver.push_back(lakes.receiver[z(i)] < 0 ? none : now[z(lakes.receiver[z(i)])]);
-        channels.level.push_back(lakes.is_level[z(i)]);
+        now[as_index(i)] = static_cast<std::int64_t>(channels.cell.size());
+        channels.cell.push_back(lakes.cell[as_index(i)]);
+        channels.receiver.push_back(lakes.receiver[as_index(i)] < 0 ? no_cell
+                                                                    : now[as_index(lakes.receiver[as_index(i)])]);
+        channels.level.push_back(lakes.is_level[as_index(i)]);
         if (!drawn.channels.z.empty()) {
-            bool const is_new = z(i) >= drawn.channels.z.size();
-            channels.z.push_back(is_new ? std::numeric_limits<float>::quiet_NaN() : drawn.channels.z[z(i)]);
+            bool const is_new = as_index(i) >= drawn.channels.z.size();
+            channels.z.push_back(is_new ? std::numeric_limits<float>::quiet_NaN() : drawn.channels.z[as_index(i)]);
         }
     }
     raise_to_lakes(channels);
     for (auto const& numbers : drawn.of_arc) {
         auto& cells = out.drawn.of_arc.emplace_back();
         for (std::int64_t const i : numbers) {
-            if (now[z(i)] >= 0) {
-                cells.push_back(now[z(i)]);
+            if (now[as_index(i)] >= 0) {
+                cells.push_back(now[as_index(i)]);
             }
         }
     }
     out.drawn.notes = drawn.notes;
     out.notes = std::move(lakes.notes);
     for (Lake lake : lakes.lakes) {
-        lake.outlet = now[z(lake.outlet)];
+        lake.outlet = now[as_index(lake.outlet)];
         out.lakes.push_back(lake);
     }
     return out;

@@ -186,7 +186,7 @@ FileNetwork from_file(NetworkFile const& file) {
     try {
         require_trees(plan, index, "network.from_file");
     } catch (BadInput const& fault) {
-        throw BadInput(fmt::format("{}; {}", fault.what(), remedy));
+        throw BadInput(fmt::format("{}: {}; {}", fault.where(), fault.what(), remedy));
     }
     if (file.says.downstream) {
         require_downstream(file, order, index);

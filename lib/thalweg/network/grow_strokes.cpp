@@ -24,7 +24,7 @@ namespace thalweg::network {
 
 namespace {
 
-constexpr std::uint64_t stage = 0x7374726f6b65; // "stroke"
+constexpr std::uint64_t stroke_stage = 0x7374726f6b65; // "stroke"
 
 void check(StrokesParams const& params) {
     if (params.max_depth < 1 || params.max_depth > 29) {
@@ -99,7 +99,7 @@ public:
 
     void plant(std::size_t stroke, Run const& run) {
         TokunagaParams params = params_.tree;
-        params.seed = chance(params_.tree.seed, stage, stroke);
+        params.seed = chance(params_.tree.seed, stroke_stage, stroke);
         params.generator = drawn_.lines[stroke].lambda > 0 ? drawn_.lines[stroke].lambda : params.generator;
         params.order = depth_of(stroke) + 1;
         TokunagaTree tree = grow_tokunaga(params, run);

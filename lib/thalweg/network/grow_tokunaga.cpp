@@ -14,7 +14,7 @@ namespace thalweg::network {
 
 namespace {
 
-constexpr std::uint64_t stage = 0x746f6b756e616761; // "tokunaga"
+constexpr std::uint64_t tokunaga_stage = 0x746f6b756e616761; // "tokunaga"
 
 void check(TokunagaParams const& params) {
     if (params.generator < 1 || params.generator > 50) {
@@ -43,7 +43,7 @@ public:
         links_.clear();
         tops_.assign(coarse.size(), -1);
         for (std::size_t i = 0; i < coarse.size(); ++i) {
-            words_ = chance_block(params_.seed, stage, static_cast<std::uint64_t>(step_), i);
+            words_ = chance_block(params_.seed, tokunaga_stage, static_cast<std::uint64_t>(step_), i);
             TreeLink const& old = coarse[i];
             std::int64_t const below = old.down < 0 ? -1 : tops_[static_cast<std::size_t>(old.down)];
             bool const source = old.up[0] < 0;

@@ -5,22 +5,18 @@
 #include <algorithm>
 #include <utility>
 
+#include <thalweg/core/index.hpp>
+
 namespace thalweg::network {
 
-namespace {
-
-std::size_t z(std::int64_t number) {
-    return static_cast<std::size_t>(number);
-}
-
-} // namespace
+namespace {} // namespace
 
 KeptNetwork join_links(Forest const& forest, std::vector<Vec2> const& at, std::vector<std::uint8_t> const& stays) {
     std::size_t const links = at.size();
     std::vector<int> arrivals(links, 0);
     for (std::size_t i = 0; i < links; ++i) {
         if (stays[i] != 0 && forest.links[i].down >= 0) {
-            ++arrivals[z(forest.links[i].down)];
+            ++arrivals[as_index(forest.links[i].down)];
         }
     }
     KeptNetwork kept;
@@ -39,10 +35,10 @@ KeptNetwork join_links(Forest const& forest, std::vector<Vec2> const& at, std::v
         }
         ForestLink const& link = forest.links[i];
         Course course;
-        if (link.down >= 0 && arrivals[z(link.down)] == 1) {
-            course = std::move(open[z(link.down)]);
+        if (link.down >= 0 && arrivals[as_index(link.down)] == 1) {
+            course = std::move(open[as_index(link.down)]);
         } else if (link.down >= 0) {
-            course = {{at[z(link.down)]}, {}, node[z(link.down)]};
+            course = {{at[as_index(link.down)]}, {}, node[as_index(link.down)]};
         } else {
             if (has_mouth[link.tree] == 0) {
                 mouth[link.tree] = boost::add_vertex(Node{forest.shares[link.tree].mouth}, kept.network);

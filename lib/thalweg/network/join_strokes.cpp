@@ -57,7 +57,7 @@ Stroke as_drawn(RiverLine const& drawn, RiverLines const& strokes, Grid const& g
             names.emplace_back(name_of(type));
         }
         throw BadInput(named(strokes, drawn.feature, stroke.line.front()) +
-                       fmt::format(" has the river type '{}', which nobody knows.{} (Rosgen's are Aa+, A, B, C, D, DA, "
+                       fmt::format(" has the unknown river type '{}'.{} (Rosgen's are Aa+, A, B, C, D, DA, "
                                    "E, F, G)",
                                    drawn.type, did_you_mean(drawn.type, names)));
     }

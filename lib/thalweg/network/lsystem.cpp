@@ -10,14 +10,11 @@
 
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/index.hpp>
 
 namespace thalweg::network {
 
 namespace {
-
-std::size_t z(std::int64_t number) {
-    return static_cast<std::size_t>(number);
-}
 
 /// Reads a word sign by sign.
 class Reader {
@@ -76,7 +73,7 @@ private:
             here_is_new_ = false;
             open_.pop_back();
             return;
-        default: refuse(at_, fmt::format("'{}' is none of F G + - [ ]", sign));
+        default: refuse(at_, fmt::format("'{}' is not one of F G + - [ ]", sign));
         }
     }
 
@@ -89,7 +86,7 @@ private:
             refuse(at_, "the first link cannot turn; remove + and -");
         }
         if (here_ >= 0) {
-            auto& [link, source, branches, place] = links_[z(here_)];
+            auto& [link, source, branches, place] = links_[as_index(here_)];
             if (source) {
                 refuse(at_, "nothing can stand above a G; write F");
             }
@@ -103,7 +100,7 @@ private:
                 refuse(at_,
                        branch ? "a branch must turn; write + or - before it" : "only a branch can turn; put it in [ ]");
             }
-            link.up[z(branches++)] = static_cast<std::int64_t>(links_.size());
+            link.up[as_index(branches++)] = static_cast<std::int64_t>(links_.size());
         }
         links_.push_back({{.down = here_, .turn = turn_}, sign == 'G', 0, at_});
         here_ = static_cast<std::int64_t>(links_.size()) - 1;
@@ -118,8 +115,8 @@ private:
         if (turn_ != 0) {
             refuse(at_ - 1, "a turn without a link behind it");
         }
-        if (!links_[z(here_)].source && links_[z(here_)].branches != 2) {
-            refuse(links_[z(here_)].at, "above this F are not two links; write G for a source");
+        if (!links_[as_index(here_)].source && links_[as_index(here_)].branches != 2) {
+            refuse(links_[as_index(here_)].at, "above this F are not two links; write G for a source");
         }
     }
 
@@ -131,8 +128,8 @@ private:
         for (std::size_t i = out.size(); i-- > 0;) {
             TreeLink& link = out[i];
             if (link.up[0] >= 0) {
-                TreeLink const& first = out[z(link.up[0])];
-                TreeLink const& second = out[z(link.up[1])];
+                TreeLink const& first = out[as_index(link.up[0])];
+                TreeLink const& second = out[as_index(link.up[1])];
                 link.order = std::max({first.order, second.order, std::min(first.order, second.order) + 1});
                 if (second.order > first.order || (second.order == first.order && second.turn == 0)) {
                     std::swap(link.up[0], link.up[1]);
@@ -171,10 +168,10 @@ std::string write_lsystem(TokunagaTree const& tree) {
             word += ']';
             continue;
         }
-        TreeLink const& link = tree.links[z(number)];
+        TreeLink const& link = tree.links[as_index(number)];
         if (link.turn != 0) {
             word += '[';
-            word.append(z(std::abs(link.turn)), link.turn > 0 ? '+' : '-');
+            word.append(as_index(std::abs(link.turn)), link.turn > 0 ? '+' : '-');
         }
         word += link.up[0] < 0 ? 'G' : 'F';
         if (link.turn != 0) {
@@ -182,7 +179,7 @@ std::string write_lsystem(TokunagaTree const& tree) {
         }
         if (link.up[0] >= 0) {
             auto [first, second] = link.up;
-            if (tree.links[z(first)].turn == 0 || (tree.links[z(second)].turn != 0 && second < first)) {
+            if (tree.links[as_index(first)].turn == 0 || (tree.links[as_index(second)].turn != 0 && second < first)) {
                 std::swap(first, second);
             }
             ahead.push_back(second);
@@ -213,8 +210,8 @@ std::vector<std::vector<Vec2>> draw_turtle(TokunagaTree const& tree, TurtleParam
     std::vector<std::vector<Vec2>> lines;
     for (std::size_t i = 0; i < tree.links.size(); ++i) {
         TreeLink const& link = tree.links[i];
-        Vec2 const from = link.down < 0 ? Vec2{} : lines[z(link.down)].back();
-        turns[i] = link.turn + (link.down < 0 ? 0 : turns[z(link.down)]);
+        Vec2 const from = link.down < 0 ? Vec2{} : lines[as_index(link.down)].back();
+        turns[i] = link.turn + (link.down < 0 ? 0 : turns[as_index(link.down)]);
         double const angle = delta * turns[i];
         lines.push_back(
             {from, {from.x - params.link_m * exact::sin(angle), from.y + params.link_m * exact::cos(angle)}});

@@ -11,6 +11,7 @@
 
 #include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/meetings.hpp>
 #include <thalweg/network/bend.hpp>
 #include <thalweg/network/keep_apart.hpp>
@@ -23,11 +24,6 @@ namespace {
 constexpr double eased_reach = 6.0;   // [cells] along a river on either side of where it came too near
 constexpr double smoothed_near = 8.0; // [cells] along a river within which smoothing may bring it nearer to itself
 constexpr int rounds_of_halving = 48;
-
-Vec2 rounded(Vec2 p) {
-    auto const grain = [](double v) { return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0; };
-    return {grain(p.x), grain(p.y)};
-}
 
 void check(StreamNetwork const& network, NetworkIndex const& index, Grid const& grid,
            std::vector<double> const& area_m2, MeanderParams const& params) {

@@ -4,26 +4,23 @@
 
 #include <algorithm>
 
+#include <thalweg/core/index.hpp>
 #include <thalweg/network/require_trees.hpp>
 
 namespace thalweg::network {
 
 namespace {
 
-std::size_t z(std::int64_t number) {
-    return static_cast<std::size_t>(number);
-}
-
 /// Strahler's rule for the arcs that end in one node; 0 for none.
 int strahler_below(std::vector<std::int64_t> const& in, std::vector<int> const& strahler) {
     int highest = 0;
     int how_many = 0;
     for (std::int64_t const a : in) {
-        if (strahler[z(a)] > highest) {
-            highest = strahler[z(a)];
+        if (strahler[as_index(a)] > highest) {
+            highest = strahler[as_index(a)];
             how_many = 0;
         }
-        how_many += strahler[z(a)] == highest ? 1 : 0;
+        how_many += strahler[as_index(a)] == highest ? 1 : 0;
     }
     return how_many > 1 ? highest + 1 : highest;
 }
@@ -51,27 +48,27 @@ NetworkOrders order(StreamNetwork const& network) {
     for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) {
         std::int64_t shreve = 0;
         for (std::int64_t const a : index.in[*n]) {
-            shreve += orders.shreve[z(a)];
-            double const path = longest_above[index.from[z(a)]] + index.length_m[z(a)];
+            shreve += orders.shreve[as_index(a)];
+            double const path = longest_above[index.from[as_index(a)]] + index.length_m[as_index(a)];
             if (main_stem[*n] < 0 || path > longest_above[*n]) {
                 main_stem[*n] = a;
                 longest_above[*n] = path;
             }
-            orders.node_strahler[*n] = std::max(orders.node_strahler[*n], orders.strahler[z(a)]);
+            orders.node_strahler[*n] = std::max(orders.node_strahler[*n], orders.strahler[as_index(a)]);
         }
         if (std::int64_t const out = index.out[*n]; out >= 0) {
-            orders.strahler[z(out)] = std::max(strahler_below(index.in[*n], orders.strahler), 1);
-            orders.shreve[z(out)] = std::max<std::int64_t>(shreve, 1);
-            orders.node_strahler[*n] = orders.strahler[z(out)];
+            orders.strahler[as_index(out)] = std::max(strahler_below(index.in[*n], orders.strahler), 1);
+            orders.shreve[as_index(out)] = std::max<std::int64_t>(shreve, 1);
+            orders.node_strahler[*n] = orders.strahler[as_index(out)];
         }
     }
     for (NodeId const n : index.upstream_order) {
         std::int64_t const out = index.out[n];
         for (std::int64_t const a : index.in[n]) {
-            orders.hack[z(a)] = (out < 0 ? 1 : orders.hack[z(out)]) + (a == main_stem[n] ? 0 : 1);
-            orders.topological[z(a)] = (out < 0 ? 0 : orders.topological[z(out)]) + 1;
-            orders.arc_basin[z(a)] = index.basin[n];
-            orders.node_dist_out_m[index.from[z(a)]] = orders.node_dist_out_m[n] + index.length_m[z(a)];
+            orders.hack[as_index(a)] = (out < 0 ? 1 : orders.hack[as_index(out)]) + (a == main_stem[n] ? 0 : 1);
+            orders.topological[as_index(a)] = (out < 0 ? 0 : orders.topological[as_index(out)]) + 1;
+            orders.arc_basin[as_index(a)] = index.basin[n];
+            orders.node_dist_out_m[index.from[as_index(a)]] = orders.node_dist_out_m[n] + index.length_m[as_index(a)];
         }
     }
     return orders;

@@ -159,8 +159,8 @@ void add_missing(Mask const& inland, std::vector<Cell> const& coast, Mouths& mou
         std::optional<Cell> const seed = mouths.seed_for(c);
         if (seed && left[*seed] != 0 && mouths.add(c)) {
             take_piece(*seed, left);
-            notes.push_back(finding("added_outlet", inland.grid(), c, 0.0,
-                                    "land from which no river finds an outlet got one of its own at cell"));
+            notes.push_back(
+                finding("added_outlet", inland.grid(), c, 0.0, "an outlet was added for land without one, at cell"));
         }
     }
 }
@@ -230,15 +230,15 @@ PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, F
     PlantedForest planted;
     for (Cell const c : outlets) {
         if (!mouths.add(c)) {
-            planted.notes.push_back(finding("crowded_outlet", land.grid(), c, 0.0,
-                                            "an outlet was left out, for its river finds no room beside others or "
-                                            "between coasts, at cell"));
+            planted.notes.push_back(
+                finding("crowded_outlet", land.grid(), c, 0.0,
+                        "an outlet was left out, with no room for its river between others or coasts, at cell"));
         }
     }
     add_missing(inland, coast, mouths, planted.notes);
     note_dry_land(land, mouths, planted.notes);
     if (mouths.all().empty()) {
-        throw BadInput(fmt::format("network.plant_forest: no river finds room on the land: no cell is {} cells away "
+        throw BadInput(fmt::format("network.plant_forest: there is no room for a river: no cell is {} cells away "
                                    "from the sea; take smaller cells or shorter steps",
                                    room_inland(params.step_cells)));
     }

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/index.hpp>
 #include <thalweg/network/keep_arcs.hpp>
 #include <thalweg/network/require_trees.hpp>
 
@@ -23,10 +24,6 @@ namespace {
 constexpr double units_per_cell = 0x1p24;
 
 using Number = std::int64_t;
-
-std::size_t z(Number number) {
-    return static_cast<std::size_t>(number);
-}
 
 std::vector<std::int64_t> lengths_in_units(StreamNetwork const& network, NetworkIndex const& index, double cell_m) {
     double total_m = 0.0;
@@ -60,9 +57,9 @@ public:
           arriving_xor_(index.out.size(), 0), leaving_(index.out), gone_(units_.size(), 0),
           next_piece_(units_.size(), -1), last_piece_(units_.size()) {
         for (Number a = 0; a < static_cast<Number>(units_.size()); ++a) {
-            last_piece_[z(a)] = a;
-            ++arriving_[mouth_[z(a)]];
-            arriving_xor_[mouth_[z(a)]] ^= a;
+            last_piece_[as_index(a)] = a;
+            ++arriving_[mouth_[as_index(a)]];
+            arriving_xor_[mouth_[as_index(a)]] ^= a;
         }
         for (NodeId n = 0; n < arriving_.size(); ++n) {
             merge_at(n);
@@ -70,22 +67,22 @@ public:
     }
 
     Number arcs() const { return static_cast<Number>(units_.size()); }
-    std::int64_t units(Number reach) const { return units_[z(reach)]; }
-    NodeId source(Number reach) const { return source_[z(reach)]; }
+    std::int64_t units(Number reach) const { return units_[as_index(reach)]; }
+    NodeId source(Number reach) const { return source_[as_index(reach)]; }
     /// A reach that still exists and has no river above it.
-    bool is_leaf(Number reach) const { return gone_[z(reach)] == 0 && arriving_[source_[z(reach)]] == 0; }
+    bool is_leaf(Number reach) const { return gone_[as_index(reach)] == 0 && arriving_[source_[as_index(reach)]] == 0; }
 
     /// Removes a leaf; gives the reach that was merged at its confluence, or -1.
     Number remove(Number leaf) {
-        NodeId const at = mouth_[z(leaf)];
-        gone_[z(leaf)] = 1;
+        NodeId const at = mouth_[as_index(leaf)];
+        gone_[as_index(leaf)] = 1;
         --arriving_[at];
         arriving_xor_[at] ^= leaf;
         return merge_at(at);
     }
     template <class F> void each_piece(Number reach, F f) const {
-        for (Number piece = reach; piece >= 0; piece = next_piece_[z(piece)]) {
-            f(z(piece));
+        for (Number piece = reach; piece >= 0; piece = next_piece_[as_index(piece)]) {
+            f(as_index(piece));
         }
     }
 
@@ -96,13 +93,13 @@ private:
         }
         Number const up = arriving_xor_[node];
         Number const down = leaving_[node];
-        units_[z(up)] += units_[z(down)];
-        next_piece_[z(last_piece_[z(up)])] = down;
-        last_piece_[z(up)] = last_piece_[z(down)];
-        mouth_[z(up)] = mouth_[z(down)];
-        arriving_xor_[mouth_[z(up)]] ^= up ^ down;
-        leaving_[source_[z(up)]] = up;
-        gone_[z(down)] = 1;
+        units_[as_index(up)] += units_[as_index(down)];
+        next_piece_[as_index(last_piece_[as_index(up)])] = down;
+        last_piece_[as_index(up)] = last_piece_[as_index(down)];
+        mouth_[as_index(up)] = mouth_[as_index(down)];
+        arriving_xor_[mouth_[as_index(up)]] ^= up ^ down;
+        leaving_[source_[as_index(up)]] = up;
+        gone_[as_index(down)] = 1;
         return up;
     }
 
@@ -138,7 +135,7 @@ std::vector<std::int64_t> survival(StreamNetwork const& network, Remains remains
             push(a);
         }
     }
-    std::vector<std::int64_t> survives(z(remains.arcs()), 0);
+    std::vector<std::int64_t> survives(as_index(remains.arcs()), 0);
     std::int64_t longest = 0;
     for (std::int64_t popped = 1; !queue.empty(); ++popped) {
         if (popped % 65536 == 0) {

@@ -48,9 +48,10 @@ std::vector<double> between(std::vector<double> const& way, double z_up, double 
 void require_heights(StreamNetwork const& network, std::vector<double> const& node_z, std::string_view who) {
     for (std::size_t n = 0; n < node_z.size(); ++n) {
         if (!std::isfinite(node_z[n])) {
-            throw BadInput(fmt::format("{}: the height of the node at ({}, {}) is no finite number; the rivers below "
-                                       "it are too long, or too steep",
-                                       who, network[n].at.x, network[n].at.y));
+            throw BadInput(
+                fmt::format("{}: the height of the node at ({}, {}) is not a finite number; the rivers below "
+                            "it are too long, or too steep",
+                            who, network[n].at.x, network[n].at.y));
         }
     }
 }

@@ -61,7 +61,7 @@ void lower_downstream(std::vector<Step> steps, Rasterised& out) {
 Rasterised rasterise(RaisedNetwork const& network, Grid const& grid) {
     NetworkIndex const index(network.plan);
     if (network.arc_z.size() != index.arcs.size()) {
-        throw BadInput(fmt::format("network.rasterise: {} arcs with heights for {}; set the heights anew",
+        throw BadInput(fmt::format("network.rasterise: {} arcs with heights for {}; set the heights again",
                                    index.arcs.size(), network.arc_z.size()));
     }
     Rasterised out;
@@ -73,8 +73,9 @@ Rasterised rasterise(RaisedNetwork const& network, Grid const& grid) {
             cells_of_vertices(network.plan[index.arcs[a]].line, grid, fmt::format("arc {}", a + 1));
         std::vector<double> const& height = network.arc_z[a];
         if (height.size() != at.size()) {
-            throw BadInput(fmt::format("network.rasterise: arc {} has {} vertices and {} heights; set the heights anew",
-                                       a + 1, at.size(), height.size()));
+            throw BadInput(
+                fmt::format("network.rasterise: arc {} has {} vertices and {} heights; set the heights again", a + 1,
+                            at.size(), height.size()));
         }
         std::int64_t before = grid.index(at.front());
         for (std::size_t i = 1; i < at.size(); ++i) {

@@ -11,15 +11,16 @@
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/network/require_trees.hpp>
 
 namespace thalweg::network {
 
 namespace {
 
-constexpr std::uint64_t stage = 0x7475726e; // "turn"
+constexpr std::uint64_t turn_stage = 0x7475726e; // "turn"
 
-struct Box {
+struct Extent {
     Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
@@ -42,8 +43,8 @@ template <class Change> void each_position(StreamNetwork& network, Change change
     }
 }
 
-Box box_of(StreamNetwork& network) {
-    Box box;
+Extent extent_of(StreamNetwork& network) {
+    Extent box;
     each_position(network, [&](Vec2 const& p) { box.enlarge(p); });
     return box;
 }
@@ -57,14 +58,10 @@ Grid grid_around(Grid grid, double wide_cells, double high_cells) {
     return grid;
 }
 
-double rounded(double v) {
-    return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0;
-}
-
 } // namespace
 
 double turn_by_chance(std::uint64_t seed) {
-    auto const words = chance_block(seed, stage);
+    auto const words = chance_block(seed, turn_stage);
     double const turn = 12.0 + 21.0 * unit(words[0]);
     return words[1] % 2 == 0 ? turn : -turn;
 }
@@ -78,7 +75,7 @@ Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams con
     }
     require_trees(network, NetworkIndex(network), "network.rotate");
     Rotated out{network, frame};
-    Vec2 const about = box_of(out.network).middle();
+    Vec2 const about = extent_of(out.network).middle();
     double const turn = params.turn_deg / 180.0 * exact::pi;
     double const c = params.turn_deg == 0.0 ? 1.0 : exact::cos(turn);
     double const s = params.turn_deg == 0.0 ? 0.0 : exact::sin(turn);
@@ -86,7 +83,7 @@ Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams con
         Vec2 const from{p.x - about.x, p.y - about.y};
         p = {c * from.x - s * from.y, s * from.x + c * from.y};
     });
-    Box const box = box_of(out.network);
+    Extent const box = extent_of(out.network);
     double const wide = (box.high.x - box.low.x) / frame.cell_m;
     double const high = (box.high.y - box.low.y) / frame.cell_m;
     out.grid = grid_around(frame, wide, high);

@@ -4,14 +4,6 @@
 
 namespace thalweg::network {
 
-namespace {
-
-double cross(Vec2 a, Vec2 b, Vec2 c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-} // namespace
-
 double squared_distance(Vec2 p, Segment const& s) {
     double const dx = s.b.x - s.a.x;
     double const dy = s.b.y - s.a.y;

@@ -38,9 +38,9 @@ RaisedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const
     NetworkIndex const index(network);
     require_raisable(network, index, "network.set_heights_by_type");
     if (types.type.size() != index.arcs.size()) {
-        throw BadInput(fmt::format("network.set_heights_by_type: {} types for {} arcs; hand in what "
-                                   "network.assign_types gives for this network",
-                                   types.type.size(), index.arcs.size()));
+        throw BadInput(fmt::format(
+            "network.set_heights_by_type: {} types for {} arcs; give the types that network.assign_types returns",
+            types.type.size(), index.arcs.size()));
     }
     run.check();
 

@@ -38,7 +38,7 @@ void require_areas(StreamNetwork const& network, NetworkIndex const& index, std:
                    std::vector<double> const& ds_area_m2) {
     std::size_t const arcs = index.arcs.size();
     if (us_area_m2.size() != arcs || ds_area_m2.size() != arcs) {
-        throw BadInput(fmt::format("network.set_heights_graded: {} and {} areas for {} arcs; hand in one for each end",
+        throw BadInput(fmt::format("network.set_heights_graded: {} and {} areas for {} arcs; give one for each end",
                                    us_area_m2.size(), ds_area_m2.size(), arcs));
     }
     for (std::size_t a = 0; a < arcs; ++a) {

@@ -9,21 +9,15 @@
 #include <optional>
 #include <utility>
 
+#include <thalweg/core/index.hpp>
+#include <thalweg/core/vec.hpp>
+
 namespace thalweg::network {
 
 namespace {
 
 constexpr double sharpest = 0.93969262;       // cosine of 20 degrees
 constexpr double sharpest_drawn = 0.99984770; // cosine of 1 degree
-
-std::size_t z(std::int64_t number) {
-    return static_cast<std::size_t>(number);
-}
-
-Vec2 rounded(Vec2 p) {
-    auto const to_grid = [](double v) { return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0; };
-    return {to_grid(p.x), to_grid(p.y)};
-}
 
 /// Cosine of the angle between the ways from one place to two others.
 double cosine_at(Vec2 here, Vec2 a, Vec2 b) {
@@ -64,11 +58,11 @@ public:
                          [&](std::size_t i, std::size_t k) { return forest_.links[i].order > forest_.links[k].order; });
         for (std::size_t const i : turn) {
             std::int64_t const down = forest_.links[i].down;
-            if ((down < 0 || stays_[z(down)] != 0) && (fits(i) || fits_elsewhere(i))) {
+            if ((down < 0 || stays_[as_index(down)] != 0) && (fits(i) || fits_elsewhere(i))) {
                 stays_[i] = 1;
                 grid_->add(i, segment(i));
                 if (down >= 0) {
-                    up_[z(down)].push_back(i);
+                    up_[as_index(down)].push_back(i);
                 }
             }
         }
@@ -78,14 +72,14 @@ public:
 private:
     Vec2 lower_end(std::size_t i) const {
         ForestLink const& link = forest_.links[i];
-        return link.down < 0 ? forest_.shares[link.tree].mouth : at_[z(link.down)];
+        return link.down < 0 ? forest_.shares[link.tree].mouth : at_[as_index(link.down)];
     }
     Segment segment(std::size_t i) const { return {lower_end(i), at_[i]}; }
 
     bool neighbours(std::size_t i, std::size_t k) const {
         std::int64_t const down = forest_.links[i].down;
         std::int64_t const other = forest_.links[k].down;
-        return (down >= 0 && (z(down) == k || down == other)) || (other >= 0 && z(other) == i);
+        return (down >= 0 && (as_index(down) == k || down == other)) || (other >= 0 && as_index(other) == i);
     }
 
     /// Whether somebody else chose the link's place, which then counts more than what is near it.
@@ -158,12 +152,13 @@ private:
         if (down < 0) {
             return true;
         }
-        Vec2 const here = at_[z(down)];
+        Vec2 const here = at_[as_index(down)];
         auto const apart = [&](std::size_t other, Vec2 to) {
             return cosine_at(here, to, at_[i]) <= (drawn(i) && drawn(other) ? sharpest_drawn : sharpest);
         };
-        return apart(z(down), lower_end(z(down))) &&
-               std::all_of(up_[z(down)].begin(), up_[z(down)].end(), [&](std::size_t k) { return apart(k, at_[k]); });
+        return apart(as_index(down), lower_end(as_index(down))) &&
+               std::all_of(up_[as_index(down)].begin(), up_[as_index(down)].end(),
+                           [&](std::size_t k) { return apart(k, at_[k]); });
     }
 
     Forest const& forest_;

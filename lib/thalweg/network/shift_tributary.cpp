@@ -9,31 +9,28 @@
 #include <cstdint>
 #include <optional>
 
+#include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 
 namespace thalweg::network {
 
 namespace {
 
-Vec2 plan(Vec3 p) {
-    return {p.x, p.y};
-}
-
 /// A place on a line: the last vertex before it, the place itself, the first vertex after it.
-struct Place {
+struct PlaceOnLine {
     std::size_t before;
     Vec3 at;
     std::size_t after;
 };
 
 /// The place at a distance along a line; a vertex where one is as good as there.
-std::optional<Place> place_at(Line const& line, double distance_m) {
+std::optional<PlaceOnLine> place_at(Line const& line, double distance_m) {
     constexpr double as_good = 1e-6;
     double along = 0.0;
     for (std::size_t i = 1; i < line.size(); ++i) {
         double const step = distance(plan(line[i - 1]), plan(line[i]));
         if (i + 1 < line.size() && std::fabs(along + step - distance_m) <= as_good * distance_m) {
-            return Place{i - 1, line[i], i + 1};
+            return PlaceOnLine{i - 1, line[i], i + 1};
         }
         if (along + step > distance_m) {
             double const share = (distance_m - along) / step;
@@ -42,7 +39,7 @@ std::optional<Place> place_at(Line const& line, double distance_m) {
             auto const between = [&](double from, double to) {
                 return std::clamp(from + share * (to - from), std::min(from, to), std::max(from, to));
             };
-            return Place{i - 1, {between(a.x, b.x), between(a.y, b.y), between(a.z, b.z)}, i};
+            return PlaceOnLine{i - 1, {between(a.x, b.x), between(a.y, b.y), between(a.z, b.z)}, i};
         }
         along += step;
     }

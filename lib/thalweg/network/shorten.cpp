@@ -12,6 +12,7 @@
 
 #include <thalweg/core/cells_along.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/index.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/network/keep_arcs.hpp>
 #include <thalweg/network/require_trees.hpp>
@@ -22,22 +23,18 @@ namespace {
 
 using Flags = std::vector<std::uint8_t>;
 
-std::size_t z(std::int64_t number) {
-    return static_cast<std::size_t>(number);
-}
-
 /// By channel cell whether it is gone.
 Flags flags_of(std::vector<std::int64_t> const& gone, Channels const& channels) {
     Flags is_gone(channels.cell.size(), 0);
     for (std::int64_t const i : gone) {
-        if (i < 0 || z(i) >= is_gone.size()) {
+        if (i < 0 || as_index(i) >= is_gone.size()) {
             throw BadInput(fmt::format("network.shorten: cell {} of {} channel cells", i, is_gone.size()));
         }
-        is_gone[z(i)] = 1;
+        is_gone[as_index(i)] = 1;
     }
     for (std::size_t i = 0; i < is_gone.size(); ++i) {
-        if (channels.receiver[i] >= 0 && is_gone[i] == 0 && is_gone[z(channels.receiver[i])] != 0) {
-            Vec2 const at = channels.grid.centre(channels.grid.at(channels.cell[z(channels.receiver[i])]));
+        if (channels.receiver[i] >= 0 && is_gone[i] == 0 && is_gone[as_index(channels.receiver[i])] != 0) {
+            Vec2 const at = channels.grid.centre(channels.grid.at(channels.cell[as_index(channels.receiver[i])]));
             throw BadInput(fmt::format("network.shorten: a river that stays flows into the cell at ({:.3f}, {:.3f}), "
                                        "which is to go; let it go with all above it",
                                        at.x, at.y));
@@ -107,8 +104,8 @@ std::vector<Vec2> rest_of(std::vector<Vec2> const& line, Grid const& grid, Mask 
 void mark(Mask& mask, Channels const& channels, std::vector<std::int64_t> const& numbers, Flags const& is_gone,
           std::uint8_t which, std::uint8_t value) {
     for (std::int64_t const i : numbers) {
-        if (is_gone[z(i)] == which) {
-            mask[channels.cell[z(i)]] = value;
+        if (is_gone[as_index(i)] == which) {
+            mask[channels.cell[as_index(i)]] = value;
         }
     }
 }
@@ -124,7 +121,7 @@ Channels left_of(Channels const& channels, Flags const& is_gone, std::vector<std
         }
         now[i] = static_cast<std::int64_t>(out.cell.size());
         out.cell.push_back(channels.cell[i]);
-        out.receiver.push_back(channels.receiver[i] < 0 ? -1 : now[z(channels.receiver[i])]);
+        out.receiver.push_back(channels.receiver[i] < 0 ? -1 : now[as_index(channels.receiver[i])]);
         if (!channels.z.empty()) {
             out.z.push_back(channels.z[i]);
         }
@@ -149,7 +146,7 @@ public:
     void take_off() {
         for (auto n = index_.upstream_order.rbegin(); n != index_.upstream_order.rend(); ++n) {
             if (index_.out[*n] >= 0) {
-                visit(z(index_.out[*n]));
+                visit(as_index(index_.out[*n]));
             }
         }
     }
@@ -161,7 +158,7 @@ private:
     /// Whether cells that are rivers flow into an arc's first; arcs without cells of their own are passed through.
     bool has_water_above(std::size_t a) const {
         auto const& above = index_.in[index_.from[a]];
-        return std::any_of(above.begin(), above.end(), [&](std::int64_t b) { return has_water_[z(b)] != 0; });
+        return std::any_of(above.begin(), above.end(), [&](std::int64_t b) { return has_water_[as_index(b)] != 0; });
     }
 
     /// Whether the rivers above an arc are gone, and passed by the cell of the node in which it begins.
@@ -169,7 +166,7 @@ private:
         Grid const& grid = drawn_.channels.grid;
         Cell const first = cells_of_vertices({network_[index_.arcs[a]].line.front()}, grid).front();
         return !index_.in[index_.from[a]].empty() &&
-               grid.index(first) != drawn_.channels.cell[z(drawn_.of_arc[a].front())];
+               grid.index(first) != drawn_.channels.cell[as_index(drawn_.of_arc[a].front())];
     }
 
     void leave_out_above(std::size_t a) {
@@ -178,8 +175,8 @@ private:
             auto const& above = index_.in[index_.from[open.back()]];
             open.pop_back();
             for (std::int64_t const b : above) {
-                kept[z(b)] = 0;
-                open.push_back(z(b));
+                kept[as_index(b)] = 0;
+                open.push_back(as_index(b));
             }
         }
     }
@@ -187,7 +184,7 @@ private:
     void visit(std::size_t a) {
         auto const& cells = drawn_.of_arc[a];
         bool const goes_on = has_water_above(a);
-        if (cells.empty() || goes_on || (is_gone_[z(cells.front())] == 0 && !lost_its_node(a))) {
+        if (cells.empty() || goes_on || (is_gone_[as_index(cells.front())] == 0 && !lost_its_node(a))) {
             has_water_[a] = goes_on || !cells.empty() ? 1 : 0;
             return;
         }
@@ -256,8 +253,8 @@ Shortened shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn, std
         auto& cells = out.drawn.of_arc.emplace_back();
         for (std::size_t const piece : pieces) {
             for (std::int64_t const i : drawn.of_arc[piece]) {
-                if (now[z(i)] >= 0 && (cells.empty() || cells.back() != now[z(i)])) {
-                    cells.push_back(now[z(i)]);
+                if (now[as_index(i)] >= 0 && (cells.empty() || cells.back() != now[as_index(i)])) {
+                    cells.push_back(now[as_index(i)]);
                 }
             }
         }

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/segments_near.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 #include <thalweg/network/require_trees.hpp>
@@ -18,10 +19,6 @@
 namespace thalweg::network {
 
 namespace {
-
-Vec2 plan(Vec3 p) {
-    return {p.x, p.y};
-}
 
 double median_segment(StreamNetwork const& network, NetworkIndex const& index) {
     std::vector<double> lengths;
@@ -260,12 +257,12 @@ private:
 
 void require(SplitParams const& params, RaisedNetwork const& network, NetworkIndex const& index) {
     if (params.max_upstream < 2) {
-        throw BadParameter(fmt::format("network.split_confluences: max_upstream is {}; a confluence joins 2 at least",
+        throw BadParameter(fmt::format("network.split_confluences: max_upstream is {}; a confluence joins at least 2",
                                        params.max_upstream));
     }
     if (!std::isfinite(params.distance_m) || params.distance_m < 0.0) {
         throw BadParameter(
-            fmt::format("network.split_confluences: distance is {} m; it is 0 or more", params.distance_m));
+            fmt::format("network.split_confluences: distance is {} m; it must be 0 or more", params.distance_m));
     }
     require_trees(network.plan, index, "network.split_confluences");
     bool whole = network.node_z.size() == index.out.size() && network.arc_z.size() == index.arcs.size();

@@ -12,9 +12,9 @@ namespace thalweg::network {
 
 namespace {
 
-constexpr std::uint64_t stage = 0x737072656164; // "spread"
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-constexpr double sharpest = 0.9396926; // cosine of 20 degrees
+constexpr std::uint64_t spread_stage = 0x737072656164; // "spread"
+constexpr std::size_t no_link = std::numeric_limits<std::size_t>::max();
+constexpr double sharpest_fork = 0.9396926; // cosine of 20 degrees
 
 Vec2 operator+(Vec2 a, Vec2 b) {
     return {a.x + b.x, a.y + b.y};
@@ -124,7 +124,7 @@ class Spread {
 public:
     explicit Spread(Forest const& forest)
         : forest_(forest), links_(forest.links.size()), at_(links_ + forest.shares.size()),
-          up_(links_ + forest.shares.size()), below_(links_, none), active_(links_, 0), wide_(links_, 1.0) {
+          up_(links_ + forest.shares.size()), below_(links_, no_link), active_(links_, 0), wide_(links_, 1.0) {
         for (std::size_t t = 0; t < forest.shares.size(); ++t) {
             at_[links_ + t] = forest.shares[t].mouth;
         }
@@ -358,7 +358,7 @@ private:
     /// Whether two links that leave one place stand apart, or no less than before.
     static bool apart(Vec2 a, Vec2 b, Vec2 old_a, Vec2 old_b, bool exists) {
         double const cosine = dot(a, b);
-        double const limit = sharpest * norm(a) * norm(b);
+        double const limit = sharpest_fork * norm(a) * norm(b);
         if (cosine < limit) {
             return true;
         }
@@ -430,7 +430,7 @@ private:
                 return u;
             }
         }
-        return none;
+        return no_link;
     }
 
     void relax(int order, int sweep, int sweeps) {
@@ -446,13 +446,13 @@ private:
             double const wide = wide_[i];
             Vec2 step = pull_[i];
             std::size_t const next = straight(i);
-            if (next != none) {
+            if (next != no_link) {
                 Vec2 const middle = 0.5 * (at_[next] + below_at(i));
                 step = step + 0.25 * (middle - at_[i]);
             }
             step = step + guide(i);
             if (early) {
-                auto const words = chance_block(forest_.seed, stage, static_cast<std::uint64_t>(order) << 32 | i,
+                auto const words = chance_block(forest_.seed, spread_stage, static_cast<std::uint64_t>(order) << 32 | i,
                                                 static_cast<std::uint64_t>(sweep));
                 double const shake = 0.12 * wide;
                 step = step + Vec2{shake * (2.0 * thalweg::unit(words[0]) - 1.0),
@@ -500,7 +500,7 @@ private:
     Vec2 course_of(std::size_t node) const {
         Vec2 const below = unit_of(at_[node] - below_at(node));
         std::size_t const main = straight(node);
-        return main == none ? below : unit_of(below + unit_of(at_[main] - at_[node]));
+        return main == no_link ? below : unit_of(below + unit_of(at_[main] - at_[node]));
     }
 
     /// Adds to the pull on each node what its own places and those of its links ask for.

@@ -76,7 +76,7 @@ Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
         inside[i] = inside[i] != 0 && (land.values().empty() || land[i] != 0) ? 1 : 0;
         if (inside[i] == 0 && !std::isnan(valley.z[i])) {
             Cell const c = grid.at(i);
-            throw BadInput(fmt::format("surface.mask: {} leaves out cell ({}, {}), where a river runs",
+            throw BadInput(fmt::format("surface.mask = \"{}\" leaves out cell ({}, {}), where a river runs",
                                        recipe.surface->mask, c.col, c.row));
         }
     }
@@ -131,7 +131,7 @@ surface::Dilated diffused(Terrain& terrain, FeaturePoints const& points, Mask co
 }
 
 /// Adds fractal detail to land with rivers: none in the valleys, all of it some cells away.
-void add_detail(Terrain const& terrain, Raster<float>& dem, Run const& run) {
+void add_detail(Terrain& terrain, Raster<float>& dem, Run const& run) {
     constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
     if (levels_of(terrain.recipe) == 0) {
         return;
@@ -146,17 +146,17 @@ void add_detail(Terrain const& terrain, Raster<float>& dem, Run const& run) {
 
 surface::Dilated draw(Terrain& terrain, FeaturePoints const& points, Run const& run) {
     SurfaceRecipe const& wanted = *terrain.recipe.surface;
+    Mask const inside = inside_of(terrain.recipe, terrain.land, terrain.valley);
     if (wanted.method == Method::tin) {
         surface::Dilated drawn;
         drawn.dem = over_triangles(terrain, run);
-        for (std::int64_t i = 0; i < static_cast<std::int64_t>(terrain.land.values().size()); ++i) {
-            if (terrain.land[i] == 0) {
+        for (std::int64_t i = 0; i < inside.cells(); ++i) {
+            if (inside[i] == 0) {
                 drawn.dem[i] = std::numeric_limits<float>::quiet_NaN();
             }
         }
         return drawn;
     }
-    Mask const inside = inside_of(terrain.recipe, terrain.land, terrain.valley);
     return wanted.method == Method::diffuse ? diffused(terrain, points, inside, run) : dilated(terrain, inside, run);
 }
 

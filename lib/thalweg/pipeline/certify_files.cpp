@@ -38,8 +38,8 @@ std::vector<double> areas_of(NetworkFile const& file, std::vector<measure::Reach
 measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, Run const& run) {
     Raster<float> const land = io::read_dem(dem);
     if (!io::same_crs(network.crs, land.grid().crs, "the network", dem)) {
-        throw BadInput(fmt::format("pipeline.certify_files: the network is in {}, {} in {}; bring one into the other's "
-                                   "CRS (ogr2ogr -t_srs, gdalwarp -t_srs)",
+        throw BadInput(fmt::format("pipeline.certify_files: the network is in {}, {} in {}; reproject one of them "
+                                   "(ogr2ogr -t_srs, gdalwarp -t_srs)",
                                    network.crs.substr(0, 60), dem, land.grid().crs.substr(0, 60)));
     }
     FileReaches const found = reaches_of_file(network, land.grid());

@@ -29,9 +29,9 @@ template <class T> void append(std::vector<T>& to, std::vector<T> from) {
 }
 
 /// A file to be written, or the files of two shapefiles, which appear together.
-class Output {
+class CheckOutput {
 public:
-    Output(std::string const& path, char const* option, bool may_be_shapefile, CheckJob const& job)
+    CheckOutput(std::string const& path, char const* option, bool may_be_shapefile, CheckJob const& job)
         : folder_(fs::path(path).has_parent_path() ? fs::path(path).parent_path().string() : "."),
           stem_(fs::path(path).stem().string()) {
         std::string const ending = fs::path(path).extension().string();
@@ -108,7 +108,7 @@ private:
     std::vector<std::string> present_ = {};
 };
 
-void write_copy(MendedNetwork const& mended, std::string const& crs, Output const& output, CheckedFiles& checked,
+void write_copy(MendedNetwork const& mended, std::string const& crs, CheckOutput const& output, CheckedFiles& checked,
                 Run const& run) {
     io::NetworkTables const tables{mended.network,
                                    mended.orders,
@@ -149,11 +149,11 @@ bool CheckedFiles::ok() const {
 }
 
 CheckedFiles check_files(CheckJob const& job, Run const& run) {
-    std::vector<Output> fix;
+    std::vector<CheckOutput> fix;
     if (!job.fix.empty()) {
         fix.emplace_back(job.fix, "--fix", true, job);
     }
-    std::vector<Output> layer;
+    std::vector<CheckOutput> layer;
     if (!job.findings.empty()) {
         layer.emplace_back(job.findings, "--findings", false, job);
     }
@@ -173,23 +173,22 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
         append(checked.checks, checked.certificate->checks());
         append(checked.findings, checked.certificate->findings);
     } else if (!job.dem.empty()) {
-        checked.notes.push_back(
-            {"no_certificate",
-             0,
-             {},
-             0.0,
-             "the DEM was not looked at: rivers run in circles, share ids or have vertices that are "
-             "no numbers"});
+        checked.notes.push_back({"no_certificate",
+                                 0,
+                                 {},
+                                 0.0,
+                                 "the DEM was not checked: rivers run in circles, share ids or have vertices that are "
+                                 "no numbers"});
     }
 
-    for (Output const& output : fix) {
+    for (CheckOutput const& output : fix) {
         MendedNetwork const mended = mend_network(network, topology, {job.near_m}, run);
         checked.mended = mended.mended;
         if (mended.done) {
             write_copy(mended, network.crs, output, checked, run);
         }
     }
-    for (Output const& output : layer) {
+    for (CheckOutput const& output : layer) {
         append(checked.written, output.put([&](std::string const& path) {
             io::write_findings(checked.findings, network.crs, path, run);
         }));

@@ -105,7 +105,7 @@ Grid grid_of(StreamNetwork const& plan, ConvertParams const& params, Raster<floa
         return dem->grid();
     }
     if (!(params.cell_m > 0.0)) {
-        throw BadParameter("pipeline.convert: a mask needs its cells: give a DEM whose they are, or a size");
+        throw BadParameter("pipeline.convert: a raster needs cells: give --dem or --cell");
     }
     RiverLines lines{{}, crs, params.path, false};
     NetworkIndex const index(plan);
@@ -158,20 +158,19 @@ void require_other(std::vector<std::string> const& files, fs::path const& folder
     for (std::string const& file : files) {
         if (may_be_read(folder / file, source)) {
             throw BadInput(
-                fmt::format("pipeline.convert: {} may be what is read: name another output", (folder / file).string()));
+                fmt::format("pipeline.convert: {} may be the input: name another output", (folder / file).string()));
         }
     }
 }
 
-class Output {
+class ConvertOutput {
 public:
-    Output(ConvertParams const& params, std::string const& output, io::Existing existing)
+    ConvertOutput(ConvertParams const& params, std::string const& output, io::Existing existing)
         : params_(params), output_(output), existing_(existing), database_(io::is_postgis(output)) {
         if (database_) {
             if (output == params.path && existing == io::Existing::replace) {
                 throw BadInput(
-                    "pipeline.convert: the database is the one that is read, where nothing is replaced: name "
-                    "another table without --overwrite");
+                    "pipeline.convert: the output is the input database: name another table and leave out --overwrite");
             }
             return;
         }
@@ -180,7 +179,7 @@ public:
         folder_ = path.has_parent_path() ? path.parent_path() : fs::path(".");
         std::error_code ignored;
         if (!path.has_filename()) {
-            throw BadParameter(fmt::format("pipeline.convert: '{}' is no name of a file", output));
+            throw BadParameter(fmt::format("pipeline.convert: '{}' is not a valid file name", output));
         }
         if (!fs::is_directory(folder_, ignored)) {
             throw BadInput(fmt::format("pipeline.convert: there is no folder {} for {}", folder_.string(), output));
@@ -240,7 +239,7 @@ private:
 } // namespace
 
 Converted convert(ConvertParams const& params, std::string const& output, io::Existing existing, Run const& run) {
-    Output out(params, output, existing);
+    ConvertOutput out(params, output, existing);
     NetworkFile file = io::read_network(params.path, params.read, run);
     Converted converted;
     converted.schema = file.schema;

@@ -8,7 +8,7 @@ namespace thalweg::pipeline {
 
 void Diary::say(std::string const& words) const {
     auto const& [name, seconds] = terrain_.timings_s.back();
-    run_.say(fmt::format("{:<6} {:<60}{:6.1f} s", name, words, seconds));
+    run_.tell(name, fmt::format("{:<56}{:6.1f} s", words, seconds));
 }
 
 } // namespace thalweg::pipeline

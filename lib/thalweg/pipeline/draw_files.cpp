@@ -30,8 +30,8 @@ constexpr char const* page_word = "page";
 constexpr char const* page_ending = ".html";
 
 [[noreturn]] void unknown(char const* what, std::string const& word, std::vector<std::string> const& known) {
-    throw BadParameter(fmt::format("pipeline.draw_files: '{}' is no {}: {}.{}", word, what, fmt::join(known, ", "),
-                                   did_you_mean(word, known)));
+    throw BadParameter(fmt::format("pipeline.draw_files: unknown {1} '{0}'; there are {2}.{3}", word, what,
+                                   fmt::join(known, ", "), did_you_mean(word, known)));
 }
 
 PictureKind kind_of(std::string const& word) {

@@ -21,7 +21,7 @@ struct Place {
 std::size_t find_once(std::string_view page, std::string_view marker) {
     std::size_t const at = page.find(marker);
     if (at == std::string_view::npos || page.find(marker, at + 1) != std::string_view::npos) {
-        throw std::logic_error(fmt::format("pipeline.fill_page: the page holds {} {}; build web/dist/report.html anew",
+        throw std::logic_error(fmt::format("pipeline.fill_page: the page holds {} {}; rebuild web/dist/report.html",
                                            at == std::string_view::npos ? "no" : "more than one", marker));
     }
     return at;

@@ -16,10 +16,6 @@ namespace thalweg::pipeline {
 
 namespace {
 
-// 45 degrees north on the central meridian of UTM zone 31, where nobody's land is meant.
-constexpr double default_west = 500000.0;
-constexpr double default_north = 5000000.0;
-
 struct Box {
     double west = std::numeric_limits<double>::infinity();
     double south = std::numeric_limits<double>::infinity();
@@ -82,7 +78,7 @@ Grid frame_box(Box const& box, GridRecipe const& wanted, std::string const& what
         double const width = std::ceil((box.east + margin - grid.west) / cell);
         double const height = std::ceil((grid.north - (box.south - margin)) / cell);
         if (!(width >= 1.0 && height >= 1.0)) {
-            throw BadInput(fmt::format("grid.origin: [{}, {}] lies beyond {} (west {:.0f}, north {:.0f})", grid.west,
+            throw BadInput(fmt::format("grid.origin = [{}, {}] lies beyond {} (west {:.0f}, north {:.0f})", grid.west,
                                        grid.north, what, box.west, box.north));
         }
         if (width > 1e6 || height > 1e6) {
@@ -130,7 +126,7 @@ void check_memory(std::int64_t width, std::int64_t height) {
 void check_memory_of_cluster(std::int64_t particles) {
     // cell 16, parent 8, its register 10; the fields around it are about twenty bytes a particle at S = 1
     constexpr std::int64_t bytes_a_particle = 60;
-    require(fmt::format("network.dla: {} particles", particles), particles * bytes_a_particle,
+    require(fmt::format("[network.dla]: {} particles", particles), particles * bytes_a_particle,
             "Make network.dla.particles smaller.");
 }
 

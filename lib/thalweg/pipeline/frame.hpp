@@ -12,6 +12,10 @@
 
 namespace thalweg::pipeline {
 
+/// 45 degrees north on the central meridian of UTM zone 31, where nobody's land is meant.
+inline constexpr double default_west = 500000.0;
+inline constexpr double default_north = 5000000.0;
+
 /// The largest box [cells] a network may have in a side of a grid of this many cells, 5 % left free around it.
 std::int64_t room_for_network(std::int64_t side_cells);
 

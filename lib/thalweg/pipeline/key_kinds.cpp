@@ -14,25 +14,40 @@
 
 namespace thalweg::pipeline {
 
-std::string toml_text(Value const& value) {
-    toml::table one;
-    std::visit(
-        [&](auto const& v) {
-            using T = std::decay_t<decltype(v)>;
-            if constexpr (std::is_same_v<T, Pair> || std::is_same_v<T, Triple> || std::is_same_v<T, Quad>) {
-                toml::array list;
-                for (double const x : v) {
-                    list.push_back(x);
-                }
-                one.insert("v", std::move(list));
-            } else {
-                one.insert("v", v);
-            }
-        },
-        value);
+namespace {
+
+/// The shortest text that reads back as the same number, and as one with a fraction.
+std::string text_of(double x) {
+    std::string text = fmt::format("{}", x);
+    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+}
+
+std::string text_of(bool b) {
+    return b ? "true" : "false";
+}
+
+std::string text_of(std::int64_t i) {
+    return fmt::format("{}", i);
+}
+
+std::string text_of(std::string const& s) {
     std::ostringstream out;
-    out << one;
-    return out.str().substr(std::string_view("v = ").size());
+    out << toml::value<std::string>(s);
+    return out.str();
+}
+
+template <std::size_t N> std::string text_of(std::array<double, N> const& list) {
+    std::string out;
+    for (double const x : list) {
+        out += (out.empty() ? "" : ", ") + text_of(x);
+    }
+    return "[ " + out + " ]";
+}
+
+} // namespace
+
+std::string toml_text(Value const& value) {
+    return std::visit([](auto const& v) { return text_of(v); }, value);
 }
 
 std::string Range::text() const {
@@ -49,12 +64,12 @@ void Range::require(double v) const {
 }
 
 void refuse(char const* wanted, Value const& v) {
-    throw BadParameter(fmt::format("{} is wanted, not {}", wanted, toml_text(v)));
+    throw BadParameter(fmt::format("{} is required, not {}", wanted, toml_text(v)));
 }
 
 void refuse_word(std::string const& word, std::vector<std::string> const& words) {
     throw BadParameter(
-        fmt::format("'{}' is none of its values.{} ({})", word, did_you_mean(word, words), fmt::join(words, ", ")));
+        fmt::format("'{}' is not one of its values.{} ({})", word, did_you_mean(word, words), fmt::join(words, ", ")));
 }
 
 std::string alternatives(std::vector<std::string> const& words) {
@@ -128,6 +143,12 @@ Key text(char const* path, char const* range, char const* meaning, Field<std::st
         field.make(r) = s;
     };
     key.take = taker<std::string>(field, [](std::string const& s) { return std::optional<Value>(s); });
+    return key;
+}
+
+Key file(char const* path, char const* meaning, Field<std::string> field) {
+    Key key = text(path, "file name", meaning, std::move(field));
+    key.help.is_file = true;
     return key;
 }
 

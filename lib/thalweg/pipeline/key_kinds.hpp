@@ -101,6 +101,8 @@ Key maybe(char const* path, char const* unit, Range range, char const* meaning, 
 /// A side of the grid: 0 inside, never in a file, stands for "left out".
 Key side(char const* path, char const* meaning, Field<std::int64_t> field);
 Key text(char const* path, char const* range, char const* meaning, Field<std::string> field);
+/// A key that names a file.
+Key file(char const* path, char const* meaning, Field<std::string> field);
 Key yes_no(char const* path, char const* meaning, Field<bool> field);
 
 /// A list of numbers that may be left out.

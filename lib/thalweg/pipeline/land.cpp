@@ -11,6 +11,7 @@
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/read_points.hpp>
 #include <thalweg/pipeline/frame.hpp>
+#include <thalweg/pipeline/read_cells.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/grf.hpp>
@@ -40,8 +41,6 @@ namespace {
 constexpr double default_length_cells = 20.0;
 constexpr double default_dimension = 2.4;
 constexpr double default_std_m = 100.0;
-constexpr double default_west = 500000.0;
-constexpr double default_north = 5000000.0;
 constexpr double most_fine_cells = 8.0;
 constexpr double allowed_error = 0.01;
 constexpr double allowed_dimension_error = 0.02;
@@ -167,7 +166,7 @@ Raster<float> land_of_points(Terrain& terrain, FeaturePoints const& points, Grid
         params.slope_rad = s.slope.value_or(0.0);
         skeleton::Regression regression = skeleton::regress(points, grid, params, run);
         if (regression.rank < regression.terms) {
-            run.say(fmt::format("warning: the points tell {} of {} terms of the regression", regression.rank,
+            run.say(fmt::format("warning: the points determine {} of {} terms of the regression", regression.rank,
                                 regression.terms));
         }
         return std::move(regression.surface);
@@ -189,16 +188,20 @@ Raster<float> land_of_points(Terrain& terrain, FeaturePoints const& points, Grid
     return surface::rasterise_tin(*terrain.tin, grid, {surface::RasteriseTinParams::Outside::nearest}, run);
 }
 
-Raster<float> with_detail(Recipe const& recipe, Raster<float> coarse, Grid const& grid, Run const& run) {
+/// Adds the detail that the recipe wants, where it wants any. H and sigma as used go into the recipe.
+Raster<float> with_detail(Recipe& recipe, Raster<float> coarse, Grid const& grid, Run const& run) {
     int const levels = levels_of(recipe);
     if (levels == 0) {
         return coarse;
     }
-    detail::MidpointParams params = recipe.detail->midpoint;
+    detail::MidpointParams& wanted = recipe.detail->midpoint;
+    detail::MidpointParams params = wanted;
     params.width = grid.width;
     params.height = grid.height;
     params.seed = recipe.seed;
     detail::Displaced displaced = detail::midpoint(coarse, params, run);
+    wanted.hurst = displaced.hurst;
+    wanted.sigma = displaced.sigma;
     Raster<float> land(grid); // the very frame, not one reckoned back from the coarse cells
     std::copy(displaced.dem.values().begin(), displaced.dem.values().end(), land.values().begin());
     return land;
@@ -287,6 +290,20 @@ Raster<float> brought_to_statistics(Terrain& terrain, Raster<float> land, std::v
     return dem;
 }
 
+/// Cells that the mask of [surface] leaves out get no height.
+void leave_out(Recipe const& recipe, Raster<float>& land) {
+    if (!recipe.surface || recipe.surface->mask.empty()) {
+        return;
+    }
+    Mask const inside = read_mask_of_land(file_in(recipe, recipe.surface->mask), land.grid());
+    if (std::all_of(inside.values().begin(), inside.values().end(), [](std::uint8_t v) { return v == 0; })) {
+        throw BadInput(fmt::format("surface.mask = \"{}\" leaves out every cell", recipe.surface->mask));
+    }
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        land[i] = inside[i] != 0 ? land[i] : std::numeric_limits<float>::quiet_NaN();
+    }
+}
+
 /// Says which lengths only a fit can tell: correlation is measured over lags of up to half an axis.
 void warn_of_lengths(StatisticsRecipe const& s, Grid const& grid, Run const& run) {
     if (!s.length) {
@@ -365,7 +382,7 @@ Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted) {
 }
 
 void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run const& run) {
-    Recipe const& recipe = terrain.recipe;
+    Recipe& recipe = terrain.recipe;
     Grid const& grid = terrain.grid;
     int const levels = levels_of(recipe);
     Grid const coarse = coarse_grid(grid, levels);
@@ -390,17 +407,18 @@ void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run c
         });
         diary.say(fmt::format("{} statistics within {:.2g} %, {} steps{}", terrain.projection->residuals.size(),
                               100.0 * terrain.projection->largest_error, terrain.projection->iterations,
-                              terrain.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian land" : ""));
+                              terrain.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian surface" : ""));
         check_residuals(terrain);
+    } else {
+        leave_out(recipe, land);
     }
     terrain.surface.emplace();
     terrain.surface->dem = std::move(land);
 }
 
-Raster<float> detail_alone(Recipe const& recipe, Grid const& grid, Run const& run) {
-    Recipe with_hurst = recipe;
-    with_hurst.detail->midpoint.hurst = recipe.detail->midpoint.hurst.value_or(3.0 - default_dimension);
-    return with_detail(with_hurst, Raster<float>(coarse_grid(grid, levels_of(recipe)), 0.0F), grid, run);
+Raster<float> detail_alone(Recipe& recipe, Grid const& grid, Run const& run) {
+    recipe.detail->midpoint.hurst = recipe.detail->midpoint.hurst.value_or(3.0 - default_dimension);
+    return with_detail(recipe, Raster<float>(coarse_grid(grid, levels_of(recipe)), 0.0F), grid, run);
 }
 
 } // namespace thalweg::pipeline

@@ -22,7 +22,7 @@ void make_land(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run 
 /// How many times detail halves the cells; 0 without it.
 int levels_of(Recipe const& recipe);
 
-/// Relief of this fractal detail alone, on ground that is flat.
-Raster<float> detail_alone(Recipe const& recipe, Grid const& grid, Run const& run);
+/// Relief of this fractal detail alone, on ground that is flat. The recipe gets H where it leaves it out.
+Raster<float> detail_alone(Recipe& recipe, Grid const& grid, Run const& run);
 
 } // namespace thalweg::pipeline

@@ -15,6 +15,7 @@
 #include <thalweg/network/side_valleys.hpp>
 #include <thalweg/pipeline/read_cells.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
+#include <thalweg/pipeline/rivers.hpp>
 
 #include <fmt/format.h>
 
@@ -44,8 +45,12 @@ surface::EquilibriumParams params_of(Recipe& recipe, Mask const& land) {
     double const relief_m = recipe.surface->dilate.relief_m;
     surface::EquilibriumParams params;
     params.theta = recipe.network->concavity;
-    params.mean_slope_deg = wanted.mean_slope_deg.value_or(params.mean_slope_deg);
-    params.relief_m = relief_m > 0.0 ? std::optional(relief_m) : std::nullopt;
+    if (relief_m > 0.0) {
+        params.relief_m = relief_m;
+    } else {
+        wanted.mean_slope_deg = wanted.mean_slope_deg.value_or(params.mean_slope_deg);
+        params.mean_slope_deg = *wanted.mean_slope_deg;
+    }
     params.hillslope_cells =
         wanted.hillslope_m > 0.0 ? wanted.hillslope_m / recipe.grid.cell_m : params.hillslope_cells;
     params.floor_width = wanted.floor_width;
@@ -194,6 +199,7 @@ void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run) {
         take_notes(terrain, shortened.notes);
         terrain.network.plan = std::move(shortened.network);
         rivers = std::move(shortened.drawn);
+        assign_types(terrain.network.plan, terrain, run);
     }
     diary.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", terrain.grid.width, terrain.grid.height,
                           rivers.channels.cell.size()));
@@ -210,19 +216,20 @@ void add_side_valleys(Terrain& terrain, measure::Drainage const& drainage, Diary
     if (!terrain.recipe.network || !terrain.recipe.network->fill_space) {
         return;
     }
-    network::SideValleys made = diary.stage("side valleys", [&] {
+    network::SideValleys made = diary.stage("valleys", [&] {
         return network::side_valleys(terrain.network, terrain.channels,
                                      {terrain.surface->dem, drainage.direction, drainage.area_cells},
                                      {terrain.recipe.network->support_cells}, run);
     });
     terrain.equilibrium->side_valleys = made.grown;
     terrain.equilibrium->side_valleys_left_out = made.left_out;
-    diary.say(fmt::format("{} arcs that drain {} cells or more, beside {} given", made.grown,
+    diary.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown,
                           terrain.recipe.network->support_cells,
                           static_cast<std::int64_t>(boost::num_edges(made.network.plan)) - made.grown));
     terrain.network = std::move(made.network);
     terrain.network.plan =
         network::prune(terrain.network.plan, {0.0, terrain.grid.cell_m}, run).network; // lengths at which each is kept
+    assign_types(terrain.network.plan, terrain, run);
     terrain.orders = network::order(terrain.network.plan);
     terrain.streams = network::count_streams(terrain.network.plan);
     for (ArcId const arc : NetworkIndex(terrain.network.plan).arcs) {

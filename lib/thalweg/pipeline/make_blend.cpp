@@ -22,7 +22,7 @@ Raster<float> cut(Raster<float> const& source, blend::SourceWindow const& w, std
     if (w.col < 0 || w.row < 0 || w.width < 1 || w.height < 1 || w.width > source.width() ||
         w.height > source.height() || w.col > source.width() - w.width || w.row > source.height() - w.height) {
         throw BadInput(fmt::format("pipeline.make_blend: a window of {} x {} cells at column {}, row {} of {}, which "
-                                   "has {} x {}; it lies within",
+                                   "has {} x {}; it must lie within",
                                    w.width, w.height, w.col, w.row, path, source.width(), source.height()));
     }
     Grid frame = source.grid();
@@ -40,7 +40,7 @@ Raster<float> cut(Raster<float> const& source, blend::SourceWindow const& w, std
 }
 
 /// The source in metres or whatever the target's coordinates count, and the window that is left of it.
-struct Source {
+struct PastedSource {
     Raster<float> dem;
     blend::SourceWindow window;
     bool is_warped = false;
@@ -48,7 +48,7 @@ struct Source {
 };
 
 /// The coordinates in which a source is laid on the target.
-Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& params, Source& as) {
+Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& params, PastedSource& as) {
     std::string const whose = "pipeline.make_blend: " + params.source;
     std::string const target_words = "the target " + params.target;
     if (io::same_crs(source.crs, target.crs, whose, target_words) ||
@@ -56,8 +56,8 @@ Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& pa
         return target;
     }
     if (io::ground_cell(target).unit != io::GridUnit::metres) {
-        throw BadInput(fmt::format("{} lies elsewhere than {}, whose cells are not in metres: there is nothing to "
-                                   "measure it by; warp the target (gdalwarp -t_srs)",
+        throw BadInput(fmt::format("{} does not overlap {}, whose cells are not in metres, so its size there is "
+                                   "unknown: warp the target (gdalwarp -t_srs)",
                                    whose, target_words));
     }
     as.is_elsewhere = true;
@@ -67,9 +67,9 @@ Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& pa
     return frame;
 }
 
-Source read_source(MakeBlendParams const& params, Grid const& grid, Run const& run) {
+PastedSource read_source(MakeBlendParams const& params, Grid const& grid, Run const& run) {
     Raster<float> dem = io::read_dem(params.source, run);
-    Source source;
+    PastedSource source;
     Grid const frame = frame_for(dem.grid(), grid, params, source);
     std::string const what = "pipeline.make_blend: " + params.source;
     source.is_warped =
@@ -116,11 +116,11 @@ MadeBlend make_blend(MakeBlendParams const& params, Run const& run) {
 MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run) {
     Grid const& grid = target.grid();
     if (params.rotate_deg != 0.0 && io::ground_cell(grid).unit == io::GridUnit::degrees) {
-        throw BadInput(fmt::format("pipeline.make_blend: {} is in degrees, whose cells are no squares: no patch can be "
-                                   "turned in it; warp it (gdalwarp -t_srs)",
+        throw BadInput(fmt::format("pipeline.make_blend: {} is in degrees, so its cells are not square and a patch "
+                                   "cannot be rotated: warp it (gdalwarp -t_srs)",
                                    params.target));
     }
-    Source const source = read_source(params, grid, run);
+    PastedSource const source = read_source(params, grid, run);
     blend::PlacePatchParams placing;
     placing.rotate_deg = params.rotate_deg;
     placing.scale = params.scale;

@@ -12,7 +12,7 @@ namespace thalweg::pipeline {
 
 blend::Deformed make_deform(MakeDeformParams const& params, Run const& run) {
     if (params.scale == 1.0 && params.handles.empty()) {
-        throw BadParameter("pipeline.make_deform: nothing is asked for; give a scale or heights to pull to");
+        throw BadParameter("pipeline.make_deform: nothing to do: give a scale or heights to pull to");
     }
     Raster<float> const target = io::read_dem(params.target, run);
     Grid const& grid = target.grid();

@@ -91,7 +91,7 @@ Recipe recipe_from(std::string const& path) {
         try {
             return rivers_recipe(path);
         } catch (BadInput const& why) {
-            throw BadInput(fmt::format("{}; give a recipe (TOML), a file of river lines, or a folder that make or "
+            throw BadInput(fmt::format("pipeline.recipe_from: {}; give a recipe (TOML), a file of river lines, or a folder that make or "
                                        "convert wrote",
                                        why.what()));
         }

@@ -14,11 +14,11 @@
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/suggest.hpp>
-#include <thalweg/io/ground_cell.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/measure/drain_dinf.hpp>
 #include <thalweg/pipeline/catchment_rows.hpp>
 #include <thalweg/pipeline/reaches_of_file.hpp>
+#include <thalweg/pipeline/require_metres.hpp>
 
 namespace thalweg::pipeline {
 
@@ -31,14 +31,14 @@ constexpr char const* dinf = "dinf";
 constexpr char const* directions = "directions";
 constexpr char const* outlines = "catchments";
 
-struct Source {
+struct Measured {
     std::string dem;
     std::string network; ///< "" for none
 };
 
-Source source_of(MakeMeasuresParams const& params) {
+Measured source_of(MakeMeasuresParams const& params) {
     std::error_code ignored;
-    Source source{params.dem, params.network};
+    Measured source{params.dem, params.network};
     if (fs::is_directory(params.dem, ignored)) {
         source.dem = (fs::path(params.dem) / "dem.tif").string();
         if (fs::path const beside = fs::path(params.dem) / "network.gpkg";
@@ -49,11 +49,11 @@ Source source_of(MakeMeasuresParams const& params) {
     return source;
 }
 
-std::set<std::string> wanted_of(MakeMeasuresParams const& params, Source const& source) {
+std::set<std::string> wanted_of(MakeMeasuresParams const& params, Measured const& source) {
     std::vector<std::string> const known = measure_names();
     for (std::string const& word : params.what) {
         if (std::find(known.begin(), known.end(), word) == known.end()) {
-            throw BadParameter(fmt::format("pipeline.make_measures: '{}' is no measure: {}.{}", word,
+            throw BadParameter(fmt::format("pipeline.make_measures: unknown measure '{}'; the measures are {}.{}", word,
                                            fmt::join(known, ", "), did_you_mean(word, known)));
         }
     }
@@ -65,19 +65,9 @@ std::set<std::string> wanted_of(MakeMeasuresParams const& params, Source const& 
         }
     }
     if (wanted.count(outlines) != 0 && source.network.empty()) {
-        throw BadInput("pipeline.make_measures: catchments are those of rivers: name a network beside the DEM");
+        throw BadInput("pipeline.make_measures: catchments need rivers: name a network after the DEM");
     }
     return wanted;
-}
-
-// Areas in square degrees are nobody's.
-void require_metres(Grid const& grid, std::string const& path) {
-    io::GridUnit const unit = io::ground_cell(grid).unit;
-    if (unit == io::GridUnit::degrees || unit == io::GridUnit::other) {
-        throw BadInput(fmt::format("pipeline.make_measures: the coordinates of {} are {}: bring it into a projected "
-                                   "CRS in metres first (gdalwarp -t_srs)",
-                                   path, unit == io::GridUnit::degrees ? "geographic" : "not in metres"));
-    }
 }
 
 /// Powers of two clockwise from the east, as most programs for water have D8 directions.
@@ -183,7 +173,7 @@ std::vector<std::string> notes_on(NetworkFile const& file, MeasuredCatchments co
             fmt::format("{} of {} arcs leave the DEM and {} lie outside it", c.arcs_cut, c.arcs, c.arcs_outside));
     }
     if (c.arcs_nowhere > 0) {
-        notes.push_back(fmt::format("{} arcs have a vertex that is no number, and were left out", c.arcs_nowhere));
+        notes.push_back(fmt::format("{} arcs have a vertex that is not a number and were left out", c.arcs_nowhere));
     }
     if (std::int64_t const idle = c.arcs - c.arcs_outside - c.count.catchments; idle > 0) {
         notes.push_back(fmt::format("{} arcs have no catchment: other arcs own their cells", idle));
@@ -202,11 +192,11 @@ std::vector<std::string> measure_names() {
 
 MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& output, io::Existing existing,
                            Run const& run) {
-    Source const source = source_of(params);
+    Measured const source = source_of(params);
     auto const wanted = wanted_of(params, source);
     Writer out(output, wanted, existing);
     Raster<float> const dem = io::read_dem(source.dem, run);
-    require_metres(dem.grid(), source.dem);
+    require_metres(dem.grid(), source.dem, "pipeline.make_measures");
     NetworkFile network;
     if (wanted.count(outlines) != 0) {
         io::ReadNetworkParams how = params.read;

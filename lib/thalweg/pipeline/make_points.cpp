@@ -12,11 +12,11 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/skeleton.hpp>
-#include <thalweg/io/ground_cell.hpp>
 #include <thalweg/io/has_layer.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/io/read_rivers.hpp>
 #include <thalweg/pipeline/read_cells.hpp>
+#include <thalweg/pipeline/require_metres.hpp>
 
 namespace thalweg::pipeline {
 
@@ -25,26 +25,16 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A skeleton, and which of its cells are rivers.
-struct Drawn {
+struct SkeletonOfLand {
     Skeleton skeleton;
     Mask rivers;
 };
-
-// Nobody's viewer draws degrees beside metres.
-void require_metres(Grid const& grid, std::string const& path) {
-    io::GridUnit const unit = io::ground_cell(grid).unit;
-    if (unit == io::GridUnit::degrees || unit == io::GridUnit::other) {
-        throw BadInput(fmt::format("pipeline.make_points: the coordinates of {} are {}: bring it into a projected CRS "
-                                   "in metres first (gdalwarp -t_srs)",
-                                   path, unit == io::GridUnit::degrees ? "geographic" : "not in metres"));
-    }
-}
 
 Mask mask_of(std::string const& path, Grid const& grid, Run const& run) {
     Raster<float> const drawn = io::read_dem(path, run);
     if (drawn.grid() != grid) {
         throw BadInput(fmt::format("pipeline.make_points: {} has {} x {} cells, the DEM beside it {} x {}, or lies "
-                                   "elsewhere: they belong to different lands",
+                                   "elsewhere: they belong to different terrains",
                                    path, drawn.width(), drawn.height(), grid.width, grid.height));
     }
     Mask cells(grid);
@@ -63,9 +53,9 @@ Mask ridges_of(std::string const& path, Grid const& grid, Run const& run) {
 }
 
 // The land is taken over: a large one need not be there twice.
-Drawn skeleton_of(Raster<float> land, fs::path const& folder, Run const& run) {
+SkeletonOfLand skeleton_of(Raster<float> land, fs::path const& folder, Run const& run) {
     Mask const ridges = ridges_of((folder / "network.gpkg").string(), land.grid(), run);
-    Drawn drawn{{std::move(land)}, {}};
+    SkeletonOfLand drawn{{std::move(land)}, {}};
     drawn.rivers = mask_of((folder / "network.tif").string(), drawn.skeleton.z.grid(), run);
     for (std::int64_t i = 0; i < ridges.cells(); ++i) {
         if (drawn.rivers[i] == 0 && ridges[i] == 0) {
@@ -81,16 +71,15 @@ MadePoints make_points(MakePointsParams const& params, std::string const& output
     std::error_code ignored;
     bool const is_folder = fs::is_directory(params.path, ignored);
     if (params.of == PointsOf::skeleton && !is_folder) {
-        throw BadParameter(fmt::format("pipeline.make_points: a skeleton is that of a folder which make wrote; {} is "
-                                       "none",
-                                       params.path));
+        throw BadParameter(
+            fmt::format("pipeline.make_points: --skeleton needs a folder written by make; {} is not one", params.path));
     }
     fs::path const folder(params.path);
     Raster<float> land = io::read_dem(is_folder ? (folder / "dem.tif").string() : params.path, run);
-    require_metres(land.grid(), params.path);
+    require_metres(land.grid(), params.path, "pipeline.make_points");
     MadePoints made{0, land.grid().crs};
     if (params.of == PointsOf::skeleton) {
-        Drawn const drawn = skeleton_of(std::move(land), folder, run);
+        SkeletonOfLand const drawn = skeleton_of(std::move(land), folder, run);
         made.count = io::write_points(drawn.skeleton, drawn.rivers, output, params.write, run);
     } else {
         made.count = io::write_points(land, output, params.write, run);

@@ -76,14 +76,13 @@ MadeTin make_tin(MakeTinParams const& params, Run const& run) {
     io::FileContent const content = io::content_of(params.path);
     if (content.kind == Kind::raster) {
         if (!params.breaklines.empty() || !params.crs.empty()) {
-            throw BadParameter("pipeline.make_tin: breaklines and a CRS go with points and lines, not with a DEM");
+            throw BadParameter("pipeline.make_tin: --breaklines and --crs apply to points and lines, not to a DEM");
         }
         return of_dem(content.path, params.error_m.value_or(geometry::TinOfDemParams{}.error_m), run);
     }
     if (params.error_m) {
-        throw BadParameter(
-            fmt::format("pipeline.make_tin: an error goes with a DEM; {} holds {}, all of which are taken",
-                        content.path, content.kind == Kind::points ? "points" : "lines"));
+        throw BadParameter(fmt::format("pipeline.make_tin: --error applies to a DEM only; {} holds {}", content.path,
+                                       content.kind == Kind::points ? "points" : "lines"));
     }
     if (content.kind == Kind::points) {
         FeaturePoints const points = io::read_points({content.path, {}, "z", params.crs}, run);

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/vec.hpp>
 #include <thalweg/network/cut_loops.hpp>
 
 namespace thalweg::pipeline {
@@ -20,10 +21,6 @@ constexpr double greatest_coordinate = 1e18; // beyond, measure::check_topology 
 bool is_number(double c) {
     return std::fabs(c) < greatest_coordinate;
 }
-Vec2 plan(Vec3 p) {
-    return {p.x, p.y};
-}
-
 double length_of_plan(std::vector<Vec3> const& line) {
     double sum = 0.0;
     for (std::size_t i = 1; i < line.size(); ++i) {
@@ -125,7 +122,7 @@ public:
         if (found_.upstream[a] != 0) {
             std::reverse(line.begin(), line.end());
             say("turned", arc.id, plan(line.front()), length_of_plan(line),
-                fmt::format("arc {}: is turned round, to run with the flow", arc.id));
+                fmt::format("arc {}: is reversed to run downstream", arc.id));
         }
         if (looped_.count(arc.id) > 0) {
             network::CutLine cut = network::cut_loops(line, near_m_);
@@ -135,7 +132,7 @@ public:
         }
         if (length_of_plan(line) <= 0.0) {
             say("left_out", arc.id, plan(line.front()), 0.0,
-                fmt::format("arc {}: nothing is left of it without its loop; it is left out", arc.id));
+                fmt::format("arc {}: it is a loop and is left out", arc.id));
             return;
         }
         if (!arc.unnatural.empty()) {
@@ -172,12 +169,12 @@ private:
         std::size_t const lost = arc.line.size() - line.size();
         if (lost > 0) {
             say("left_out", arc.id, line.empty() ? Vec2{} : plan(line.front()), static_cast<double>(lost),
-                fmt::format("arc {}: {} vertices that are no places are left out", arc.id, lost));
+                fmt::format("arc {}: {} vertices without finite coordinates are left out", arc.id, lost));
         }
         if (without_height > 0 && file_.says.heights) {
             say("level", arc.id, plan(line.front()), static_cast<double>(without_height),
-                fmt::format("arc {}: {} vertices without a height take that of the way between their neighbours",
-                            arc.id, without_height));
+                fmt::format("arc {}: {} vertices without a height are interpolated between their neighbours", arc.id,
+                            without_height));
         }
         return line;
     }

@@ -133,7 +133,7 @@ void say_mended(measure::TopologyReport const& found, std::vector<Finding>& mend
             std::find_if(first, found.findings.end(), [&](Finding const& f) { return f.kind != first->kind; });
         mended.push_back(
             {"mended", first->feature, first->where, static_cast<double>(last - first),
-             fmt::format("{} of kind {}: mended, the first of them {}", last - first, first->kind, first->text)});
+             fmt::format("{} of kind {} repaired, the first: {}", last - first, first->kind, first->text)});
         first = last;
     }
 }
@@ -143,8 +143,9 @@ void say_lowered(network::Lowered const& lowered, std::vector<Finding>& mended) 
     for (ArcId const arc : NetworkIndex(lowered.network.plan).arcs) {
         Arc const& of = lowered.network.plan[arc];
         if (double const by = lowered.by_m[a++]; by > 0.0) {
-            mended.push_back({"lowered", of.feature, of.line.front(), by,
-                              fmt::format("arc {}: is lowered by up to {} m, not to run uphill", of.feature, by)});
+            mended.push_back(
+                {"lowered", of.feature, of.line.front(), by,
+                 fmt::format("arc {}: is lowered by up to {} m so that it does not run uphill", of.feature, by)});
         }
     }
 }
@@ -202,7 +203,7 @@ MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport cons
         for (std::size_t i = 0; i < std::min(shown, left.findings.size()); ++i) {
             mended.mended.push_back(left.findings[i]);
         }
-        return give_up(fmt::format("{} faults are left, of which the first are told", left.findings.size()));
+        return give_up(fmt::format("{} faults are left; the first are listed", left.findings.size()));
     }
     mended.done = true;
     return mended;

@@ -22,7 +22,7 @@ constexpr std::size_t most_points = 600;
 constexpr std::size_t most_shown = 50;
 
 /// To the millimetre, so that no digits are written that no one needs.
-double rounded(double metres) {
+double to_millimetres(double metres) {
     constexpr double finest = 1e12; // beyond, a double has not much finer steps
     return std::fabs(metres) < finest ? std::floor(metres * 1000.0 + 0.5) / 1000.0 : metres;
 }
@@ -63,10 +63,10 @@ ordered_json arcs_object(Terrain const& t, NetworkIndex const& index, PageLines 
         id.push_back(a + 1);
         downstream.push_back(index.out[index.to[a]] + 1);
         double const until = t.network.plan[index.arcs[a]].survives;
-        survives.push_back(std::isfinite(until) ? ordered_json(rounded(until)) : ordered_json(nullptr));
-        length.push_back(rounded(index.length_m[a]));
-        z_up.push_back(rounded(t.network.arc_z[a].front()));
-        z_down.push_back(rounded(t.network.arc_z[a].back()));
+        survives.push_back(std::isfinite(until) ? ordered_json(to_millimetres(until)) : ordered_json(nullptr));
+        length.push_back(to_millimetres(index.length_m[a]));
+        z_up.push_back(to_millimetres(t.network.arc_z[a].front()));
+        z_down.push_back(to_millimetres(t.network.arc_z[a].back()));
     }
     std::vector<std::int64_t> const n(lines.vertices.begin(),
                                       lines.vertices.begin() + static_cast<std::ptrdiff_t>(index.arcs.size()));
@@ -134,7 +134,7 @@ std::vector<ProfilePoint> main_stem(Terrain const& t, NetworkIndex const& index)
 ordered_json profile_array(std::vector<ProfilePoint> const& stem) {
     ordered_json out = ordered_json::array();
     for (ProfilePoint const& p : thinned(stem)) {
-        out.push_back({rounded(p.to_outlet_m), rounded(p.z)});
+        out.push_back({to_millimetres(p.to_outlet_m), to_millimetres(p.z)});
     }
     return out;
 }
@@ -147,7 +147,7 @@ ordered_json curve_object(Terrain const& t) {
     double sum = 0.0;
     for (std::size_t i = 0; i < t.surface->increments.size(); ++i) {
         sum += t.surface->increments[i];
-        points.push_back({i + 1, rounded(t.surface->increments[i]), rounded(sum)});
+        points.push_back({i + 1, to_millimetres(t.surface->increments[i]), to_millimetres(sum)});
     }
     return {{"name", t.recipe.surface->dilate.increment.increment}, {"points", thinned(points)}};
 }
@@ -158,7 +158,7 @@ ordered_json hypsometry_object(Terrain const& t) {
     }
     ordered_json points = ordered_json::array();
     for (measure::HypsometricPoint const& p : t.hypsometry->points) {
-        points.push_back({p.share_above, rounded(p.z)});
+        points.push_back({p.share_above, to_millimetres(p.z)});
     }
     return {{"integral", t.hypsometry->integral}, {"points", points}};
 }
@@ -195,15 +195,15 @@ std::optional<double> asked_for(Terrain const& t, char const* name) {
 
 void add_land(Terrain const& t, Figures& figures) {
     measure::Statistics const& s = *t.statistics;
-    figures.add("mean height", asked_for(t, "mean"), rounded(s.mean), "m");
-    figures.add("standard deviation", asked_for(t, "std"), rounded(s.std), "m");
-    figures.add("lowest height", asked_for(t, "min"), rounded(s.min.z), "m");
-    figures.add("highest height", asked_for(t, "max"), rounded(s.max.z), "m");
-    figures.add("relief, highest less lowest", rounded(s.max.z - s.min.z), "m");
+    figures.add("mean height", asked_for(t, "mean"), to_millimetres(s.mean), "m");
+    figures.add("standard deviation", asked_for(t, "std"), to_millimetres(s.std), "m");
+    figures.add("lowest height", asked_for(t, "min"), to_millimetres(s.min.z), "m");
+    figures.add("highest height", asked_for(t, "max"), to_millimetres(s.max.z), "m");
+    figures.add("relief, highest less lowest", to_millimetres(s.max.z - s.min.z), "m");
     if (!t.surface->increments.empty() && t.recipe.surface) {
         double const relief = t.recipe.surface->dilate.relief_m;
         figures.add("greatest rise above the valley", relief > 0.0 ? std::optional(relief) : std::nullopt,
-                    rounded(t.surface->rise_m), "m");
+                    to_millimetres(t.surface->rise_m), "m");
     }
     figures.add("correlation length along rows", asked_for(t, "lx_cells"), s.lx.cells, "cells");
     figures.add("correlation length along columns", asked_for(t, "ly_cells"), s.ly.cells, "cells");
@@ -227,7 +227,7 @@ void add_rivers(Terrain const& t, NetworkIndex const& index, std::vector<Profile
     figures.add("arcs", index.arcs.size(), "");
     figures.add("outlets", index.outlets.size(), "");
     figures.add("highest Strahler order", t.laws.network ? t.laws.network->horton.orders.size() : 0, "");
-    figures.add("length of all rivers", rounded(length / 1000.0), "km");
+    figures.add("length of all rivers", to_millimetres(length / 1000.0), "km");
     figures.add("drainage density", length / 1000.0 / (land * t.grid.cell_m * t.grid.cell_m / 1e6), "km/km2");
     if (!stem.empty() && stem.front().to_outlet_m > 0.0) {
         // Only along_stream asks for a slope along the water; the others ask for one along a straight line.
@@ -245,18 +245,10 @@ ordered_json shown(std::vector<Finding> const& findings) {
     return {{"count", findings.size()}, {"shown", texts}};
 }
 
-ordered_json checks_array(std::vector<Check> const& checks) {
-    ordered_json out = ordered_json::array();
-    for (Check const& c : checks) {
-        out.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"ok", c.ok}});
-    }
-    return out;
-}
-
 ordered_json timings_array(Terrain const& t) {
     ordered_json out = ordered_json::array();
     for (auto const& [stage, seconds] : t.timings_s) {
-        out.push_back({stage, rounded(seconds)});
+        out.push_back({stage, to_millimetres(seconds)});
     }
     return out;
 }
@@ -265,12 +257,12 @@ ordered_json notes_array(Terrain const& t, std::optional<PageHeights> const& hei
                          std::vector<std::string> const& further) {
     ordered_json out = further;
     if (!t.surface) {
-        out.push_back("the recipe asks for no surface: the page shows the rivers alone");
+        out.push_back("the recipe has no [surface]: the page shows the rivers alone");
     }
     if (t.fine_forms_cells > 0.0) {
         out.push_back(
             fmt::format("the statistics cannot be reached from this skeleton alone: forms finer than about {} "
-                        "cells come from a Gaussian land",
+                        "cells come from a Gaussian surface",
                         t.fine_forms_cells));
     }
     if (heights && heights->cells > 1) {
@@ -325,7 +317,7 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
                             {"laws", ordered_json::parse(page_laws(t.laws))},
                             {"relief", t.relief ? ordered_json::parse(relief_json(*t.relief)) : ordered_json(nullptr)},
                             {"statistics", figures.take()},
-                            {"checks", checks_array(t.checks)},
+                            {"checks", ordered_json::parse(checks_json(t.checks))},
                             {"timings", timings_array(t)},
                             {"repairs", shown(t.story.repairs)},
                             {"findings", shown(t.findings)},

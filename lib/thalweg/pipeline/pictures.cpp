@@ -129,7 +129,7 @@ std::string missing_for(PictureKind kind, Scene const& scene) {
     switch (kind) {
     case PictureKind::profile: return scene.network ? "" : "there are no rivers: name a file of them with --network";
     case PictureKind::curve:
-        return scene.increments.empty() ? "there is no recipe with a surface: it is drawn of a folder that make left"
+        return scene.increments.empty() ? "there is no recipe with a surface: it is drawn from a folder written by make"
                                         : "";
     case PictureKind::map:
     case PictureKind::hypsometry:

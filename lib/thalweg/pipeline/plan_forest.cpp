@@ -67,8 +67,9 @@ std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, std::vector<
     ForestRecipe const& wanted = recipe.network->forest;
     Grid const& grid = land.grid();
     if (wanted.seeds > 0) {
-        throw BadInput(fmt::format("network.forest.seeds: {} holds points, each of which is an outlet; leave seeds out",
-                                   wanted.outlets));
+        throw BadInput(
+            fmt::format("network.forest.outlets = \"{}\" holds points, each an outlet; leave network.forest.seeds out",
+                        wanted.outlets));
     }
     io::ReadPointsParams params;
     params.path = file_in(recipe, wanted.outlets);

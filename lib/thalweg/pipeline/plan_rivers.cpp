@@ -161,7 +161,7 @@ Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& ru
     diary.say(fmt::format("{} lines from {}", lines.lines.size(), lines.name));
     std::string const why = settle_on_lines(recipe, lines, run);
     Grid const grid = frame_lines(lines, recipe.grid);
-    run.say(fmt::format("{:<6} {}x{} cells of {} m{}", "grid", grid.width, grid.height, grid.cell_m, why));
+    run.tell("grid", fmt::format("{}x{} cells of {} m{}", grid.width, grid.height, grid.cell_m, why));
     if (recipe.grid.clip) {
         lines = network::clip_lines(lines, grid);
         if (lines.lines.empty()) {
@@ -190,7 +190,7 @@ Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& ru
     bool const or_straight = heights == Heights::soft || heights == Heights::fixed || heights == Heights::ends;
     if (heights == Heights::file || (or_straight && lines.has_z)) {
         if (!lines.has_z) {
-            throw BadInput(fmt::format("network.heights: 'file' is asked, but {} has lines without Z. Choose another.",
+            throw BadInput(fmt::format("network.heights = \"file\", but {} has lines without Z; choose other heights",
                                        lines.name));
         }
         planned.file_heights = network::take_file_heights({planned.plan, adopted.arc_z, {}}, lines);

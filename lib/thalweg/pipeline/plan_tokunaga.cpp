@@ -51,9 +51,10 @@ Region inside(Polygons const& polygons, Side mouth) {
         for (Polygon const& polygon : polygons.polygons) {
             rings += polygon.rings.size();
         }
-        throw BadInput(fmt::format("network.tokunaga.region: {} holds {} polygons of {} rings; a network fills one "
-                                   "without holes",
-                                   polygons.name, polygons.polygons.size(), rings));
+        throw BadInput(
+            fmt::format("network.tokunaga.region = \"{}\" holds {} polygons of {} rings; a network fills one "
+                        "without holes",
+                        polygons.name, polygons.polygons.size(), rings));
     }
     Region region{polygons.polygons.front().rings.front(), {}};
     if (region.ring.size() > 1 && region.ring.front() == region.ring.back()) {
@@ -99,7 +100,7 @@ void require_room(std::int64_t links, Grid const& grid, double spacing_cells) {
     double const apart = std::sqrt(static_cast<double>(grid.cells()) / static_cast<double>(links));
     double const kept = std::max(spacing_cells, 1.0);
     if (links > 1 && apart < 0.5 * kept) {
-        throw BadInput(fmt::format("network.tokunaga: {} links on {} x {} cells lie {:.2g} cells apart, and keep {} "
+        throw BadInput(fmt::format("[network.tokunaga]: {} links on {} x {} cells lie {:.2g} cells apart, and keep {} "
                                    "cells from one another: {}",
                                    links, grid.width, grid.height, apart, kept, more_room));
     }
@@ -111,10 +112,10 @@ void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Run
     std::string const found = fmt::format("{} of {} links found no room on {} x {} cells: {}", dropped, all, grid.width,
                                           grid.height, more_room);
     if (2 * placed < all || placed == 0) {
-        throw BadInput("network.tokunaga: " + found);
+        throw BadInput("[network.tokunaga]: " + found);
     }
     if (10 * placed < 9 * all) {
-        run.say("warning: network.tokunaga: " + found);
+        run.say("warning: [network.tokunaga]: " + found);
     }
 }
 

@@ -74,7 +74,7 @@ Mask read_mask_of_land(std::string const& path, Grid const& grid) {
     }
     Raster<float> const given = io::read_dem(path);
     if (given.width() != grid.width || given.height() != grid.height) {
-        throw BadInput(fmt::format("surface.mask: {} has {}x{} cells, the grid {}x{}", path, given.width(),
+        throw BadInput(fmt::format("surface.mask = \"{}\" has {}x{} cells, the grid {}x{}", path, given.width(),
                                    given.height(), grid.width, grid.height));
     }
     Mask inside(grid);
@@ -107,7 +107,8 @@ Raster<float> read_field(std::string const& path, Grid const& grid, std::string 
     if (io::holds_polygons(path)) {
         field = valued_polygons(io::read_polygons(path, grid.crs, "erodibility", run), grid);
     } else {
-        Raster<float> const given = io::bring_into(io::read_dem(path, run), grid, what + ": " + path, run);
+        Raster<float> const given =
+            io::bring_into(io::read_dem(path, run), grid, fmt::format("{} = \"{}\"", what, path), run);
         field = Raster<float>(grid, std::numeric_limits<float>::quiet_NaN());
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             Cell const at = given.grid().cell_of(grid.centre(grid.at(i)));
@@ -117,8 +118,8 @@ Raster<float> read_field(std::string const& path, Grid const& grid, std::string 
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         if (!(field[i] > 0.0F)) {
             Cell const c = grid.at(i);
-            throw BadInput(fmt::format("{}: {} has {} in cell ({}, {}) of the grid: values above 0 are wanted "
-                                       "everywhere",
+            throw BadInput(fmt::format("{} = \"{}\" has {} in cell ({}, {}) of the grid: every value must be above "
+                                       "0",
                                        what, path, std::isnan(field[i]) ? "none" : fmt::format("{}", field[i]), c.col,
                                        c.row));
         }

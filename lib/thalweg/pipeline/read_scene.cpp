@@ -163,8 +163,8 @@ SceneRead read_folder(fs::path const& folder, std::string const& network, Run co
     std::string const recipe = (folder / "recipe.toml").string();
     std::string const report = (folder / "report.json").string();
     if (!fs::exists(dem) && !fs::exists(rivers)) {
-        throw BadInput(fmt::format("pipeline.read_scene: {} holds neither dem.tif nor network.gpkg: name a folder that "
-                                   "make left, or a raster",
+        throw BadInput(fmt::format("pipeline.read_scene: {} holds neither dem.tif nor network.gpkg: name a folder "
+                                   "written by make, or a raster",
                                    folder.string()));
     }
     if (fs::exists(dem)) {

@@ -6,6 +6,7 @@
 #include <thalweg/core/suggest.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/pipeline/recipe_keys.hpp>
+#include <thalweg/pipeline/unused_keys.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <map>
 #include <string_view>
 
 namespace thalweg::pipeline {
@@ -29,12 +29,6 @@ std::vector<std::string> key_paths() {
     return paths;
 }
 
-Key const* find_key(std::string const& path) {
-    auto const& keys = all_keys();
-    auto const at = std::find_if(keys.begin(), keys.end(), [&](Key const& k) { return k.help.path == path; });
-    return at == keys.end() ? nullptr : &*at;
-}
-
 std::string unknown_key(std::string const& path) {
     std::vector<std::string> const paths = key_paths();
     std::string near = closest(path, paths);
@@ -46,7 +40,7 @@ std::string unknown_key(std::string const& path) {
             }
         }
     }
-    return fmt::format("{} is not a key.{} `thalweg recipe` lists every key.", path,
+    return fmt::format("unknown key '{}'.{} `thalweg recipe` lists every key.", path,
                        near.empty() ? "" : " Did you mean '" + near + "'?");
 }
 
@@ -110,12 +104,21 @@ void begin_section(Recipe& recipe, std::string const& path) {
 
 constexpr std::size_t most_faults = 20;
 
-void read_table(toml::table const& table, std::string const& prefix, Recipe& recipe, std::vector<std::string>& faults) {
-    for (auto const& [name, node] : table) {
+/// "patch.2.rotate" of the last of two patches; any other path as it is.
+std::string with_number(std::string const& path, Recipe const& recipe) {
+    constexpr std::string_view begin = "patch.";
+    return path.compare(0, begin.size(), begin) == 0
+               ? fmt::format("patch.{}.{}", recipe.patches.size(), path.substr(begin.size()))
+               : path;
+}
+
+void read_table(toml::table const& table, std::string const& prefix, std::string const& name, Recipe& recipe,
+                std::vector<std::string>& faults) {
+    for (auto const& [word, node] : table) {
         if (faults.size() >= most_faults) {
             return;
         }
-        std::string const path = prefix + std::string(name.str());
+        std::string const path = prefix + std::string(word.str());
         auto const line = node.source().begin.line;
         if (auto const* inner = node.as_table()) {
             if (!is_section(path)) {
@@ -123,14 +126,14 @@ void read_table(toml::table const& table, std::string const& prefix, Recipe& rec
                 continue;
             }
             begin_section(recipe, path);
-            read_table(*inner, path + ".", recipe, faults);
+            read_table(*inner, path + ".", name, recipe, faults);
             continue;
         }
         if (auto const* list = node.as_array();
             path == "patch" && list != nullptr && list->is_homogeneous<toml::table>()) {
             for (toml::node const& one : *list) {
                 begin_section(recipe, path);
-                read_table(*one.as_table(), path + ".", recipe, faults);
+                read_table(*one.as_table(), path + ".", name, recipe, faults);
             }
             continue;
         }
@@ -142,9 +145,10 @@ void read_table(toml::table const& table, std::string const& prefix, Recipe& rec
         auto const value = value_of(node);
         try {
             if (!value) {
-                throw BadParameter(fmt::format("its value has the wrong type; wanted: {}", key->help.type));
+                throw BadParameter(fmt::format("its value has the wrong type; required: {}", key->help.type));
             }
             key->put(recipe, *value);
+            recipe.set_at[with_number(path, recipe)] = fmt::format("{}, line {}", name, line);
         } catch (BadParameter const& fault) {
             faults.push_back(fmt::format("line {}: {}: {}", line, path, fault.what()));
         }
@@ -184,13 +188,14 @@ Recipe read_recipe(std::string const& toml, std::string const& name) {
     constexpr std::size_t most_bytes = 1 << 20;
     constexpr std::size_t longest_line = 8192;
     if (toml.size() > most_bytes) {
-        throw BadParameter(
-            fmt::format("{}: a recipe has at most {} bytes, this has {}", name, most_bytes, toml.size()));
+        throw BadParameter(fmt::format("pipeline.read_recipe: {}: a recipe has at most {} bytes, this has {}", name,
+                                       most_bytes, toml.size()));
     }
     for (std::size_t begin = 0, line = 1; begin < toml.size(); ++line) {
         std::size_t const end = std::min(toml.find('\n', begin), toml.size());
         if (end - begin > longest_line) {
-            throw BadParameter(fmt::format("{}: line {} is longer than {} bytes", name, line, longest_line));
+            throw BadParameter(
+                fmt::format("pipeline.read_recipe: {}: line {} is longer than {} bytes", name, line, longest_line));
         }
         begin = end + 1;
     }
@@ -198,14 +203,16 @@ Recipe read_recipe(std::string const& toml, std::string const& name) {
     try {
         table = toml::parse(toml, name);
     } catch (toml::parse_error const& fault) {
-        throw BadParameter(fmt::format("{}: line {}, column {}: {}", name, fault.source().begin.line,
-                                       fault.source().begin.column, cut(fault.description())));
+        throw BadParameter(fmt::format("pipeline.read_recipe: {}: line {}, column {}: {}", name,
+                                       fault.source().begin.line, fault.source().begin.column,
+                                       cut(fault.description())));
     }
     Recipe recipe;
     std::vector<std::string> faults;
-    read_table(table, "", recipe, faults);
+    read_table(table, "", name, recipe, faults);
     if (!faults.empty()) {
-        throw BadParameter(fmt::format("{}: {}", name, fmt::join(faults, fmt::format("\n{}: ", name))));
+        throw BadParameter(
+            fmt::format("pipeline.read_recipe: {}: {}", name, fmt::join(faults, fmt::format("\n{}: ", name))));
     }
     return recipe;
 }
@@ -237,7 +244,7 @@ std::string from_here(Recipe const& recipe, std::string const& name) {
 void set_key(Recipe& recipe, std::string const& assignment) {
     auto const equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0) {
-        throw BadParameter(fmt::format("--set {}: section.key=value is wanted", cut(assignment)));
+        throw BadParameter(fmt::format("--set {}: write section.key=value", cut(assignment)));
     }
     auto const [path, patch] = without_number(assignment.substr(0, equals));
     std::string const text = assignment.substr(equals + 1);
@@ -270,6 +277,7 @@ void set_key(Recipe& recipe, std::string const& assignment) {
             recipe.patches.resize(std::max(recipe.patches.size(), patch));
             recipe.patches[patch - 1] = one.patches.front();
         }
+        recipe.set_at[patch == 0 ? with_number(path, recipe) : assignment.substr(0, equals)] = "--set";
     } catch (BadParameter const& fault) {
         throw BadParameter(fmt::format("--set {}: {}", cut(assignment), fault.what()));
     }
@@ -277,25 +285,17 @@ void set_key(Recipe& recipe, std::string const& assignment) {
 
 namespace {
 
-std::string keys_of_patch(PatchRecipe const& patch) {
+std::string keys_of_patch(PatchRecipe const& patch, Recipe const& recipe) {
     Recipe one;
     one.patches.push_back(patch);
     std::string out;
     for (Key const& key : all_keys()) {
-        if (auto const value = key.section() == "patch" ? key.take(one) : std::nullopt) {
-            out += fmt::format("{} = {}\n", key.help.path.substr(std::string_view("patch.").size()), toml_text(*value));
+        bool const is_written = key.section() == "patch" && key.use.holds(recipe);
+        if (auto const value = is_written ? key.take(one) : std::nullopt) {
+            out += fmt::format("{} = {}\n", key.name(), toml_text(*value));
         }
     }
     return out;
-}
-
-/// Keys of a source of rivers that is not used would only confuse.
-bool of_unused_source(Recipe const& recipe, std::string const& section) {
-    static std::map<Source, std::string> const sections = {{Source::dla, "network.dla"},
-                                                           {Source::tokunaga, "network.tokunaga"},
-                                                           {Source::forest, "network.forest"},
-                                                           {Source::lines, "network.lines"}};
-    return recipe.network && section.substr(0, 8) == "network." && section != sections.at(recipe.network->source);
 }
 
 } // namespace
@@ -305,22 +305,21 @@ std::string write_recipe(Recipe const& recipe) {
     std::string section;
     for (Key const& key : all_keys()) {
         auto const value = key.take(recipe);
-        if (!value || of_unused_source(recipe, key.section())) {
+        if (!value || !key.use.holds(recipe)) {
             continue;
         }
         bool const first = key.section() != section;
         section = key.section();
         if (section == "patch") {
             for (PatchRecipe const& patch : first ? recipe.patches : std::vector<PatchRecipe>{}) {
-                out += "\n[[patch]]\n" + keys_of_patch(patch);
+                out += "\n[[patch]]\n" + keys_of_patch(patch, recipe);
             }
             continue;
         }
         if (first) {
             out += fmt::format("{}[{}]\n", out.empty() ? "" : "\n", section);
         }
-        out +=
-            fmt::format("{} = {}\n", key.help.path.substr(section.empty() ? 0 : section.size() + 1), toml_text(*value));
+        out += fmt::format("{} = {}\n", key.name(), toml_text(*value));
     }
     return out;
 }
@@ -345,7 +344,7 @@ void check_equilibrium(Recipe const& recipe, std::vector<std::string>& faults) {
                                          needs));
         }
         if (n.fill_space) {
-            faults.push_back(fmt::format("network.fill_space{}: other lands grow no side valleys", needs));
+            faults.push_back(fmt::format("network.fill_space{}: only equilibrium terrain grows side valleys", needs));
         }
         if (n.inland == InlandEnds::sink) {
             faults.push_back(fmt::format("network.inland = \"sink\"{}", needs));
@@ -353,15 +352,16 @@ void check_equilibrium(Recipe const& recipe, std::vector<std::string>& faults) {
         return;
     }
     EquilibriumRecipe const& e = recipe.surface->equilibrium;
+    double const usual_slope_deg = surface::EquilibriumParams{}.mean_slope_deg;
     if (n.concavity < 0.1 || n.concavity > 0.9) {
-        faults.push_back(fmt::format("network.concavity = {}: land in equilibrium wants 0.1 to 0.9", n.concavity));
+        faults.push_back(fmt::format("network.concavity = {}: equilibrium terrain needs 0.1 to 0.9", n.concavity));
     }
-    if (e.mean_slope_deg && recipe.surface->dilate.relief_m > 0.0) {
+    if (e.mean_slope_deg.value_or(usual_slope_deg) != usual_slope_deg && recipe.surface->dilate.relief_m > 0.0) {
         faults.emplace_back("surface.relief and surface.mean_slope do not go together: one follows from the other");
     }
     if (!e.lakes.empty() && e.lake_share > 0.0) {
         faults.emplace_back(
-            "surface.lakes and surface.lake_share do not go together: lakes come from a file or chance");
+            "surface.lakes and surface.lake_share do not go together: lakes come from a file or are chosen at random");
     }
     if (recipe.skeleton && (recipe.skeleton->ridges != Ridges::none || !recipe.skeleton->points.empty())) {
         faults.emplace_back("[skeleton] does not go with surface.method = \"equilibrium\": its ridges and heights "
@@ -413,7 +413,7 @@ void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
         faults.emplace_back("skeleton.scatter draws heights by [statistics]: with [network] give skeleton.points");
     }
     if (recipe.detail && recipe.detail->method == DetailMethod::midpoint && !recipe.detail->midpoint.sigma) {
-        faults.emplace_back("detail.sigma is missing: with rivers it cannot be told from the land");
+        faults.emplace_back("detail.sigma is missing: with rivers it cannot be estimated");
     }
     if (recipe.detail && !recipe.surface) {
         faults.emplace_back("[detail] needs [surface]");
@@ -434,10 +434,12 @@ void check_land(Recipe const& recipe, bool has_points, std::vector<std::string>&
         faults.emplace_back("[skeleton] gives points: set statistics.skeleton = \"points\"");
     }
     if (!recipe.statistics && !has_points) {
-        faults.emplace_back("nothing tells what the land is like: give [network], [statistics], skeleton.points or "
+        faults.emplace_back("the recipe describes no terrain: give [network], [statistics], skeleton.points or "
                             "skeleton.scatter");
     }
-    if ((method == Method::dilate || method == Method::equilibrium) && recipe.surface) {
+    bool const is_drawn =
+        !recipe.statistics || recipe.statistics->skeleton == Prior::points || recipe.set_at.count("surface.method") > 0;
+    if (is_drawn && (method == Method::dilate || method == Method::equilibrium) && recipe.surface) {
         faults.push_back(fmt::format("surface.method = \"{}\" needs [network]: use diffuse, tin or regress",
                                      method == Method::dilate ? "dilate" : "equilibrium"));
     }
@@ -465,11 +467,11 @@ void check_recipe(Recipe const& recipe) {
     }
     for (std::size_t i = 0; i < recipe.patches.size(); ++i) {
         if (recipe.patches[i].source.empty()) {
-            faults.push_back(fmt::format("patch {}: source is missing: which relief shall be pasted?", i + 1));
+            faults.push_back(fmt::format("patch {}: source is missing: name the relief to paste", i + 1));
         }
     }
     if (!recipe.patches.empty() && recipe.network && !recipe.surface) {
-        faults.emplace_back("[[patch]] needs [surface]: there is no land to paste into");
+        faults.emplace_back("[[patch]] needs [surface]: there is no surface to paste into");
     }
     if ((recipe.grid.width > 0) != (recipe.grid.height > 0)) {
         faults.emplace_back("grid.width and grid.height go together: give both or neither");
@@ -479,10 +481,19 @@ void check_recipe(Recipe const& recipe) {
     bool const framed =
         (recipe.network && !fills_a_frame) || (recipe.skeleton && !recipe.skeleton->points.empty() && !fills_a_frame);
     if (recipe.grid.width == 0 && !framed) {
-        faults.emplace_back("grid.width and grid.height are missing: nothing else tells how large the land is");
+        faults.emplace_back("grid.width and grid.height are missing: nothing else gives the size of the grid");
+    }
+    for (UnusedKey const& key : unused_keys(recipe)) {
+        std::string const section = fmt::format("[{}]", key.path.substr(0, key.path.find('.')));
+        bool const is_told = std::any_of(faults.begin(), faults.end(), [&](std::string const& fault) {
+            return fault.find(key.path) != std::string::npos || fault.find(section) == 0;
+        });
+        if (!is_told) {
+            faults.push_back(key.words);
+        }
     }
     if (!faults.empty()) {
-        throw BadParameter(fmt::format("recipe: {}", fmt::join(faults, "\nrecipe: ")));
+        throw BadParameter(fmt::format("pipeline.check_recipe: {}", fmt::join(faults, "\n")));
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -220,7 +221,8 @@ struct Recipe {
     std::optional<DetailRecipe> detail;
     std::vector<PatchRecipe> patches; ///< in their order
     OutputRecipe output;
-    std::string folder; ///< file names are relative to it; "" is the working folder
+    std::string folder;                             ///< file names are relative to it; "" is the working folder
+    std::map<std::string, std::string> set_at = {}; ///< where keys were set, for messages: "r.toml, line 3" or "--set"
 };
 
 /// What `thalweg make` makes without a recipe; the same as samples/relief_dla.toml.
@@ -235,6 +237,8 @@ struct KeyHelp {
     std::string standard; ///< default as TOML, or in words
     std::string meaning;
     std::vector<std::string> choices = {}; ///< words it may be; of an expression, those with a name; {} for none
+    std::string used_by = {};              ///< what a recipe must hold for the key to have an effect; "": any recipe
+    bool is_file = false;                  ///< its value names a file, relative to the recipe's folder
 };
 
 /// Every key in the order of recipe files.
@@ -248,13 +252,14 @@ Recipe read_recipe(std::string const& toml, std::string const& name);
 /// one after the last. A file is found from the working folder, wherever the recipe lies. Throws BadParameter.
 void set_key(Recipe& recipe, std::string const& assignment);
 
-/// The recipe as TOML, every default written out, sections without a stage left out. read_recipe gives it back.
+/// The recipe as TOML: every key that has an effect, defaults too. read_recipe gives it back.
 std::string write_recipe(Recipe const& recipe);
 
 /// The title of what a recipe makes: output.title, or "thalweg, seed 7" where that is "".
 std::string title_of(Recipe const& recipe);
 
-/// Throws BadParameter naming all that does not fit together (a source without its file, ...).
+/// Throws BadParameter naming all that does not fit together (a source without its file, ...), and every key that is
+/// set away from its default and has no effect.
 void check_recipe(Recipe const& recipe);
 
 } // namespace thalweg::pipeline

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include <thalweg/pipeline/key_use.hpp>
 #include <thalweg/pipeline/recipe.hpp>
 
 /// The table of a recipe's keys. Private to this room.
@@ -26,10 +27,12 @@ struct Key {
     KeyHelp help;
     std::function<void(Recipe&, Value const&)> put;
     std::function<std::optional<Value>(Recipe const&)> take;
+    Use use = {}; ///< when it has an effect
     std::string section() const {
         auto const dot = help.path.rfind('.');
         return dot == std::string::npos ? "" : help.path.substr(0, dot);
     }
+    std::string name() const { return help.path.substr(help.path.rfind('.') + 1); }
 };
 
 /// Whether the value is the name of a file.
@@ -40,5 +43,8 @@ std::string toml_text(Value const& value);
 
 /// Every key in the order of recipe files. Those of [[patch]] read and write the last patch.
 std::vector<Key> const& all_keys();
+
+/// The key of a path, or nullptr.
+Key const* find_key(std::string const& path);
 
 } // namespace thalweg::pipeline

@@ -12,31 +12,31 @@ namespace thalweg::pipeline {
 void add_skeleton_keys(std::vector<Key>& keys) {
     keys.push_back(choice<Ridges>(
         "skeleton.ridges", {{"none", Ridges::none}, {"voronoi", Ridges::voronoi}, {"segments", Ridges::segments}},
-        "ridges midway between streams: edges of the Voronoi diagram of points along them, or the exact medial lines",
+        "ridges midway between streams: edges of the Voronoi diagram of points along them, or exact medial lines",
         in_skeleton<Ridges>([](SkeletonRecipe& s) -> Ridges& { return s.ridges; })));
     keys.push_back(number("skeleton.ridge_gain", "m/m", {0, 100},
-                          "lambda: rise of a ridge above its rivers by distance",
+                          "lambda_h: rise of a ridge above its rivers per metre of distance",
                           in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.ridge_gain; })));
-    keys.push_back(number("skeleton.ridge_noise", "m", {0, 1e5}, "amplitude of noise along ridges, none at their ends",
+    keys.push_back(number("skeleton.ridge_noise", "m", {0, 1e5}, "amplitude of noise along ridges, 0 at their ends",
                           in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.ridge_noise_m; })));
-    keys.push_back(number("skeleton.ridge_wavelength", "m", {0, 1e7, true}, "of the longest waves of that noise",
+    keys.push_back(number("skeleton.ridge_wavelength", "m", {0, 1e7, true}, "longest wavelength of that noise",
                           in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.ridge_wavelength_m; })));
-    keys.push_back(
-        number("skeleton.midpoint_inverse", "cells", {0, 1e6},
-               "L: cells between those of the skeleton follow from them by midpoint displacement inverted; 0: none",
-               in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.midpoint_inverse_cells; })));
-    keys.push_back(text("skeleton.points", "file name", "points with heights: CSV, XYZ, or any OGR source of points",
+    keys.push_back(number(
+        "skeleton.midpoint_inverse", "cells", {0, 1e6},
+        "L: heights of cells up to this far from rivers, ridges and points by inverse midpoint displacement; 0: none",
+        in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.midpoint_inverse_cells; })));
+    keys.push_back(file("skeleton.points", "points with heights: CSV, XYZ, or any OGR source of points",
                         in_skeleton<std::string>([](SkeletonRecipe& s) -> std::string& { return s.points; })));
     keys.push_back(integer<std::int64_t>(
-        "skeleton.scatter", "", {0, 1e7}, "so many points at random, the extremes of [statistics] among them",
+        "skeleton.scatter", "", {0, 1e7}, "number of random points, including the extremes of [statistics]",
         in_skeleton<std::int64_t>([](SkeletonRecipe& s) -> std::int64_t& { return s.scatter; })));
-    keys.push_back(number("skeleton.spacing", "cells", {0, 1e5}, "r: least distance of points at random",
+    keys.push_back(number("skeleton.spacing", "cells", {0, 1e5}, "minimum distance r between random points",
                           in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.spacing_cells; })));
     keys.push_back(choice<skeleton::HeightLaw>(
         "skeleton.law", {{"uniform", skeleton::HeightLaw::uniform}, {"normal", skeleton::HeightLaw::normal}},
-        "how heights of points at random are distributed",
+        "distribution of the heights of random points",
         in_skeleton<skeleton::HeightLaw>([](SkeletonRecipe& s) -> skeleton::HeightLaw& { return s.law; })));
-    keys.push_back(yes_no("skeleton.tin", "write the triangles of rivers and points: tin.2dm, tin.ply",
+    keys.push_back(yes_no("skeleton.tin", "write the TIN of rivers and points: tin.2dm, tin.ply",
                           in_skeleton<bool>([](SkeletonRecipe& s) -> bool& { return s.tin; })));
 }
 
@@ -47,56 +47,54 @@ void add_diffusion_keys(std::vector<Key>& keys) {
     using surface::DiffusionStart;
     keys.push_back(choice<Diffusion>(
         "surface.diffusion", {{"steady", Diffusion::steady}, {"explicit", Diffusion::explicit_sweeps}},
-        "diffuse: to its end, or so many sweeps as in the paper",
+        "steady state, or a number of explicit sweeps as published",
         in_surface<Diffusion>([](SurfaceRecipe& s) -> Diffusion& { return s.diffuse.mode; })));
-    keys.push_back(integer<int>("surface.sweeps", "", {0, 1e9}, "diffuse, explicit: how many",
+    keys.push_back(integer<int>("surface.sweeps", "", {0, 1e9}, "number of explicit sweeps",
                                 in_surface<int>([](SurfaceRecipe& s) -> int& { return s.diffuse.iterations; })));
     keys.push_back(choice<DiffusionStart>(
         "surface.start", {{"coarse", DiffusionStart::coarse}, {"zero", DiffusionStart::zero}},
-        "diffuse, explicit: from the end of a coarser grid's diffusion, or from 0 as in the paper",
+        "where sweeps start: from the steady state of a coarser grid, or from 0 as published",
         in_surface<DiffusionStart>([](SurfaceRecipe& s) -> DiffusionStart& { return s.diffuse.start; })));
-    keys.push_back(number("surface.alpha", "", {0, 0.25, true}, "diffuse, explicit: D dt / h^2",
+    keys.push_back(number("surface.alpha", "", {0, 0.25, true}, "D dt / h^2 of an explicit sweep",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.diffuse.alpha; })));
     keys.push_back(number("surface.smoothing", "cells", {0, 1000},
-                          "diffuse: sigma of the smoothing off the skeleton; 0: none",
+                          "sigma of Gaussian smoothing away from rivers, ridges and points; 0: none",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.diffuse.sigma_cells; })));
-    keys.push_back(number("surface.noise", "m", {0, 1e5}, "diffuse: amplitude of noise far from the skeleton",
+    keys.push_back(number("surface.noise", "m", {0, 1e5}, "amplitude of noise far from rivers, ridges and points",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.diffuse.noise_m; })));
 }
 
 void add_equilibrium_keys(std::vector<Key>& keys) {
     using surface::Edge;
     using MaybeEdge = std::optional<Edge>;
-    keys.push_back(maybe("surface.mean_slope", "degrees", {0, 60, true},
-                         "equilibrium: mean slope of the land; left out, and no relief given: 25",
+    keys.push_back(maybe("surface.mean_slope", "degrees", {0, 60, true}, "mean slope of the terrain; left out: 25",
                          in_surface<std::optional<double>>(
                              [](SurfaceRecipe& s) -> std::optional<double>& { return s.equilibrium.mean_slope_deg; })));
     keys.push_back(number("surface.hillslope", "m", {0, 1e5},
-                          "equilibrium: length below which creep rounds the slopes, at least half a cell; 0: one cell",
+                          "length below which soil creep rounds the slopes, at least half a cell; 0: one cell",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.hillslope_m; })));
     keys.push_back(number("surface.floor_width", "", {0, 1},
-                          "equilibrium: half width of a valley floor in cells, over its drainage area in cells ^ 0.4",
+                          "half the width of a valley floor in cells, divided by (drainage area in cells) ^ 0.4",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.floor_width; })));
-    keys.push_back(number("surface.roughness", "", {0, 1},
-                          "equilibrium: how much the rock varies: standard deviation of the logarithm of erodibility",
+    keys.push_back(number("surface.roughness", "", {0, 1}, "standard deviation of the logarithm of erodibility",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.roughness; })));
     keys.push_back(choice<MaybeEdge>(
         "surface.edge",
         {{"auto", std::nullopt}, {"open", Edge::open}, {"closed", Edge::closed}, {"coast", Edge::coast}},
-        "equilibrium: beyond the edge the land goes on, or all water goes to the rivers, or there is sea; auto: "
-        "coast where there is sea, else open",
+        "boundary condition: the terrain continues (open), all water goes to the rivers (closed), or sea (coast); "
+        "auto: coast where there is sea, else open",
         in_surface<MaybeEdge>([](SurfaceRecipe& s) -> MaybeEdge& { return s.equilibrium.edge; })));
     keys.push_back(
-        text("surface.uplift", "file name", "equilibrium: raster on the grid, above 0; only its ratios count",
+        file("surface.uplift", "raster over the grid, values above 0; only ratios count",
              in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.equilibrium.uplift; })));
-    keys.push_back(
-        text("surface.erodibility", "file name",
-             "equilibrium: raster on the grid, above 0, or polygons with a field erodibility, 1 elsewhere",
-             in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.equilibrium.erodibility; })));
-    keys.push_back(text("surface.lakes", "file name", "equilibrium: polygons of lakes",
+    keys.push_back(file(
+        "surface.erodibility",
+        "raster over the grid, values above 0, or polygons with a field erodibility (1 elsewhere); only ratios count",
+        in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.equilibrium.erodibility; })));
+    keys.push_back(file("surface.lakes", "polygons of lakes",
                         in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.equilibrium.lakes; })));
     keys.push_back(number("surface.lake_share", "", {0, 1},
-                          "equilibrium: share of the reaches with enough water that run through a lake",
+                          "share of the reaches with enough water that run through a lake",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.lake_share; })));
 }
 
@@ -112,17 +110,18 @@ void add_surface_keys(std::vector<Key>& keys) {
          {"diffuse", Method::diffuse},
          {"tin", Method::tin},
          {"regress", Method::regress}},
-        "how the land is drawn: in equilibrium with its rivers, outward from its valleys, smoothly between rivers, "
-        "ridges and points, over their triangles, or as twelve terms through points",
+        "how the terrain is made: by landscape evolution around the rivers, by dilation from the valleys, by diffusion "
+        "between rivers, ridges and points, over a TIN, or by regression through points",
         in_surface<Method>([](SurfaceRecipe& s) -> Method& { return s.method; })));
     keys.push_back(choice<Base>("surface.base",
                                 {{"harmonic", Base::harmonic}, {"paper", Base::paper}, {"tin", Base::tin}},
-                                "dilate: height a slope rises from: that of the valleys around, of its valley cell as "
-                                "printed, or of the triangles below it",
+                                "heights that slopes rise from: a harmonic surface through the rivers, the nearest "
+                                "valley cell as published, or the TIN of the rivers",
                                 in_surface<Base>([](SurfaceRecipe& s) -> Base& { return s.base; })));
     {
         Key key = text(
-            "surface.increment", "uniform | decreasing | rise_fall | an expression in x", "dh of the x-th dilation",
+            "surface.increment", "uniform | decreasing | rise_fall | an expression in x",
+            "height increment dh of the x-th dilation",
             in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.dilate.increment.increment; }));
         key.help.choices = {"uniform", "decreasing", "rise_fall"};
         auto const put = key.put;
@@ -134,17 +133,16 @@ void add_surface_keys(std::vector<Key>& keys) {
     }
     keys.push_back(choice<surface::Metric>(
         "surface.metric", {{"cityblock", surface::Metric::cityblock}, {"euclid", surface::Metric::euclid}},
-        "distance to the valley: the paper's 4 neighbours, or straight",
+        "distance to the valley: over 4 neighbours as published, or Euclidean",
         in_surface<surface::Metric>([](SurfaceRecipe& s) -> surface::Metric& { return s.dilate.metric; })));
-    keys.push_back(number(
-        "surface.relief", "m", {0, 1e5},
-        "equilibrium: from the lowest to the highest cell, 0: by mean_slope; dilate: greatest sum of the increments, "
-        "0: the paper's units times the cell",
-        in_surface<double>([](SurfaceRecipe& s) -> double& { return s.dilate.relief_m; })));
+    keys.push_back(number("surface.relief", "m", {0, 1e5},
+                          "equilibrium: height from the lowest to the highest cell, 0: see mean_slope; dilate: "
+                          "greatest sum of the increments, 0: published units times the cell size",
+                          in_surface<double>([](SurfaceRecipe& s) -> double& { return s.dilate.relief_m; })));
     keys.push_back(
-        yes_no("surface.allow_negative", "let increments below zero stand",
+        yes_no("surface.allow_negative", "keep increments below 0",
                in_surface<bool>([](SurfaceRecipe& s) -> bool& { return s.dilate.increment.allow_negative; })));
-    keys.push_back(text("surface.mask", "file name", "raster on the grid: cells with 0 or no data are left out",
+    keys.push_back(file("surface.mask", "raster on the grid: cells with 0 or no data get no height",
                         in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.mask; })));
     add_equilibrium_keys(keys);
     using MaybeDrain = std::optional<surface::Drain>;
@@ -153,25 +151,26 @@ void add_surface_keys(std::vector<Key>& keys) {
                                        {"carve", surface::Drain::carve},
                                        {"fill", surface::Drain::fill},
                                        {"none", surface::Drain::none}},
-                                      "rivers keep their water, and depressions are cut or filled, or filled only; "
+                                      "hydrological conditioning: confine channels, then breach or fill depressions; "
                                       "auto: carve where there are rivers, else none",
                                       in_surface<MaybeDrain>([](SurfaceRecipe& s) -> MaybeDrain& { return s.drain; })));
     add_diffusion_keys(keys);
     keys.push_back(choice<Interpolation>(
         "surface.interpolation", {{"linear", Interpolation::linear}, {"natural", Interpolation::natural}},
-        "tin: flat triangles, or natural neighbours of points",
+        "linear in triangles, or natural neighbours",
         in_surface<Interpolation>([](SurfaceRecipe& s) -> Interpolation& { return s.interpolation; })));
-    keys.push_back(number("surface.frequency_x", "cycles", {0, 1e4}, "regress: f_x over the grid's width",
+    keys.push_back(number("surface.frequency_x", "cycles", {0, 1e4}, "f_x over the grid's width; 0 leaves its term out",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.regress.frequency_x; })));
-    keys.push_back(number("surface.frequency_y", "cycles", {0, 1e4}, "regress: f_y over the grid's height",
+    keys.push_back(number("surface.frequency_y", "cycles", {0, 1e4},
+                          "f_y over the grid's height; 0 leaves its term out",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.regress.frequency_y; })));
     keys.push_back(choice<SlopeMode>(
         "surface.slope_mode", {{"none", SlopeMode::none}, {"centre", SlopeMode::centre}, {"mean", SlopeMode::mean}},
-        "regress: the slope statistics.slope holds for nothing here, the middle of the grid, or its mean square",
+        "what statistics.slope constrains: nothing, the slope at the grid's centre, or the mean square slope",
         in_surface<SlopeMode>([](SurfaceRecipe& s) -> SlopeMode& { return s.regress.slope; })));
     keys.push_back(
         choice<EighthTerm>("surface.eighth_term", {{"x2y2", EighthTerm::x2y2}, {"x3y", EighthTerm::x3y}},
-                           "regress: the term whose exponents the paper lost",
+                           "the eighth term, whose exponents are illegible in Zhang, Liu and Li",
                            in_surface<EighthTerm>([](SurfaceRecipe& s) -> EighthTerm& { return s.regress.eighth; })));
 }
 
@@ -185,36 +184,36 @@ void add_statistics_keys(std::vector<Key>& keys) {
     };
     keys.push_back(maybe("statistics.mean", "m", {-1e6, 1e6}, "mean height",
                          in_statistics<MaybeNumber>([](StatisticsRecipe& s) -> MaybeNumber& { return s.mean; })));
-    keys.push_back(maybe("statistics.std", "m", {0, 1e6, true}, "standard deviation of the heights",
+    keys.push_back(maybe("statistics.std", "m", {0, 1e6, true}, "standard deviation of heights",
                          in_statistics<MaybeNumber>([](StatisticsRecipe& s) -> MaybeNumber& { return s.std; })));
     keys.push_back(numbers<Triple>(
         "statistics.max", "three numbers", "[z, column, row], columns and rows from 0 in the north-west", "m",
-        "the highest cell", in_statistics<MaybeTriple>([](StatisticsRecipe& s) -> MaybeTriple& { return s.max; }),
+        "highest cell", in_statistics<MaybeTriple>([](StatisticsRecipe& s) -> MaybeTriple& { return s.max; }),
         is_place));
     keys.push_back(numbers<Triple>(
         "statistics.min", "three numbers", "[z, column, row], columns and rows from 0 in the north-west", "m",
-        "the lowest cell", in_statistics<MaybeTriple>([](StatisticsRecipe& s) -> MaybeTriple& { return s.min; }),
+        "lowest cell", in_statistics<MaybeTriple>([](StatisticsRecipe& s) -> MaybeTriple& { return s.min; }),
         is_place));
     keys.push_back(numbers<Pair>(
         "statistics.length", "two numbers", "[Lx, Ly] above 0", "cells",
         "correlation lengths: where the autocorrelation falls to 1/e",
         in_statistics<std::optional<Pair>>([](StatisticsRecipe& s) -> std::optional<Pair>& { return s.length; }),
         [](Pair const& p) { return p[0] > 0.0 && p[1] > 0.0 && p[0] <= 1e6 && p[1] <= 1e6; }));
-    keys.push_back(maybe("statistics.slope", "rad", {0, 1.5707, true}, "mean arctan of the slope in metres a cell",
+    keys.push_back(maybe("statistics.slope", "rad", {0, 1.5707, true}, "mean arctan of the slope, in metres per cell",
                          in_statistics<MaybeNumber>([](StatisticsRecipe& s) -> MaybeNumber& { return s.slope; })));
     keys.push_back(maybe("statistics.dimension", "", {2.01, 2.99}, "fractal dimension",
                          in_statistics<MaybeNumber>([](StatisticsRecipe& s) -> MaybeNumber& { return s.dimension; })));
     keys.push_back(choice<Prior>(
         "statistics.skeleton",
         {{"grf", Prior::grf}, {"separable", Prior::separable}, {"markov3", Prior::markov3}, {"points", Prior::points}},
-        "the land that is brought to the statistics: a random one, or that of [skeleton]",
+        "terrain that is matched to the statistics: a random field, or that of the points of [skeleton]",
         in_statistics<Prior>([](StatisticsRecipe& s) -> Prior& { return s.skeleton; })));
     keys.push_back(number("statistics.reach", "cells", {0, 1e5},
-                          "R: within it separable, markov3 and points are drawn to the extremes",
+                          "R: distance within which heights are pulled towards max and min",
                           in_statistics<double>([](StatisticsRecipe& s) -> double& { return s.reach_cells; })));
     keys.push_back(choice<Falloff>("statistics.falloff",
                                    {{"continuous", Falloff::continuous}, {"literal", Falloff::literal}},
-                                   "how the pull ends at R: at nothing, or by a step as printed",
+                                   "pull at distance R: continuous to 0, or with a step as published",
                                    in_statistics<Falloff>([](StatisticsRecipe& s) -> Falloff& { return s.falloff; })));
 }
 
@@ -227,12 +226,14 @@ void add_detail_keys(std::vector<Key>& keys) {
         choice<DetailMethod>("detail.method", {{"midpoint", DetailMethod::midpoint}, {"none", DetailMethod::none}},
                              "fractal detail between every 2^levels-th cell",
                              in_detail<DetailMethod>([](DetailRecipe& d) -> DetailMethod& { return d.method; })));
-    keys.push_back(integer<int>("detail.levels", "", {1, 12}, "times the cells are halved",
+    keys.push_back(integer<int>("detail.levels", "", {1, 12}, "how often cells are halved",
                                 in_detail<int>([](DetailRecipe& d) -> int& { return d.midpoint.levels; })));
-    keys.push_back(maybe("detail.hurst", "", {0.05, 0.95}, "H, 3 less the dimension; left out: estimated",
+    keys.push_back(maybe("detail.hurst", "", {0.05, 0.95},
+                         "Hurst exponent H = 3 - fractal dimension; left out: estimated, with rivers 0.6",
                          in_detail<MaybeNumber>([](DetailRecipe& d) -> MaybeNumber& { return d.midpoint.hurst; })));
     keys.push_back(maybe("detail.sigma", "m", {0, 1e6},
-                         "root mean square difference of heights 2^levels cells apart; left out: estimated",
+                         "root mean square difference of heights 2^levels cells apart; left out: estimated, with "
+                         "rivers it must be given",
                          in_detail<MaybeNumber>([](DetailRecipe& d) -> MaybeNumber& { return d.midpoint.sigma; })));
     {
         Key key;
@@ -241,12 +242,12 @@ void add_detail_keys(std::vector<Key>& keys) {
                     "4 | 12 | 16",
                     "",
                     "",
-                    "neighbours a height is made of; 4 with the printed variance",
+                    "number of neighbours that a height is interpolated from; 4 with the published variance",
                     {"4", "12", "16"}};
         key.put = [](Recipe& r, Value const& v) {
             std::int64_t const n = as_integer(v);
             if (n != 4 && n != 12 && n != 16) {
-                throw BadParameter(fmt::format("{} is none of 4, 12, 16", n));
+                throw BadParameter(fmt::format("{} is not one of 4, 12, 16", n));
             }
             if (!r.detail) {
                 r.detail.emplace();
@@ -267,7 +268,7 @@ void add_detail_keys(std::vector<Key>& keys) {
                                  in_detail<Noise>([](DetailRecipe& d) -> Noise& { return d.midpoint.noise; })));
     keys.push_back(choice<Adaptation>(
         "detail.adaptation", {{"global", Adaptation::global}, {"local", Adaptation::local}},
-        "one H and sigma, or those of the surroundings where they differ",
+        "one H and sigma for the grid, or local ones where they differ",
         in_detail<Adaptation>([](DetailRecipe& d) -> Adaptation& { return d.midpoint.adaptation; })));
 }
 

@@ -50,18 +50,16 @@ void put_grid(DemRecipe& made, Grid const& grid) {
         }
         break;
     case io::GridUnit::degrees:
-        made.notes.push_back(
-            fmt::format("Its coordinates are geographic: the cells here are squares of {:.2f} m, as large "
-                        "as those in its middle row, in the default place.",
-                        cell.side_m));
+        made.notes.push_back(fmt::format("Its coordinates are geographic: cells here are squares of {:.2f} m, as large "
+                                         "as in its middle row, at the default origin.",
+                                         cell.side_m));
         break;
     case io::GridUnit::other:
         made.notes.emplace_back(
-            "Its coordinates are not projected metres: the cells here are its own in metres, in the "
-            "default place.");
+            "Its coordinates are not in metres: cells here have its size in metres, at the default origin.");
         break;
     case io::GridUnit::unknown:
-        made.notes.emplace_back("It has no coordinate system: its units are taken for metres, in the default place.");
+        made.notes.emplace_back("It has no coordinate system: its units are treated as metres, at the default origin.");
         break;
     }
 }
@@ -69,7 +67,7 @@ void put_grid(DemRecipe& made, Grid const& grid) {
 void put_statistics(DemRecipe& made, measure::Statistics const& s) {
     auto const put_known = [&](char const* path, double figure) {
         if (std::isnan(figure)) {
-            made.notes.push_back(fmt::format("{} is left out: the heights tell none", path));
+            made.notes.push_back(fmt::format("{} is left out: the heights do not determine it", path));
         } else {
             put(made, path, figure);
         }
@@ -88,16 +86,16 @@ void put_statistics(DemRecipe& made, measure::Statistics const& s) {
     for (auto const& [axis, length] : lengths) {
         if (std::isnan(length.cells)) {
             told = false;
-            made.notes.push_back(fmt::format("statistics.length is left out: the heights tell none along {}", axis));
+            made.notes.push_back(
+                fmt::format("statistics.length is left out: the heights do not determine it along {}", axis));
         }
     }
     if (told) {
         put(made, "statistics.length", Pair{s.lx.cells, s.ly.cells});
         for (auto const& [axis, length] : lengths) {
             if (length.extrapolated) {
-                made.notes.push_back(fmt::format("The length along {} is extrapolated: heights half the extent apart "
-                                                 "still go together.",
-                                                 axis));
+                made.notes.push_back(fmt::format(
+                    "The length along {} is extrapolated: heights half the extent apart are still correlated.", axis));
             }
         }
     }
@@ -109,19 +107,18 @@ void put_statistics(DemRecipe& made, measure::Statistics const& s) {
 
 DemRecipe recipe_of_dem(Raster<float> const& dem, measure::Statistics const& statistics, std::string const& source) {
     if (!(statistics.min.z < statistics.max.z)) {
-        throw BadInput(fmt::format("pipeline.recipe_of_dem: every height of {} is {} m: a plain has no statistics that "
-                                   "land could be made of",
-                                   source, statistics.max.z));
+        throw BadInput(
+            fmt::format("pipeline.recipe_of_dem: every height of {} is {} m: a flat DEM has no statistics to match",
+                        source, statistics.max.z));
     }
     DemRecipe made;
     made.notes.push_back(
-        in_one_line(fmt::format("Land with the statistics of {}, measured on {} cells.", source, statistics.cells)));
+        in_one_line(fmt::format("Terrain with the statistics of {}, measured on {} cells.", source, statistics.cells)));
     put(made, "output.title", in_one_line(std::filesystem::path(source).stem().string()));
     put_grid(made, dem.grid());
     if (statistics.nodata > 0) {
         made.notes.push_back(
-            fmt::format("{} cells of it hold no data: they count for nothing in the statistics, and the "
-                        "land covers them.",
+            fmt::format("{} of its cells have no data: the statistics leave them out, and the terrain covers them.",
                         statistics.nodata));
     }
     put_statistics(made, statistics);

@@ -60,7 +60,7 @@ std::vector<ReliefRow> relief_rows(LandRelief const& relief) {
         rows.push_back(std::move(row));
     }
     auto const mean = measure::mean_forms();
-    ReliefRow forms{"form_distance", "distance of geomorphons from real land", "", std::nullopt, {}, {}};
+    ReliefRow forms{"form_distance", "distance of geomorphons from the reference DEMs", "", std::nullopt, {}, {}};
     if (std::any_of(relief.land.forms.begin(), relief.land.forms.end(), [](double share) { return share > 0.0; })) {
         forms.value = measure::total_variation(relief.land.forms, mean);
     }

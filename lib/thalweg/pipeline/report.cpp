@@ -52,7 +52,8 @@ ordered_json dem(measure::Statistics const& s) {
 ordered_json checks_array(std::vector<Check> const& checks) {
     ordered_json out = ordered_json::array();
     for (Check const& c : checks) {
-        out.push_back({{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"ok", c.ok}});
+        out.push_back(
+            {{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"bound", word_of(c.bound)}, {"ok", c.ok}});
     }
     return out;
 }
@@ -317,6 +318,10 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
     report["repairs"] = findings_array(t.story.repairs);
     report["files"] = files;
     return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string checks_json(std::vector<Check> const& checks) {
+    return checks_array(checks).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 std::vector<std::string> files_of_report(std::string const& json) {

@@ -21,6 +21,9 @@ std::vector<std::string> files_of_report(std::string const& json);
 std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws = nullptr,
                             LandRelief const* relief = nullptr);
 
+/// Checks as one JSON array, as they stand under "checks" in report.json.
+std::string checks_json(std::vector<Check> const& checks);
+
 /// The version of thalweg, "0.1.0".
 std::string version();
 

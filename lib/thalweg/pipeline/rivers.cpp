@@ -25,23 +25,6 @@ namespace thalweg::pipeline {
 
 namespace {
 
-/// Types of rivers, where heights follow from them or they are asked for, written to the arcs.
-void assign_types(Planned& planned, Terrain& terrain, Run const& run) {
-    NetworkRecipe const& wanted = *terrain.recipe.network;
-    if (wanted.heights != Heights::rosgen && !(wanted.coast_m > 0.0)) {
-        return;
-    }
-    network::AssignTypesParams params;
-    params.choice = wanted.rosgen ? network::TypeChoice::one : network::TypeChoice::by_order;
-    params.one = wanted.rosgen.value_or(params.one);
-    params.coast_m = wanted.coast_m;
-    terrain.types = network::assign_types(planned.plan, network::order(planned.plan), params, run);
-    NetworkIndex const index(planned.plan);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        planned.plan[index.arcs[a]].type = network::name_of(terrain.types.type[a]);
-    }
-}
-
 RaisedNetwork raise(Planned const& planned, Terrain& terrain, Run const& run) {
     NetworkRecipe const& wanted = *terrain.recipe.network;
     if (planned.file_heights) {
@@ -77,12 +60,10 @@ void let_wander(Planned& planned, Terrain& terrain, Diary& diary, Run const& run
         return;
     }
     if (has_coast) {
-        throw BadParameter(
-            "network.meander: rivers that end on a coast stay where they grew, bent ones would leave the "
-            "land; leave meander out");
+        throw BadParameter("network.meander cannot bend rivers that end on a coast; leave it out");
     }
     if (planned.file_heights) {
-        throw BadParameter("network.meander: rivers whose file gives their heights stay where they are; set "
+        throw BadParameter("network.meander cannot bend rivers whose heights come from their file; set "
                            "network.heights = \"graded\" or leave meander out");
     }
     measure::ContributingAreas const areas = measure::areas_nearest(planned.plan, terrain.grid, run);
@@ -107,6 +88,22 @@ Planned plan(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
 }
 
 } // namespace
+
+void assign_types(StreamNetwork& plan, Terrain& terrain, Run const& run) {
+    NetworkRecipe const& wanted = *terrain.recipe.network;
+    if (wanted.heights != Heights::rosgen && !(wanted.coast_m > 0.0)) {
+        return;
+    }
+    network::AssignTypesParams params;
+    params.choice = wanted.rosgen ? network::TypeChoice::one : network::TypeChoice::by_order;
+    params.one = wanted.rosgen.value_or(params.one);
+    params.coast_m = wanted.coast_m;
+    terrain.types = network::assign_types(plan, network::order(plan), params, run);
+    NetworkIndex const index(plan);
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        plan[index.arcs[a]].type = network::name_of(terrain.types.type[a]);
+    }
+}
 
 void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     Recipe& recipe = terrain.recipe;
@@ -144,7 +141,7 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
 
     let_wander(planned, terrain, diary, run);
 
-    assign_types(planned, terrain, run);
+    assign_types(planned.plan, terrain, run);
     if (in_equilibrium(recipe) && rivers.heights == Heights::graded) { // their heights are the land's
         terrain.network.plan = std::move(planned.plan);
         return;

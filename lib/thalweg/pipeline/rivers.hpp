@@ -11,4 +11,8 @@ namespace thalweg::pipeline {
 /// Makes the network the recipe asks for, on its grid, with heights and the cells in which it runs.
 void make_rivers(Terrain& terrain, Diary& diary, Run const& run);
 
+/// Gives the rivers types, written to the arcs, where heights follow from them or the recipe asks for braided ones.
+/// To be repeated when arcs are added or removed: types that arcs have stay.
+void assign_types(StreamNetwork& plan, Terrain& terrain, Run const& run);
+
 } // namespace thalweg::pipeline

@@ -12,6 +12,7 @@
 #include <thalweg/pipeline/paste_patches.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/pipeline/rivers.hpp>
+#include <thalweg/pipeline/unused_keys.hpp>
 
 #include <fmt/format.h>
 
@@ -151,6 +152,7 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
     FeaturePoints points;
     if (wanted.network) {
         make_rivers(terrain, diary, run);
+        refuse_unused_keys(terrain.recipe); // now that the rivers' heights are known
         if (wanted.skeleton) {
             points = given_points(terrain.recipe, run);
         }

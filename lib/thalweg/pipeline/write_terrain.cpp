@@ -17,6 +17,7 @@
 #include <thalweg/pipeline/catchment_rows.hpp>
 #include <thalweg/pipeline/page.hpp>
 #include <thalweg/pipeline/pictures.hpp>
+#include <thalweg/pipeline/recipe_keys.hpp>
 #include <thalweg/pipeline/report.hpp>
 #include <thalweg/pipeline/split_areas.hpp>
 #include <thalweg/pipeline/user_data.hpp>
@@ -26,6 +27,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -69,37 +71,35 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
     return into + own;
 }
 
+/// The folder of a key's file: its own word, but for the two keys whose file is the thing itself.
+std::string folder_of(std::string const& path) {
+    std::string const word = path.substr(path.rfind('.') + 1);
+    return path == "network.lines.path" || path == "patch.source" ? "" : word + "/";
+}
+
+/// Copies the files that the keys of a recipe name, those of [[patch]] but of the last patch only.
+void keep_files(Recipe& recipe, std::string const& into, io::OutputFolder const& out,
+                std::function<bool(Key const&)> const& wanted) {
+    for (Key const& key : all_keys()) {
+        auto const value = key.help.is_file && wanted(key) ? key.take(recipe) : std::nullopt;
+        auto const* const name = value ? std::get_if<std::string>(&*value) : nullptr;
+        if (name != nullptr && !name->empty()) {
+            key.put(recipe, keep_input(out, recipe.folder, *name, into + folder_of(key.help.path)));
+        }
+    }
+}
+
+/// Copies every file the recipe names into inputs/ and gives the recipe that names the copies.
 Recipe keep_inputs(Terrain const& terrain, io::OutputFolder const& out) {
     Recipe recipe = terrain.recipe;
-    if (recipe.network && recipe.network->source == Source::lines) {
-        recipe.network->lines.path = keep_input(out, recipe.folder, recipe.network->lines.path, "inputs/");
-    }
-    if (recipe.surface && !recipe.surface->mask.empty()) {
-        recipe.surface->mask = keep_input(out, recipe.folder, recipe.surface->mask, "inputs/mask/");
-    }
-    if (recipe.skeleton && !recipe.skeleton->points.empty()) {
-        recipe.skeleton->points = keep_input(out, recipe.folder, recipe.skeleton->points, "inputs/points/");
-    }
-    TokunagaRecipe* const tokunaga = recipe.network ? &recipe.network->tokunaga : nullptr;
-    if (tokunaga != nullptr && !tokunaga->strokes.empty()) {
-        tokunaga->strokes = keep_input(out, recipe.folder, tokunaga->strokes, "inputs/strokes/");
-    }
-    if (tokunaga != nullptr && !tokunaga->region.empty()) {
-        tokunaga->region = keep_input(out, recipe.folder, tokunaga->region, "inputs/region/");
-    }
-    ForestRecipe* const forest = recipe.network ? &recipe.network->forest : nullptr;
-    if (forest != nullptr && !forest->region.empty()) {
-        forest->region = keep_input(out, recipe.folder, forest->region, "inputs/region/");
-    }
-    if (forest != nullptr && !forest->outlets.empty()) {
-        forest->outlets = keep_input(out, recipe.folder, forest->outlets, "inputs/outlets/");
-    }
+    auto const of_patch = [](Key const& key) { return key.section() == "patch"; };
+    keep_files(recipe, "inputs/", out, [&](Key const& key) { return !of_patch(key) && key.use.holds(recipe); });
     for (std::size_t i = 0; i < recipe.patches.size(); ++i) {
-        PatchRecipe& patch = recipe.patches[i];
-        patch.source = keep_input(out, recipe.folder, patch.source, fmt::format("inputs/patch{}/", i + 1));
-        if (!patch.mask.empty()) {
-            patch.mask = keep_input(out, recipe.folder, patch.mask, fmt::format("inputs/patch{}/mask/", i + 1));
-        }
+        Recipe one;
+        one.folder = recipe.folder;
+        one.patches.push_back(recipe.patches[i]);
+        keep_files(one, fmt::format("inputs/patch{}/", i + 1), out, of_patch);
+        recipe.patches[i] = one.patches.front();
     }
     recipe.folder.clear();
     return recipe;

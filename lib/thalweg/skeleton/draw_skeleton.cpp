@@ -109,7 +109,7 @@ Raster<float> drawn_points(FeaturePoints const& points, Grid const& grid) {
     Raster<float> z(grid, std::numeric_limits<float>::quiet_NaN());
     if (!points.crs.empty() && !grid.crs.empty() && points.crs != grid.crs) {
         throw BadInput(
-            fmt::format("skeleton.draw_skeleton: the points are in {}, the valley in {}; bring them into one",
+            fmt::format("skeleton.draw_skeleton: the points are in {}, the valley in {}; reproject one of them",
                         points.crs, grid.crs));
     }
     for (std::size_t number = 1; Vec3 const& p : points.points) {

@@ -6,20 +6,18 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <libnoise/noise.h>
 
 #include <thalweg/core/chance.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/skeleton/perlin.hpp>
 
 namespace thalweg::skeleton {
 
 namespace {
 
 constexpr std::uint64_t noise_stage = 0x6e6f697365616c31; // "noiseal1"
-constexpr int octaves = 4;
-constexpr double gain = 0.5;
-constexpr double sum_of_gains = 1.875;
-constexpr double widest_shift = 256.0; // [wavelengths] after which libnoise repeats itself
+constexpr double sum_of_gains = 1.875;                    // of four octaves
+constexpr double widest_shift = 256.0;                    // [wavelengths] after which libnoise repeats itself
 
 void demand(NoiseAlongParams const& params) {
     if (!(params.amplitude_m >= 0.0) || !std::isfinite(params.amplitude_m)) {
@@ -52,30 +50,27 @@ Vec2 scaled(PlaceOnLine const& place, std::size_t number, Vec2 origin, double wa
 
 std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 origin, NoiseAlongParams const& params,
                                 Run const& run) {
-    constexpr std::size_t places_between_checks = 65536;
     demand(params);
+    run.check();
     auto const words = chance_block(params.seed, noise_stage);
-    noise::module::Perlin field;
-    field.SetSeed(static_cast<int>(words[0] >> 33U));
-    field.SetOctaveCount(octaves);
-    field.SetPersistence(gain);
-    field.SetLacunarity(2.0);
     // libnoise folds its seed to 16 bits, and its noise is 0 wherever coordinates are whole.
     double const shift_x = widest_shift * unit(words[1]);
     double const shift_y = widest_shift * unit(words[2]);
     double const level = unit(words[3]);
-    std::vector<double> noise(places.size(), 0.0);
+    std::vector<Vec3> shifted(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
-        if (i % places_between_checks == 0) {
-            run.check();
-        }
         Vec2 const at = scaled(places[i], i, origin, params.wavelength_m);
-        if (params.amplitude_m > 0.0) {
-            double const f = field.GetValue(at.x + shift_x, at.y + shift_y, level);
-            // What libnoise calls 1 is passed now and then.
-            double const share = places[i].share;
-            noise[i] = params.amplitude_m * std::clamp(f / sum_of_gains, -1.0, 1.0) * (4.0 * share * (1.0 - share));
-        }
+        shifted[i] = {at.x + shift_x, at.y + shift_y, level};
+    }
+    std::vector<double> noise(places.size(), 0.0);
+    if (!(params.amplitude_m > 0.0)) {
+        return noise;
+    }
+    noise = perlin(shifted, static_cast<int>(words[0] >> 33U), run);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        // What libnoise calls 1 is passed now and then.
+        double const share = places[i].share;
+        noise[i] = params.amplitude_m * std::clamp(noise[i] / sum_of_gains, -1.0, 1.0) * (4.0 * share * (1.0 - share));
     }
     return noise;
 }

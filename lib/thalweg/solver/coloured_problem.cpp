@@ -14,10 +14,6 @@
 namespace thalweg::solver {
 namespace {
 
-constexpr auto outside = static_cast<std::uint8_t>(CellKind::outside);
-constexpr auto free_cell = static_cast<std::uint8_t>(CellKind::free);
-constexpr auto fixed = static_cast<std::uint8_t>(CellKind::fixed);
-
 Contents contents(GridProblem const& problem, Run const& run) {
     bool const laplace = problem.source.cells() == 0;
     std::int64_t const width = problem.kind.width();
@@ -25,7 +21,7 @@ Contents contents(GridProblem const& problem, Run const& run) {
         Contents c;
         for (std::int64_t i = row * width; i < (row + 1) * width; ++i) {
             double const value = problem.value[i];
-            if (problem.kind[i] == fixed) {
+            if (problem.kind[i] == fixed_cell) {
                 ++c.fixed;
                 c.least = std::min(c.least, value);
                 c.greatest = std::max(c.greatest, value);
@@ -42,7 +38,7 @@ Contents contents(GridProblem const& problem, Run const& run) {
                 }
             } else {
                 ++c.outside;
-                c.bad = problem.kind[i] == outside ? c.bad : std::min(c.bad, i);
+                c.bad = problem.kind[i] == outside_cell ? c.bad : std::min(c.bad, i);
             }
         }
         return c;
@@ -88,7 +84,7 @@ void spread(GridProblem const& problem, FreeCells free, TwoColours<double>& x, R
             auto const value = problem.value.row(y);
             double* const of[2] = {x.of[Board::first(y, 0)].row(y), x.of[1 - Board::first(y, 0)].row(y)};
             for (std::size_t i = 0; i < kind.size(); ++i) {
-                bool const taken = kind[i] == fixed || (kind[i] == free_cell && free == FreeCells::guess);
+                bool const taken = kind[i] == fixed_cell || (kind[i] == free_cell && free == FreeCells::guess);
                 of[i & 1][i / 2] = taken ? value[i] : 0.0;
             }
         }

@@ -17,7 +17,7 @@ namespace thalweg::solver {
 namespace {
 
 // So many columns are gathered at once that what is read of a row fills cache lines.
-constexpr std::int64_t columns_at_once = 8;
+constexpr std::int64_t columns_a_bundle = 8;
 
 } // namespace
 
@@ -85,16 +85,16 @@ Raster<Complex> fft(Raster<Complex> values, Direction direction, Run const& run)
         }
     });
     LineTransform const along_column(height, direction);
-    std::int64_t const bundles = (width + columns_at_once - 1) / columns_at_once;
+    std::int64_t const bundles = (width + columns_a_bundle - 1) / columns_a_bundle;
     parallel_ranges(run, bundles, 1, [&](std::int64_t begin, std::int64_t end) {
         LineTransform transform = along_column;
         auto const length = static_cast<std::size_t>(height);
-        std::vector<Complex> columns(length * columns_at_once);
+        std::vector<Complex> columns(length * columns_a_bundle);
         std::vector<Complex> line(length);
         for (std::int64_t b = begin; b < end; ++b) {
             run.check();
-            std::int64_t const first = b * columns_at_once;
-            auto const count = static_cast<std::size_t>(std::min(columns_at_once, width - first));
+            std::int64_t const first = b * columns_a_bundle;
+            auto const count = static_cast<std::size_t>(std::min(columns_a_bundle, width - first));
             for (std::size_t r = 0; r < length; ++r) {
                 for (std::size_t c = 0; c < count; ++c) {
                     columns[c * length + r] =

@@ -33,21 +33,20 @@ struct Equations {
 };
 
 Padded<std::uint8_t> degrees(Raster<std::uint8_t> const& kind, Board const& board, Run const& run) {
-    constexpr auto outside = static_cast<std::uint8_t>(CellKind::outside);
-    constexpr auto free = static_cast<std::uint8_t>(CellKind::free);
     Padded<std::uint8_t> degree(board);
     parallel_ranges(run, board.height, 64, [&](std::int64_t begin, std::int64_t end) {
         // No row beyond the border: all of it is outside.
-        std::vector<std::uint8_t> const nothing(static_cast<std::size_t>(board.width), outside);
+        std::vector<std::uint8_t> const nothing(static_cast<std::size_t>(board.width), outside_cell);
         for (std::int64_t y = begin; y < end; ++y) {
             std::uint8_t const* const here = kind.row(y).data();
             std::uint8_t const* const above = y > 0 ? kind.row(y - 1).data() : nothing.data();
             std::uint8_t const* const below = y + 1 < board.height ? kind.row(y + 1).data() : nothing.data();
             std::uint8_t* __restrict const to = degree.row(y);
             auto const count = [&](std::int64_t x, bool left, bool right) {
-                int const sides = (left && here[x - 1] != outside ? 1 : 0) + (right && here[x + 1] != outside ? 1 : 0);
-                int const all = sides + (above[x] != outside ? 1 : 0) + (below[x] != outside ? 1 : 0);
-                to[x] = here[x] == free ? static_cast<std::uint8_t>(all) : std::uint8_t{0};
+                int const sides =
+                    (left && here[x - 1] != outside_cell ? 1 : 0) + (right && here[x + 1] != outside_cell ? 1 : 0);
+                int const all = sides + (above[x] != outside_cell ? 1 : 0) + (below[x] != outside_cell ? 1 : 0);
+                to[x] = here[x] == free_cell ? static_cast<std::uint8_t>(all) : std::uint8_t{0};
             };
             count(0, false, board.width > 1);
             for (std::int64_t x = 1; x + 1 < board.width; ++x) {

@@ -25,7 +25,7 @@ constexpr std::int64_t most_blocks = 64;
 constexpr std::size_t few_weights = 16;
 
 /// A DEM as lines along an axis.
-struct Lines {
+struct LinesOfDem {
     Raster<float> const& dem;
     double datum;
     Axis axis;
@@ -88,7 +88,7 @@ struct Power {
 /// Sums of products at the lags [0, lags] of what read(first, pairs) gives: the spectra's squares, added up and
 /// transformed back once. Of a + ib the real part holds the products of a with a and of b with b.
 template <class Read>
-std::vector<double> lagged(Lines const& lines, std::int64_t lags, Run const& run, Read const& read) {
+std::vector<double> lagged(LinesOfDem const& lines, std::int64_t lags, Run const& run, Read const& read) {
     std::int64_t const size = good_size(lines.length() + lags);
     LineTransform const prepared(size, Direction::forward);
     std::int64_t const bundles = (lines.count() + lines_at_once - 1) / lines_at_once;
@@ -120,7 +120,7 @@ std::vector<double> lagged(Lines const& lines, std::int64_t lags, Run const& run
     return result;
 }
 
-void weigh_few(Lines const& lines, std::vector<double> const& weights, Raster<double>& sums, Run const& run) {
+void weigh_few(LinesOfDem const& lines, std::vector<double> const& weights, Raster<double>& sums, Run const& run) {
     std::int64_t const step = lines.axis == Axis::rows ? 1 : lines.dem.width();
     std::int64_t const width = lines.dem.width();
     parallel_ranges(run, lines.dem.height(), 8, [&](std::int64_t begin, std::int64_t end) {
@@ -144,7 +144,7 @@ void weigh_few(Lines const& lines, std::vector<double> const& weights, Raster<do
     });
 }
 
-void weigh_many(Lines const& lines, std::vector<double> const& weights, Raster<double>& sums, Run const& run) {
+void weigh_many(LinesOfDem const& lines, std::vector<double> const& weights, Raster<double>& sums, Run const& run) {
     std::int64_t const size = good_size(lines.length() + static_cast<std::int64_t>(weights.size()));
     LineTransform const there(size, Direction::forward);
     LineTransform const back(size, Direction::inverse);
@@ -190,7 +190,7 @@ void weigh_many(Lines const& lines, std::vector<double> const& weights, Raster<d
 } // namespace
 
 LagSums lag_sums(Raster<float> const& dem, double datum, Axis axis, std::int64_t lags, Run const& run) {
-    Lines const lines{dem, datum, axis};
+    LinesOfDem const lines{dem, datum, axis};
     LagSums sums;
     sums.products =
         lagged(lines, lags, run, [&](std::int64_t first, std::vector<Line>& pairs) { lines.heights(first, pairs); });
@@ -212,7 +212,7 @@ LagSums lag_sums(Raster<float> const& dem, double datum, Axis axis, std::int64_t
 
 Raster<double> weigh_lags(Raster<float> const& dem, double datum, Axis axis, std::vector<double> const& weights,
                           Run const& run) {
-    Lines const lines{dem, datum, axis};
+    LinesOfDem const lines{dem, datum, axis};
     Raster<double> sums(dem.grid());
     auto const zeros = static_cast<std::size_t>(std::count(weights.begin(), weights.end(), 0.0));
     if (weights.size() - zeros <= few_weights) {

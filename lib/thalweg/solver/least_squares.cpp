@@ -33,7 +33,7 @@ void demand(Matrix const& a, std::vector<double> const& b) {
     }
     auto const finite = [](double v) { return std::isfinite(v); };
     if (!std::all_of(a.values.begin(), a.values.end(), finite) || !std::all_of(b.begin(), b.end(), finite)) {
-        throw BadInput("solver.least_squares: matrix or right side holds what is no number");
+        throw BadInput("solver.least_squares: matrix or right side holds a value that is not a number");
     }
 }
 

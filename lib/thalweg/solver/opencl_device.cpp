@@ -120,9 +120,9 @@ std::string lines_of(std::vector<Found> const& all) {
 
 Found choose(std::vector<Found> const& all) {
     if (all.empty()) {
-        throw BadParameter(
-            "solver: --device opencl: no OpenCL platform with a device was found; install an OpenCL driver "
-            "(Debian: pocl-opencl-icd) or leave --device out");
+        throw BadParameter("solver.opencl_device: --device opencl: no OpenCL platform with a device was found; install "
+                           "an OpenCL driver "
+                           "(Debian: pocl-opencl-icd) or leave --device out");
     }
     if (char const* const wanted = std::getenv(variable); wanted != nullptr) {
         for (Found const& found : all) {
@@ -130,14 +130,14 @@ Found choose(std::vector<Found> const& all) {
                 continue;
             }
             if (!found.fault.empty()) {
-                throw BadParameter(fmt::format("solver: --device opencl: {}={}, {}, cannot be used: {}", variable,
-                                               wanted, found.name, found.fault));
+                throw BadParameter(fmt::format("solver.opencl_device: --device opencl: {}={}, {}, cannot be used: {}",
+                                               variable, wanted, found.name, found.fault));
             }
             return found;
         }
-        throw BadParameter(
-            fmt::format("solver: --device opencl: {}='{}' names no device: write platform:device as in {}", variable,
-                        wanted, lines_of(all)));
+        throw BadParameter(fmt::format(
+            "solver.opencl_device: --device opencl: {}='{}' names no device: write platform:device as in {}", variable,
+            wanted, lines_of(all)));
     }
     for (cl_device_type const type : {cl_device_type{CL_DEVICE_TYPE_GPU}, cl_device_type{CL_DEVICE_TYPE_ACCELERATOR},
                                       cl_device_type{CL_DEVICE_TYPE_CPU}, cl_device_type{CL_DEVICE_TYPE_ALL}}) {
@@ -147,8 +147,8 @@ Found choose(std::vector<Found> const& all) {
             }
         }
     }
-    throw BadParameter(
-        fmt::format("solver: --device opencl: no device can be used: {}; leave --device out", lines_of(all)));
+    throw BadParameter(fmt::format(
+        "solver.opencl_device: --device opencl: no device can be used: {}; leave --device out", lines_of(all)));
 }
 
 } // namespace
@@ -179,8 +179,9 @@ OpenClDevice const& opencl_device() {
     cl_int code = CL_SUCCESS;
     cl_context const context = clCreateContext(properties.data(), 1, &found.id, nullptr, nullptr, &code);
     if (code != CL_SUCCESS) {
-        throw IoError(fmt::format("solver: --device opencl: {} gives no context: {}; leave --device out", found.name,
-                                  opencl_error_name(code)));
+        throw IoError(
+            fmt::format("solver.opencl_device: --device opencl: {} cannot create a context: {}; leave --device out",
+                        found.name, opencl_error_name(code)));
     }
     OpenClDevice device;
     device.device = found.id;

@@ -16,6 +16,11 @@ enum class CellKind : std::uint8_t {
     fixed    ///< keeps its value
 };
 
+/// The same as a raster of kinds holds them.
+inline constexpr auto outside_cell = static_cast<std::uint8_t>(CellKind::outside);
+inline constexpr auto free_cell = static_cast<std::uint8_t>(CellKind::free);
+inline constexpr auto fixed_cell = static_cast<std::uint8_t>(CellKind::fixed);
+
 /// Poisson's equation on the cells of a grid.
 struct GridProblem {
     Raster<std::uint8_t> kind; ///< CellKind

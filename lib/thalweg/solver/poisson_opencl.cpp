@@ -17,8 +17,7 @@ namespace thalweg::solver {
 
 namespace {
 
-constexpr char const* stage = "solver.solve_poisson";
-constexpr auto free_cell = static_cast<std::uint8_t>(CellKind::free);
+constexpr char const* poisson_stage = "solver.solve_poisson";
 
 template <class Change> void change_free(GridProblem& problem, Change change) {
     for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
@@ -61,7 +60,7 @@ GridSolution iterate(DeviceEquations& equations, double height, PoissonParams co
                 if (norm > 0.5 * counted) {
                     throw NotConverged(fmt::format("{}: the residual stays at {:.3g} of what it was, where double has "
                                                    "no more digits; a tolerance of {:.3g} is out of reach",
-                                                   stage, norm, params.tolerance));
+                                                   poisson_stage, norm, params.tolerance));
                 }
                 counted = norm;
                 equations.begin_anew();
@@ -71,7 +70,7 @@ GridSolution iterate(DeviceEquations& equations, double height, PoissonParams co
         if (solution.iterations >= params.most_iterations) {
             throw NotConverged(fmt::format("{}: after {} iterations the residual is {:.3g} of what it was instead of "
                                            "{:.3g}; ask for less or allow more of them",
-                                           stage, solution.iterations, norm, params.tolerance));
+                                           poisson_stage, solution.iterations, norm, params.tolerance));
         }
         norm = equations.advance();
     }
@@ -85,7 +84,8 @@ GridSolution solve_poisson_opencl(GridProblem problem, Contents const& contents,
     if (contents.free > 0) {
         bool const guessed = contents.guesses > 0 && contents.unknown == 0;
         double const scale = scale_of(contents);
-        DeviceEquations equations(problem, {guessed, contents.sum / static_cast<double>(contents.fixed), scale}, stage);
+        DeviceEquations equations(problem, {guessed, contents.sum / static_cast<double>(contents.fixed), scale},
+                                  poisson_stage);
         if (equations.zero_norm() > 0.0) {
             double const height = std::max(std::fabs(contents.least), std::fabs(contents.greatest));
             solution = iterate(equations, height * scale, params, run);

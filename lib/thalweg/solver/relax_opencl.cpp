@@ -12,7 +12,7 @@ namespace thalweg::solver {
 
 namespace {
 
-constexpr char const* stage = "solver.relax_explicit";
+constexpr char const* relax_stage = "solver.relax_explicit";
 
 /// Sweeps that are queued before the host looks whether it shall stop: about a tenth of a second on slow devices.
 std::int64_t batch(std::int64_t cells) {
@@ -27,11 +27,11 @@ void relax_opencl(GridProblem& problem, double alpha, std::int64_t sweeps, Run c
     if (cells == 0 || sweeps == 0) {
         return;
     }
-    DeviceQueue queue(stage, relax_kernels());
+    DeviceQueue queue(relax_stage, relax_kernels());
     // The last group may reach beyond the cells, and from there asks for neighbours.
     std::int64_t const margin = grid.width + static_cast<std::int64_t>(DeviceQueue::group);
     std::int64_t const block = (cells + 2 * margin) * static_cast<std::int64_t>(sizeof(double));
-    check_device_memory(queue.device(), stage, 2 * block + 2 * cells, block);
+    check_device_memory(queue.device(), relax_stage, 2 * block + 2 * cells, block);
 
     auto sides = queue.zeros<std::uint8_t>(cells + 2 * margin);
     queue.run("find_sides", grid.width, grid.height, queue.copy_of(std::as_const(problem.kind).values()), grid.width,

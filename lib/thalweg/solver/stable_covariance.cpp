@@ -36,7 +36,7 @@ void check(StableCovariance const& covariance, char const* stage) {
         }
     }
     if (!(covariance.dimension > 2.0 && covariance.dimension < 3.0)) {
-        throw BadParameter(fmt::format("{}: a fractal dimension of {}; that of a land lies between 2 and 3", stage,
+        throw BadParameter(fmt::format("{}: a fractal dimension of {}; that of a surface lies between 2 and 3", stage,
                                        covariance.dimension));
     }
     if (!(covariance.fine_share >= 0.0 && covariance.fine_share < 1.0)) {

@@ -8,9 +8,6 @@
 namespace thalweg::solver {
 namespace {
 
-constexpr auto outside = static_cast<std::uint8_t>(CellKind::outside);
-constexpr auto fixed = static_cast<std::uint8_t>(CellKind::fixed);
-
 /// Spans of cells that are not outside, joined to parts; the root of a part knows whether it has a fixed cell.
 struct Parts {
     std::vector<CellSpan> spans;
@@ -36,12 +33,12 @@ void add_spans(Raster<std::uint8_t> const& kind, std::int64_t row, Parts& parts)
     auto const cells = kind.row(row);
     auto const past = cells.end();
     for (auto at = cells.begin(); at != past;) {
-        auto const begin = std::find_if(at, past, [](std::uint8_t k) { return k != outside; });
-        at = std::find(begin, past, outside);
+        auto const begin = std::find_if(at, past, [](std::uint8_t k) { return k != outside_cell; });
+        at = std::find(begin, past, outside_cell);
         if (begin != at) {
             parts.parent.push_back(parts.spans.size());
             parts.spans.push_back({row, begin - cells.begin(), at - cells.begin()});
-            parts.has_fixed.push_back(std::find(begin, at, fixed) != at ? 1 : 0);
+            parts.has_fixed.push_back(std::find(begin, at, fixed_cell) != at ? 1 : 0);
         }
     }
 }

@@ -94,9 +94,9 @@ void check_order(Channels const& rivers) {
             Cell const a = grid.at(cell);
             Cell const b = grid.at(rivers.cell[static_cast<std::size_t>(receiver)]);
             if (std::max(std::abs(a.col - b.col), std::abs(a.row - b.row)) != 1) {
-                throw BadInput(fmt::format("surface.equilibrium: river cell {} at {} flows to {}, which is no "
-                                           "neighbour",
-                                           n, place(grid, cell), place(grid, grid.index(b))));
+                throw BadInput(
+                    fmt::format("surface.equilibrium: river cell {} at {} flows to {}, which is not a neighbour", n,
+                                place(grid, cell), place(grid, grid.index(b))));
             }
         }
     }
@@ -140,7 +140,7 @@ void check_field(Grid const& grid, Raster<float> const& field, Mask const& land,
 }
 
 /// Heights may not rise downstream, also from one that is given to the next, past cells without.
-void check_heights(Channels const& rivers) {
+void check_channel_heights(Channels const& rivers) {
     float const none = std::numeric_limits<float>::quiet_NaN();
     std::vector<float> below(rivers.z.size(), none); // height of the nearest cell downstream that has one, itself first
     for (std::size_t n = 0; n < rivers.z.size(); ++n) {
@@ -169,7 +169,7 @@ void check_equilibrium(Channels const& rivers, EquilibriumFields const& fields, 
     check_land(rivers, fields.land);
     check_field(rivers.grid, fields.uplift, fields.land, "uplift");
     check_field(rivers.grid, fields.erodibility, fields.land, "erodibility");
-    check_heights(rivers);
+    check_channel_heights(rivers);
 }
 
 } // namespace thalweg::surface

@@ -77,12 +77,12 @@ void add_noise(Raster<std::uint8_t> const& kind, Raster<float> const& z, Diffuse
     Grid const& grid = kind.grid();
     Valley skeleton{Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        skeleton.z[i] = kind[i] == static_cast<std::uint8_t>(solver::CellKind::fixed) ? z[i] : skeleton.z[i];
+        skeleton.z[i] = kind[i] == solver::fixed_cell ? z[i] : skeleton.z[i];
     }
     Raster<std::int64_t> const nearest = nearest_valley_cells(skeleton, run);
     parallel_ranges(run, grid.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin * grid.width; i < end * grid.width; ++i) {
-            if (kind[i] == static_cast<std::uint8_t>(solver::CellKind::free)) {
+            if (kind[i] == solver::free_cell) {
                 Cell const here = grid.at(i);
                 Cell const there = grid.at(nearest[i]);
                 auto const across = static_cast<double>(here.col - there.col);

@@ -20,12 +20,11 @@ namespace {
 
 constexpr float nan_height = std::numeric_limits<float>::quiet_NaN();
 
-void check_params(DilateParams const& params) {
+void check_dilate_params(DilateParams const& params) {
     if (!(params.relief_m >= 0.0 && std::isfinite(params.relief_m))) {
-        throw BadParameter(
-            fmt::format("surface.dilate: relief is {} m; give a finite height above 0, or 0 for the papers' "
-                        "units",
-                        params.relief_m));
+        throw BadParameter(fmt::format("surface.dilate: relief is {} m; give a finite height above 0, or 0 for the "
+                                       "units of Cao, Long and Lü (2009)",
+                                       params.relief_m));
     }
     increments(0, params.increment); // what cannot be read is refused before the work
 }
@@ -76,7 +75,7 @@ std::vector<double> use_increments(Dilated& dilated, double greatest, DilatePara
     return sums;
 }
 
-double greatest_height(Raster<float> const& valley) {
+double greatest_of_valley(Raster<float> const& valley) {
     float greatest = 0.0F;
     for (float const z : valley.values()) {
         greatest = std::fabs(z) > greatest ? std::fabs(z) : greatest;
@@ -127,7 +126,7 @@ Dilated dilate_masked(Valley const& valley, Mask const& inside, DilateParams con
     Dilated dilated;
     dilated.dem = std::move(expansion.base);
     dilated.levels = *std::max_element(level.values().begin(), level.values().end());
-    double const greatest = greatest_height(dilated.dem);
+    double const greatest = greatest_of_valley(dilated.dem);
     std::vector<double> const above_valley = use_increments(dilated, greatest, params);
     for (std::int64_t i = 0; i < level.cells(); ++i) {
         if (level[i] > 0) {
@@ -180,7 +179,7 @@ Dilated dilate_euclid(Valley valley, Mask const& inside, DilateParams const& par
             top = std::max(top, sum_at(distance_cells(grid, i, nearest[i]), dilated.increments, units));
         }
     }
-    std::vector<double> const sums = to_metres(dilated.increments, top, greatest_height(valley.z), params, grid);
+    std::vector<double> const sums = to_metres(dilated.increments, top, greatest_of_valley(valley.z), params, grid);
     dilated.rise_m = farthest > 0.0 ? top * metres_per_unit(top, params, grid) : 0.0;
     dilated.dem = valley.z;
     parallel_ranges(run, grid.height, 64, [&](std::int64_t first, std::int64_t last) {
@@ -202,7 +201,7 @@ Dilated dilate_euclid(Valley valley, Mask const& inside, DilateParams const& par
 
 Dilated dilate(Valley const& valley, DilateParams const& params, Run const& run) {
     Grid const& grid = valley.z.grid();
-    check_params(params);
+    check_dilate_params(params);
     check_frame(grid);
     run.at(0.0, "dilate");
     if (params.metric == Metric::euclid) {
@@ -213,7 +212,7 @@ Dilated dilate(Valley const& valley, DilateParams const& params, Run const& run)
 }
 
 Dilated dilate(Valley const& valley, Mask const& inside, DilateParams const& params, Run const& run) {
-    check_params(params);
+    check_dilate_params(params);
     check_frame(valley.z.grid());
     check_mask(valley.z.grid(), inside.grid());
     run.at(0.0, "dilate");

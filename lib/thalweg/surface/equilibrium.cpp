@@ -124,7 +124,7 @@ public:
         int const rounds = rounds_of(number, levels);
         bool const given = !level.rivers.asked.empty();
         for (int round = 0; round < rounds; ++round) {
-            run_.at(share_done(number, round, rounds), "equilibrium");
+            run_.at(share_done(number, round, rounds), "fill");
             if (round > 0) {
                 set_edge_heights(level, edge);
                 if (!shortened_.empty()) {

@@ -15,12 +15,12 @@
 namespace thalweg::surface {
 namespace {
 
-struct Edge {
+struct OuterEdge {
     Vec3 a;
     Vec3 b;
 };
 
-std::vector<Edge> outer_edges(Tin const& tin) {
+std::vector<OuterEdge> outer_edges(Tin const& tin) {
     using Half = std::array<std::uint32_t, 3>; // lower end, upper end, triangle
     std::vector<Half> halves;
     halves.reserve(3 * tin.triangles.size());
@@ -42,7 +42,7 @@ std::vector<Edge> outer_edges(Tin const& tin) {
         }
     }
     std::ranges::sort(outer, {}, [](Half const& h) { return h[2]; });
-    std::vector<Edge> edges;
+    std::vector<OuterEdge> edges;
     for (Half const& h : outer) {
         edges.push_back({tin.vertices[h[0]], tin.vertices[h[1]]});
     }
@@ -71,7 +71,7 @@ struct Box {
 // A tree of boxes over the edges, halved by their middles along the longer side.
 class Nearest {
 public:
-    explicit Nearest(std::vector<Edge> edges) : edges_(std::move(edges)), order_(edges_.size()) {
+    explicit Nearest(std::vector<OuterEdge> edges) : edges_(std::move(edges)), order_(edges_.size()) {
         for (std::size_t i = 0; i < order_.size(); ++i) {
             order_[i] = i;
         }
@@ -142,7 +142,7 @@ private:
     }
 
     void look(std::size_t number, Vec2 p, Found& found) const {
-        Edge const& e = edges_[number];
+        OuterEdge const& e = edges_[number];
         double const dx = e.b.x - e.a.x;
         double const dy = e.b.y - e.a.y;
         double const t = std::clamp(((p.x - e.a.x) * dx + (p.y - e.a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
@@ -154,7 +154,7 @@ private:
         }
     }
 
-    std::vector<Edge> edges_;
+    std::vector<OuterEdge> edges_;
     std::vector<std::size_t> order_;
     std::vector<Branch> tree_;
 };

@@ -14,7 +14,6 @@
 namespace thalweg::surface {
 
 void flood(Raster<float>& land, Raster<float> const& rivers, Lakes lakes, Run const& run) {
-    constexpr std::int64_t cells_between_checks = 1 << 18;
     Mask reached(land.grid());
     auto const offsets = d8_offsets(land.grid());
     FloodQueue queue;

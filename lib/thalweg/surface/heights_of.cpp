@@ -11,9 +11,9 @@ namespace thalweg::surface {
 Raster<float> heights_of(Raster<double> const& value, Raster<std::uint8_t> const& kind, Raster<float> const& z) {
     Raster<float> heights(z.grid(), std::numeric_limits<float>::quiet_NaN());
     for (std::int64_t i = 0; i < heights.cells(); ++i) {
-        if (kind[i] == static_cast<std::uint8_t>(solver::CellKind::fixed)) {
+        if (kind[i] == solver::fixed_cell) {
             heights[i] = z[i];
-        } else if (kind[i] == static_cast<std::uint8_t>(solver::CellKind::free)) {
+        } else if (kind[i] == solver::free_cell) {
             heights[i] = static_cast<float>(value[i]);
         }
     }

@@ -11,8 +11,8 @@
 namespace thalweg::surface {
 
 namespace {
-constexpr std::uint64_t stage = 0x6a6974746572; // "jitter"
-constexpr double reach = 0.25;                  // [cells]
+constexpr std::uint64_t jitter_stage = 0x6a6974746572; // "jitter"
+constexpr double reach = 0.25;                         // [cells]
 } // namespace
 
 JitteredPerLength jittered_per_length() {
@@ -36,7 +36,7 @@ void jitter(LandLevel& level, std::uint64_t seed, Run const& run) {
     parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             std::uint8_t* const codes = &level.shift[static_cast<std::size_t>(row * level.width)];
-            chance_bytes(seed, stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
+            chance_bytes(seed, jitter_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
                 codes[col] = static_cast<std::uint8_t>((byte & 7U) * jitter_stride + ((byte >> 3U) & 7U));
             });
         }

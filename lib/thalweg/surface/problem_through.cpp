@@ -54,7 +54,7 @@ solver::GridProblem problem_through(Raster<float> const& z, Mask const& inside, 
     }
     for (solver::CellSpan const& span : solver::unreached(problem.kind, run)) {
         for (std::int64_t col = span.begin; col < span.end; ++col) {
-            problem.kind[{col, span.row}] = static_cast<std::uint8_t>(CellKind::outside);
+            problem.kind[{col, span.row}] = solver::outside_cell;
         }
     }
     return problem;

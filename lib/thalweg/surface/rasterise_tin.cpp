@@ -15,6 +15,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/parallel.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/height_on_plane.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 #include <thalweg/surface/extend_tin.hpp>
@@ -24,10 +25,6 @@ namespace {
 
 // Few enough that a band of a wide raster stays in the cache, enough that few triangles lie in two.
 constexpr std::int64_t band_rows = 32;
-
-Vec2 plan(Vec3 const& p) {
-    return {p.x, p.y};
-}
 
 // The grid's centres as doubles, which the tests below take for exact.
 struct Centres {

@@ -14,7 +14,7 @@ namespace thalweg::surface {
 
 namespace {
 
-constexpr std::uint64_t stage = 0x726f636b; // "rock"
+constexpr std::uint64_t rock_stage = 0x726f636b; // "rock"
 constexpr double shortest_wave = 2.0;
 // Eased between four uniform numbers, the variance is about that of one, a twelfth, times a half.
 constexpr double to_unit_variance = 5.0;
@@ -80,7 +80,7 @@ private:
                     std::int64_t const at = left + col + (std::int64_t{1} << 40);
                     if (at / a_block != held) {
                         held = at / a_block;
-                        words = chance_block(seed, stage, number, static_cast<std::uint64_t>(top + row),
+                        words = chance_block(seed, rock_stage, number, static_cast<std::uint64_t>(top + row),
                                              static_cast<std::uint64_t>(held));
                     }
                     auto const k = static_cast<std::uint64_t>(at % a_block);

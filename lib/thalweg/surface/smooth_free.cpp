@@ -39,8 +39,6 @@ template <class Add> void around_on_line(std::int64_t at, std::int64_t count, st
 } // namespace
 
 void smooth_free(Raster<std::uint8_t> const& kind, double sigma_cells, Raster<double>& value, Run const& run) {
-    constexpr auto outside = static_cast<std::uint8_t>(solver::CellKind::outside);
-    constexpr auto free = static_cast<std::uint8_t>(solver::CellKind::free);
     auto const weights = weights_of(sigma_cells);
     auto const radius = static_cast<std::int64_t>(weights.size()) - 1;
     std::int64_t const width = kind.width();
@@ -52,7 +50,7 @@ void smooth_free(Raster<std::uint8_t> const& kind, double sigma_cells, Raster<do
                 double sum = 0.0;
                 double weight = 0.0;
                 around_on_line(col, width, radius, [&](std::size_t distance, std::int64_t other) {
-                    if (kind[{other, row}] != outside) {
+                    if (kind[{other, row}] != solver::outside_cell) {
                         sum += weights[distance] * value[{other, row}];
                         weight += weights[distance];
                     }
@@ -65,7 +63,7 @@ void smooth_free(Raster<std::uint8_t> const& kind, double sigma_cells, Raster<do
     parallel_ranges(run, height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             for (std::int64_t col = 0; col < width; ++col) {
-                if (kind[{col, row}] == free) {
+                if (kind[{col, row}] == solver::free_cell) {
                     double sum = 0.0;
                     double weight = 0.0;
                     around_on_line(row, height, radius, [&](std::size_t distance, std::int64_t other) {

@@ -14,7 +14,7 @@ namespace thalweg::surface {
 
 namespace {
 
-constexpr std::uint64_t stage = 0x7374617274; // "start"
+constexpr std::uint64_t start_stage = 0x7374617274; // "start"
 constexpr float first_tangent = 0.05F;
 
 template <class Height>
@@ -22,7 +22,7 @@ void set_heights(LandLevel& level, std::uint64_t seed, float rough, Run const& r
     level.z.resize(static_cast<std::size_t>(level.cells()));
     parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
-            chance_bytes(seed, stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
+            chance_bytes(seed, start_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
                 level.z[static_cast<std::size_t>(row * level.width + col)] =
                     height(col, row) + rough * level.side * static_cast<float>(byte) * 0x1p-8F;
             });

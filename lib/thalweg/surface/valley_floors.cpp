@@ -19,7 +19,7 @@ constexpr double growth = 0.4;
 constexpr float least_width = 0.5F;  // [cells]: what is narrower shows as nothing
 constexpr float core_widths = 0.4F;  // what is flat, and
 constexpr float reach_widths = 2.7F; // where the foot ends, both before they are narrowed
-constexpr float flat_share = 0.15F;  // of the cap, on the floor
+constexpr float floor_share = 0.15F; // of the cap, on the floor
 
 /// Floors are nowhere ribbons of one width: about 1.5, and 1 at least.
 float narrowing(LandLevel const& level, std::size_t i, std::uint64_t seed) {
@@ -51,7 +51,7 @@ void valley_floors(LandLevel& level, double floor_width, std::uint64_t seed) {
         }
         float const far = (near.distance[i] / width + reach_widths) * narrowing(level, i, seed); // in widths
         float const up = std::max(0.0F, (far - core_widths) / (reach_widths - core_widths));
-        level.cap[i] *= flat_share + (1.0F - flat_share) * up * std::sqrt(up);
+        level.cap[i] *= floor_share + (1.0F - floor_share) * up * std::sqrt(up);
     });
     level.order = std::move(near.number);
 }

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace thalweg {
+
+/// The index in a vector of what has this number. Takes: a number that is not negative.
+constexpr std::size_t as_index(std::int64_t number) {
+    return static_cast<std::size_t>(number);
+}
+
+} // namespace thalweg

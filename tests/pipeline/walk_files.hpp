@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gdal_priv.h>
+#include <gdal_utils.h>
+
+#include <io/scratch_folder.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+/// A folder with one small file for each key that names a file. All lie on or over the two places where recipes without
+/// `grid.origin` lie: south-east of (500000, 5000000), and around the rivers at (500900, 5000800).
+class WalkFiles {
+public:
+    WalkFiles() {
+        std::string const upper = line("[500300,5001500],[500700,5001200],[500900,5000700]", R"("kind":"A","up":1)");
+        std::string const other = line("[501500,5001600],[501200,5001100],[500910,5000700]", R"("kind":"B","up":1)");
+        std::string const lower = line("[500900,5000700],[501000,5000010]", R"("kind":"C","up":2)");
+        write("rivers.geojson", layer(upper + "," + other + "," + lower));
+        write("second.geojson", layer(upper + "," + lower));
+        write("heights.geojson", layer(line("[500300,5001500,90],[500700,5001200,60],[500900,5000700,30]", "") + "," +
+                                       line("[500900,5000700,30],[501000,5000010,5]", "")));
+        write("strokes.geojson", layer(line("[501000,5000010],[501100,5001700]", R"("rosgen":"B")") + "," +
+                                       line("[501050,5000900],[500200,5001500]", R"("rosgen":"A")")));
+        write("one_stroke.geojson", layer(line("[501000,5000010],[501100,5001700]", "")));
+        write("region.geojson", layer(polygon(square(500300, 5000300, 1300))));
+        write("second_region.geojson", layer(polygon(square(500300, 5000300, 1500))));
+        write("loop.geojson",
+              layer(upper + "," + lower + "," + line("[500700,5001200],[500500,5000900],[500900,5000700]", "")));
+        write("canal.geojson",
+              layer(upper + "," + lower + "," +
+                    line("[501500,5001600],[501200,5001100],[500900,5000700]", R"("waterway":"canal")")));
+        write("outlets.csv", "x,y\n500000,4999000\n501900,4999500\n");
+        write("lakes.geojson",
+              layer(polygon(square(500700, 5000500, 400)) + "," + polygon(square(500600, 4998600, 800))));
+        write("points.csv", points(0.0));
+        write("higher.csv", points(200.0));
+        write("patch_mask.geojson", layer(polygon(square(500800, 4998900, 200))));
+        raster("mask.asc", 64, 30, 500000, 4998080, [](int c, int r) { return c + r < 6 ? 0.0 : 1.0; });
+        raster("uplift.asc", 100, 60, 498000, 4998000, [](int c, int) { return 1.0 + 0.05 * c; });
+        raster("erodibility.asc", 100, 60, 498000, 4998000, [](int c, int r) { return (c / 9 + r / 7) % 2 + 0.5; });
+        auto const hills = [](int c, int r) { return 50.0 + 40.0 * std::sin(r / 4.0) * std::cos(c / 5.0); };
+        raster("patch.asc", 24, 30, 500600, 4998700, hills);
+        raster("other_patch.asc", 24, 30, 500600, 4998700, [&](int c, int r) { return 2.0 * hills(r, c); });
+        two_layers("rivers.gpkg", "rivers", "second");
+        two_layers("strokes.gpkg", "strokes", "one_stroke");
+    }
+    std::string folder() const { return folder_.path().string(); }
+    std::string operator/(std::string const& name) const { return folder_ / name; }
+
+private:
+    using Value = std::function<double(int, int)>;
+
+    static std::string layer(std::string const& features) {
+        return "{\"type\":\"FeatureCollection\",\"crs\":{\"type\":\"name\",\"properties\":{\"name\":"
+               "\"urn:ogc:def:crs:EPSG::32631\"}},\"features\":[" +
+               features + "]}";
+    }
+    static std::string line(std::string const& vertices, std::string const& properties) {
+        return "{\"type\":\"Feature\",\"properties\":{" + properties +
+               "},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[" + vertices + "]}}";
+    }
+    static std::string polygon(std::string const& ring) {
+        return "{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[" + ring +
+               "]]}}";
+    }
+    static std::string square(int west, int south, int side) {
+        auto const at = [](int x, int y) { return "[" + std::to_string(x) + "," + std::to_string(y) + "]"; };
+        return at(west, south) + "," + at(west + side, south) + "," + at(west + side, south + side) + "," +
+               at(west, south + side) + "," + at(west, south);
+    }
+    /// Points of a bumpy slope over both places.
+    static std::string points(double lift) {
+        std::string text = "x,y,z\n";
+        for (int i = 0; i < 14; ++i) {
+            for (int k = 0; k < 14; ++k) {
+                double const x = 500010.0 + 140.0 * i + 17.0 * (k % 3);
+                double const y = 4998100.0 + 140.0 * k + 23.0 * (i % 4);
+                double const z = 100.0 + lift + 0.03 * (x - 500000.0) + 30.0 * std::sin(i * 1.3 + k * k * 0.7);
+                text += std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(z) + "\n";
+            }
+        }
+        return text;
+    }
+    void write(std::string const& name, std::string const& text) const { std::ofstream(folder_ / name) << text; }
+    void raster(std::string const& name, int side, int cell, int west, int south, Value const& value) const {
+        std::ofstream out(folder_ / name);
+        out << "ncols " << side << "\nnrows " << side << "\nxllcorner " << west << "\nyllcorner " << south
+            << "\ncellsize " << cell << "\nNODATA_value -9999\n";
+        for (int r = 0; r < side; ++r) {
+            for (int c = 0; c < side; ++c) {
+                out << value(c, r) << " ";
+            }
+            out << "\n";
+        }
+        std::ofstream(folder_ / (name.substr(0, name.find('.')) + ".prj"))
+            << "PROJCS[\"WGS 84 / UTM zone 31N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
+               "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION["
+               "\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],PARAMETER[\"central_meridian\",3],"
+               "PARAMETER[\"scale_factor\",0.9996],PARAMETER[\"false_easting\",500000],PARAMETER[\"false_northing\",0],"
+               "UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"32631\"]]";
+    }
+    /// A GeoPackage whose layers are two of the GeoJSON files.
+    void two_layers(std::string const& name, std::string const& first, std::string const& second) const {
+        GDALAllRegister();
+        for (std::string const& of : {first, second}) {
+            GDALDatasetH source =
+                GDALOpenEx((folder_ / (of + ".geojson")).c_str(), GDAL_OF_VECTOR, nullptr, nullptr, nullptr);
+            char const* words[] = {"-f", "GPKG", "-nln", of.c_str(), of == second ? "-update" : nullptr, nullptr};
+            GDALVectorTranslateOptions* const options =
+                GDALVectorTranslateOptionsNew(const_cast<char**>(words), nullptr);
+            GDALDatasetH made = GDALVectorTranslate((folder_ / name).c_str(), nullptr, 1, &source, options, nullptr);
+            GDALVectorTranslateOptionsFree(options);
+            GDALClose(source);
+            if (made == nullptr) {
+                throw std::runtime_error("cannot write " + name);
+            }
+            GDALClose(made);
+        }
+    }
+
+    ScratchFolder folder_;
+};

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+using nlohmann::json;
+
+namespace {
+
+Outcome recipe(std::string const& arguments) {
+    return thalweg_run("recipe " + arguments, std::filesystem::temp_directory_path());
+}
+
+bool has(std::string const& text, std::string const& part) {
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST(RecipeKeys, OneKeyWithAllThatIsKnownOfIt) {
+    Outcome const o = recipe("surface.hillslope");
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.out.rfind("surface.hillslope\n", 0), 0U) << o.out;
+    for (char const* line :
+         {"  meaning   ", "  type      number\n", "  unit      m\n", "  range     ", "  default   "}) {
+        EXPECT_TRUE(has(o.out, line)) << line << "\n" << o.out;
+    }
+}
+
+TEST(RecipeKeys, ASectionOrANameGivesItsKeys) {
+    std::string const section = recipe("network.dla").out;
+    EXPECT_EQ(section.rfind("[network.dla]\n", 0), 0U) << section;
+    EXPECT_TRUE(has(section, "\nparticles "));
+    EXPECT_FALSE(has(section, "[network.tokunaga]"));
+    EXPECT_EQ(recipe("'[network.dla]'").out, section);
+    std::string const all_of_network = recipe("network").out;
+    EXPECT_TRUE(has(all_of_network, "[network]\n") && has(all_of_network, "[network.forest]\n")) << all_of_network;
+    EXPECT_FALSE(has(all_of_network, "[surface]"));
+    std::string const sticking = recipe("sticking").out; // of clusters and of forests
+    EXPECT_TRUE(has(sticking, "[network.dla]\n") && has(sticking, "[network.forest]\n")) << sticking;
+    EXPECT_TRUE(has(recipe("prune").out, "network.prune\n"));
+}
+
+TEST(RecipeKeys, AnUnknownOneIsAnsweredWithTheLikelyOne) {
+    Outcome const o = recipe("network.prun");
+    EXPECT_EQ(o.code, 2);
+    EXPECT_TRUE(o.out.empty());
+    EXPECT_TRUE(has(o.err, "error: unknown key 'network.prun'. Did you mean 'network.prune'?")) << o.err;
+    EXPECT_EQ(recipe("wombat").code, 2);
+    EXPECT_EQ(recipe("'[]'").code, 2);
+}
+
+TEST(RecipeKeys, AsJson) {
+    json const all = json::parse(recipe("--json").out);
+    EXPECT_GT(all["keys"].size(), 100U);
+    json const one = json::parse(recipe("network.source --json").out);
+    ASSERT_EQ(one["keys"].size(), 1U);
+    EXPECT_EQ(one["keys"][0]["key"], "network.source");
+    EXPECT_EQ(one["keys"][0]["choices"].size(), 4U);
+    for (char const* field : {"meaning", "type", "unit", "range", "default"}) {
+        EXPECT_TRUE(one["keys"][0][field].is_string()) << field;
+    }
+}

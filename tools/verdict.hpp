@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <thalweg/core/finding.hpp>
+
+namespace thalweg::tools {
+
+/// The limit of a check: "at least 0.95".
+std::string limit_in_words(Check const& check);
+
+/// A check with its value and limit: "trace_recall 0.43 (at least 0.95)".
+std::string in_words(Check const& check);
+
+/// The result of all checks in one line, to be shown last: "walker.gpkg: ok, 30 checks" or
+/// "walker.gpkg: FAILED, 2 of 30 checks".
+std::string verdict(std::string const& of, std::vector<Check> const& checks);
+
+} // namespace thalweg::tools
