@@ -332,9 +332,9 @@ TEST(RiverFiles, EuHydro) {
 TEST(RiverFiles, NamesOfColumnsAndNull) {
     Workplace const place;
     Lines lines;
-    lines.add({{0, 8000}, {100, 4000}},
+    lines.add({{0, 8000}, {3000, 4000}},
               {{"slope", 7}, {"a_very_long_name", "x"}, {"a_very_long_one", 2.5}, {"empty", nullptr}, {"fid", 9}});
-    lines.add({{100, 4000}, {0, 0}}, {{"slope", 8}, {"a_very_long_name", nullptr}, {"a_very_long_one", 1e12}});
+    lines.add({{3000, 4000}, {0, 0}}, {{"slope", 8}, {"a_very_long_name", nullptr}, {"a_very_long_one", 1e12}});
     place.write("l.geojson", lines.text());
     json const report = made(place, "l.geojson", 2, coarse);
     EXPECT_EQ(report["shortened_fields"].size(), 2U) << report["shortened_fields"];
@@ -361,7 +361,7 @@ TEST(RiverFiles, SmallDefectsAreLeftOutAndReported) {
         R"({"type":"Feature","properties":{"id":1},"geometry":null},)"
         R"({"type":"Feature","properties":{"id":2},"geometry":{"type":"LineString","coordinates":[]}},)"
         R"({"type":"Feature","properties":{"id":3},"geometry":{"type":"LineString","coordinates":[[5,5],[5,5]]}},)"
-        R"({"type":"Feature","properties":{"id":4},"geometry":{"type":"LineString","coordinates":[[0,8000],[0,0]]}}]})");
+        R"({"type":"Feature","properties":{"id":4},"geometry":{"type":"LineString","coordinates":[[0,8000],[3000,0]]}}]})");
     ASSERT_EQ(thalweg_run("make defects.geojson -o out" + coarse, place.path()).code, 0);
     json const report = json::parse(file_bytes(place / "out/report.json"));
     std::set<std::int64_t> left_out;
