@@ -243,13 +243,18 @@ private:
         std::ranges::stable_sort(others, {},
                                  [&](std::size_t k) { return std::pair(-size_of(k), -p_.pieces[k].length_m); });
         for (std::size_t const k : others) {
-            if (certain != nullptr && certain->votes[k] != 0) {
+            if (certain != nullptr && (certain->votes[k] != 0 || ends_the_links(k, *certain))) {
                 refuse_pit(k, *certain);
                 leave_out(k, minor_channel);
             } else if (!kept_.join(p_.pieces[k].from, p_.pieces[k].to)) {
                 leave_out(k, closes_loop);
             }
         }
+    }
+
+    /// Drawn away from others and linked to none: no tributary, which would name what it flows into.
+    bool ends_the_links(std::size_t k, Evidence const& by) const {
+        return by.kind == Evidence::Kind::links && lines_[p_.pieces[k].line].down == 0;
     }
 
     /// Heights and ranks that lead from one place into two pits are wrong in one of them.
