@@ -31,6 +31,7 @@ NODE_FIELDS = {
     "text": ["kind"],
 }
 RIDGE_FIELDS = {"int": "ridge_id left right".split(), "real": "length z_min z_max".split()}
+OTHER_FIELDS = set("survives feature type braided given".split())
 TYPES = {"int": {ogr.OFTInteger, ogr.OFTInteger64}, "real": {ogr.OFTReal}, "text": {ogr.OFTString}}
 
 
@@ -66,8 +67,9 @@ def read(path, name, fields, shape, report):
         raise FileNotFoundError(f"{path} has no layer {name}")
     definition = layer.GetLayerDefn()
     report.unless(layer.GetGeomType() == shape, "layer_type", f"{name}: {ogr.GeometryTypeToName(layer.GetGeomType())}")
-    for i in range(definition.GetFieldCount()):
-        field = definition.GetFieldDefn(i).GetName()
+    names = [definition.GetFieldDefn(i).GetName() for i in range(definition.GetFieldCount())]
+    own = {field for of_kind in fields.values() for field in of_kind} | OTHER_FIELDS
+    for field in own & set(names):  # a user's columns are as the user has them
         report.unless(len(field) <= 10, "field_name_too_long", f"{name}.{field}")
     wanted = []
     for kind, names in fields.items():
@@ -81,8 +83,8 @@ def read(path, name, fields, shape, report):
     rows = []
     for feature in layer:
         where = f"{name} {feature.GetFID()}"
-        for i in range(definition.GetFieldCount()):
-            report.unless(feature.IsFieldSetAndNotNull(i), "null", f"{where}: {definition.GetFieldDefn(i).GetName()}")
+        for i, field in enumerate(names):
+            report.unless(field not in own or feature.IsFieldSetAndNotNull(i), "null", f"{where}: {field}")
         geometry = feature.GetGeometryRef()
         row = {field: feature.GetField(field) for field in wanted}
         for field, value in row.items():

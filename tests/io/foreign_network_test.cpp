@@ -179,8 +179,8 @@ TEST(ForeignNetwork, TauDemIsTurnedAndCountedFromOne) {
     EXPECT_EQ(file.schema, "taudem");
     EXPECT_EQ(file.id_shift, 1);
     EXPECT_EQ(flow_of(file), (Flow{{1, 0}, {2, 1}, {3, 1}}));
-    EXPECT_EQ(file.arcs[0].feature, 0);
-    EXPECT_EQ(file.arcs[2].feature, 2);
+    EXPECT_EQ(file.arcs[0].feature, 1);
+    EXPECT_EQ(file.arcs[2].feature, 3);
     ASSERT_EQ(file.arcs[2].line.size(), 3U);
     EXPECT_EQ(file.arcs[2].line[0].x, 150.0);
     EXPECT_EQ(file.arcs[2].line[2].y, 100.0);
@@ -259,7 +259,8 @@ TEST(ForeignNetwork, NhdPlusIsLinkedByHydroseq) {
     EXPECT_EQ(file.arcs[2].ds_area_m2, 875000.0);
     EXPECT_EQ(file.arcs[2].us_area_m2, 750000.0);
     EXPECT_EQ(file.arcs[2].basin, 55000500000010);
-    EXPECT_EQ(file.arcs[2].feature, 55000800000013);
+    EXPECT_EQ(file.arcs[2].feature, 3);
+    EXPECT_EQ(std::get<std::int64_t>(file.attributes.rows[2][0]), 55000800000013);
     EXPECT_TRUE(file.says.ends && file.says.downstream && file.says.strahler && file.says.basin);
     EXPECT_FALSE(file.says.nodes || file.says.shreve);
     EXPECT_FALSE(file.says.heights); // a Z that is 0 everywhere

@@ -171,14 +171,23 @@ TEST_F(ReadRivers, NoCrs) {
     EXPECT_TRUE(has(refused, "layer a of a.shp has no CRS")) << refused;
 }
 
-TEST_F(ReadRivers, FeaturesThatAreNoLines) {
-    auto const none = write("a.gpkg", {{.features = {{"LINESTRING(0 0,1 1)"}, {""}}}});
-    EXPECT_TRUE(has(refusal({.path = none}), "feature 2 of a.gpkg has no line"));
-    auto const empty = write("b.gpkg", {{.features = {{"LINESTRING EMPTY"}}}});
-    EXPECT_TRUE(has(refusal({.path = empty}), "feature 1 of b.gpkg has no line"));
-    auto const single = write("c.gpkg", {{.features = {{"LINESTRING(5 5)"}}}});
-    EXPECT_TRUE(has(refusal({.path = single}), "feature 1 of c.gpkg is a line of 1 vertices"))
-        << refusal({.path = single});
+TEST_F(ReadRivers, FeaturesWithoutALineAreLeftOut) {
+    auto const some = io::read_rivers({.path = write("a.gpkg", {{.features = {{"LINESTRING(0 0,1 1)"},
+                                                                              {""},
+                                                                              {"LINESTRING EMPTY"},
+                                                                              {"LINESTRING(5 5)"},
+                                                                              {"LINESTRING(6 6,6 6)"},
+                                                                              {"LINESTRING(2 2,3 3)"}}}})});
+    ASSERT_EQ(some.lines.size(), 2U);
+    EXPECT_EQ(some.lines[1].feature, 6);
+    ASSERT_EQ(some.findings.size(), 4U);
+    for (std::int64_t k = 0; k < 4; ++k) {
+        EXPECT_EQ(some.findings[static_cast<std::size_t>(k)].kind, "left_out");
+        EXPECT_EQ(some.findings[static_cast<std::size_t>(k)].feature, k + 2);
+    }
+    EXPECT_EQ(some.attributes.rows.size(), 6U);
+    auto const none = write("b.gpkg", {{.features = {{"LINESTRING EMPTY"}}}});
+    EXPECT_TRUE(has(refusal({.path = none}), "holds no line: feature 1 has no line of any length"));
 }
 
 TEST_F(ReadRivers, CoordinatesThatAreNotFinite) {

@@ -99,12 +99,19 @@ TEST(FromFile, WhatTheFileSaysIsKeptInTheOrderOfIds) {
     EXPECT_EQ(made.braided, (std::vector<std::uint8_t>{0, 0, 1}));
 }
 
-TEST(FromFile, ForeignIdsAreKeptAsFeatures) {
+TEST(FromFile, RecordsAndSourcesGoWithTheArcs) {
     NetworkFile file = y_shape();
-    file.schema = "taudem";
+    file.arcs[1].record = 2;
+    file.arcs[1].feature = 5;
     network::FileNetwork const made = from_file(file);
     NetworkIndex const index(made.network.plan);
-    EXPECT_EQ(made.network.plan[index.arcs[1]].feature, 20);
+    EXPECT_EQ(made.network.plan[index.arcs[1]].feature, 5);
+    EXPECT_EQ(made.records[1], 2);
+    ASSERT_EQ(made.stretches[1].size(), 1U);
+    EXPECT_EQ(made.stretches[1][0].feature, 5);
+    EXPECT_EQ(made.stretches[1][0].to_m, index.length_m[1]);
+    file.arcs[1].sources = {{5, 0.0, 1.0}, {6, 1.0, 2.0}};
+    EXPECT_EQ(from_file(file).stretches[1].size(), 2U);
 }
 
 TEST(FromFile, WithoutHeightsAllAreNaN) {

@@ -4,8 +4,10 @@
 #include <map>
 #include <string>
 
+#include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <ogrsf_frmts.h>
 
 #include "command.hpp"
 
@@ -34,6 +36,26 @@ std::map<std::string, std::string> content(fs::path const& folder) {
         }
     }
     return files;
+}
+
+/// The arcs of a GeoPackage in thalweg's own columns, but for what tells from which file they came.
+std::string network_in(fs::path const& gpkg) {
+    GDALAllRegister();
+    GDALDatasetUniquePtr const data(GDALDataset::Open(gpkg.c_str(), GDAL_OF_VECTOR));
+    OGRLayer* const arcs = data == nullptr ? nullptr : data->GetLayerByName("arcs");
+    if (arcs == nullptr) {
+        return "no arcs in " + gpkg.string();
+    }
+    std::string text;
+    for (auto const& arc : *arcs) {
+        for (char const* const field :
+             {"arc_id", "from_node", "to_node", "ds_arc", "n_up", "basin_id", "topo_ord", "strahler", "shreve", "hack",
+              "length", "length_3d", "straight", "z_up", "z_down", "dist_out", "slope", "us_area", "ds_area"}) {
+            text += std::string(arc->GetFieldAsString(field)) + " ";
+        }
+        text += arc->GetGeometryRef()->exportToWkt() + "\n";
+    }
+    return text;
 }
 
 /// A plane that falls to the south, a metre a row.
@@ -108,7 +130,7 @@ TEST(Convert, ForeignLinesBecomeEverySchemaAndFormat) {
             if (ending == "graphml" || ending == "csv" || ending == "edges" || ending == "tif") {
                 continue;
             }
-            // And back: the numbers of the lines are known as features no more, but the network is the same.
+            // And back: the network is the same.
             Outcome const back =
                 thalweg_run("convert " + first + " -o back_" + schema + "_" + ending + ".gpkg --json -q", place.path());
             ASSERT_EQ(back.code, 0) << name << back.err;
@@ -122,8 +144,9 @@ TEST(Convert, ForeignLinesBecomeEverySchemaAndFormat) {
     EXPECT_EQ(file_bytes(place / "rivers.geojson"), lines);
     // From whatever schema: the same network.
     EXPECT_EQ(thalweg_run("check back_native_gpkg.gpkg", place.path()).code, 0);
-    EXPECT_TRUE(file_bytes(place / "back_taudem_gpkg.gpkg") == file_bytes(place / "back_taudem_fgb.gpkg"));
-    EXPECT_TRUE(file_bytes(place / "back_grass_shp.gpkg") == file_bytes(place / "back_grass_geojson.gpkg"));
+    // The columns of each format's file come along as the user's, so files differ in them alone.
+    EXPECT_EQ(network_in(place / "back_taudem_gpkg.gpkg"), network_in(place / "back_taudem_fgb.gpkg"));
+    EXPECT_EQ(network_in(place / "back_grass_shp.gpkg"), network_in(place / "back_grass_geojson.gpkg"));
 }
 
 TEST(Convert, JsonTellsWhatBecameOfIt) {

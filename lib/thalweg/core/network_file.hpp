@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/attributes.hpp>
 #include <thalweg/core/finding.hpp>
+#include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg {
@@ -30,7 +32,12 @@ struct NetworkFile {
         double us_area_m2 = std::numeric_limits<double>::quiet_NaN(); ///< NaN where the file does not say
         double ds_area_m2 = std::numeric_limits<double>::quiet_NaN();
         double survives = std::numeric_limits<double>::infinity(); ///< [cells]
-        std::int64_t feature = 0;                                  ///< id in the file it once came from; 0 for none
+        std::int64_t feature = 0; ///< number in its layer's order, from 1; native: as the file says, 0 for none
+        std::int64_t record = 0;  ///< of its attributes, from 1; 0 for none
+        double size = 0.0;        ///< as RiverLine
+        Channel channel = Channel::unknown;
+        std::string unnatural = {};        ///< why it is no natural watercourse, or ""
+        std::vector<Stretch> sources = {}; ///< the features it is made of, where the file has them
         std::string type = {};
         bool braided = false;
         bool given = true; ///< as Arc
@@ -48,6 +55,7 @@ struct NetworkFile {
     };
     std::vector<FileNode> nodes;
     std::vector<FileArc> arcs;
+    AttributeTable attributes = {}; ///< of the layer of arcs
     Says says = {};
     std::string crs = {};          ///< of the coordinates, "" for none
     std::string schema = "native"; ///< how its fields were understood

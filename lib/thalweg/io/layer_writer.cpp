@@ -25,6 +25,13 @@ constexpr std::size_t text_limit = 254;
 constexpr char const* date = "2000-01-01";
 constexpr char const* instant = "2000-01-01T00:00:00.000Z";
 
+// Room for any number a user may have, one that a reader takes for 64 bits included.
+int users_width(Column::Kind kind, int width) {
+    constexpr int any_integer = 11;
+    constexpr int any_wide_integer = 20;
+    return kind == Column::Kind::integer ? any_integer : kind == Column::Kind::wide_integer ? any_wide_integer : width;
+}
+
 void add_field(LayerTarget const& target, OGRLayer& layer, Column const& column) {
     OGRFieldDefn field(column.name.c_str(), OFTInteger);
     int width = integer_width;
@@ -42,11 +49,23 @@ void add_field(LayerTarget const& target, OGRLayer& layer, Column const& column)
         field.SetType(OFTString);
         width = text_width;
         break;
+    case Column::Kind::date:
+        field.SetType(OFTDate);
+        width = 0;
+        break;
+    case Column::Kind::time:
+        field.SetType(OFTTime);
+        width = 0;
+        break;
+    case Column::Kind::datetime:
+        field.SetType(OFTDateTime);
+        width = 0;
+        break;
     }
     if (target.format == LayerFormat::shapefile) {
-        field.SetWidth(width);
+        field.SetWidth(column.is_users ? users_width(column.kind, width) : width);
         field.SetPrecision(column.decimals);
-    } else {
+    } else if (!column.is_users) {
         field.SetNullable(FALSE);
     }
     target.require(layer.CreateField(&field) == OGRERR_NONE);
@@ -122,7 +141,11 @@ void set_field(OGRFeature& feature, int index, Column const& column, std::int64_
         throw BadInput(fmt::format("{}: {} {} has {} {}", target.what, table, row + 1, column.name, why));
     };
     auto const value = column.at(row);
-    double const limit = limit_of(column, target.format);
+    if (std::holds_alternative<std::monostate>(value)) {
+        feature.SetFieldNull(index);
+        return;
+    }
+    double const limit = column.is_users ? std::numeric_limits<double>::infinity() : limit_of(column, target.format);
     if (auto const* whole = std::get_if<std::int64_t>(&value)) {
         if (!(std::fabs(static_cast<double>(*whole)) < limit)) {
             refuse(fmt::format("= {}, more than the field holds", *whole));

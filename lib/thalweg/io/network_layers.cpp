@@ -43,7 +43,8 @@ void require_whole(NetworkTables const& tables, NetworkIndex const& index, std::
                         orders.hack.size() == arcs && orders.topological.size() == arcs &&
                         orders.arc_basin.size() == arcs && tables.us_area_m2.size() == arcs &&
                         tables.ds_area_m2.size() == arcs &&
-                        (tables.braided == nullptr || tables.braided->size() == arcs);
+                        (tables.braided == nullptr || tables.braided->size() == arcs) &&
+                        (tables.user == nullptr || tables.user->record.size() == arcs);
     bool const by_node = node_z.size() == nodes && orders.node_basin.size() == nodes &&
                          orders.node_strahler.size() == nodes && orders.node_dist_out_m.size() == nodes &&
                          tables.node_area_m2.size() == nodes;
@@ -76,7 +77,7 @@ std::vector<Table> network_layers(NetworkTables const& tables, NetworkIndex cons
                                   bool short_names, std::string const& what) {
     require_whole(tables, index, what);
     if (schema == Schema::native) {
-        return {arcs_table(tables, index), nodes_table(tables, index)};
+        return {arcs_table(tables, index, short_names), nodes_table(tables, index)};
     }
     require_nameable(tables.network.plan, index, table_of(schema), what);
     return {schema_arcs(table_of(schema), tables, index, short_names)};

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include <thalweg/core/index.hpp>
 #include <thalweg/io/decimals.hpp>
+#include <thalweg/io/user_columns.hpp>
 
 namespace thalweg::io {
 
@@ -47,7 +49,7 @@ double length_in_space(std::vector<Vec2> const& line, std::vector<double> const&
     return sum;
 }
 
-Table arcs_table(NetworkTables const& tables, NetworkIndex const& index) {
+Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool short_names) {
     StreamNetwork const& plan = tables.network.plan;
     auto const& arc_z = tables.network.arc_z;
     NetworkOrders const& orders = tables.orders;
@@ -97,6 +99,11 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index) {
                 [of = tables.braided](auto row) { return of != nullptr && (*of)[as_index(row)] != 0 ? 1 : 0; }),
         integer("given", [arc](auto row) { return arc(row).given ? 1 : 0; }),
     };
+    if (tables.user != nullptr) {
+        add_user_columns(
+            table, tables.user->attributes, [&user = *tables.user](std::int64_t row) { return user.record[as_index(row)]; },
+            short_names);
+    }
     return table;
 }
 
@@ -141,7 +148,7 @@ Table ridges_table(RidgeLines const& ridges) {
     return table;
 }
 
-Table secondary_table(std::vector<SecondaryLine> const& secondary) {
+Table secondary_table(std::vector<SecondaryLine> const& secondary, UserData const* user) {
     auto const one = [&secondary](std::int64_t row) -> SecondaryLine const& { return secondary[as_index(row)]; };
     Table table{"secondary", Table::Shape::plan_line, static_cast<std::int64_t>(secondary.size()), {}, {}};
     table.shape_at = [one](std::int64_t row) {
@@ -155,6 +162,31 @@ Table secondary_table(std::vector<SecondaryLine> const& secondary) {
         {"feature", Kind::wide_integer, 0, [one](std::int64_t row) { return one(row).feature; }},
         text("reason", [one](auto row) { return one(row).reason; }),
         real("length", length_decimals, [one](auto row) { return length_in_plan(one(row).vertices); }),
+    };
+    if (user != nullptr) {
+        add_user_columns(
+            table, user->attributes, [one](std::int64_t row) { return one(row).record; }, false);
+    }
+    return table;
+}
+
+Table sources_table(UserData const& user) {
+    struct Row {
+        std::int64_t arc;
+        Stretch stretch;
+    };
+    auto const rows = std::make_shared<std::vector<Row>>();
+    for (std::size_t a = 0; a < user.sources.size(); ++a) {
+        for (Stretch const& s : user.sources[a]) {
+            rows->push_back({static_cast<std::int64_t>(a) + 1, s});
+        }
+    }
+    Table table{"sources", Table::Shape::none, static_cast<std::int64_t>(rows->size()), {}, {}};
+    table.columns = {
+        integer("arc_id", [rows](auto row) { return (*rows)[as_index(row)].arc; }),
+        {"feature", Kind::wide_integer, 0, [rows](std::int64_t row) { return (*rows)[as_index(row)].stretch.feature; }},
+        real("from_m", length_decimals, [rows](auto row) { return (*rows)[as_index(row)].stretch.from_m; }),
+        real("to_m", length_decimals, [rows](auto row) { return (*rows)[as_index(row)].stretch.to_m; }),
     };
     return table;
 }

@@ -16,7 +16,8 @@ namespace thalweg::io {
 double length_in_space(std::vector<Vec2> const& line, std::vector<double> const& z);
 
 /// The layer arcs of the network schema. The arguments must outlive the table.
-Table arcs_table(NetworkTables const& tables, NetworkIndex const& index);
+/// short_names: of user columns, for a shapefile.
+Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool short_names = false);
 
 /// The layer nodes of the network schema. The arguments must outlive the table.
 Table nodes_table(NetworkTables const& tables, NetworkIndex const& index);
@@ -24,7 +25,10 @@ Table nodes_table(NetworkTables const& tables, NetworkIndex const& index);
 /// The layer ridges of the network schema. The argument must outlive the table; every ridge has a vertex.
 Table ridges_table(RidgeLines const& ridges);
 
-/// The layer secondary: lines that are not in the network, in plan. The argument must outlive the table.
-Table secondary_table(std::vector<SecondaryLine> const& secondary);
+/// The layer secondary: lines that are not in the network, in plan. The arguments must outlive the table.
+Table secondary_table(std::vector<SecondaryLine> const& secondary, UserData const* user);
+
+/// The table sources. The argument must outlive the table.
+Table sources_table(UserData const& user);
 
 } // namespace thalweg::io

@@ -146,6 +146,9 @@ NetworkFile read(std::string const& path, Wish const& wish, Run const& run) {
     auto const nodes = choose_nodes(nodes_source, arcs_source, arcs, schema, wish);
     NetworkFile file;
     read_arcs(file, arcs, schema, wish, driver, notes, run);
+    if (OGRLayer* const sources = arcs_source.layer("sources"); sources != nullptr && schema == Schema::native) {
+        read_sources(file, {sources, arcs_source.what() + ", layer sources"}, driver, run);
+    }
     take_nodes(file, nodes, arcs, arcs_source.what(), wish, driver, notes, run);
     SchemaTable const& table = table_of(schema.value_or(Schema::native));
     if (schema != Schema::native) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -13,9 +14,11 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/read_attributes.hpp>
 #include <thalweg/io/read_network_columns.hpp>
 #include <thalweg/io/read_network_lines.hpp>
 #include <thalweg/io/read_network_links.hpp>
+#include <thalweg/io/river_fields.hpp>
 
 namespace thalweg::io {
 
@@ -48,8 +51,8 @@ void require_fields(Layer const& arcs, ArcColumns const& columns, std::optional<
 // The numbers of a feature; what cannot be read as one stands as 0.
 class Numbers {
 public:
-    Numbers(OGRFeature const& feature, std::string const& what, Notes& notes)
-        : feature_(feature), what_(what), notes_(notes) {}
+    Numbers(OGRFeature const& feature, std::int64_t number, std::string const& what, Notes& notes)
+        : feature_(feature), number_(number), what_(what), notes_(notes) {}
 
     // of: the id of the arc or node in the file. nothing: null is no fault, and stands as 0.
     std::int64_t whole(FileColumn const& column, std::int64_t of, bool nothing) const {
@@ -58,7 +61,7 @@ public:
         }
         if (column.is_null(feature_)) {
             if (!nothing) {
-                note("null_number", of, fmt::format("feature {} has no {}", feature_.GetFID(), column.name()));
+                note("null_number", of, fmt::format("feature {} has no {}", number_, column.name()));
             }
             return 0;
         }
@@ -66,8 +69,7 @@ public:
             return *value;
         }
         note("not_a_number", of,
-             fmt::format("feature {} has {} {}, not a whole number", feature_.GetFID(), column.name(),
-                         column.text(feature_)));
+             fmt::format("feature {} has {} {}, not a whole number", number_, column.name(), column.text(feature_)));
         return 0;
     }
 
@@ -77,6 +79,7 @@ private:
     }
 
     OGRFeature const& feature_;
+    std::int64_t number_; // in the order of the layer, from 1
     std::string const& what_;
     Notes& notes_;
 };
@@ -95,7 +98,7 @@ class ArcReader {
 public:
     ArcReader(Layer const& arcs, std::optional<Schema> schema, Wish const& wish, Notes& notes)
         : arcs_(arcs), schema_(schema), table_(table_of(schema.value_or(Schema::native))), notes_(notes),
-          columns_(*arcs.layer, schema, wish.fields, arcs.what, notes) {
+          columns_(*arcs.layer, schema, wish.fields, arcs.what, notes), fields_(*arcs.layer), attributes_(*arcs.layer) {
         require_fields(arcs, columns_, schema, notes);
     }
 
@@ -116,21 +119,24 @@ public:
         if (!columns_.has(Q::ds_arc) && file.says.downstream) {
             link_by_keys(file, keys_, ds_keys_);
         }
+        file.attributes = attributes_.take();
         say_what_was_drawn(file);
     }
 
 private:
     void add(NetworkFile& file, OGRFeature const& feature) {
+        ++number_;
+        attributes_.read(feature);
         DrawnLine drawn = drawn_line(feature.GetGeometryRef());
         if (!drawn.is_line) {
             if (drawn_.no_lines++ == 0) {
-                drawn_.first_no_line = fmt::format("feature {} is not a line, but a {}", feature.GetFID(),
+                drawn_.first_no_line = fmt::format("feature {} is not a line, but a {}", number_,
                                                    feature.GetGeometryRef()->getGeometryName());
             }
             return;
         }
         FileArc arc = numbers_of(feature);
-        note_shape(drawn, arc.id - file.id_shift, feature);
+        note_shape(drawn, arc.id - file.id_shift);
         for (std::size_t k = 0; k < drawn.parts.size(); ++k) {
             arc.line = std::move(drawn.parts[k]);
             file.arcs.push_back(arc);
@@ -142,7 +148,7 @@ private:
     }
 
     FileArc numbers_of(OGRFeature const& feature) {
-        Numbers const numbers(feature, arcs_.what, notes_);
+        Numbers const numbers(feature, number_, arcs_.what, notes_);
         bool const native = schema_ == Schema::native;
         std::int64_t const id = numbers.whole(columns_.column(Q::arc_id), 0, false);
         auto const number = [&](Quantity q) { return numbers.whole(columns_.column(q), id, false); };
@@ -169,8 +175,15 @@ private:
                                                   : arc.ds_area_m2 - columns_.real(feature, Q::own_area);
         double const survives = columns_.real(feature, Q::survives);
         arc.survives = std::isnan(survives) ? std::numeric_limits<double>::infinity() : survives;
-        arc.feature = native ? numbers.whole(columns_.column(Q::feature), id, true)
-                             : (columns_.column(Q::arc_id).is_null(feature) ? 0 : id);
+        arc.feature = native ? numbers.whole(columns_.column(Q::feature), id, true) : number_;
+        arc.record = number_;
+        if (!native) {
+            RiverLine line;
+            fields_.read(feature, line);
+            arc.size = line.size;
+            arc.channel = line.channel;
+            arc.unnatural = fields_.unnatural(feature);
+        }
         arc.type = columns_.column(Q::type).text(feature);
         if (arc.type == "none") { // what stands for an empty text
             arc.type.clear();
@@ -180,7 +193,7 @@ private:
         return arc;
     }
 
-    void note_shape(DrawnLine const& drawn, std::int64_t id, OGRFeature const& feature) {
+    void note_shape(DrawnLine const& drawn, std::int64_t id) {
         auto const& first = drawn.parts.front();
         bool const joined = drawn.parts.size() == 1;
         if (drawn.drawn_parts > 1 && !(joined && table_.segment_parts)) {
@@ -189,23 +202,23 @@ private:
                         id,
                         {},
                         static_cast<double>(drawn.drawn_parts),
-                        fmt::format("feature {} has {} parts{}", feature.GetFID(), drawn.drawn_parts,
+                        fmt::format("feature {} has {} parts{}", number_, drawn.drawn_parts,
                                     joined ? ", which join end to end: read as one line"
                                            : ": an arc is one line; each was read as an arc of the same id")});
         }
         if (drawn.curved) {
-            notes_.add(arcs_.what, {"curve",
-                                    id,
-                                    {},
-                                    static_cast<double>(first.size()),
-                                    fmt::format("feature {} is a curve: read as a line of {} vertices",
-                                                feature.GetFID(), first.size())});
+            notes_.add(arcs_.what,
+                       {"curve",
+                        id,
+                        {},
+                        static_cast<double>(first.size()),
+                        fmt::format("feature {} is a curve: read as a line of {} vertices", number_, first.size())});
         }
         drawn_.measured += drawn.has_m ? 1 : 0;
         if (!first.empty()) {
             (drawn.has_z ? drawn_.raised : drawn_.flat) += 1;
             if (!drawn.has_z && drawn_.first_flat.empty()) {
-                drawn_.first_flat = fmt::format("feature {} has no heights (Z)", feature.GetFID());
+                drawn_.first_flat = fmt::format("feature {} has no heights (Z)", number_);
             }
         }
     }
@@ -257,6 +270,9 @@ private:
     SchemaTable const& table_;
     Notes& notes_;
     ArcColumns columns_;
+    RiverFields fields_;
+    AttributeReader attributes_;
+    std::int64_t number_ = 0; // of the feature in hand, in the order of the layer, from 1
     Drawn drawn_;
     std::int64_t key_ = 0; // of the feature in hand
     std::int64_t ds_key_ = 0;
@@ -271,6 +287,29 @@ void read_arcs(NetworkFile& file, Layer const& arcs, std::optional<Schema> schem
     ArcReader(arcs, schema, wish, notes).read(file, driver, run);
 }
 
+void read_sources(NetworkFile& file, Layer const& sources, Driver const& driver, Run const& run) {
+    OGRFeatureDefn& schema = *sources.layer->GetLayerDefn();
+    int const arc_id = schema.GetFieldIndex("arc_id");
+    int const feature_id = schema.GetFieldIndex("feature");
+    int const from = schema.GetFieldIndex("from_m");
+    int const to = schema.GetFieldIndex("to_m");
+    if (arc_id < 0 || feature_id < 0 || from < 0 || to < 0) {
+        return;
+    }
+    std::map<std::int64_t, std::size_t> arc_of;
+    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
+        arc_of.try_emplace(file.arcs[a].id, a);
+    }
+    sources.each(driver, run, [&](OGRFeature const& row) {
+        auto const arc = arc_of.find(row.GetFieldAsInteger64(arc_id));
+        Stretch const stretch{row.GetFieldAsInteger64(feature_id), row.GetFieldAsDouble(from),
+                              row.GetFieldAsDouble(to)};
+        if (arc != arc_of.end() && stretch.from_m >= 0.0 && stretch.to_m > stretch.from_m) {
+            file.arcs[arc->second].sources.push_back(stretch);
+        }
+    });
+}
+
 void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_id, Driver const& driver, Notes& notes,
                 Run const& run) {
     FileColumn const id(*nodes.layer, node_id);
@@ -278,17 +317,18 @@ void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_i
         throw BadInput(fmt::format("{}: no field {} (there are {})", nodes.what, node_id, fields_of(*nodes.layer)));
     }
     id.require_numbers(*nodes.layer, nodes.what, notes);
+    std::int64_t number = 0;
     nodes.each(driver, run, [&](OGRFeature const& feature) {
+        ++number;
         auto const* const shape = feature.GetGeometryRef();
         if (shape == nullptr || wkbFlatten(shape->getGeometryType()) != wkbPoint || shape->IsEmpty()) {
-            throw BadInput(fmt::format("{}: feature {} is not a point", nodes.what, feature.GetFID()));
+            throw BadInput(fmt::format("{}: feature {} is not a point", nodes.what, number));
         }
         OGRPoint const& p = *shape->toPoint();
         if (p.Is3D() == FALSE && file.says.heights) {
-            notes.add(nodes.what,
-                      {"no_heights", 0, {}, 1.0, fmt::format("feature {} has no heights (Z)", feature.GetFID())});
+            notes.add(nodes.what, {"no_heights", 0, {}, 1.0, fmt::format("feature {} has no heights (Z)", number)});
         }
-        file.nodes.push_back({Numbers(feature, nodes.what, notes).whole(id, 0, false),
+        file.nodes.push_back({Numbers(feature, number, nodes.what, notes).whole(id, 0, false),
                               {p.getX(), p.getY(), p.Is3D() == FALSE ? nan : p.getZ()}});
     });
     file.says.nodes = true;

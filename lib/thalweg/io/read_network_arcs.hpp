@@ -17,6 +17,9 @@ namespace thalweg::io {
 void read_arcs(NetworkFile& file, Layer const& arcs, std::optional<Schema> schema, Wish const& wish,
                Driver const& driver, Notes& notes, Run const& run);
 
+/// Reads which features arcs were made of. What is no such table is passed over.
+void read_sources(NetworkFile& file, Layer const& sources, Driver const& driver, Run const& run);
+
 /// Reads the nodes. Takes: the field of their ids. Throws: like read_network.
 void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_id, Driver const& driver, Notes& notes,
                 Run const& run);

@@ -23,6 +23,7 @@
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/into_metres.hpp>
+#include <thalweg/io/read_attributes.hpp>
 #include <thalweg/io/river_fields.hpp>
 #include <thalweg/io/rivers_layer.hpp>
 
@@ -172,6 +173,7 @@ struct Read {
     std::vector<RiverLine> unnatural;
     std::vector<std::string> reasons; ///< of these
     std::vector<Finding> findings;
+    AttributeTable attributes;
 };
 
 Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string const& name, Run const& run) {
@@ -182,7 +184,9 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
                                  ? -1
                                  : find_field(layer, params.lambda_field, params.lambda_field == "lambda", name);
     RiverFields fields(layer);
+    AttributeReader attributes(layer);
     Read read;
+    read.findings = attributes.findings();
     std::int64_t number = 0;
     for (auto const& feature : layer) {
         run.check();
@@ -193,6 +197,7 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
             line.type = feature->GetFieldAsString(type_field);
         }
         fields.read(*feature, line);
+        attributes.read(*feature);
         OGRGeometry const* const drawn = feature->GetGeometryRef();
         std::string const reason = params.filter == LineFilter::natural ? fields.unnatural(*feature) : "";
         auto& lines = reason.empty() ? read.lines : read.unnatural;
@@ -210,6 +215,7 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
         read.reasons.resize(read.unnatural.size(), reason);
     }
     fields.link(read.lines);
+    read.attributes = attributes.take();
     return read;
 }
 
@@ -310,6 +316,7 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     }
     rivers.lines = std::move(read.lines);
     rivers.findings = std::move(read.findings);
+    rivers.attributes = std::move(read.attributes);
     OGRSpatialReference const* const own = layer.GetSpatialRef();
     if (own == nullptr || own->IsEmpty()) {
         refuse_rivers(

@@ -16,10 +16,10 @@ namespace thalweg::io {
 
 namespace {
 
-using Names = std::pair<std::string_view, std::string_view>;
+using LinkFields = std::pair<std::string_view, std::string_view>;
 
 // The fields of a line's own id and of the id downstream; the first pair that a layer has counts.
-constexpr std::array<Names, 8> links{{
+constexpr std::array<LinkFields, 8> known_links{{
     {"hydroseq", "dnhydroseq"},  // NHDPlus
     {"comid", "tocomid"},        // nhdplusTools
     {"hyriv_id", "next_down"},   // HydroRIVERS
@@ -31,12 +31,12 @@ constexpr std::array<Names, 8> links{{
 }};
 
 // How great a river is, the most telling first: what a minor channel carries, areas, discharge, orders.
-constexpr std::array<std::string_view, 15> sizes{"divdasqkm", "upland_skm", "dis_av_cms", "ds_area",     "dscontarea",
-                                                 "totdasqkm", "streamcalc", "streamorde", "streamorder", "ord_stra",
-                                                 "strahler",  "strmorder",  "stream_ord", "strord",      "horton"};
+constexpr std::array<std::string_view, 15> river_sizes{
+    "divdasqkm",   "upland_skm", "dis_av_cms", "ds_area",   "dscontarea", "totdasqkm", "streamcalc", "streamorde",
+    "streamorder", "ord_stra",   "strahler",   "strmorder", "stream_ord", "strord",    "horton"};
 
-constexpr std::array<std::string_view, 6> names{"name",       "gnis_name", "nametxtint",
-                                                "river_name", "rivername", "riv_name"};
+constexpr std::array<std::string_view, 6> river_names{"name",       "gnis_name", "nametxtint",
+                                                      "river_name", "rivername", "riv_name"};
 
 // Values of OpenStreetMap's key waterway that are natural watercourses.
 constexpr std::array<std::string_view, 8> natural_waterways{"river", "stream", "tidal_channel", "brook",
@@ -51,7 +51,7 @@ template <std::size_t N> int first_of(OGRFeatureDefn& schema, std::array<std::st
     return -1;
 }
 
-std::string lower(std::string text) {
+std::string small_letters(std::string text) {
     std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
@@ -76,7 +76,7 @@ std::string kind_of_fcode(double code) {
 RiverFields::RiverFields(OGRLayer& layer) {
     OGRFeatureDefn& schema = *layer.GetLayerDefn();
     auto const find = [&](char const* name) { return schema.GetFieldIndex(name); };
-    for (auto const& [own, down] : links) {
+    for (auto const& [own, down] : known_links) {
         id_ = find(std::string(own).c_str());
         down_ = find(std::string(down).c_str());
         if (id_ >= 0 && down_ >= 0) {
@@ -88,8 +88,8 @@ RiverFields::RiverFields(OGRLayer& layer) {
     divergence_ = numeric(find("divergence"));
     calculated_order_ = numeric(find("streamcalc"));
     order_ = numeric(find("streamorde") >= 0 ? find("streamorde") : find("streamorder"));
-    size_ = numeric(first_of(schema, sizes));
-    name_ = first_of(schema, names);
+    size_ = numeric(first_of(schema, river_sizes));
+    name_ = first_of(schema, river_names);
     waterway_ = find("waterway");
     tunnel_ = find("tunnel");
     man_made_ = find("man_made");
@@ -126,19 +126,19 @@ void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
 }
 
 std::string RiverFields::unnatural(OGRFeature const& feature) const {
-    if (std::string const kind = lower(text(feature, waterway_));
+    if (std::string const kind = small_letters(text(feature, waterway_));
         !kind.empty() && std::ranges::find(natural_waterways, kind) == natural_waterways.end()) {
         return "waterway " + kind;
     }
-    if (std::string const tunnel = lower(text(feature, tunnel_)); tunnel == "flooded") {
+    if (std::string const tunnel = small_letters(text(feature, tunnel_)); tunnel == "flooded") {
         return "tunnel " + tunnel;
     }
-    if (std::string const made = lower(text(feature, man_made_)); made == "pipeline") {
+    if (std::string const made = small_letters(text(feature, man_made_)); made == "pipeline") {
         return "man_made " + made;
     }
     // NHD gives its types in words, or by their numbers.
     std::string const type = text(feature, ftype_);
-    std::string const kind = lower(type);
+    std::string const kind = small_letters(type);
     if (kind == "coastline" || kind == "pipeline" || kind == "canalditch" || kind == "566" || kind == "428" ||
         kind == "336") {
         return "FTYPE " + type;

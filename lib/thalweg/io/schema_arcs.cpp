@@ -15,12 +15,13 @@
 
 #include <thalweg/core/index.hpp>
 #include <thalweg/io/network_tables.hpp>
+#include <thalweg/io/user_columns.hpp>
 
 namespace thalweg::io {
 
 namespace {
 
-using Value = std::variant<std::int64_t, double, std::string>;
+using Value = Column::Value;
 
 /// What the quantities of an arc are, by its number; links to arcs are numbers too, -1 for none.
 class Arcs {
@@ -242,6 +243,11 @@ Table schema_arcs(SchemaTable const& schema, NetworkTables const& tables, Networ
             table.columns.push_back({short_names ? short_name(field) : std::string(field.name), field.kind,
                                      field.decimals, value_of(field, schema, arcs)});
         }
+    }
+    if (tables.user != nullptr) {
+        add_user_columns(
+            table, tables.user->attributes,
+            [&user = *tables.user](std::int64_t a) { return user.record[static_cast<std::size_t>(a)]; }, short_names);
     }
     return table;
 }

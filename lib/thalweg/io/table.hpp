@@ -16,12 +16,14 @@ namespace thalweg::io {
 
 /// A column of a table, asked row by row.
 struct Column {
-    enum class Kind { integer, wide_integer, real, text };
+    enum class Kind { integer, wide_integer, real, text, date, time, datetime };
+    using Value = std::variant<std::monostate, std::int64_t, double, std::string>; ///< the first is NULL
 
     std::string name; ///< in a shapefile at most 10 characters
     Kind kind = Kind::integer;
-    int decimals = 0; ///< of a real in a shapefile, whose fields have 24 characters
-    std::function<std::variant<std::int64_t, double, std::string>(std::int64_t row)> at; ///< of the kind's type
+    int decimals = 0;                          ///< of a real in a shapefile, whose fields have 24 characters
+    std::function<Value(std::int64_t row)> at; ///< of the kind's type; texts for dates and times
+    bool is_users = false;                     ///< may be NULL, and numbers of any size
 };
 
 /// A layer of a vector file: its features are the rows [0, rows), numbered from 1.

@@ -21,7 +21,7 @@ namespace thalweg::io {
 namespace {
 
 using Kind = Column::Kind;
-using Value = std::variant<std::int64_t, double, std::string>;
+using Value = Column::Value;
 /// A text as the format writes it.
 using Quote = std::string (*)(std::string_view);
 
@@ -76,6 +76,9 @@ public:
 
     std::string value(Table const& table, Column const& column, std::int64_t row) const {
         Value const value = column.at(row);
+        if (std::holds_alternative<std::monostate>(value)) {
+            return quote_ == in_python ? "None" : "";
+        }
         if (auto const* text = std::get_if<std::string>(&value)) {
             return quote_(*text);
         }

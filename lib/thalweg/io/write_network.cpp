@@ -51,16 +51,36 @@ void write_geopackage(NetworkTables const& tables, std::string const& path, Run 
         layers.push_back(ridges_table(*tables.ridges));
     }
     if (tables.secondary != nullptr && !tables.secondary->empty()) {
-        layers.push_back(secondary_table(*tables.secondary));
+        layers.push_back(secondary_table(*tables.secondary, tables.user));
+    }
+    if (tables.user != nullptr && !tables.user->sources.empty()) {
+        layers.push_back(sources_table(*tables.user));
     }
     layers.push_back(run_table(tables.run));
     write_tables(layers, tables.crs, file, run);
 }
 
+std::vector<ShortenedName> shortened_names(NetworkTables const& tables, Schema schema) {
+    if (tables.user == nullptr) {
+        return {};
+    }
+    NetworkIndex const index(tables.network.plan);
+    std::string const what = "io.shortened_names";
+    Table const full = network_layers(tables, index, schema, false, what).front();
+    Table const cut = network_layers(tables, index, schema, true, what).front();
+    std::vector<ShortenedName> names;
+    for (std::size_t c = 0; c < full.columns.size(); ++c) {
+        if (full.columns[c].is_users && full.columns[c].name != cut.columns[c].name) {
+            names.push_back({full.columns[c].name, cut.columns[c].name});
+        }
+    }
+    return names;
+}
+
 void write_shapefiles(NetworkTables const& tables, std::string const& path, Run const& run) {
     NetworkIndex const index(tables.network.plan);
     require_whole(tables, index, "io.write_shapefiles: " + path);
-    write_shapefile(arcs_table(tables, index), tables.crs, path + "_arcs.shp", run);
+    write_shapefile(arcs_table(tables, index, true), tables.crs, path + "_arcs.shp", run);
     write_shapefile(nodes_table(tables, index), tables.crs, path + "_nodes.shp", run);
 }
 

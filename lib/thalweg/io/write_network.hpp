@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/attributes.hpp>
 #include <thalweg/core/grid.hpp>
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/river_lines.hpp>
@@ -15,6 +16,13 @@
 #include <thalweg/io/schema.hpp>
 
 namespace thalweg::io {
+
+/// What a user's file said of its lines, for the arcs and secondary lines that they became.
+struct UserData {
+    AttributeTable attributes;
+    std::vector<std::int64_t> record = {};          ///< by arc, from 1; 0 for none
+    std::vector<std::vector<Stretch>> sources = {}; ///< by arc; may be empty
+};
 
 /// A network with everything its tables hold.
 struct NetworkTables {
@@ -28,6 +36,7 @@ struct NetworkTables {
     std::vector<std::uint8_t> const* braided = nullptr;    ///< by arc, 1 or 0; without it all are 0
     RidgeLines const* ridges = nullptr;                    ///< layer ridges of the GeoPackage; none when null or empty
     std::vector<SecondaryLine> const* secondary = nullptr; ///< layer secondary of the GeoPackage; likewise
+    UserData const* user = nullptr;                        ///< none when null
     bool heights = true;                                   ///< else nobody knows them, and 0 stands for each
 };
 
@@ -39,6 +48,8 @@ struct NetworkTables {
 /// + 1. Where there are ridges, also the layer ridges (LineStringZ): ridge_id, the ridge's number + 1; left and right,
 /// the labels of its streams; length [m] in plan; z_min and z_max [m]. Where there are lines that are not in the
 /// network, also the layer secondary (LineString): feature, reason (text) and length [m]. Shapefiles have neither.
+/// With user data: its columns in arcs and secondary, those with a name of ours as u_NAME, and the table sources:
+/// arc_id, feature, from_m and to_m [m] along the arc from its upstream end.
 /// Gives: the same bytes for the same network, on any day. Throws: BadInput naming the arc or node when the values do
 /// not belong to the network, an arc's end is not its node, a node reaches no outlet, a ridge has fewer than two
 /// vertices, a number is not finite or, in a shapefile, has more digits than its field; IoError, also when the file
@@ -46,8 +57,17 @@ struct NetworkTables {
 void write_geopackage(NetworkTables const& tables, std::string const& path, Run const& run = {});
 
 /// Writes the shapefiles PATH_arcs.* and PATH_nodes.* with the same fields, UTF-8: reals of 24 characters (9 decimals
-/// for lengths, 6 for areas, 15 for slopes). Gives and throws: like write_geopackage.
+/// for lengths, 6 for areas, 15 for slopes); user columns as shortened_names has them. Gives and throws: like
+/// write_geopackage.
 void write_shapefiles(NetworkTables const& tables, std::string const& path, Run const& run = {});
+
+/// A column of a user, and its name in shapefiles, where that differs from the one in other formats: names have at most
+/// 10 bytes there.
+struct ShortenedName {
+    std::string name;
+    std::string in_shapefile;
+};
+std::vector<ShortenedName> shortened_names(NetworkTables const& tables, Schema schema = Schema::native);
 
 /// How a network is written.
 enum class NetworkFormat : std::uint8_t {

@@ -14,11 +14,13 @@ namespace thalweg::network {
 
 /// What says which way the rivers of a component run: which of its ends is the outlet.
 enum class Orientation : std::uint8_t {
-    automatic,    ///< by height where every line has Z, else by rank where the file gives one, else the end of the
-                  ///< component that turns the least length of the drawn direction round (ties: as topology)
+    automatic, ///< by the file's links where there are any, else by height where every line has Z, else by rank where
+               ///< the file gives one, else the end of the component that turns the least length of the drawn direction
+               ///< round (ties: as topology)
     height,       ///< downstream is down
     rank,         ///< downstream is where the rank falls
     as_drawn,     ///< the file's direction
+    links,        ///< as the file's links say, else as least_turned
     least_turned, ///< the end of the component that turns the least length of the drawn direction round
     topology      ///< towards the end of the component nearest the border of the box
 };

@@ -19,7 +19,7 @@
 namespace thalweg::network::adopt_steps {
 namespace {
 
-constexpr std::size_t none = static_cast<std::size_t>(-1);
+constexpr std::size_t no_piece = static_cast<std::size_t>(-1);
 
 constexpr char const* minor_channel = "minor channel";
 constexpr char const* closes_loop = "closes a loop";
@@ -60,10 +60,10 @@ std::vector<Component> components_of(Pieces const& p) {
         sets.join(piece.from, piece.to);
     }
     std::vector<Component> components;
-    std::vector<std::size_t> number(p.nodes.size(), none);
+    std::vector<std::size_t> number(p.nodes.size(), no_piece);
     for (std::size_t n = 0; n < p.nodes.size(); ++n) {
         std::size_t& of = number[sets.of(n)];
-        if (of == none) {
+        if (of == no_piece) {
             of = components.size();
             components.emplace_back();
         }
@@ -79,7 +79,7 @@ class Divider {
 public:
     Divider(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation)
         : p_(pieces), lines_(lines), file_(file), orientation_(orientation),
-          evidence_(evidence_of(pieces, lines, file, orientation)), main_(pieces.nodes.size(), none),
+          evidence_(evidence_of(pieces, lines, file, orientation)), main_(pieces.nodes.size(), no_piece),
           kept_(pieces.nodes.size()) {
         divided_.reason.assign(p_.pieces.size(), nullptr);
         divided_.runs.assign(p_.pieces.size(), 0);
@@ -166,7 +166,7 @@ private:
     void choose_mains(Component const& c) {
         for (std::size_t const n : c.nodes) {
             auto const out = branches(n);
-            main_[n] = out.empty() ? none : main_of(p_, lines_, divided_, length_above_, n, out);
+            main_[n] = out.empty() ? no_piece : main_of(p_, lines_, divided_, length_above_, n, out);
         }
     }
 
@@ -174,12 +174,12 @@ private:
     std::vector<std::size_t> circle_from(std::size_t start) {
         std::vector<std::size_t> way;
         std::size_t n = start;
-        while (main_[n] != none && state_[n] == 0) {
+        while (main_[n] != no_piece && state_[n] == 0) {
             state_[n] = 1;
             way.push_back(n);
             n = below(main_[n]);
         }
-        bool const closed = main_[n] != none && state_[n] == 1;
+        bool const closed = main_[n] != no_piece && state_[n] == 1;
         auto const begin = closed ? std::ranges::find(way, n) : way.end();
         std::vector<std::size_t> result(begin, way.end());
         for (std::size_t const m : way) {
@@ -199,8 +199,8 @@ private:
     /// Takes another way out of a circle where there is one, else its smallest piece away.
     void open(std::vector<std::size_t> on) {
         std::ranges::sort(on);
-        std::size_t exit = none;
-        std::size_t at = none;
+        std::size_t exit = no_piece;
+        std::size_t at = no_piece;
         for (std::size_t const n : on) {
             auto out = branches(n);
             std::erase_if(out,
@@ -209,12 +209,12 @@ private:
                 continue;
             }
             std::size_t const best = main_of(p_, lines_, divided_, length_above_, n, out);
-            if (exit == none || size_of(best) > size_of(exit)) {
+            if (exit == no_piece || size_of(best) > size_of(exit)) {
                 exit = best;
                 at = n;
             }
         }
-        if (exit != none) {
+        if (exit != no_piece) {
             leave_out(main_[at], circle);
             main_[at] = exit;
             return;
@@ -225,12 +225,12 @@ private:
         std::size_t const least = *std::ranges::min_element(on, {}, key);
         leave_out(main_[least], circle);
         auto const others = branches(least);
-        main_[least] = others.empty() ? none : main_of(p_, lines_, divided_, length_above_, least, others);
+        main_[least] = others.empty() ? no_piece : main_of(p_, lines_, divided_, length_above_, least, others);
     }
 
     void keep_mains(Component const& c) {
         for (std::size_t const n : c.nodes) {
-            if (main_[n] != none) {
+            if (main_[n] != no_piece) {
                 kept_.join(n, below(main_[n]));
             }
         }
@@ -243,7 +243,7 @@ private:
         std::ranges::stable_sort(others, {},
                                  [&](std::size_t k) { return std::pair(-size_of(k), -p_.pieces[k].length_m); });
         for (std::size_t const k : others) {
-            if (certain != nullptr && certain->votes[k] != 0) {
+            if (certain != nullptr && (certain->votes[k] != 0 || ends_the_links(k, *certain))) {
                 refuse_pit(k, *certain);
                 leave_out(k, minor_channel);
             } else if (!kept_.join(p_.pieces[k].from, p_.pieces[k].to)) {
@@ -252,13 +252,18 @@ private:
         }
     }
 
+    /// Drawn away from others and linked to none: no tributary, which would name what it flows into.
+    bool ends_the_links(std::size_t k, Evidence const& by) const {
+        return by.kind == Evidence::Kind::links && lines_[p_.pieces[k].line].down == 0;
+    }
+
     /// Heights and ranks that lead from one place into two pits are wrong in one of them.
     void refuse_pit(std::size_t k, Evidence const& by) {
         if (by.kind != Evidence::Kind::height && by.kind != Evidence::Kind::rank) {
             return;
         }
         auto const end_of = [&](std::size_t n) {
-            while (main_[n] != none) {
+            while (main_[n] != no_piece) {
                 n = below(main_[n]);
             }
             return n;

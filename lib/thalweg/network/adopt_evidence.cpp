@@ -106,7 +106,7 @@ std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine> const&
     }
     std::vector<Evidence> evidence;
     bool const any_link = std::ranges::any_of(lines, [](RiverLine const& l) { return l.down != 0; });
-    if (any_link && asked == Orientation::automatic) {
+    if (any_link && (asked == Orientation::automatic || asked == Orientation::links)) {
         evidence.push_back({Evidence::Kind::links, by_links(p, lines), "the file's links"});
     }
     if (file.has_z && (asked == Orientation::height || asked == Orientation::automatic)) {

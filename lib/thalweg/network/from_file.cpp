@@ -135,7 +135,6 @@ FileNetwork from_file(NetworkFile const& file) {
         throw BadInput("network.from_file: the file holds no arcs: is it the right layer?");
     }
     bool const heights = file.says.heights;
-    bool const foreign = file.schema != "native";
     Nodes nodes(file);
     std::vector<std::size_t> const order = by_id(file.arcs, "arc");
     if (!file.says.ends) {
@@ -156,7 +155,7 @@ FileNetwork from_file(NetworkFile const& file) {
         bool const own_height = heights && file.says.nodes;
         require_end(arc, file.nodes[nodes.order()[from]], arc.line.front(), own_height);
         require_end(arc, file.nodes[nodes.order()[to]], arc.line.back(), own_height);
-        Arc drawn{{}, arc.survives, foreign ? arc.id - file.id_shift : arc.feature, arc.type, arc.given};
+        Arc drawn{{}, arc.survives, arc.feature, arc.type, arc.given};
         std::vector<double> z;
         for (Vec3 const p : arc.line) {
             drawn.line.push_back({p.x, p.y});
@@ -170,8 +169,14 @@ FileNetwork from_file(NetworkFile const& file) {
         made.ds_area_m2.push_back(arc.ds_area_m2);
         made.braided.push_back(arc.braided ? 1 : 0);
         made.arc_ids.push_back(arc.id);
+        made.records.push_back(arc.record);
     }
     NetworkIndex const index(plan);
+    for (std::size_t a = 0; a < order.size(); ++a) {
+        FileArc const& arc = file.arcs[order[a]];
+        bool const is_whole = arc.sources.empty() && arc.feature != 0;
+        made.stretches.push_back(is_whole ? std::vector<Stretch>{{arc.feature, 0.0, index.length_m[a]}} : arc.sources);
+    }
     for (NodeId n = 0; n < index.out.size(); ++n) {
         if (index.out[n] < 0 && index.in[n].empty()) {
             refuse(fmt::format("node {} at ({}, {}) has no arc", file.nodes[nodes.order()[n]].id, plan[n].at.x,

@@ -117,7 +117,19 @@ void write_copy(MendedNetwork const& mended, std::string const& crs, CheckOutput
                                    mended.node_area_m2,
                                    crs,
                                    {{"version", version()}, {"mended", std::to_string(mended.mended.size())}},
-                                   &mended.braided};
+                                   &mended.braided,
+                                   nullptr,
+                                   &mended.secondary,
+                                   &mended.user};
+    if (output.is_shapefile()) {
+        for (io::ShortenedName const& one : io::shortened_names(tables)) {
+            checked.notes.push_back({"shortened_field",
+                                     0,
+                                     {},
+                                     1.0,
+                                     fmt::format("field {} is {} in the shapefile", one.name, one.in_shapefile)});
+        }
+    }
     append(checked.written, output.put([&](std::string const& path) {
         output.is_shapefile() ? io::write_shapefiles(tables, path, run) : io::write_geopackage(tables, path, run);
     }));

@@ -24,6 +24,7 @@
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/split_confluences.hpp>
 #include <thalweg/pipeline/frame.hpp>
+#include <thalweg/pipeline/line_sources.hpp>
 #include <thalweg/pipeline/report.hpp>
 #include <thalweg/pipeline/split_areas.hpp>
 
@@ -91,7 +92,9 @@ void split(Ready& ready, ConvertParams const& params, Converted& converted, Run 
     add_pieces(made.pieces, source.us_area_m2, source.ds_area_m2);
     for (network::SplitPiece const& piece : made.pieces) {
         source.braided.push_back(source.braided[piece.of]);
+        source.records.push_back(source.records[piece.of]);
     }
+    source.stretches = LineSources(source.network.plan, source.stretches).of(made.network.plan);
     source.network = std::move(made.network);
     ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
 }
@@ -193,6 +196,19 @@ public:
 
     bool is_mask() const { return !database_ && write_.format == io::NetworkFormat::mask; }
 
+    /// Which columns of the user have other names there.
+    void say_shortened(io::NetworkTables const& tables, std::vector<Finding>& findings) const {
+        if (!database_ && write_.format == io::NetworkFormat::shapefile) {
+            for (io::ShortenedName const& one : io::shortened_names(tables, params_.schema)) {
+                findings.push_back({"shortened_field",
+                                    0,
+                                    {},
+                                    1.0,
+                                    fmt::format("field {} is {} in the shapefile", one.name, one.in_shapefile)});
+            }
+        }
+    }
+
     std::vector<std::string> write(io::NetworkTables const& tables, Grid const& grid, Run const& run) {
         if (database_) {
             bool const overwrite = existing_ == io::Existing::replace;
@@ -255,6 +271,9 @@ Converted convert(ConvertParams const& params, std::string const& output, io::Ex
                   {"area_from", converted.areas}};
     tables.braided = &ready.source.braided;
     tables.heights = std::string(converted.heights) != "none";
+    io::UserData const user{std::move(file.attributes), ready.source.records, ready.source.stretches};
+    tables.user = &user;
+    out.say_shortened(tables, converted.findings);
     Grid const grid = out.is_mask() ? grid_of(plan, params, dem ? &*dem : nullptr, file.crs) : Grid{};
     converted.written = out.write(tables, grid, run);
     return converted;

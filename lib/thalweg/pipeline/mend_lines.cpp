@@ -135,7 +135,13 @@ public:
                 fmt::format("arc {}: it is a loop and is left out", arc.id));
             return;
         }
-        result_.rivers.lines.push_back({arc.id, std::move(line), arc.type, 0, 0});
+        if (!arc.unnatural.empty()) {
+            say("secondary", arc.id, plan(line.front()), length_of_plan(line),
+                fmt::format("arc {}: is not a river: {}", arc.id, arc.unnatural));
+            result_.secondary.push_back({arc.id, std::move(line), arc.unnatural});
+            return;
+        }
+        result_.rivers.lines.push_back({arc.id, std::move(line), arc.type, 0, 0, arc.ds_arc, arc.size, arc.channel});
         result_.arcs.push_back(a);
     }
 

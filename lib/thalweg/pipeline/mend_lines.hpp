@@ -13,8 +13,9 @@
 namespace thalweg::pipeline {
 
 struct MendedLines {
-    RiverLines rivers;             ///< in the direction of flow, feature = arc_id
-    std::vector<std::size_t> arcs; ///< by river: number of its arc in the file
+    RiverLines rivers;                         ///< in the direction of flow, feature = arc_id
+    std::vector<std::size_t> arcs;             ///< by river: number of its arc in the file
+    std::vector<SecondaryLine> secondary = {}; ///< arcs that are no natural watercourse, feature = arc_id
     std::vector<Finding> mended;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -83,16 +84,46 @@ void take_areas(Known const& known, double near_m, MendedNetwork& mended) {
     }
 }
 
+/// The features of an arc that is a part of a file's, or the whole of it.
+std::vector<Stretch> stretches_of(NetworkFile::FileArc const& given, double given_m, double length_m) {
+    bool const is_whole = std::fabs(given_m - length_m) <= 1e-6 * given_m;
+    if (is_whole && !given.sources.empty()) {
+        return given.sources;
+    }
+    return given.feature == 0 ? std::vector<Stretch>{} : std::vector<Stretch>{{given.feature, 0.0, length_m}};
+}
+
 /// Arcs take from the file what it says of them beside their lines.
 void take_words(Known const& known, MendedNetwork& mended) {
-    for (ArcId const arc : NetworkIndex(mended.network.plan).arcs) {
-        Arc& of = mended.network.plan[arc];
+    NetworkIndex const index(mended.network.plan);
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        Arc& of = mended.network.plan[index.arcs[a]];
         auto const& given = known.arc(of.feature);
+        std::vector<Vec2> line;
+        for (Vec3 const v : known.line(of.feature).vertices) {
+            line.push_back({v.x, v.y});
+        }
         mended.braided.push_back(given.braided ? 1 : 0);
+        mended.user.record.push_back(given.record);
+        mended.user.sources.push_back(stretches_of(given, length_of(line), index.length_m[a]));
         of.survives = given.survives;
         of.given = given.given;
-        of.feature = given.feature != 0 ? given.feature : given.id;
+        of.feature = given.feature;
     }
+}
+
+/// Secondary lines by the features of the file.
+std::vector<SecondaryLine> named_by_file(NetworkFile const& file, std::vector<SecondaryLine> lines) {
+    std::map<std::int64_t, std::size_t> arc_of;
+    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
+        arc_of.try_emplace(file.arcs[a].id, a);
+    }
+    for (SecondaryLine& line : lines) {
+        auto const& arc = file.arcs[arc_of.at(line.feature)];
+        line.feature = arc.feature;
+        line.record = arc.record;
+    }
+    return lines;
 }
 
 /// One finding for each kind that the check found, so that nothing is mended in silence.
@@ -119,7 +150,7 @@ void say_lowered(network::Lowered const& lowered, std::vector<Finding>& mended) 
     }
 }
 
-void append(std::vector<Finding>& to, std::vector<Finding> from) {
+template <class T> void append(std::vector<T>& to, std::vector<T> from) {
     to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
@@ -141,7 +172,11 @@ MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport cons
     network::Adopted adopted;
     try {
         adopted = network::adopt(
-            lines.rivers, {.snap_m = near_m, .orientation = network::Orientation::least_turned, .join = false}, run);
+            lines.rivers,
+            {.snap_m = near_m,
+             .orientation = file.schema == "native" ? network::Orientation::least_turned : network::Orientation::links,
+             .join = false},
+            run);
     } catch (BadInput const& cannot) {
         return give_up(cannot.what());
     }
@@ -157,6 +192,9 @@ MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport cons
     Known const known(file, lines);
     take_areas(known, near_m, mended);
     take_words(known, mended);
+    mended.user.attributes = file.attributes;
+    append(lines.secondary, std::move(adopted.secondary));
+    mended.secondary = named_by_file(file, std::move(lines.secondary));
     say_mended(found, mended.mended);
 
     auto const left = measure::check_topology(measure::as_file(mended.network, mended.orders), {near_m}, run);

@@ -8,6 +8,7 @@
 #include <thalweg/core/network_file.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/io/write_network.hpp>
 #include <thalweg/measure/topology.hpp>
 
 namespace thalweg::pipeline {
@@ -24,20 +25,23 @@ struct MendedNetwork {
     std::vector<double> ds_area_m2; ///< by arc
     std::vector<double> node_area_m2;
     std::vector<std::uint8_t> braided; ///< by arc
-    std::vector<Finding> mended;       ///< feature = arc_id of the file
-    bool done = false;                 ///< the check finds nothing any more; else mended ends with what is left
+    io::UserData user;                 ///< of the file
+    std::vector<SecondaryLine> secondary;
+    std::vector<Finding> mended; ///< feature = arc_id of the file
+    bool done = false;           ///< the check finds nothing any more; else mended ends with what is left
 };
 
 /// Mends what a check has found, without inventing more than it must.
 /// Takes: the file, and what the check of it found with the same near_m. Gives, in this order: vertices that are no
 /// numbers left out, an arc without a line drawn straight between its nodes or left out, ends put onto their node where
-/// no other lies in their place, arcs drawn against the flow turned, loops and spikes cut off; then network::adopt
-/// (ends joined, arcs split where they meet, copies left out, what still runs against the rest turned round) and
-/// network::lower_rises. Orders and basins are those of the result. Areas stay where an arc keeps its end, and are
-/// otherwise what flows in; 0 where the file does not say. Heights are 0 in a file without. Kinds of mended: left_out
-/// (vertices; arc: 0), drawn [m], moved [m], turned [m], cut [m], those of adopt, lowered [m], level (arcs), mended
-/// (findings of one kind), not_mended. A file without a fault keeps its arcs, nodes and vertices.
-/// Throws: Cancelled; BadParameter.
+/// no other lies in their place, arcs drawn against the flow turned, loops and spikes cut off,
+/// arcs that are no natural watercourse secondary; then network::adopt, which under a foreign schema is told the file's
+/// links (branches beside the main path secondary, ends joined, arcs split where they meet, copies left out, what still
+/// runs against the rest turned round) and network::lower_rises. Orders and basins are those of the result. Areas stay
+/// where an arc keeps its end, and are otherwise what flows in; 0 where the file does not say. Heights are 0 in a file
+/// without. Kinds of mended: left_out (vertices; arc: 0), drawn [m], moved [m], turned [m], cut [m], those of adopt,
+/// lowered [m], level (arcs), secondary [m], mended (findings of one kind), not_mended. A file without a fault keeps
+/// its arcs, nodes and vertices. Throws: Cancelled; BadParameter.
 MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport const& found,
                            MendNetworkParams const& params = {}, Run const& run = {});
 

@@ -176,6 +176,8 @@ Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& ru
     terrain.story.repairs = left_out(lines);
     terrain.story.repairs.insert(terrain.story.repairs.end(), adopted.repairs.begin(), adopted.repairs.end());
     terrain.secondary = lines.secondary;
+    terrain.attributes = std::move(lines.attributes);
+    terrain.sources = LineSources(adopted.network, adopted.stretches);
     terrain.secondary.insert(terrain.secondary.end(), adopted.secondary.begin(), adopted.secondary.end());
     diary.say(fmt::format("{} arcs, {} repairs{}", boost::num_edges(adopted.network), terrain.story.repairs.size(),
                           terrain.secondary.empty() ? "" : fmt::format(", {} secondary", terrain.secondary.size())));

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report.hpp>
 
+#include <thalweg/pipeline/user_data.hpp>
+
 #include <thalweg/pipeline/check_files.hpp>
 
 #include <thalweg/core/memory.hpp>
@@ -248,6 +250,11 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
                         {"peak_rss_mb", static_cast<double>(peak_memory_bytes()) / 1e6}};
     if (t.recipe.network) {
         report["network"] = network_object(t);
+        report["network"]["secondary"] = t.secondary.size();
+        report["shortened_fields"] = ordered_json::array();
+        for (io::ShortenedName const& one : shortened_names(t)) {
+            report["shortened_fields"].push_back({{"field", one.name}, {"in_shapefile", one.in_shapefile}});
+        }
     }
     if (t.statistics) {
         report["dem"] = dem(*t.statistics);

@@ -73,6 +73,7 @@ void let_wander(Planned& planned, Terrain& terrain, Diary& diary, Run const& run
                                         : network::meander(planned.plan, terrain.grid, areas.ds_area_m2, params, run);
     });
     diary.say(fmt::format("{} vertices, at most {:.0f} m aside", bent.vertices, bent.max_shift_m));
+    terrain.sources = terrain.sources.bent(planned.plan, bent.network);
     planned.plan = std::move(bent.network);
 }
 

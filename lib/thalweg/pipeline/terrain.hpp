@@ -27,6 +27,7 @@
 #include <thalweg/network/assign_types.hpp>
 #include <thalweg/network/count_streams.hpp>
 #include <thalweg/pipeline/laws.hpp>
+#include <thalweg/pipeline/line_sources.hpp>
 #include <thalweg/pipeline/recipe.hpp>
 #include <thalweg/pipeline/relief.hpp>
 
@@ -98,6 +99,8 @@ struct Terrain {
     Grid grid;
     RaisedNetwork network;
     std::vector<SecondaryLine> secondary; ///< lines of the file that are not in the network
+    AttributeTable attributes;            ///< of the file's lines
+    LineSources sources;                  ///< the file's lines in the network
     Mask land;                            ///< 0: sea, which has no heights; without cells: all is land
     NetworkOrders orders;
     network::StreamCounts streams; ///< side branches, as drawn

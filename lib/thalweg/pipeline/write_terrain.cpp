@@ -20,6 +20,7 @@
 #include <thalweg/pipeline/recipe_keys.hpp>
 #include <thalweg/pipeline/report.hpp>
 #include <thalweg/pipeline/split_areas.hpp>
+#include <thalweg/pipeline/user_data.hpp>
 
 #include <fmt/format.h>
 
@@ -116,13 +117,16 @@ void write_in_schema(Terrain const& t, io::OutputFolder const& out, Run const& r
     add_pieces(split.pieces, us_area_m2, ds_area_m2);
     NetworkOrders const orders = network::order(split.network.plan);
     std::vector<double> const node_area_m2 = node_areas(split.network.plan, us_area_m2, ds_area_m2);
-    io::NetworkTables const tables{split.network, orders, us_area_m2, ds_area_m2, node_area_m2, t.grid.crs, {}};
+    auto const user = user_data(t, split.network.plan);
+    io::NetworkTables tables{split.network, orders, us_area_m2, ds_area_m2, node_area_m2, t.grid.crs, {}};
+    tables.user = user ? &*user : nullptr;
     io::write_network(tables, out.path(fmt::format("network_{}.gpkg", schema.name)), {.schema = schema.schema}, run);
 }
 
 void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run) {
     std::map<std::string, std::string> const about = {
         {"version", version()}, {"seed", fmt::format("{}", t.recipe.seed)}, {"area_from", t.areas.source}};
+    auto const user = user_data(t, t.network.plan);
     io::NetworkTables const tables{t.network,
                                    t.orders,
                                    t.areas.us_area_m2,
@@ -132,7 +136,8 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
                                    about,
                                    t.types.braided.empty() ? nullptr : &t.types.braided,
                                    &t.ridges,
-                                   &t.secondary};
+                                   &t.secondary,
+                                   user ? &*user : nullptr};
     io::write_geopackage(tables, out.path("network"), run);
     io::write_shapefiles(tables, out.path("network"), run);
     if (t.recipe.output.schema != io::Schema::native) {

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <thalweg/core/attributes.hpp>
+#include <thalweg/core/stream_network.hpp>
+
+/// Which features a network's arcs are made of, whatever became of the arcs. Private to this module.
+namespace thalweg::pipeline {
+
+/// Remembers by the vertices of a network which feature drew them: stages join, cut and shorten arcs, but keep vertices
+/// bit for bit.
+class LineSources {
+public:
+    LineSources() = default;
+    /// Takes: by arc its stretches.
+    LineSources(StreamNetwork const& network, std::vector<std::vector<Stretch>> const& stretches);
+
+    bool knows_any() const { return !segments_.empty(); }
+    /// The stretches of arcs that are made of the network's vertices. What is drawn beyond them (an outlet carried to
+    /// the border) came from no feature.
+    std::vector<std::vector<Stretch>> of(StreamNetwork const& network) const;
+    /// The same for a network whose arcs are those of this one by number, of other shape: each stretch takes its share
+    /// of the arc. Takes: the network as it was.
+    LineSources bent(StreamNetwork const& before, StreamNetwork const& after) const;
+
+private:
+    struct Hash {
+        std::size_t operator()(Vec2 p) const;
+        std::size_t operator()(std::pair<Vec2, Vec2> const& segment) const;
+    };
+    std::unordered_map<std::pair<Vec2, Vec2>, std::int64_t, Hash> segments_; ///< looked up only, never walked
+    std::unordered_map<Vec2, std::int64_t, Hash> arriving_;                  ///< by a segment's end; likewise
+};
+
+} // namespace thalweg::pipeline
