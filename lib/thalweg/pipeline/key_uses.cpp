@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/key_use.hpp>
+#include <thalweg/pipeline/land_in_equilibrium.hpp>
 
 #include <utility>
 #include <vector>
@@ -67,10 +68,6 @@ Use surface() {
 
 Use extremes() {
     return given("statistics.max") || given("statistics.min");
-}
-
-bool in_equilibrium(Recipe const& r) {
-    return r.network && r.surface && r.surface->method == Method::equilibrium;
 }
 
 /// Whether rivers have these heights, or may have them once their file is read.
