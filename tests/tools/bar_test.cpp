@@ -34,7 +34,7 @@ TEST(Bar, NothingKnownYet) {
 
 TEST(Bar, ShareRateAndTimeLeft) {
     EXPECT_EQ(bar_text(half(), 80, Colour::none),
-              "grow       [###############...............]  50 %  50.0 k particles/s  20 s left");
+              "grow       [##############...............]  50 %  50.0 k particles/s  20 s left");
     BarState state = half();
     state.amount = 0.0;
     EXPECT_EQ(bar_text(state, 80, Colour::none),

@@ -50,7 +50,7 @@ std::string why_not(fs::path const& folder) {
     return "it holds neither network.gpkg nor shapefiles; name a file in it";
 }
 
-bool is_database(std::string const& path) {
+bool names_database(std::string const& path) {
     return path.starts_with("PG:") || path.starts_with("postgresql:");
 }
 
@@ -62,7 +62,7 @@ RiverSource find_rivers(std::string const& path) {
     while (source.path.size() > 1 && source.path.ends_with('/')) {
         source.path.pop_back();
     }
-    bool const is_file = !is_database(path) && !path.starts_with("/vsi");
+    bool const is_file = !names_database(path) && !path.starts_with("/vsi");
     if (is_file && !fs::exists(path, ignored)) {
         refuse(fmt::format("{} does not exist", path));
     }

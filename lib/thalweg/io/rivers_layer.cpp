@@ -80,7 +80,7 @@ std::size_t rank_of(std::string_view name) {
     return exact.size() + parts.size();
 }
 
-std::vector<std::string> names_of(std::vector<OGRLayer*> const& layers) {
+std::vector<std::string> layer_names_of(std::vector<OGRLayer*> const& layers) {
     std::vector<std::string> names;
     for (OGRLayer* const layer : layers) {
         names.emplace_back(layer->GetName());
@@ -91,7 +91,7 @@ std::vector<std::string> names_of(std::vector<OGRLayer*> const& layers) {
 OGRLayer& named(std::vector<OGRLayer*> const& layers, std::string const& wanted, std::string const& what) {
     auto const at = std::ranges::find_if(layers, [&](OGRLayer* layer) { return layer->GetName() == wanted; });
     if (at == layers.end()) {
-        auto const names = names_of(layers);
+        auto const names = layer_names_of(layers);
         throw BadInput(fmt::format(
             "{} has no layer '{}'.{}", what, wanted,
             names.empty() ? "" : fmt::format("{} ({})", did_you_mean(wanted, names), fmt::join(names, ", "))));
@@ -120,7 +120,7 @@ LineLayers line_layers(GDALDataset& data, std::string const& what) {
     }
     if (found.lines.empty() && found.empty.empty()) {
         throw BadInput(fmt::format("{} has no layer with lines{}", what,
-                                   all.empty() ? "" : fmt::format(" ({})", fmt::join(names_of(all), ", "))));
+                                   all.empty() ? "" : fmt::format(" ({})", fmt::join(layer_names_of(all), ", "))));
     }
     return found;
 }
@@ -147,7 +147,7 @@ OGRLayer& rivers_layer(GDALDataset& data, std::string const& wanted, std::string
     if (std::ranges::count_if(lines, [&](OGRLayer* l) { return !less(best, l); }) > 1) {
         throw BadInput(fmt::format("{} has {} layers with lines ({}): name the one with the rivers, "
                                    "--set network.lines.layer=NAME",
-                                   what, lines.size(), fmt::join(names_of(lines), ", ")));
+                                   what, lines.size(), fmt::join(layer_names_of(lines), ", ")));
     }
     return *best;
 }

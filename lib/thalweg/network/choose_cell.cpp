@@ -21,7 +21,7 @@ namespace {
 constexpr double margin_share = 0.05;
 constexpr double most_crowded = 0.002;
 
-struct Extent {
+struct LinesExtent {
     double west = std::numeric_limits<double>::infinity();
     double south = std::numeric_limits<double>::infinity();
     double east = -std::numeric_limits<double>::infinity();
@@ -32,8 +32,8 @@ struct Extent {
     double tall() const { return north - south + 2.0 * margin(); }
 };
 
-Extent extent_of(RiverLines const& rivers) {
-    Extent box;
+LinesExtent extent_of(RiverLines const& rivers) {
+    LinesExtent box;
     for (RiverLine const& line : rivers.lines) {
         for (Vec3 const& p : line.vertices) {
             box = {std::min(box.west, p.x), std::min(box.south, p.y), std::max(box.east, p.x),
@@ -43,7 +43,7 @@ Extent extent_of(RiverLines const& rivers) {
     return box;
 }
 
-double cells_of(Extent const& box, double cell_m) {
+double cells_of(LinesExtent const& box, double cell_m) {
     return std::ceil(box.wide() / cell_m) * std::ceil(box.tall() / cell_m);
 }
 
@@ -91,7 +91,7 @@ double length_of(RiverLines const& rivers) {
     return sum;
 }
 
-Grid grid_of(Extent const& box, double cell_m) {
+Grid grid_of(LinesExtent const& box, double cell_m) {
     Grid grid;
     grid.cell_m = cell_m;
     grid.west = box.west - box.margin();
@@ -185,7 +185,7 @@ template <class Allowed> std::size_t first_allowed(std::vector<double> const& ro
 } // namespace
 
 ChosenCell choose_cell(RiverLines const& rivers, ChooseCellParams const& params, Run const& run) {
-    Extent const box = extent_of(rivers);
+    LinesExtent const box = extent_of(rivers);
     if (!(box.wide() > 0.0 || box.tall() > 0.0)) {
         throw BadInput(fmt::format("network.choose_cell: {}: {}", rivers.name,
                                    rivers.lines.empty() ? "there are no lines"

@@ -157,7 +157,7 @@ std::vector<Task> tasks_of(Order const& order, Scene const& scene) {
 }
 
 /// A word as a shell takes it.
-std::string quoted(std::string const& word) {
+std::string for_shell(std::string const& word) {
     bool const plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                                                "0123456789_./+:=@%-") == std::string::npos;
     if (plain) {
@@ -171,12 +171,12 @@ std::string quoted(std::string const& word) {
 }
 
 std::string command_of(std::string const& source, std::string const& output, DrawParams const& params) {
-    std::string command = fmt::format("thalweg draw {} -o {} --what page", quoted(source), quoted(output));
+    std::string command = fmt::format("thalweg draw {} -o {} --what page", for_shell(source), for_shell(output));
     if (!params.network.empty()) {
-        command += " --network " + quoted(params.network);
+        command += " --network " + for_shell(params.network);
     }
     if (!params.title.empty()) {
-        command += " --title " + quoted(params.title);
+        command += " --title " + for_shell(params.title);
     }
     return command;
 }

@@ -69,7 +69,7 @@ Use extremes() {
     return given("statistics.max") || given("statistics.min");
 }
 
-bool in_equilibrium(Recipe const& r) {
+bool draws_equilibrium(Recipe const& r) {
     return r.network && r.surface && r.surface->method == Method::equilibrium;
 }
 
@@ -81,7 +81,7 @@ bool may_be(Recipe const& r, Heights heights) {
     if (r.network->heights != Heights::automatic) {
         return r.network->heights == heights;
     }
-    return heights == (in_equilibrium(r) ? Heights::graded : Heights::straight_repaired) ||
+    return heights == (draws_equilibrium(r) ? Heights::graded : Heights::straight_repaired) ||
            (heights == Heights::file && r.network->source == Source::lines);
 }
 
@@ -89,7 +89,7 @@ Use slope() {
     return when("network.heights other than \"rosgen\", and other than \"graded\" with surface.method = "
                 "\"equilibrium\", whose rivers are graded with the terrain",
                 [](Recipe const& r) {
-                    bool const by_terrain = in_equilibrium(r);
+                    bool const by_terrain = draws_equilibrium(r);
                     bool found = by_terrain ? false : may_be(r, Heights::graded);
                     for (Heights const h : {Heights::straight, Heights::straight_repaired, Heights::along_stream,
                                             Heights::file, Heights::soft, Heights::fixed, Heights::ends}) {
