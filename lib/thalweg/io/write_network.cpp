@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/write_network.hpp>
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -53,7 +54,9 @@ void write_geopackage(NetworkTables const& tables, std::string const& path, Run 
     if (tables.secondary != nullptr && !tables.secondary->empty()) {
         layers.push_back(secondary_table(*tables.secondary, tables.user));
     }
-    if (tables.user != nullptr && !tables.user->sources.empty()) {
+    bool const has_sources =
+        tables.user != nullptr && std::ranges::any_of(tables.user->sources, [](auto const& of) { return !of.empty(); });
+    if (has_sources) {
         layers.push_back(sources_table(*tables.user));
     }
     layers.push_back(run_table(tables.run));

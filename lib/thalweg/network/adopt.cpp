@@ -245,8 +245,14 @@ Adopted adopt(RiverLines const& file, AdoptParams const& params, Run const& run)
         }
     }
     double const snap_m = params.snap_m > 0.0 ? params.snap_m : 1e-6 * diagonal_of(lines);
-    adopt_steps::drop_copies(lines, snap_m, repairs, run);
-    adopt_steps::snap(lines, snap_m, repairs, run);
+    adopt_steps::Left left{repairs, adopted.secondary};
+    adopt_steps::drop_copies(lines, snap_m, left, run);
+    adopt_steps::snap(lines, snap_m, left, run);
+    for (RiverLine const& line : file.lines) { // as they were drawn
+        if (std::ranges::find(left.too_short, line.feature) != left.too_short.end()) {
+            adopted.secondary.push_back({line.feature, line.vertices, "too short", line.feature});
+        }
+    }
     if (lines.empty()) {
         throw BadInput(fmt::format("network.adopt: every river in {} is shorter than the snapping distance {} m",
                                    file.name, snap_m));
@@ -254,7 +260,7 @@ Adopted adopt(RiverLines const& file, AdoptParams const& params, Run const& run)
     run.at(0.2, "adopt");
     adopt_steps::split(lines, run);
     run.at(0.7, "adopt");
-    auto pieces = adopt_steps::cut(lines, repairs);
+    auto pieces = adopt_steps::cut(lines, left);
     std::vector<std::int64_t> leaves;
     if (params.divergences == Divergences::error) {
         adopt_steps::refuse_cycles(pieces, lines, file.name);
@@ -263,7 +269,8 @@ Adopted adopt(RiverLines const& file, AdoptParams const& params, Run const& run)
         auto divided = adopt_steps::divide(pieces, lines, file, params.orientation, run);
         leaves = adopt_steps::orient(pieces, lines, file, params);
         adopt_steps::drop_unfed(pieces, divided, leaves);
-        adopted.secondary = adopt_steps::secondary_lines(pieces, divided, lines, repairs);
+        auto const branches = adopt_steps::secondary_lines(pieces, divided, lines, repairs);
+        adopted.secondary.insert(adopted.secondary.end(), branches.begin(), branches.end());
     }
     adopt_steps::report_turned(pieces, lines, leaves, repairs);
     Flow const flow{pieces, lines, std::move(leaves)};

@@ -17,10 +17,10 @@ enum class Orientation : std::uint8_t {
     automatic, ///< by the file's links where there are any, else by height where every line has Z, else by rank where
                ///< the file gives one, else the end of the component that turns the least length of the drawn direction
                ///< round (ties: as topology)
-    height,       ///< downstream is down
-    rank,         ///< downstream is where the rank falls
-    as_drawn,     ///< the file's direction
-    links,        ///< as the file's links say, else as least_turned
+    height,    ///< downstream is down
+    rank,      ///< downstream is where the rank falls
+    as_drawn,  ///< the file's direction
+    links,     ///< as the file's links say, else as least_turned
     least_turned, ///< the end of the component that turns the least length of the drawn direction round
     topology      ///< towards the end of the component nearest the border of the box
 };
@@ -47,7 +47,7 @@ struct Adopted {
                                   ///< reversed [m], joined [m], secondary [m], height [m between
                                   ///< rivers that meet]
     std::vector<std::vector<Stretch>> stretches = {}; ///< by arc number, downstream: the features it is made of
-    std::vector<SecondaryLine> secondary = {}; ///< branches that are not in the network, in the order of the file
+    std::vector<SecondaryLine> secondary = {}; ///< what is not in the network: duplicates, lines too short, branches
 };
 
 /// Makes a network of lines somebody drew: snaps ends, splits at crossings (exact), drops duplicates, orients

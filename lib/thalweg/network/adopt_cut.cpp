@@ -122,7 +122,7 @@ void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::st
     }
 }
 
-Pieces cut(std::vector<RiverLine> const& lines, std::vector<Finding>& repairs) {
+Pieces cut(std::vector<RiverLine> const& lines, Left& left) {
     auto const numbering = number(lines);
     auto const owners = owners_of(numbering);
     std::vector<int> degree(numbering.at.size(), 0);
@@ -162,14 +162,20 @@ Pieces cut(std::vector<RiverLine> const& lines, std::vector<Finding>& repairs) {
             if (owner == no_owner) {
                 p.pieces.push_back({l, first, i, node(v[first]), node(v[i]), length});
             } else {
-                repairs.push_back({"duplicate", lines[l].feature, numbering.at[v[first]], length,
-                                   fmt::format("river {} repeats river {} for {:.6g} m; that part is left out",
-                                               lines[l].feature, lines[owner].feature, length)});
+                auto const begin = lines[l].vertices.begin();
+                left.secondary.push_back(
+                    {lines[l].feature,
+                     {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(i) + 1},
+                     "duplicate",
+                     lines[l].feature});
+                left.repairs.push_back({"duplicate", lines[l].feature, numbering.at[v[first]], length,
+                                        fmt::format("river {} repeats river {} for {:.6g} m; that part is left out",
+                                                    lines[l].feature, lines[owner].feature, length)});
             }
             if (i + 1 < v.size() && degree[v[i]] > 2) {
-                repairs.push_back({"split", lines[l].feature, at, static_cast<double>(degree[v[i]]),
-                                   fmt::format("river {} is divided at ({:.6f}, {:.6f}), where rivers meet",
-                                               lines[l].feature, at.x, at.y)});
+                left.repairs.push_back({"split", lines[l].feature, at, static_cast<double>(degree[v[i]]),
+                                        fmt::format("river {} is divided at ({:.6f}, {:.6f}), where rivers meet",
+                                                    lines[l].feature, at.x, at.y)});
             }
         }
     }

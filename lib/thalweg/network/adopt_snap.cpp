@@ -134,7 +134,7 @@ std::vector<std::int64_t> drop_repeats(std::vector<RiverLine>& lines) {
     return dropped;
 }
 
-void drop_copies(std::vector<RiverLine>& lines, double snap_m, std::vector<Finding>& repairs, Run const& run) {
+void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run) {
     std::vector<Vec2> starts;
     for (auto const& line : lines) {
         starts.push_back(plan(line.vertices.front()));
@@ -150,11 +150,16 @@ void drop_copies(std::vector<RiverLine>& lines, double snap_m, std::vector<Findi
             double const apart = std::min(greatest_distance(lines[l].vertices, other.vertices, false),
                                           greatest_distance(lines[l].vertices, other.vertices, true));
             if (apart <= snap_m) {
-                dropped[l] = 1;
-                double const length = length_of(plan_of({lines[l]}).front());
-                repairs.push_back({"duplicate", lines[l].feature, starts[l], length,
-                                   fmt::format("river {} repeats river {} within {:.3g} m; it is left out",
-                                               lines[l].feature, other.feature, apart)});
+                // Of two channels drawn as one the minor one goes.
+                bool const other_goes = other.channel == Channel::minor && lines[l].channel != Channel::minor;
+                std::size_t const gone = other_goes ? s.line : l;
+                std::size_t const stays = other_goes ? l : s.line;
+                dropped[gone] = 1;
+                double const length = length_of(plan_of({lines[gone]}).front());
+                left.repairs.push_back({"duplicate", lines[gone].feature, starts[gone], length,
+                                        fmt::format("river {} repeats river {} within {:.3g} m; it is left out",
+                                                    lines[gone].feature, lines[stays].feature, apart)});
+                left.secondary.push_back({lines[gone].feature, lines[gone].vertices, "duplicate", lines[gone].feature});
                 break;
             }
         }
@@ -168,7 +173,7 @@ void drop_copies(std::vector<RiverLine>& lines, double snap_m, std::vector<Findi
     lines = std::move(kept);
 }
 
-void snap(std::vector<RiverLine>& lines, double snap_m, std::vector<Finding>& repairs, Run const& run) {
+void snap(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run) {
     std::vector<Vec2> drawn;
     for (auto const& line : lines) {
         drawn.push_back(plan(line.vertices.front()));
@@ -195,7 +200,7 @@ void snap(std::vector<RiverLine>& lines, double snap_m, std::vector<Finding>& re
         end.x = goal->at.x;
         end.y = goal->at.y;
         if (goal->moved_m > 0.0) {
-            repairs.push_back(
+            left.repairs.push_back(
                 {"snapped", lines[own].feature, goal->at, goal->moved_m,
                  fmt::format("the {} of river {} is moved {:.3g} m onto river {}", e % 2 == 0 ? "start" : "end",
                              lines[own].feature, goal->moved_m, goal->onto)});
@@ -207,9 +212,10 @@ void snap(std::vector<RiverLine>& lines, double snap_m, std::vector<Finding>& re
         if (line.vertices.size() > 1) {
             return false;
         }
-        repairs.push_back({"removed", line.feature, plan(line.vertices.front()), 1.0,
-                           fmt::format("river {} is shorter than the snapping distance {:.3g} m; it is left out",
-                                       line.feature, snap_m)});
+        left.too_short.push_back(line.feature);
+        left.repairs.push_back({"removed", line.feature, plan(line.vertices.front()), 1.0,
+                                fmt::format("river {} is shorter than the snapping distance {:.3g} m; it is left out",
+                                            line.feature, snap_m)});
         return true;
     });
 }

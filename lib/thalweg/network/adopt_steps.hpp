@@ -36,11 +36,18 @@ void insert(std::vector<RiverLine>& lines, std::vector<Insertion> insertions);
 /// Gives: how many were dropped, by line.
 std::vector<std::int64_t> drop_repeats(std::vector<RiverLine>& lines);
 
+/// What is not in the network, and why.
+struct Left {
+    std::vector<Finding>& repairs;
+    std::vector<SecondaryLine>& secondary;
+    std::vector<std::int64_t> too_short = {}; ///< features that shrank to a point
+};
+
 /// Drops every line whose vertices all lie within snap_m of those of an earlier one, in either direction.
-void drop_copies(std::vector<RiverLine>& lines, double snap_m, std::vector<Finding>& repairs, Run const& run);
+void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run);
 
 /// Joins ends to other lines within snap_m, and drops what shrinks to a point.
-void snap(std::vector<RiverLine>& lines, double snap_m, std::vector<Finding>& repairs, Run const& run);
+void snap(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run);
 
 /// Adds a vertex to every line wherever it meets another or itself, until lines meet in common vertices only.
 /// Throws BadInput naming the place where that comes to no end.
@@ -64,7 +71,7 @@ struct Pieces {
 };
 
 /// Cuts split lines into pieces; what lies on an earlier line is dropped.
-Pieces cut(std::vector<RiverLine> const& lines, std::vector<Finding>& repairs);
+Pieces cut(std::vector<RiverLine> const& lines, Left& left);
 
 /// Throws BadInput naming rivers and place when pieces form a cycle.
 void refuse_cycles(Pieces const& pieces, std::vector<RiverLine> const& lines, std::string const& name);
