@@ -31,6 +31,7 @@ struct Options {
     std::vector<std::string> set;
     std::optional<std::uint64_t> seed;
     std::string crs;
+    std::string units;
     std::string schema;
     bool overwrite = false;
 };
@@ -45,6 +46,9 @@ pipeline::Recipe recipe_of(Options const& options) {
     }
     if (!options.crs.empty()) {
         pipeline::set_key(recipe, "grid.crs=" + options.crs);
+    }
+    if (!options.units.empty()) {
+        pipeline::set_key(recipe, "output.units=" + options.units);
     }
     if (!options.schema.empty()) {
         pipeline::set_key(recipe, fmt::format("output.schema={}", options.schema));
@@ -100,6 +104,10 @@ Command add_make(CLI::App& app, Session& session) {
     app.add_option("--crs", options->crs,
                    "Make the terrain in this coordinate system, projected in metres: the same as --set grid.crs=CRS.")
         ->type_name("EPSG:N");
+    app.add_option("--units", options->units,
+                   "Write heights in metres or in international feet (dem.tif, networks, contours, TINs): the same as "
+                   "--set output.units=UNIT. Lengths stay in m, areas in m2.")
+        ->check(CLI::IsMember({"m", "ft"}));
     app.add_option("--schema", options->schema,
                    "Write the rivers in the words of this schema too, as network_SCHEMA.gpkg: the same as --set "
                    "output.schema=SCHEMA.")

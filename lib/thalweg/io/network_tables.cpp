@@ -26,6 +26,13 @@ template <class Get> Column text(char const* name, Get get) {
     return {name, Kind::text, 0, [get](std::int64_t row) { return std::string(get(row)); }};
 }
 
+/// Files in metres have no such column: it would change none of them but their bytes.
+void add_unit(Table& table, HeightUnit unit) {
+    if (unit != HeightUnit::metre) {
+        table.columns.push_back(text("z_unit", [unit](auto) { return name_of(unit); }));
+    }
+}
+
 std::size_t at(std::int64_t row) {
     return static_cast<std::size_t>(row);
 }
@@ -58,11 +65,12 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index) {
     auto const up = [&](std::int64_t row) { return index.from[at(row)]; };
     auto const down = [&](std::int64_t row) { return index.to[at(row)]; };
 
+    double const unit = metres_in(tables.unit);
     Table table{"arcs", Table::Shape::line, static_cast<std::int64_t>(index.arcs.size()), {}, {}};
-    table.shape_at = [arc, &arc_z](std::int64_t row) {
+    table.shape_at = [arc, unit, &arc_z](std::int64_t row) {
         std::vector<Vec3> line;
         for (std::size_t i = 0; Vec2 const p : arc(row).line) {
-            line.push_back({p.x, p.y, arc_z[at(row)][i++]});
+            line.push_back({p.x, p.y, arc_z[at(row)][i++] / unit});
         }
         return line;
     };
@@ -82,8 +90,8 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index) {
              [arc, &arc_z](auto row) { return length_in_space(arc(row).line, arc_z[at(row)]); }),
         real("straight", length_decimals,
              [arc](auto row) { return distance(arc(row).line.front(), arc(row).line.back()); }),
-        real("z_up", length_decimals, [&arc_z](auto row) { return arc_z[at(row)].front(); }),
-        real("z_down", length_decimals, [&arc_z](auto row) { return arc_z[at(row)].back(); }),
+        real("z_up", length_decimals, [unit, &arc_z](auto row) { return arc_z[at(row)].front() / unit; }),
+        real("z_down", length_decimals, [unit, &arc_z](auto row) { return arc_z[at(row)].back() / unit; }),
         real("dist_out", length_decimals, [down, &orders](auto row) { return orders.node_dist_out_m[down(row)]; }),
         real("slope", slope_decimals,
              [&arc_z, &index](auto row) {
@@ -99,6 +107,7 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index) {
         integer("braided", [of = tables.braided](auto row) { return of != nullptr && (*of)[at(row)] != 0 ? 1 : 0; }),
         integer("given", [arc](auto row) { return arc(row).given ? 1 : 0; }),
     };
+    add_unit(table, tables.unit);
     return table;
 }
 
@@ -107,10 +116,11 @@ Table nodes_table(NetworkTables const& tables, NetworkIndex const& index) {
     auto const& node_z = tables.network.node_z;
     NetworkOrders const& orders = tables.orders;
 
+    double const unit = metres_in(tables.unit);
     Table table{"nodes", Table::Shape::point, static_cast<std::int64_t>(boost::num_vertices(plan)), {}, {}};
-    table.shape_at = [&](std::int64_t row) {
+    table.shape_at = [unit, &plan, &node_z](std::int64_t row) {
         Vec2 const p = plan[at(row)].at;
-        return std::vector<Vec3>{{p.x, p.y, node_z[at(row)]}};
+        return std::vector<Vec3>{{p.x, p.y, node_z[at(row)] / unit}};
     };
     table.columns = {
         integer("node_id", [](auto row) { return row + 1; }),
@@ -119,27 +129,38 @@ Table nodes_table(NetworkTables const& tables, NetworkIndex const& index) {
         integer("deg_out", [&index](auto row) { return index.out[at(row)] < 0 ? 0 : 1; }),
         integer("basin_id", [&orders](auto row) { return orders.node_basin[at(row)]; }),
         integer("strahler", [&orders](auto row) { return orders.node_strahler[at(row)]; }),
-        real("z", length_decimals, [&node_z](auto row) { return node_z[at(row)]; }),
+        real("z", length_decimals, [unit, &node_z](auto row) { return node_z[at(row)] / unit; }),
         real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[at(row)]; }),
         real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[at(row)]; }),
     };
+    add_unit(table, tables.unit);
     return table;
 }
 
-Table ridges_table(RidgeLines const& ridges) {
+Table ridges_table(RidgeLines const& ridges, HeightUnit unit) {
     auto const ridge = [&ridges](std::int64_t row) -> RidgeLine const& { return ridges.lines[at(row)]; };
     auto const lower = [](Vec3 const& a, Vec3 const& b) { return a.z < b.z; };
 
     Table table{"ridges", Table::Shape::line, static_cast<std::int64_t>(ridges.lines.size()), {}, {}};
-    table.shape_at = [ridge](std::int64_t row) { return ridge(row).line; };
+    double const metres = metres_in(unit);
+    table.shape_at = [ridge, metres](std::int64_t row) {
+        std::vector<Vec3> line = ridge(row).line;
+        for (Vec3& p : line) {
+            p.z /= metres;
+        }
+        return line;
+    };
     table.columns = {
         integer("ridge_id", [](auto row) { return row + 1; }),
         integer("left", [ridge](auto row) { return ridge(row).left; }),
         integer("right", [ridge](auto row) { return ridge(row).right; }),
         real("length", length_decimals, [ridge](auto row) { return length_in_plan(ridge(row).line); }),
-        real("z_min", length_decimals, [=](auto row) { return std::ranges::min_element(ridge(row).line, lower)->z; }),
-        real("z_max", length_decimals, [=](auto row) { return std::ranges::max_element(ridge(row).line, lower)->z; }),
+        real("z_min", length_decimals,
+             [=](auto row) { return std::ranges::min_element(ridge(row).line, lower)->z / metres; }),
+        real("z_max", length_decimals,
+             [=](auto row) { return std::ranges::max_element(ridge(row).line, lower)->z / metres; }),
     };
+    add_unit(table, unit);
     return table;
 }
 

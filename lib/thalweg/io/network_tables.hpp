@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/table.hpp>
@@ -21,6 +22,6 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index);
 Table nodes_table(NetworkTables const& tables, NetworkIndex const& index);
 
 /// The layer ridges of the network schema. The argument must outlive the table; every ridge has a vertex.
-Table ridges_table(RidgeLines const& ridges);
+Table ridges_table(RidgeLines const& ridges, HeightUnit unit = HeightUnit::metre);
 
 } // namespace thalweg::io

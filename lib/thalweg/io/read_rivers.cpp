@@ -23,6 +23,7 @@
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/into_metres.hpp>
 #include <thalweg/io/rivers_layer.hpp>
+#include <thalweg/io/units.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -266,9 +267,10 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     IntoMetres const metres(*own, params.crs, middle_of(rivers.lines), name);
     rivers.crs = metres.crs();
     bring(rivers.lines, metres, name, driver, run);
+    double const unit = height_unit_of(layer);
     for (auto& line : rivers.lines) {
         for (auto& v : line.vertices) {
-            v = {rounded(v.x), rounded(v.y), metres.height_unit_m() * v.z};
+            v = {rounded(v.x), rounded(v.y), unit * v.z};
         }
     }
     rivers.has_z = have_heights(rivers.lines);

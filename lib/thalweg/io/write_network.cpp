@@ -48,7 +48,7 @@ void write_geopackage(NetworkTables const& tables, std::string const& path, Run 
     std::vector<Table> layers{arcs_table(tables, index), nodes_table(tables, index)};
     if (tables.ridges != nullptr && !tables.ridges->lines.empty()) {
         require_lines(*tables.ridges, "io.write_geopackage: " + file);
-        layers.push_back(ridges_table(*tables.ridges));
+        layers.push_back(ridges_table(*tables.ridges, tables.unit));
     }
     layers.push_back(run_table(tables.run));
     write_tables(layers, tables.crs, file, run);

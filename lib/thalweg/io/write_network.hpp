@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <thalweg/core/grid.hpp>
+#include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/stream_network.hpp>
@@ -26,6 +27,7 @@ struct NetworkTables {
     std::map<std::string, std::string> run;             ///< rows of the GeoPackage's run table
     std::vector<std::uint8_t> const* braided = nullptr; ///< by arc, 1 or 0; without it all are 0
     RidgeLines const* ridges = nullptr;                 ///< layer ridges of the GeoPackage; none when null or empty
+    HeightUnit unit = HeightUnit::metre;                ///< of heights in the native schema; feet add the column z_unit
     bool heights = true;                                ///< else nobody knows them, and 0 stands for each
 };
 

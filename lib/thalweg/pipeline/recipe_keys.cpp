@@ -57,8 +57,12 @@ std::vector<Key> make_keys() {
 
     keys.push_back(text("output.title", "text", "of the pictures",
                         in_recipe<std::string>([](Recipe& r) -> std::string& { return r.output.title; })));
-    keys.push_back(number("output.contour_interval", "m", {0, 1e5}, "0 chooses a round number",
-                          in_recipe<double>([](Recipe& r) -> double& { return r.output.contour_interval_m; })));
+    keys.push_back(
+        choice<HeightUnit>("output.units", {{"m", HeightUnit::metre}, {"ft", HeightUnit::foot}},
+                           "of heights in dem.tif, networks, contours and TINs: metres or international feet",
+                           in_recipe<HeightUnit>([](Recipe& r) -> HeightUnit& { return r.output.units; })));
+    keys.push_back(number("output.contour_interval", "", {0, 1e5}, "in output.units; 0 chooses a round number",
+                          in_recipe<double>([](Recipe& r) -> double& { return r.output.contour_interval; })));
     keys.push_back(yes_no("output.catchments",
                           "outline the catchment of each arc, where there are rivers and a surface",
                           in_recipe<bool>([](Recipe& r) -> bool& { return r.output.catchments; })));
