@@ -14,6 +14,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/suggest.hpp>
+#include <thalweg/io/simple_name.hpp>
 
 namespace thalweg::io {
 
@@ -48,24 +49,13 @@ Holds content_of(OGRLayer& layer) {
     return holds;
 }
 
-std::string simple(std::string_view name) {
-    std::string out;
-    for (char const c : name) {
-        char const lower = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-        if ((lower >= 'a' && lower <= 'z') || (lower >= '0' && lower <= '9')) {
-            out += lower;
-        }
-    }
-    return out;
-}
-
 /// How clearly a name says that a layer holds the rivers: 0 most; anything else is more than any.
 std::size_t rank_of(std::string_view name) {
     // thalweg; NHD and NHDPlus HR; EU-Hydro; OpenStreetMap; OS Open Rivers; and what people call them.
     static constexpr std::array exact{"arcs",      "nhdflowline", "networknhdflowline", "nhdflowlinenetwork",
                                       "rivernetl", "waterways",   "watercourselink"};
     static constexpr std::array parts{"hydrorivers", "flowline", "waterway", "watercourse", "river", "stream"};
-    std::string const own = simple(name);
+    std::string const own = simple_name(name);
     for (std::size_t i = 0; i < exact.size(); ++i) {
         if (own == exact[i]) {
             return i;

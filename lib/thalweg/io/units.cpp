@@ -11,24 +11,13 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/simple_name.hpp>
 
 namespace thalweg::io {
 
 namespace {
 
 constexpr double foot_m = 0.3048;
-
-// Only letters and digits count: "US survey foot", "us_survey_foot" and "US-survey-foot" are one.
-std::string simple(std::string_view name) {
-    std::string out;
-    for (char const c : name) {
-        char const lower = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-        if ((lower >= 'a' && lower <= 'z') || (lower >= '0' && lower <= '9')) {
-            out += lower;
-        }
-    }
-    return out;
-}
 
 double vertical_unit(OGRSpatialReference const* reference) {
     return has_vertical_unit(reference) ? reference->GetTargetLinearUnits("VERT_CS") : 1.0;
@@ -72,7 +61,7 @@ std::optional<double> unit_named(std::string_view name) {
         {"yd", 0.9144},
         {"yard", 0.9144},
     }};
-    std::string const own = simple(name);
+    std::string const own = simple_name(name);
     for (auto const& [known, metres] : names) {
         if (own == known) {
             return metres;
