@@ -55,7 +55,7 @@ std::string as_json(pipeline::MadeBlend const& made, std::string const& file) {
     return json.dump(2) + "\n";
 }
 
-std::string in_words(pipeline::MadeBlend const& made, bool fills) {
+std::string blend_in_words(pipeline::MadeBlend const& made, bool fills) {
     blend::Pasted const& pasted = made.pasted;
     std::string words = fmt::format(
         "{} cells around ({:.3f}, {:.3f}){}; seam {:.3f} m rms, {:.3f} m at most", pasted.cells, made.at.x, made.at.y,
@@ -99,7 +99,7 @@ int blend_files(BlendOptions& options, Session const& session) {
     pipeline::MadeBlend const made = pipeline::make_blend(options.params, session.run);
     io::write_dem(made.pasted.dem, file.staging(), session.run);
     file.commit();
-    session.run.tell("blend", in_words(made, options.fills));
+    session.run.tell("blend", blend_in_words(made, options.fills));
     fmt::print("{}", session.json ? as_json(made, options.file) : options.file + "\n");
     return Exit::done;
 }

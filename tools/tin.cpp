@@ -43,7 +43,7 @@ std::string as_json(pipeline::MadeTin const& made, std::string const& file) {
     return json.dump(2) + "\n";
 }
 
-std::string in_words(pipeline::MadeTin const& made) {
+std::string tin_in_words(pipeline::MadeTin const& made) {
     std::string words = fmt::format("{} vertices, {} triangles", made.tin.vertices.size(), made.tin.triangles.size());
     if (made.error_m) {
         words += fmt::format(", within {:.3f} m", *made.error_m);
@@ -68,7 +68,7 @@ int tin(TinOptions const& options, Session const& session) {
     pipeline::MadeTin const made = pipeline::make_tin(options.source, session.run);
     io::write_tin(made.tin, made.crs, file.staging(), format, session.run);
     file.commit();
-    session.run.tell("tin", in_words(made));
+    session.run.tell("tin", tin_in_words(made));
     fmt::print("{}", session.json ? as_json(made, options.file) : options.file + "\n");
     return Exit::done;
 }

@@ -14,6 +14,7 @@
 #include <thalweg/io/write_findings.hpp>
 #include <thalweg/io/write_network.hpp>
 #include <thalweg/measure/topology.hpp>
+#include <thalweg/pipeline/append.hpp>
 #include <thalweg/pipeline/certify_files.hpp>
 #include <thalweg/pipeline/mend_network.hpp>
 #include <thalweg/pipeline/report.hpp>
@@ -23,10 +24,6 @@ namespace thalweg::pipeline {
 namespace fs = std::filesystem;
 
 namespace {
-
-template <class T> void append(std::vector<T>& to, std::vector<T> from) {
-    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
-}
 
 /// A file to be written, or the files of two shapefiles, which appear together.
 class CheckOutput {

@@ -14,6 +14,7 @@
 #include <thalweg/network/adopt.hpp>
 #include <thalweg/network/lower_rises.hpp>
 #include <thalweg/network/order.hpp>
+#include <thalweg/pipeline/append.hpp>
 #include <thalweg/pipeline/mend_lines.hpp>
 
 namespace thalweg::pipeline {
@@ -148,10 +149,6 @@ void say_lowered(network::Lowered const& lowered, std::vector<Finding>& mended) 
                  fmt::format("arc {}: is lowered by up to {} m so that it does not run uphill", of.feature, by)});
         }
     }
-}
-
-template <class T> void append(std::vector<T>& to, std::vector<T> from) {
-    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
 } // namespace
