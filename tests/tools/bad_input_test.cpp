@@ -58,7 +58,8 @@ TEST(BadInput, CommandLine) {
     refused(place, "make --seed", "thalweg make --seed is missing its N");
     refused(place, "completion bsh", "not 'bsh'. Did you mean 'bash'?");
     refused(place, "help maek", "Did you mean 'make'?");
-    refused(place, "recipe all", "'all' is one word too many for thalweg recipe");
+    refused(place, "recipe all", "unknown key 'all'.");
+    refused(place, "recipe grid network", "'network' is one word too many for thalweg recipe");
     refused(place, "make --threads -1", "--threads");
     refused(place, "make --device nonsense",
             "--device is one of cpu, opencl, not 'nonsense'. See thalweg make --help.");
