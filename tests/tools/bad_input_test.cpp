@@ -143,7 +143,7 @@ TEST(BadInput, LineFiles) {
     refused(place, "make r.toml -o out", "runs uphill");
     with(geojson(river(1, "[500000,5000000],[500100,5000000]") + "," + river(2, "[500100,5000000],[500100,5000100]") +
                  "," + river(3, "[500100,5000100],[500000,5000000]")));
-    refused(place, "make r.toml -o out", "cycle");
+    refused(place, "make r.toml -o out", "closed rings");
     with(geojson(river(1, "[500000,5000000],[500300,5000000]")));
     refused(place, "make r.toml -o out --set grid.width=10 --set grid.height=10", "outside the grid");
     refused(place, "make r.toml -o out --set network.heights=file", "Z");
