@@ -208,7 +208,8 @@ TEST_F(ReadRivers, WhatCannotBeReprojected) {
     auto const file =
         write("a.gpkg", {{.epsg = 4326, .features = {{"LINESTRING(0 0,1 1)"}, {"LINESTRING(0 2,0 95)"}}}});
     auto const refused = refusal({.path = file, .crs = "EPSG:32631"});
-    EXPECT_TRUE(has(refused, "vertex 2 of feature 2 of a.gpkg, (0, 95), cannot be reprojected to EPSG:32631")) << refused;
+    EXPECT_TRUE(has(refused, "vertex 2 of feature 2 of a.gpkg, (0, 95), cannot be reprojected to EPSG:32631"))
+        << refused;
     EXPECT_TRUE(has(refusal({.path = file, .crs = "EPSG:4326"}), "is geographic"));
     EXPECT_TRUE(has(refusal({.path = file, .crs = "nonsense"}), "is not a coordinate system"));
 }

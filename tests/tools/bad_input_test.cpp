@@ -58,7 +58,8 @@ TEST(BadInput, CommandLine) {
     refused(place, "make --seed", "thalweg make --seed is missing its N");
     refused(place, "completion bsh", "not 'bsh'. Did you mean 'bash'?");
     refused(place, "help maek", "Did you mean 'make'?");
-    refused(place, "recipe all", "'all' is one word too many for thalweg recipe");
+    refused(place, "recipe all", "unknown key 'all'.");
+    refused(place, "recipe grid network", "'network' is one word too many for thalweg recipe");
     refused(place, "make --threads -1", "--threads");
     refused(place, "make --device nonsense",
             "--device is one of cpu, opencl, not 'nonsense'. See thalweg make --help.");
@@ -142,7 +143,7 @@ TEST(BadInput, LineFiles) {
     refused(place, "make r.toml -o out", "runs uphill");
     with(geojson(river(1, "[500000,5000000],[500100,5000000]") + "," + river(2, "[500100,5000000],[500100,5000100]") +
                  "," + river(3, "[500100,5000100],[500000,5000000]")));
-    refused(place, "make r.toml -o out", "cycle");
+    refused(place, "make r.toml -o out", "closed rings");
     with(geojson(river(1, "[500000,5000000],[500300,5000000]")));
     refused(place, "make r.toml -o out --set grid.width=10 --set grid.height=10", "outside the grid");
     refused(place, "make r.toml -o out --set network.heights=file", "Z");

@@ -131,7 +131,8 @@ TEST(Land, ARecipeOfLandThatIsHardlyLand) {
         0);
     Outcome const row = thalweg_run("stats row.tif --recipe", place.path());
     EXPECT_EQ(row.code, 0) << row.err;
-    EXPECT_NE(row.out.find("# statistics.length is left out: the heights do not determine it along columns"), std::string::npos);
+    EXPECT_NE(row.out.find("# statistics.length is left out: the heights do not determine it along columns"),
+              std::string::npos);
     place.write("row.toml", row.out);
     EXPECT_EQ(thalweg_run("make row.toml -o out -q", place.path()).code, 0);
     Outcome const flat = thalweg_run("stats flat.tif --recipe", place.path());

@@ -229,7 +229,7 @@ TEST(Units, RiversInSurveyFeetWithHeightsInSurveyFeet) {
 
     // Without a vertical CRS nothing says what its heights are in: they are taken for metres, and that is said.
     json const plan = made(place, "plan.gpkg --set grid.cell=20", "plan");
-    EXPECT_TRUE(tells(plan, "heights are taken for metres")) << plan["repairs"];
+    EXPECT_TRUE(tells(plan, "heights are treated as metres")) << plan["repairs"];
 }
 
 TEST(Units, DegreesAreSaid) {

@@ -94,7 +94,7 @@ std::vector<std::string> conversions_of(std::string const& path, std::string con
         said.push_back(
             fmt::format("{}: heights in {} are converted into metres", name, words_for_unit(units.height_m)));
     } else if (in_feet && units.has_heights && !units.names_height) {
-        said.push_back(fmt::format("{}: heights are taken for metres: no vertical CRS or unit says otherwise", name));
+        said.push_back(fmt::format("{}: heights are treated as metres: no vertical CRS or unit says otherwise", name));
     }
     return said;
 }

@@ -91,9 +91,10 @@ Recipe recipe_from(std::string const& path) {
         try {
             return rivers_recipe(path);
         } catch (BadInput const& why) {
-            throw BadInput(fmt::format("pipeline.recipe_from: {}; give a recipe (TOML), a file of river lines, or a folder that make or "
-                                       "convert wrote",
-                                       why.what()));
+            throw BadInput(fmt::format(
+                "pipeline.recipe_from: {}; give a recipe (TOML), a file of river lines, or a folder that make or "
+                "convert wrote",
+                why.what()));
         }
     }
     Recipe recipe = read_recipe(io::read_text(path, 2 << 20), path);
