@@ -34,6 +34,7 @@ struct MakeOptions {
     std::vector<std::string> set;
     std::optional<std::uint64_t> seed;
     std::string crs;
+    std::string units;
     std::string schema;
     bool overwrite = false;
     bool dry_run = false;
@@ -49,6 +50,9 @@ pipeline::Recipe recipe_of(MakeOptions const& options) {
     }
     if (!options.crs.empty()) {
         pipeline::set_key(recipe, "grid.crs=" + options.crs);
+    }
+    if (!options.units.empty()) {
+        pipeline::set_key(recipe, "output.units=" + options.units);
     }
     if (!options.schema.empty()) {
         pipeline::set_key(recipe, fmt::format("output.schema={}", options.schema));
@@ -119,6 +123,10 @@ Command add_make(CLI::App& app, Session& session) {
     app.add_option("--crs", options->crs,
                    "Make the terrain in this projected CRS in metres; the same as --set grid.crs=CRS.")
         ->type_name("EPSG:N");
+    app.add_option("--units", options->units,
+                   "Write heights in metres or in international feet (dem.tif, networks, contours, TINs); the same as "
+                   "--set output.units=UNIT. Lengths stay in m, areas in m2.")
+        ->check(CLI::IsMember({"m", "ft"}));
     app.add_option(
            "--schema", options->schema,
            "Also write the network in this schema, as network_SCHEMA.gpkg; the same as --set output.schema=SCHEMA.")

@@ -3,6 +3,7 @@
 #include "commands.hpp"
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/conversions.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/measure/statistics.hpp>
 #include <thalweg/pipeline/law_rows.hpp>
@@ -90,6 +91,9 @@ int stats(StatsOptions const& options, Session const& session) {
         throw BadParameter("thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
     }
     Raster<float> const dem = io::read_dem(options.path, session.run);
+    for (std::string const& words : io::conversions_of(options.path, "", dem.grid().crs)) {
+        session.run.say("note   " + words);
+    }
     measure::Statistics const s = measure::statistics(dem, session.run);
     std::optional<pipeline::DemLaws> laws;
     if (options.laws) {

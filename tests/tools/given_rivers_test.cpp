@@ -155,6 +155,14 @@ TEST(GivenRivers, FoldersThatThalwegWrote) {
     ASSERT_EQ(thalweg_run("convert first -o converted/net.shp", place.path()).code, 0);
     made(place, "converted", coarse, "third");
     EXPECT_EQ(thalweg_run("replay third --verify", place.path()).code, 0);
+    for (std::string const name : {"net.gpkg", "net.fgb", "net.geojson"}) {
+        std::string const folder = "of_" + name;
+        fs::create_directories(place / folder);
+        ASSERT_EQ(thalweg_run("convert first -o " + folder + "/" + name, place.path()).code, 0) << name;
+        Outcome const o = thalweg_run("recipe --for " + folder, place.path());
+        EXPECT_EQ(o.code, 0) << name << o.err;
+        EXPECT_NE(o.out.find(name == "net.gpkg" ? "/net.gpkg'" : "/net_arcs."), std::string::npos) << o.out;
+    }
 }
 
 TEST(GivenRivers, ALayerIsChosenByItsName) {
@@ -193,7 +201,7 @@ TEST(GivenRivers, WhatIsNeitherIsRefusedInWords) {
     fs::create_directories(place / "folder");
     refused(place, "folder", "folder holds no rivers: the folder is empty");
     place.write("folder/readme", "hello");
-    refused(place, "folder", "holds neither network.gpkg nor shapefiles");
+    refused(place, "folder", "holds neither network.gpkg, nor one other GeoPackage, nor shapefiles");
     refused(place, "'" THALWEG_SOURCE_DIR "/samples/bigtujunga_srtm1.tif'", "is a raster, not river lines");
     place.write("points.geojson", R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},)"
                                   R"("geometry":{"type":"Point","coordinates":[1,2]}}]})");

@@ -79,6 +79,11 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
 
 void write_contours(std::vector<ContourLine> const& lines, double interval_m, std::string const& crs,
                     std::string const& path, Run const& run) {
+    write_contours(lines, interval_m, crs, path, HeightUnit::metre, run);
+}
+
+void write_contours(std::vector<ContourLine> const& lines, double interval, std::string const& crs,
+                    std::string const& path, HeightUnit unit, Run const& run) {
     constexpr double index_every = 5.0;
     auto const line_at = [&lines](std::int64_t row) -> ContourLine const& {
         return lines[static_cast<std::size_t>(row)];
@@ -88,7 +93,7 @@ void write_contours(std::vector<ContourLine> const& lines, double interval_m, st
         {"z", Column::Kind::real, 0, [=](std::int64_t row) { return line_at(row).z; }},
         {"is_index", Column::Kind::integer, 0,
          [=](std::int64_t row) {
-             double const level = std::floor(line_at(row).z / interval_m + 0.5);
+             double const level = std::floor(line_at(row).z / interval + 0.5);
              return static_cast<std::int64_t>(level == index_every * std::floor(level / index_every));
          }},
     };
@@ -99,6 +104,10 @@ void write_contours(std::vector<ContourLine> const& lines, double interval_m, st
         }
         return line;
     };
+    if (unit != HeightUnit::metre) {
+        table.columns.push_back(
+            {"z_unit", Column::Kind::text, 0, [unit](std::int64_t) { return std::string(name_of(unit)); }});
+    }
     write_tables({table}, crs, path, run);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run.hpp>
 
@@ -24,5 +25,9 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
 /// Gives: the same bytes for the same lines. Throws: BadInput; IoError, also when the file exists; Cancelled.
 void write_contours(std::vector<ContourLine> const& lines, double interval_m, std::string const& crs,
                     std::string const& path, Run const& run = {});
+
+/// The same of heights in a unit; of feet there is a column z_unit besides.
+void write_contours(std::vector<ContourLine> const& lines, double interval, std::string const& crs,
+                    std::string const& path, HeightUnit unit, Run const& run = {});
 
 } // namespace thalweg::io

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -31,10 +32,18 @@ std::string network_in(fs::path const& folder) {
         return file.string();
     }
     std::vector<fs::path> arcs;
+    std::vector<fs::path> packages;
     for (auto const& entry : fs::directory_iterator(folder)) {
-        if (entry.path().extension() == ".shp" && entry.path().stem().string().ends_with("_arcs")) {
+        std::string const ending = entry.path().extension().string();
+        bool const of_layers = ending == ".shp" || ending == ".fgb" || ending == ".geojson";
+        if (of_layers && entry.path().stem().string().ends_with("_arcs")) {
             arcs.push_back(entry.path());
+        } else if (ending == ".gpkg") {
+            packages.push_back(entry.path());
         }
+    }
+    if (arcs.empty() && !fs::exists(folder / "recipe.toml")) { // whose only package would hold contours
+        arcs = std::move(packages);
     }
     return arcs.size() == 1 ? arcs.front().string() : "";
 }
@@ -47,7 +56,7 @@ std::string why_not(fs::path const& folder) {
     if (fs::exists(folder / "recipe.toml")) {
         return "its terrain has no rivers; to make it again, give its recipe.toml";
     }
-    return "it holds neither network.gpkg nor shapefiles; name a file in it";
+    return "it holds neither network.gpkg, nor one other GeoPackage, nor shapefiles; name a file in it";
 }
 
 bool names_database(std::string const& path) {

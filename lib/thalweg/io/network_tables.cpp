@@ -29,6 +29,13 @@ template <class Get> Column text(char const* name, Get get) {
     return {name, Kind::text, 0, [get](std::int64_t row) { return std::string(get(row)); }};
 }
 
+/// Files in metres have no such column: it would change none of them but their bytes.
+void add_unit(Table& table, HeightUnit unit) {
+    if (unit != HeightUnit::metre) {
+        table.columns.push_back(text("z_unit", [unit](auto) { return name_of(unit); }));
+    }
+}
+
 double length_in_plan(std::vector<Vec3> const& line) {
     double sum = 0.0;
     for (std::size_t i = 1; i < line.size(); ++i) {
@@ -57,11 +64,12 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool sh
     auto const up = [&](std::int64_t row) { return index.from[as_index(row)]; };
     auto const down = [&](std::int64_t row) { return index.to[as_index(row)]; };
 
+    double const unit = metres_in(tables.unit);
     Table table{"arcs", Table::Shape::line, static_cast<std::int64_t>(index.arcs.size()), {}, {}};
-    table.shape_at = [arc, &arc_z](std::int64_t row) {
+    table.shape_at = [arc, unit, &arc_z](std::int64_t row) {
         std::vector<Vec3> line;
         for (std::size_t i = 0; Vec2 const p : arc(row).line) {
-            line.push_back({p.x, p.y, arc_z[as_index(row)][i++]});
+            line.push_back({p.x, p.y, arc_z[as_index(row)][i++] / unit});
         }
         return line;
     };
@@ -81,8 +89,8 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool sh
              [arc, &arc_z](auto row) { return length_in_space(arc(row).line, arc_z[as_index(row)]); }),
         real("straight", length_decimals,
              [arc](auto row) { return distance(arc(row).line.front(), arc(row).line.back()); }),
-        real("z_up", length_decimals, [&arc_z](auto row) { return arc_z[as_index(row)].front(); }),
-        real("z_down", length_decimals, [&arc_z](auto row) { return arc_z[as_index(row)].back(); }),
+        real("z_up", length_decimals, [unit, &arc_z](auto row) { return arc_z[as_index(row)].front() / unit; }),
+        real("z_down", length_decimals, [unit, &arc_z](auto row) { return arc_z[as_index(row)].back() / unit; }),
         real("dist_out", length_decimals, [down, &orders](auto row) { return orders.node_dist_out_m[down(row)]; }),
         real("slope", slope_decimals,
              [&arc_z, &index](auto row) {
@@ -99,10 +107,11 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool sh
                 [of = tables.braided](auto row) { return of != nullptr && (*of)[as_index(row)] != 0 ? 1 : 0; }),
         integer("given", [arc](auto row) { return arc(row).given ? 1 : 0; }),
     };
+    add_unit(table, tables.unit);
     if (tables.user != nullptr) {
         add_user_columns(
-            table, tables.user->attributes, [&user = *tables.user](std::int64_t row) { return user.record[as_index(row)]; },
-            short_names);
+            table, tables.user->attributes,
+            [&user = *tables.user](std::int64_t row) { return user.record[as_index(row)]; }, short_names);
     }
     return table;
 }
@@ -112,10 +121,11 @@ Table nodes_table(NetworkTables const& tables, NetworkIndex const& index) {
     auto const& node_z = tables.network.node_z;
     NetworkOrders const& orders = tables.orders;
 
+    double const unit = metres_in(tables.unit);
     Table table{"nodes", Table::Shape::point, static_cast<std::int64_t>(boost::num_vertices(plan)), {}, {}};
-    table.shape_at = [&](std::int64_t row) {
+    table.shape_at = [unit, &plan, &node_z](std::int64_t row) {
         Vec2 const p = plan[as_index(row)].at;
-        return std::vector<Vec3>{{p.x, p.y, node_z[as_index(row)]}};
+        return std::vector<Vec3>{{p.x, p.y, node_z[as_index(row)] / unit}};
     };
     table.columns = {
         integer("node_id", [](auto row) { return row + 1; }),
@@ -124,27 +134,38 @@ Table nodes_table(NetworkTables const& tables, NetworkIndex const& index) {
         integer("deg_out", [&index](auto row) { return index.out[as_index(row)] < 0 ? 0 : 1; }),
         integer("basin_id", [&orders](auto row) { return orders.node_basin[as_index(row)]; }),
         integer("strahler", [&orders](auto row) { return orders.node_strahler[as_index(row)]; }),
-        real("z", length_decimals, [&node_z](auto row) { return node_z[as_index(row)]; }),
+        real("z", length_decimals, [unit, &node_z](auto row) { return node_z[as_index(row)] / unit; }),
         real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[as_index(row)]; }),
         real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[as_index(row)]; }),
     };
+    add_unit(table, tables.unit);
     return table;
 }
 
-Table ridges_table(RidgeLines const& ridges) {
+Table ridges_table(RidgeLines const& ridges, HeightUnit unit) {
     auto const ridge = [&ridges](std::int64_t row) -> RidgeLine const& { return ridges.lines[as_index(row)]; };
     auto const lower = [](Vec3 const& a, Vec3 const& b) { return a.z < b.z; };
 
     Table table{"ridges", Table::Shape::line, static_cast<std::int64_t>(ridges.lines.size()), {}, {}};
-    table.shape_at = [ridge](std::int64_t row) { return ridge(row).line; };
+    double const metres = metres_in(unit);
+    table.shape_at = [ridge, metres](std::int64_t row) {
+        std::vector<Vec3> line = ridge(row).line;
+        for (Vec3& p : line) {
+            p.z /= metres;
+        }
+        return line;
+    };
     table.columns = {
         integer("ridge_id", [](auto row) { return row + 1; }),
         integer("left", [ridge](auto row) { return ridge(row).left; }),
         integer("right", [ridge](auto row) { return ridge(row).right; }),
         real("length", length_decimals, [ridge](auto row) { return length_in_plan(ridge(row).line); }),
-        real("z_min", length_decimals, [=](auto row) { return std::ranges::min_element(ridge(row).line, lower)->z; }),
-        real("z_max", length_decimals, [=](auto row) { return std::ranges::max_element(ridge(row).line, lower)->z; }),
+        real("z_min", length_decimals,
+             [=](auto row) { return std::ranges::min_element(ridge(row).line, lower)->z / metres; }),
+        real("z_max", length_decimals,
+             [=](auto row) { return std::ranges::max_element(ridge(row).line, lower)->z / metres; }),
     };
+    add_unit(table, unit);
     return table;
 }
 

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/stream_network.hpp>
@@ -23,7 +24,7 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool sh
 Table nodes_table(NetworkTables const& tables, NetworkIndex const& index);
 
 /// The layer ridges of the network schema. The argument must outlive the table; every ridge has a vertex.
-Table ridges_table(RidgeLines const& ridges);
+Table ridges_table(RidgeLines const& ridges, HeightUnit unit = HeightUnit::metre);
 
 /// The layer secondary: lines that are not in the network, in plan. The arguments must outlive the table.
 Table secondary_table(std::vector<SecondaryLine> const& secondary, UserData const* user);

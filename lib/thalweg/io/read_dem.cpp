@@ -17,6 +17,7 @@
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/plausible.hpp>
 #include <thalweg/io/spatial_reference.hpp>
+#include <thalweg/io/units.hpp>
 
 namespace thalweg::io {
 
@@ -58,9 +59,9 @@ void require_memory(Grid const& grid, std::string const& what) {
     }
 }
 
-} // namespace
+enum class Unit : std::uint8_t { metre, stored };
 
-Raster<float> read_dem(std::string const& path, Run const& run) {
+Raster<float> read(std::string const& path, Unit wanted, Run const& run) {
     std::string const what = "io.read_dem: " + path;
     Driver const driver;
     Dataset const dataset = open_file(path, GDAL_OF_RASTER, nullptr, what);
@@ -73,8 +74,9 @@ Raster<float> read_dem(std::string const& path, Run const& run) {
     if (GDALDataTypeIsComplex(band.GetRasterDataType()) != 0) {
         throw BadInput(what + " holds complex numbers, not heights");
     }
-    double const scale = band.GetScale();
-    double const offset = band.GetOffset();
+    double const unit = wanted == Unit::metre ? height_unit_of(*dataset) : 1.0;
+    double const scale = band.GetScale() * unit;
+    double const offset = band.GetOffset() * unit;
     bool const scaled = scale != 1.0 || offset != 0.0;
     int const width = dataset->GetRasterXSize();
 
@@ -84,14 +86,14 @@ Raster<float> read_dem(std::string const& path, Run const& run) {
     bool empty = true;
     for (int row = 0; row < dataset->GetRasterYSize(); ++row) {
         run.at(static_cast<double>(row) / static_cast<double>(grid.height), "read");
-        auto const read = [&](GDALRasterBand& from, void* to, GDALDataType type) {
+        auto const read_row = [&](GDALRasterBand& from, void* to, GDALDataType type) {
             if (from.RasterIO(GF_Read, 0, row, width, 1, to, width, 1, type, 0, 0, nullptr) != CE_None) {
                 driver.check(what);
                 throw IoError(fmt::format("{}: row {} cannot be read", what, row));
             }
         };
-        read(band, heights.data(), GDT_Float64);
-        read(*band.GetMaskBand(), valid.data(), GDT_Byte);
+        read_row(band, heights.data(), GDT_Float64);
+        read_row(*band.GetMaskBand(), valid.data(), GDT_Byte);
         for (std::size_t col = 0; float& z : dem.row(row)) {
             double const height = scaled ? heights[col] * scale + offset : heights[col]; // -0 stays -0
             bool const known = valid[col] != 0 && !std::isnan(height);
@@ -109,6 +111,16 @@ Raster<float> read_dem(std::string const& path, Run const& run) {
         throw BadInput(what + " holds no heights, only no-data");
     }
     return dem;
+}
+
+} // namespace
+
+Raster<float> read_dem(std::string const& path, Run const& run) {
+    return read(path, Unit::metre, run);
+}
+
+Raster<float> read_stored_dem(std::string const& path, Run const& run) {
+    return read(path, Unit::stored, run);
 }
 
 } // namespace thalweg::io

@@ -21,6 +21,7 @@
 #include <thalweg/io/plausible.hpp>
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/spatial_reference.hpp>
+#include <thalweg/io/units.hpp>
 #include <thalweg/io/watch.hpp>
 
 namespace thalweg::io {
@@ -236,8 +237,12 @@ Drawable read_drawable(std::string const& path, std::int64_t most_side, Run cons
     if (source->GetRasterCount() > 1) {
         note(fmt::format("drawn from the first of {} bands", source->GetRasterCount()));
     }
-    double const scale = band.GetScale();
-    double const offset = band.GetOffset();
+    double const unit = height_unit_of(*source);
+    if (unit != 1.0) {
+        note(fmt::format("its heights, in {}, are drawn in metres", words_for_unit(unit)));
+    }
+    double const scale = band.GetScale() * unit;
+    double const offset = band.GetOffset() * unit;
 
     std::optional<Frame> const placed = frame_of(*source);
     OGRSpatialReference const* const reference = placed ? reference_of(*source) : nullptr;

@@ -24,6 +24,7 @@
 #include <thalweg/io/read_network_notes.hpp>
 #include <thalweg/io/read_network_source.hpp>
 #include <thalweg/io/spatial_reference.hpp>
+#include <thalweg/io/units.hpp>
 
 namespace thalweg::io {
 
@@ -67,6 +68,29 @@ Vec2 middle_of(NetworkFile const& file) {
     return {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)};
 }
 
+/// Brings heights into metres, from the unit that the layer of arcs says.
+void convert_heights(NetworkFile& file, Layer const& arcs, bool told, Notes& notes) {
+    double const unit = height_unit_of(*arcs.layer);
+    if (unit == 1.0) {
+        return;
+    }
+    for (FileArc& arc : file.arcs) {
+        for (Vec3& p : arc.line) {
+            p.z *= unit;
+        }
+    }
+    for (NetworkFile::FileNode& node : file.nodes) {
+        node.at.z *= unit;
+    }
+    if (told) {
+        notes.add(arcs.what, {"heights_converted",
+                              0,
+                              {},
+                              unit,
+                              fmt::format("its heights, in {}, were converted into metres", words_for_unit(unit))});
+    }
+}
+
 void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes, std::string const& wanted,
                        Notes& notes, Run const& run) {
     OGRSpatialReference const* const own = arcs.layer->GetSpatialRef();
@@ -93,14 +117,13 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes,
     auto const move = [&](std::span<Vec3> points) {
         auto const done = metres.apply(points);
         for (std::size_t i = 0; i < points.size(); ++i) {
-            points[i].z *= metres.height_unit_m();
             if (done[i] == 0) {
                 points[i].x = nan; // for the check to find
                 points[i].y = nan;
             }
         }
     };
-    if (!metres.moves() && metres.height_unit_m() == 1.0) {
+    if (!metres.moves()) {
         return;
     }
     for (FileArc& arc : file.arcs) {
@@ -110,13 +133,11 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes,
     for (NetworkFile::FileNode& node : file.nodes) {
         move({&node.at, 1});
     }
-    if (metres.moves()) {
-        notes.add(arcs.what, {"reprojected",
-                              0,
-                              {},
-                              0.0,
-                              fmt::format("its coordinates were reprojected from {} to {}", own->GetName(), file.crs)});
-    }
+    notes.add(arcs.what, {"reprojected",
+                          0,
+                          {},
+                          0.0,
+                          fmt::format("its coordinates were reprojected from {} to {}", own->GetName(), file.crs)});
 }
 
 void take_nodes(NetworkFile& file, std::optional<Layer> const& nodes, Layer const& arcs, std::string const& source_name,
@@ -126,6 +147,7 @@ void take_nodes(NetworkFile& file, std::optional<Layer> const& nodes, Layer cons
     } else if (file.schema == "native") {
         notes.add(source_name, {"missing_nodes", 0, {}, 0.0, "has no layer nodes"});
     }
+    convert_heights(file, arcs, !wish.whole, notes);
     bring_into_metres(file, arcs, nodes ? &*nodes : nullptr, wish.crs, notes, run);
 }
 

@@ -39,8 +39,8 @@ struct ReadNetworkParams {
 /// fields), missing_nodes (none; 0), text_number (none; 0), null_number and not_a_number (arc; 0), which stand as 0;
 /// not_a_line (none; features passed over), multi_part (arc; parts: when they join end to end they are one line, else
 /// each is an arc of the same id), curve (arc; vertices of its line), measures (none; arcs whose M is left out),
-/// no_heights (none; arcs), no_crs (none; 0), reprojected (none; 0), turned (none; arcs), cut_below (arc; the number of
-/// the arc downstream, which the file does not hold: an outlet).
+/// no_heights (none; arcs), no_crs (none; 0), reprojected (none; 0), heights_converted (none; metres of a unit), turned
+/// (none; arcs), cut_below (arc; the number of the arc downstream, which the file does not hold: an outlet).
 ///
 /// Throws: BadInput: no such file or layer, several layers, a schema that is not recognised (lists what was looked
 /// for), no field of arc ids, a field without numbers, arcs and nodes in different CRS; IoError: the file is damaged,

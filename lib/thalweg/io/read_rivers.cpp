@@ -26,6 +26,7 @@
 #include <thalweg/io/read_attributes.hpp>
 #include <thalweg/io/river_fields.hpp>
 #include <thalweg/io/rivers_layer.hpp>
+#include <thalweg/io/units.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -77,7 +78,8 @@ int find_rank_field(OGRLayer& layer, ReadRiversParams const& params, std::string
     auto const type = layer.GetLayerDefn()->GetFieldDefn(index)->GetType();
     bool const is_number = type == OFTInteger || type == OFTInteger64 || type == OFTReal;
     if (!is_number && !is_default) {
-        refuse_rivers(fmt::format("field {} of {} is not a number field: it cannot rank rivers", params.rank_field, name));
+        refuse_rivers(
+            fmt::format("field {} of {} is not a number field: it cannot rank rivers", params.rank_field, name));
     }
     return is_number ? index : -1;
 }
@@ -324,11 +326,12 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     }
     IntoMetres const metres(*own, params.crs, middle_of(rivers.lines), name);
     rivers.crs = metres.crs();
+    double const unit = height_unit_of(layer);
     for (auto* const lines : {&rivers.lines, &read.unnatural}) {
         bring(*lines, metres, name, driver, run);
         for (auto& line : *lines) {
             for (auto& v : line.vertices) {
-                v = {rounded(v.x), rounded(v.y), metres.height_unit_m() * v.z};
+                v = {rounded(v.x), rounded(v.y), unit * v.z};
             }
         }
     }

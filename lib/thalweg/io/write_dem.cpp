@@ -75,10 +75,15 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<doubl
 } // namespace
 
 void write_dem(Raster<float> const& dem, std::string const& path, Run const& run) {
+    write_dem(dem, path, HeightUnit::metre, run);
+}
+
+void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit unit, Run const& run) {
     std::string const what = "io.write_dem: " + path;
     require_new(path, what);
     Driver const driver;
     Dataset const source = in_memory(dem, what);
+    source->GetRasterBand(1)->SetUnitType(name_of(unit));
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
     options.SetNameValue("PREDICTOR", "FLOATING_POINT");

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run.hpp>
 
@@ -14,6 +15,9 @@ namespace thalweg::io {
 /// nodata -9999 for NaN, overviews by mean. Gives: the same bytes for the same raster and any number of threads.
 /// Throws: BadInput at an infinite height or one of -9999 m, or when grid.crs is no CRS; IoError; Cancelled.
 void write_dem(Raster<float> const& dem, std::string const& path, Run const& run = {});
+
+/// The same, of heights that are in a unit already: the band names it, "m" or "ft". The other names "m".
+void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit unit, Run const& run = {});
 
 /// Writes a new Byte GeoTIFF (tiled, DEFLATE). Gives and throws: like write_dem.
 void write_mask(Mask const& mask, std::string const& path, Run const& run = {});

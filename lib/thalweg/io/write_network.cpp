@@ -49,7 +49,7 @@ void write_geopackage(NetworkTables const& tables, std::string const& path, Run 
     std::vector<Table> layers{arcs_table(tables, index), nodes_table(tables, index)};
     if (tables.ridges != nullptr && !tables.ridges->lines.empty()) {
         require_lines(*tables.ridges, "io.write_geopackage: " + file);
-        layers.push_back(ridges_table(*tables.ridges));
+        layers.push_back(ridges_table(*tables.ridges, tables.unit));
     }
     if (tables.secondary != nullptr && !tables.secondary->empty()) {
         layers.push_back(secondary_table(*tables.secondary, tables.user));

@@ -9,6 +9,7 @@
 
 #include <thalweg/core/attributes.hpp>
 #include <thalweg/core/grid.hpp>
+#include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/run.hpp>
@@ -37,7 +38,8 @@ struct NetworkTables {
     RidgeLines const* ridges = nullptr;                    ///< layer ridges of the GeoPackage; none when null or empty
     std::vector<SecondaryLine> const* secondary = nullptr; ///< layer secondary of the GeoPackage; likewise
     UserData const* user = nullptr;                        ///< none when null
-    bool heights = true;                                   ///< else nobody knows them, and 0 stands for each
+    HeightUnit unit = HeightUnit::metre; ///< of heights in the native schema; feet add the column z_unit
+    bool heights = true;                 ///< else nobody knows them, and 0 stands for each
 };
 
 /// Writes PATH (.gpkg is added where it is missing): layers arcs (LineStringZ) and nodes (PointZ), table run, with the

@@ -36,7 +36,7 @@ std::vector<double> areas_of(NetworkFile const& file, std::vector<measure::Reach
 } // namespace
 
 measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, Run const& run) {
-    Raster<float> const land = io::read_dem(dem);
+    Raster<float> const land = io::read_stored_dem(dem); // in feet or metres its water runs alike
     if (!io::same_crs(network.crs, land.grid().crs, "the network", dem)) {
         throw BadInput(fmt::format("pipeline.certify_files: the network is in {}, {} in {}; reproject one of them "
                                    "(ogr2ogr -t_srs, gdalwarp -t_srs)",

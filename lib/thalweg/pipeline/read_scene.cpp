@@ -178,7 +178,8 @@ SceneRead read_folder(fs::path const& folder, std::string const& network, Run co
     if (fs::exists(recipe)) {
         Recipe const made = read_recipe(io::read_text(recipe, 2 << 20), recipe);
         scene.title = title_of(made);
-        scene.contour_interval_m = made.output.contour_interval_m;
+        bool const in_metres = made.output.units == HeightUnit::metre; // as pictures are
+        scene.contour_interval_m = in_metres ? made.output.contour_interval : 0.0;
         if (fs::exists(report)) {
             read_increments(scene, made, io::read_text(report, largest_text));
         }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/height_unit.hpp>
 #include <thalweg/detail/midpoint.hpp>
 #include <thalweg/io/read_rivers.hpp>
 #include <thalweg/io/schema.hpp>
@@ -204,10 +205,11 @@ struct PatchRecipe {
 
 struct OutputRecipe {
     std::string title;                      ///< of the pictures and the page; "" names the seed
-    double contour_interval_m = 0.0;        ///< [m] 0 chooses a round number
+    double contour_interval = 0.0;          ///< [units] 0 chooses a round number
     bool catchments = true;                 ///< of the arcs, where there are rivers and a surface
     bool accumulation = false;              ///< contributing areas by cell, where there is a surface
     io::Schema schema = io::Schema::native; ///< another one: a network file more, in its words
+    HeightUnit units = HeightUnit::metre;   ///< of heights in dem.tif, networks, contours and TINs
 };
 
 /// Everything that decides a result, as one plain value.

@@ -61,8 +61,13 @@ std::vector<Key> make_keys() {
 
     keys.push_back(text("output.title", "text", "title of the pictures and the report; \"\": names the seed",
                         in_recipe<std::string>([](Recipe& r) -> std::string& { return r.output.title; })));
-    keys.push_back(number("output.contour_interval", "m", {0, 1e5}, "contour interval; 0: a round number",
-                          in_recipe<double>([](Recipe& r) -> double& { return r.output.contour_interval_m; })));
+    keys.push_back(
+        choice<HeightUnit>("output.units", {{"m", HeightUnit::metre}, {"ft", HeightUnit::foot}},
+                           "unit of heights in dem.tif, networks, contours and TINs: metres or international feet",
+                           in_recipe<HeightUnit>([](Recipe& r) -> HeightUnit& { return r.output.units; })));
+    keys.push_back(number("output.contour_interval", "", {0, 1e5},
+                          "contour interval in output.units; 0: a round number",
+                          in_recipe<double>([](Recipe& r) -> double& { return r.output.contour_interval; })));
     keys.push_back(yes_no("output.catchments", "write the catchment of each arc: catchments.gpkg",
                           in_recipe<bool>([](Recipe& r) -> bool& { return r.output.catchments; })));
     keys.push_back(yes_no("output.accumulation", "write contributing areas by cell: area_d8.tif, area_dinf.tif",

@@ -12,6 +12,7 @@
 #include <thalweg/network/prune.hpp>
 #include <thalweg/network/rasterise.hpp>
 #include <thalweg/network/set_heights_graded.hpp>
+#include <thalweg/pipeline/conversions.hpp>
 #include <thalweg/pipeline/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/plan_rivers.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
@@ -110,6 +111,7 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     NetworkRecipe& rivers = *recipe.network;
     Planned planned = plan(recipe, terrain, diary, run);
     take_frame(terrain, planned.grid);
+    report_conversions(terrain, run);
     Grid const& grid = terrain.grid;
     if (rivers.heights == Heights::automatic) {
         rivers.heights = in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;

@@ -6,6 +6,7 @@
 #include <thalweg/measure/topology.hpp>
 #include <thalweg/pipeline/around_rivers.hpp>
 #include <thalweg/pipeline/catchment_rows.hpp>
+#include <thalweg/pipeline/conversions.hpp>
 #include <thalweg/pipeline/diary.hpp>
 #include <thalweg/pipeline/land.hpp>
 #include <thalweg/pipeline/land_in_equilibrium.hpp>
@@ -159,6 +160,7 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
     } else {
         points = given_points(terrain.recipe, run);
         take_frame(terrain, frame_land(points, terrain.recipe.grid));
+        report_conversions(terrain, run);
     }
     if (keep && wanted.network) {
         keep("valley", terrain.valley.z);

@@ -15,6 +15,7 @@
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/split_confluences.hpp>
 #include <thalweg/pipeline/catchment_rows.hpp>
+#include <thalweg/pipeline/in_unit.hpp>
 #include <thalweg/pipeline/page.hpp>
 #include <thalweg/pipeline/pictures.hpp>
 #include <thalweg/pipeline/recipe_keys.hpp>
@@ -44,9 +45,19 @@ std::vector<std::string> files_left_in(std::string const& folder) {
     return fs::exists(report) ? files_of_report(io::read_text(report, largest_report)) : std::vector<std::string>{};
 }
 
+double relief_m(Terrain const& t) {
+    return t.statistics->max.z - t.statistics->min.z;
+}
+
+/// In the recipe's unit.
 double contour_interval(Terrain const& t) {
-    double const asked = t.recipe.output.contour_interval_m;
-    return asked > 0.0 ? asked : round_interval(t.statistics->max.z - t.statistics->min.z);
+    double const asked = t.recipe.output.contour_interval;
+    return asked > 0.0 ? asked : round_interval(relief_m(t) / metres_in(t.recipe.output.units));
+}
+
+/// Of pictures and the page, which are in metres.
+double contour_interval_m(Terrain const& t) {
+    return t.recipe.output.units == HeightUnit::metre ? contour_interval(t) : round_interval(relief_m(t));
 }
 
 /// Copies a named input and its companions into a folder of the output and gives the name it has there. A source that
@@ -124,8 +135,10 @@ void write_in_schema(Terrain const& t, io::OutputFolder const& out, Run const& r
 }
 
 void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run) {
-    std::map<std::string, std::string> const about = {
-        {"version", version()}, {"seed", fmt::format("{}", t.recipe.seed)}, {"area_from", t.areas.source}};
+    std::map<std::string, std::string> const about = {{"version", version()},
+                                                      {"seed", fmt::format("{}", t.recipe.seed)},
+                                                      {"area_from", t.areas.source},
+                                                      {"height_unit", name_of(t.recipe.output.units)}};
     auto const user = user_data(t, t.network.plan);
     io::NetworkTables const tables{t.network,
                                    t.orders,
@@ -137,7 +150,8 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
                                    t.types.braided.empty() ? nullptr : &t.types.braided,
                                    &t.ridges,
                                    &t.secondary,
-                                   user ? &*user : nullptr};
+                                   user ? &*user : nullptr,
+                                   t.recipe.output.units};
     io::write_geopackage(tables, out.path("network"), run);
     io::write_shapefiles(tables, out.path("network"), run);
     if (t.recipe.output.schema != io::Schema::native) {
@@ -163,10 +177,18 @@ void write_water(Terrain const& t, io::OutputFolder const& out, Run const& run) 
 
 void write_surface(Terrain const& t, std::string const& title, io::OutputFolder const& out, Run const& run) {
     Raster<float> const& dem = t.surface->dem;
-    double const interval = contour_interval(t);
+    HeightUnit const unit = t.recipe.output.units;
+    double const interval = contour_interval_m(t);
     auto const contours = io::contours(dem, interval, run);
-    io::write_dem(dem, out.path("dem.tif"), run);
-    io::write_contours(contours, interval, t.grid.crs, out.path("contours.gpkg"), run);
+    if (unit == HeightUnit::metre) {
+        io::write_dem(dem, out.path("dem.tif"), run);
+        io::write_contours(contours, interval, t.grid.crs, out.path("contours.gpkg"), run);
+    } else {
+        Raster<float> const converted = in_unit(dem, unit);
+        double const step = contour_interval(t);
+        io::write_dem(converted, out.path("dem.tif"), unit, run);
+        io::write_contours(io::contours(converted, step, run), step, t.grid.crs, out.path("contours.gpkg"), unit, run);
+    }
 
     bool const rivers = t.recipe.network.has_value();
     RaisedNetwork const* const network = rivers ? &t.network : nullptr;
@@ -208,8 +230,9 @@ std::vector<std::string> write_terrain(Terrain const& terrain, std::string const
         write_network(terrain, out, run);
     }
     if (terrain.tin && terrain.recipe.skeleton && terrain.recipe.skeleton->tin) {
-        io::write_tin(*terrain.tin, terrain.grid.crs, out.path("tin.2dm"), io::TinFormat::mesh_2dm, run);
-        io::write_tin(*terrain.tin, terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, run);
+        Tin const tin = in_unit(*terrain.tin, terrain.recipe.output.units);
+        io::write_tin(tin, terrain.grid.crs, out.path("tin.2dm"), io::TinFormat::mesh_2dm, run);
+        io::write_tin(tin, terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, run);
     }
     run.at(0.3, "write");
     std::string const title = title_of(terrain.recipe);
@@ -225,7 +248,7 @@ std::vector<std::string> write_terrain(Terrain const& terrain, std::string const
     std::string const recipe_toml = write_recipe(recipe);
     io::write_text(out.path("recipe.toml"), recipe_toml);
     PageParams params;
-    params.contour_interval_m = terrain.surface ? contour_interval(terrain) : 0.0;
+    params.contour_interval_m = terrain.surface ? contour_interval_m(terrain) : 0.0;
     params.recipe = recipe_toml;
     io::write_text(out.path("report.html"), page(terrain, params, run));
     run.at(0.9, "write");

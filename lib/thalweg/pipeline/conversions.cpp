@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/conversions.hpp>
+
+#include <thalweg/io/conversions.hpp>
+#include <thalweg/pipeline/recipe_files.hpp>
+#include <thalweg/pipeline/recipe_keys.hpp>
+
+#include <fmt/format.h>
+
+#include <string>
+#include <variant>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+void report_file(Terrain& terrain, std::string const& name, std::string const& layer, Run const& run) {
+    if (name.empty()) {
+        return;
+    }
+    for (std::string const& words : io::conversions_of(file_in(terrain.recipe, name), layer, terrain.grid.crs)) {
+        run.say(fmt::format("{:<6} {}", "units", words));
+        terrain.story.repairs.push_back({"converted", 0, {}, 0.0, words});
+    }
+}
+
+} // namespace
+
+void report_conversions(Terrain& terrain, Run const& run) {
+    Recipe const& recipe = terrain.recipe;
+    for (Key const& key : all_keys()) {
+        auto const value = names_file(key) && key.section() != "patch" ? key.take(recipe) : std::nullopt;
+        if (value) {
+            bool const of_rivers = key.help.path == "network.lines.path";
+            report_file(terrain, std::get<std::string>(*value), of_rivers ? recipe.network->lines.layer : "", run);
+        }
+    }
+    for (PatchRecipe const& patch : recipe.patches) {
+        report_file(terrain, patch.source, "", run);
+        report_file(terrain, patch.mask, "", run);
+    }
+}
+
+} // namespace thalweg::pipeline

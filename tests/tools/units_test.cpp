@@ -1,0 +1,251 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rivers in feet or degrees, and terrain in feet.
+#include "command.hpp"
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr double foot = 0.3048;
+std::string const walker = THALWEG_SOURCE_DIR "/samples/walker_nhdplus.gpkg";
+
+void run_gdal(std::string const& command, Workplace const& place) {
+    std::string const line = "cd '" + place.path().string() + "' && " + command + " >gdal.log 2>&1";
+    ASSERT_EQ(std::system(line.c_str()), 0) << command << file_bytes(place / "gdal.log");
+}
+
+json made(Workplace const& place, std::string const& arguments, std::string const& folder) {
+    Outcome const o = thalweg_run("make " + arguments + " -o " + folder, place.path());
+    EXPECT_EQ(o.code, 0) << arguments << "\n" << o.err;
+    if (o.code != 0) {
+        return {};
+    }
+    json const report = json::parse(file_bytes(place / folder / "report.json"));
+    for (auto const& check : report["checks"]) {
+        EXPECT_TRUE(check["ok"].get<bool>()) << arguments << check;
+    }
+    return report;
+}
+
+bool tells(json const& report, std::string const& words) {
+    for (auto const& repair : report["repairs"]) {
+        if (repair["text"].get<std::string>().find(words) != std::string::npos) {
+            return true;
+        }
+    }
+    return false;
+}
+
+struct Dem {
+    std::string unit;
+    std::vector<float> z;
+};
+
+Dem dem_in(fs::path const& file) {
+    GDALAllRegister();
+    GDALDatasetUniquePtr const data(GDALDataset::Open(file.string().c_str()));
+    if (!data) {
+        return {};
+    }
+    GDALRasterBand* const band = data->GetRasterBand(1);
+    Dem dem{band->GetUnitType(), std::vector<float>(static_cast<std::size_t>(data->GetRasterXSize()) *
+                                                    static_cast<std::size_t>(data->GetRasterYSize()))};
+    EXPECT_EQ(band->RasterIO(GF_Read, 0, 0, data->GetRasterXSize(), data->GetRasterYSize(), dem.z.data(),
+                             data->GetRasterXSize(), data->GetRasterYSize(), GDT_Float32, 0, 0, nullptr),
+              CE_None);
+    return dem;
+}
+
+/// A column of numbers of a layer, and the Z of its vertices.
+std::vector<double> column(fs::path const& file, char const* layer, char const* name) {
+    GDALAllRegister();
+    GDALDatasetUniquePtr const data(GDALDataset::Open(file.string().c_str(), GDAL_OF_VECTOR));
+    OGRLayer* const found = data ? data->GetLayerByName(layer) : nullptr;
+    std::vector<double> out;
+    if (found == nullptr) {
+        ADD_FAILURE() << file << layer;
+        return out;
+    }
+    for (auto const& feature : *found) {
+        if (std::string(name) != "Z") {
+            out.push_back(feature->GetFieldAsDouble(name));
+            continue;
+        }
+        OGRGeometry const* const shape = feature->GetGeometryRef();
+        if (wkbFlatten(shape->getGeometryType()) == wkbPoint) {
+            out.push_back(shape->toPoint()->getZ());
+            continue;
+        }
+        for (OGRPoint const& p : *shape->toLineString()) {
+            out.push_back(p.getZ());
+        }
+    }
+    return out;
+}
+
+void expect_ratio(std::vector<double> const& metres, std::vector<double> const& feet, double unit,
+                  std::string const& what) {
+    ASSERT_EQ(metres.size(), feet.size()) << what;
+    ASSERT_FALSE(metres.empty()) << what;
+    for (std::size_t i = 0; i < metres.size(); ++i) {
+        ASSERT_NEAR(feet[i] * unit, metres[i], 1e-6) << what << i;
+    }
+}
+
+std::string text_in_run(fs::path const& file, std::string const& name) {
+    GDALDatasetUniquePtr const data(GDALDataset::Open(file.string().c_str(), GDAL_OF_VECTOR));
+    for (auto const& row : *data->GetLayerByName("run")) {
+        if (name == row->GetFieldAsString("name")) {
+            return row->GetFieldAsString("value");
+        }
+    }
+    return "";
+}
+
+} // namespace
+
+TEST(Units, TerrainInFeetIsTheTerrainInMetres) {
+    Workplace const place;
+    std::string const rivers = "'" + walker + "' --set grid.cell=60";
+    json const metres = made(place, rivers, "m");
+    json const feet = made(place, rivers + " --units ft", "ft");
+    EXPECT_EQ(feet["recipe"]["output"]["units"], "ft");
+    EXPECT_EQ(metres["dem"]["max"]["z"], feet["dem"]["max"]["z"]); // of the report always metres
+    EXPECT_EQ(metres["network"]["length_m"], feet["network"]["length_m"]);
+
+    Dem const m = dem_in(place / "m/dem.tif");
+    Dem const ft = dem_in(place / "ft/dem.tif");
+    EXPECT_EQ(m.unit, "m");
+    EXPECT_EQ(ft.unit, "ft");
+    ASSERT_EQ(m.z.size(), ft.z.size());
+    for (std::size_t i = 0; i < m.z.size(); ++i) {
+        ASSERT_NEAR(static_cast<double>(ft.z[i]) * foot, static_cast<double>(m.z[i]), 1e-3) << i;
+    }
+    for (char const* file : {"network.gpkg", "network_arcs.shp"}) {
+        std::string const arcs = file == std::string("network.gpkg") ? "arcs" : "network_arcs";
+        for (char const* name : {"z_up", "z_down", "Z"}) {
+            expect_ratio(column(place / "m" / file, arcs.c_str(), name),
+                         column(place / "ft" / file, arcs.c_str(), name), foot, file);
+        }
+        for (char const* name : {"length", "length_3d", "straight", "dist_out", "slope", "us_area", "ds_area"}) {
+            EXPECT_EQ(column(place / "m" / file, arcs.c_str(), name), column(place / "ft" / file, arcs.c_str(), name))
+                << name;
+        }
+    }
+    for (char const* name : {"z", "Z"}) {
+        expect_ratio(column(place / "m/network.gpkg", "nodes", name), column(place / "ft/network.gpkg", "nodes", name),
+                     foot, name);
+    }
+    EXPECT_EQ(text_in_run(place / "m/network.gpkg", "height_unit"), "m");
+    EXPECT_EQ(text_in_run(place / "ft/network.gpkg", "height_unit"), "ft");
+    for (double const z : column(place / "ft/contours.gpkg", "contours", "z")) {
+        ASSERT_EQ(z, std::round(z / 10.0) * 10.0) << "round numbers of feet";
+    }
+    EXPECT_EQ(thalweg_run("replay ft --verify", place.path()).code, 0);
+}
+
+TEST(Units, WhatIsInFeetIsReadAsSuch) {
+    Workplace const place;
+    std::string const rivers = "'" + walker + "' --set grid.cell=60 -q";
+    made(place, rivers, "m");
+    made(place, rivers + " --units ft", "ft");
+    for (std::string const network : {"ft", "ft/network_arcs.shp"}) {
+        Outcome const check = thalweg_run("check " + network + " --dem ft/dem.tif --json", place.path());
+        EXPECT_EQ(check.code, 0) << network << check.out << check.err;
+        json const found = json::parse(check.out);
+        json const other = json::parse(thalweg_run("check m --dem m/dem.tif --json", place.path()).out);
+        EXPECT_EQ(found["certificate"]["traced"], other["certificate"]["traced"]) << network;
+        EXPECT_EQ(found["certificate"]["depressions"]["count"], 0) << network;
+    }
+    auto const stats = [&](std::string const& folder) {
+        return json::parse(thalweg_run("stats " + folder + "/dem.tif --json", place.path()).out);
+    };
+    EXPECT_NEAR(stats("ft")["max"]["z"].get<double>(), stats("m")["max"]["z"].get<double>(), 1e-3);
+    EXPECT_NEAR(stats("ft")["slope_rad"].get<double>(), stats("m")["slope_rad"].get<double>(), 1e-5);
+
+    ASSERT_EQ(thalweg_run("convert ft -o back.gpkg", place.path()).code, 0);
+    expect_ratio(column(place / "m/network.gpkg", "arcs", "Z"), column(place / "back.gpkg", "arcs", "Z"), 1.0, "back");
+    ASSERT_EQ(thalweg_run("draw ft -o ft.svg --what profile", place.path()).code, 0);
+    ASSERT_EQ(thalweg_run("draw m -o m.svg --what profile", place.path()).code, 0);
+
+    // The rivers of a folder in feet keep their heights.
+    json const again = made(place, "ft --set grid.cell=60", "again");
+    EXPECT_TRUE(tells(again, "network.gpkg: heights in feet are converted into metres"));
+    auto const highest = [&](std::string const& folder) {
+        auto const z = column(place / folder / "network.gpkg", "arcs", "z_up");
+        return *std::max_element(z.begin(), z.end());
+    };
+    EXPECT_NEAR(highest("again"), highest("m"), 0.02 * highest("m"));
+}
+
+TEST(Units, RiversInSurveyFeetWithHeightsInSurveyFeet) {
+    Workplace const place;
+    // A main stem and a tributary near Oakland, first in metres.
+    place.write(
+        "m.geojson",
+        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32610"}},)"
+        R"("features":[{"type":"Feature","properties":{"id":1},"geometry":{"type":"LineString","coordinates":)"
+        R"([[560000,4180000,300],[562000,4181000,200],[565000,4180500,100]]}},)"
+        R"({"type":"Feature","properties":{"id":2},"geometry":{"type":"LineString","coordinates":)"
+        R"([[561500,4184000,400],[562000,4181000,200]]}}]})");
+    run_gdal("ogr2ogr -f GPKG -t_srs EPSG:2227 plan.gpkg m.geojson", place);
+    // GDAL leaves Z alone: a copy gets its heights in feet and says so.
+    std::string const script =
+        "from osgeo import ogr, osr\\nogr.UseExceptions()\\n"
+        "src = ogr.Open('plan.gpkg'); layer = src.GetLayer(0)\\n"
+        "srs = osr.SpatialReference(); srs.SetFromUserInput('EPSG:2227+6360')\\n"
+        "srs.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)\\n"
+        "out = ogr.GetDriverByName('GPKG').CreateDataSource('ft.gpkg')\\n"
+        "to = out.CreateLayer('rivers', srs, ogr.wkbLineString25D)\\n"
+        "for f in layer:\\n"
+        "    g = f.GetGeometryRef(); line = ogr.Geometry(ogr.wkbLineString25D)\\n"
+        "    for i in range(g.GetPointCount()):\\n"
+        "        x, y, z = g.GetPoint(i); line.AddPoint(x, y, z * 3937 / 1200)\\n"
+        "    new = ogr.Feature(to.GetLayerDefn()); new.SetGeometry(line); to.CreateFeature(new)\\n"
+        "out = None\\n";
+    run_gdal("printf \"" + script + "\" > scale.py && /usr/bin/python3 scale.py", place);
+
+    json const report = made(place, "ft.gpkg --set grid.cell=20", "out");
+    EXPECT_EQ(report["recipe"]["grid"]["crs"], "EPSG:32610");
+    EXPECT_EQ(report["recipe"]["network"]["heights"], "file");
+    EXPECT_TRUE(tells(report, "NAD83 / California zone 3 (ftUS) (US survey feet) are reprojected into EPSG:32610"))
+        << report["repairs"];
+    EXPECT_TRUE(tells(report, "heights in US survey feet are converted into metres")) << report["repairs"];
+    auto const z = column(place / "out/network.gpkg", "arcs", "z_up");
+    EXPECT_NEAR(*std::max_element(z.begin(), z.end()), 400.0, 1.0);
+
+    // Without a vertical CRS nothing says what its heights are in: they are taken for metres, and that is said.
+    json const plan = made(place, "plan.gpkg --set grid.cell=20", "plan");
+    EXPECT_TRUE(tells(plan, "heights are taken for metres")) << plan["repairs"];
+}
+
+TEST(Units, DegreesAreSaid) {
+    Workplace const place;
+    run_gdal("ogr2ogr -t_srs EPSG:4326 d.gpkg '" + walker + "'", place);
+    Outcome const o = thalweg_run("make d.gpkg --set grid.cell=90 -o out", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.err.find("coordinates in WGS 84 (degrees) are reprojected into EPSG:32610"), std::string::npos)
+        << o.err;
+    // A DEM in feet that is pasted comes in metres.
+    run_gdal("gdal_translate -co COMPRESS=DEFLATE '" THALWEG_SOURCE_DIR
+             "/samples/bigtujunga_srtm1_utm11.tif' piece.tif && gdal_edit.py -units ft piece.tif",
+             place);
+    Dem const piece = dem_in(place / "piece.tif");
+    EXPECT_EQ(piece.unit, "ft");
+    json const stats = json::parse(thalweg_run("stats piece.tif --json", place.path()).out);
+    EXPECT_NEAR(stats["max"]["z"].get<double>(),
+                foot * static_cast<double>(*std::max_element(piece.z.begin(), piece.z.end())), 0.1);
+}
