@@ -26,6 +26,7 @@ execute_process(COMMAND git -C ${PROJECT_SOURCE_DIR} log -1 --format=%cD OUTPUT_
 if(NOT DATE)
   string(TIMESTAMP DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
 endif()
+string(REGEX MATCH "20[0-9][0-9]" YEAR "${DATE}")
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/debian/changelog CONTENT "\
 thalweg (${PROJECT_VERSION}) unstable; urgency=medium
 
@@ -38,7 +39,7 @@ Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Upstream-Name: thalweg
 
 Files: *
-Copyright: the thalweg authors
+Copyright: ${YEAR} the thalweg authors
 License: GPL-3+
 
 License: GPL-3+

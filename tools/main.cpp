@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
     commands[help] = add_help(*help);
     app.footer("Examples:\n"
                "  thalweg make\n"
-               "  thalweg make samples/lines.toml -o out/walker\n"
+               "  thalweg make samples/walker_nhdplus.gpkg -o out/walker\n"
                "  thalweg check out/walker\n"
                "  thalweg help make\n"); // after the commands: they would take it over
 
@@ -153,7 +153,8 @@ int main(int argc, char** argv) {
             }
             auto const begin = std::chrono::steady_clock::now();
             int const code = commands.at(chosen)();
-            if (session.verbose || chosen->get_name() == "make") {
+            bool const made = chosen->get_name() == "make" && chosen->count("--dry-run") == 0;
+            if (session.verbose || made) {
                 tell_times(session, terminal,
                            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
             }

@@ -42,7 +42,7 @@ void expect_as_foretold(Recipe const& recipe, std::string const& name) {
         EXPECT_EQ(said.cells, made.grid.cells()) << name;
     }
     EXPECT_GT(said.cells, 0) << name;
-    EXPECT_EQ(said.memory_bytes, bytes_needed(said.cells)) << name;
+    EXPECT_GT(said.memory_bytes, bytes_needed(said.cells)) << name;
     EXPECT_GT(said.seconds, 0.0) << name;
 }
 

@@ -87,6 +87,7 @@ TEST(Spoken, ADryRunWritesNothing) {
     EXPECT_TRUE(has(o.out, "grid       64 x 48 cells of 30 m, ")) << o.out;
     EXPECT_TRUE(has(o.out, "\nmemory     at most ") && has(o.out, "\ntime       about 1 s on one core\n")) << o.out;
     EXPECT_FALSE(std::filesystem::exists(place / "out"));
+    EXPECT_TRUE(o.err.empty()) << o.err;
     nlohmann::json const json = nlohmann::json::parse(thalweg_run(small + "--dry-run --json", place.path()).out);
     EXPECT_EQ(json["grid"]["width"], 64);
     EXPECT_EQ(json["stages"][0], "grow");

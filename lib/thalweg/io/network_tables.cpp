@@ -107,12 +107,12 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool sh
                 [of = tables.braided](auto row) { return of != nullptr && (*of)[as_index(row)] != 0 ? 1 : 0; }),
         integer("given", [arc](auto row) { return arc(row).given ? 1 : 0; }),
     };
-    add_unit(table, tables.unit);
     if (tables.user != nullptr) {
         add_user_columns(
             table, tables.user->attributes,
             [&user = *tables.user](std::int64_t row) { return user.record[as_index(row)]; }, short_names);
     }
+    add_unit(table, tables.unit);
     return table;
 }
 

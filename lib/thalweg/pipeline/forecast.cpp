@@ -239,6 +239,14 @@ double seconds_a_million(std::string const& stage, Method method) {
     return 0.1;
 }
 
+/// Most memory [bytes] of the whole program; measured on the samples, of 0.01 to 1 million cells.
+std::int64_t memory_of(Recipe const& recipe, std::int64_t cells) {
+    constexpr std::int64_t program = 80'000'000; // with its libraries
+    constexpr std::int64_t a_particle = 60;
+    bool const has_cluster = recipe.network && recipe.network->source == Source::dla;
+    return program + bytes_needed(cells) * 5 / 4 + (has_cluster ? recipe.network->dla.particles * a_particle : 0);
+}
+
 double seconds_of(Recipe const& recipe, Forecast const& found) {
     Method const method = recipe.surface ? recipe.surface->method : Method::tin;
     double const millions = static_cast<double>(found.cells) / 1e6;
@@ -262,7 +270,7 @@ Forecast forecast(Recipe const& recipe, Run const& run) {
     found.grid = known.grid;
     found.cells = known.cells;
     found.stages = stages_of(recipe, known.lines_have_z);
-    found.memory_bytes = bytes_needed(known.cells);
+    found.memory_bytes = memory_of(recipe, known.cells);
     found.seconds = seconds_of(recipe, found);
     if (known.grid) {
         check_memory(known.grid->width, known.grid->height);

@@ -20,12 +20,12 @@ std::optional<Value> value_in(Recipe const& recipe, std::string const& path) {
 }
 
 /// A value without the quotes of TOML.
-std::string plain(Value const& value) {
+std::string bare_text(Value const& value) {
     auto const* const word = std::get_if<std::string>(&value);
     return word != nullptr ? *word : toml_text(value);
 }
 
-std::string quoted(std::string const& word) {
+std::string in_quotes(std::string const& word) {
     return word == "true" || word == "false" ? word : '"' + word + '"';
 }
 
@@ -40,7 +40,7 @@ bool has_section(Recipe const& recipe, std::string const& section) {
 
 bool is_given(Recipe const& recipe, std::string const& path) {
     auto const value = value_in(recipe, path);
-    return value && !plain(*value).empty();
+    return value && !bare_text(*value).empty();
 }
 
 /// A simple condition: what holds, and what the recipe has where it does not.
@@ -81,16 +81,16 @@ Use without(std::string const& section) {
 
 Use is(std::string const& path, std::vector<std::string> const& words) {
     std::vector<std::string> listed;
-    std::transform(words.begin(), words.end(), std::back_inserter(listed), quoted);
+    std::transform(words.begin(), words.end(), std::back_inserter(listed), in_quotes);
     return simple(
         fmt::format("{} = {}", path, fmt::join(listed, " or ")),
         [path, words](Recipe const& r) {
             auto const value = value_in(r, path);
-            return value && std::find(words.begin(), words.end(), plain(*value)) != words.end();
+            return value && std::find(words.begin(), words.end(), bare_text(*value)) != words.end();
         },
         [path](Recipe const& r) {
             auto const value = value_in(r, path);
-            return value ? fmt::format(" (here it is {})", quoted(plain(*value))) : std::string();
+            return value ? fmt::format(" (here it is {})", in_quotes(bare_text(*value))) : std::string();
         });
 }
 

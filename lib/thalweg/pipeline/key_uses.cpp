@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/key_use.hpp>
+#include <thalweg/pipeline/land_in_equilibrium.hpp>
 
 #include <utility>
 #include <vector>
@@ -69,10 +70,6 @@ Use extremes() {
     return given("statistics.max") || given("statistics.min");
 }
 
-bool draws_equilibrium(Recipe const& r) {
-    return r.network && r.surface && r.surface->method == Method::equilibrium;
-}
-
 /// Whether rivers have these heights, or may have them once their file is read.
 bool may_be(Recipe const& r, Heights heights) {
     if (!r.network) {
@@ -81,7 +78,7 @@ bool may_be(Recipe const& r, Heights heights) {
     if (r.network->heights != Heights::automatic) {
         return r.network->heights == heights;
     }
-    return heights == (draws_equilibrium(r) ? Heights::graded : Heights::straight_repaired) ||
+    return heights == (in_equilibrium(r) ? Heights::graded : Heights::straight_repaired) ||
            (heights == Heights::file && r.network->source == Source::lines);
 }
 
@@ -89,7 +86,7 @@ Use slope() {
     return when("network.heights other than \"rosgen\", and other than \"graded\" with surface.method = "
                 "\"equilibrium\", whose rivers are graded with the terrain",
                 [](Recipe const& r) {
-                    bool const by_terrain = draws_equilibrium(r);
+                    bool const by_terrain = in_equilibrium(r);
                     bool found = by_terrain ? false : may_be(r, Heights::graded);
                     for (Heights const h : {Heights::straight, Heights::straight_repaired, Heights::along_stream,
                                             Heights::file, Heights::soft, Heights::fixed, Heights::ends}) {
