@@ -33,9 +33,9 @@ bool attribute_type(OGRFieldType type, AttributeType& result) {
 }
 
 bool is_of_schema(std::string const& name) {
-    return std::ranges::any_of(table_of(Schema::native).fields, [&](SchemaField const& field) {
-        return EQUAL(std::string(field.name).c_str(), name.c_str());
-    });
+    return name == "z_unit" || std::ranges::any_of(table_of(Schema::native).fields, [&](SchemaField const& field) {
+               return EQUAL(std::string(field.name).c_str(), name.c_str());
+           });
 }
 
 AttributeTable::Value attribute_value(OGRFeature const& feature, int field, AttributeType type) {
