@@ -34,9 +34,9 @@ TEST(InUnit, MetresStay) {
 
 TEST(InUnit, ExactFeet) {
     Raster<float> const feet = pipeline::in_unit(row_of({0.3048F, 304.8F, -0.3048F, 0.0F}), HeightUnit::foot);
-    EXPECT_EQ(feet[0], 1.0F);
-    EXPECT_EQ(feet[1], 1000.0F);
-    EXPECT_EQ(feet[2], -1.0F);
+    EXPECT_FLOAT_EQ(feet[0], 1.0F);
+    EXPECT_FLOAT_EQ(feet[1], 1000.0F); // 304.8 is not a float
+    EXPECT_FLOAT_EQ(feet[2], -1.0F);
     EXPECT_EQ(feet[3], 0.0F);
 }
 
