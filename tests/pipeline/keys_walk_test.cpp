@@ -94,7 +94,7 @@ std::vector<BaseRecipe> const bases = {
     {"DiffusePoints",
      points + surface("diffuse"),
      {"surface.smoothing", "surface.noise", "surface.start", "surface.mask"}},
-    {"RegressPoints", points + surface("regress") + "[statistics]\nskeleton = \"points\"\nmean = 300\n", {"surface."}},
+    {"RegressPoints", points + surface("regress"), {"surface."}},
     {"Scatter",
      grid + "[skeleton]\nscatter = 50\n" + surface("tin") + statistics + "skeleton = \"points\"\n",
      {"skeleton.", "statistics.", "-statistics.skeleton"}},
@@ -217,7 +217,7 @@ std::map<std::string, std::vector<Words>> const beside = {
     {"surface.sweeps", {{"surface.diffusion=explicit", "surface.sweeps=30"}}},
     {"surface.start", {{"surface.diffusion=explicit", "surface.sweeps=30"}}},
     {"surface.alpha", {{"surface.diffusion=explicit", "surface.sweeps=30"}}},
-    {"surface.slope_mode", {{"statistics.slope=1.2"}}},
+    {"surface.slope_mode", {{"statistics.skeleton=points", "statistics.slope=1.2"}}},
     {"statistics.falloff", {{"statistics.reach=0"}}},
 };
 
