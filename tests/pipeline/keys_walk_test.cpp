@@ -91,8 +91,10 @@ std::vector<BaseRecipe> const bases = {
     {"NetworkAlone", grid + "[network]\nprune = 5\n", {"network.source"}},
     {"TinOfPoints", points + surface("tin"), {"skeleton.", "surface.", "grid.", "-grid.crs"}},
     {"PointsAlone", points, {"skeleton."}},
-    {"DiffusePoints", points + surface("diffuse"), diffusion},
-    {"RegressPoints", points + surface("regress") + "[statistics]\nskeleton = \"points\"\nmean = 300\n", {"surface."}},
+    {"DiffusePoints",
+     points + surface("diffuse"),
+     {"surface.smoothing", "surface.noise", "surface.start", "surface.mask"}},
+    {"RegressPoints", points + surface("regress"), {"surface."}},
     {"Scatter",
      grid + "[skeleton]\nscatter = 50\n" + surface("tin") + statistics + "skeleton = \"points\"\n",
      {"skeleton.", "statistics.", "-statistics.skeleton"}},
@@ -196,6 +198,10 @@ std::map<std::string, std::vector<Words>> const beside = {
     {"network.rosgen_slope", {{"network.heights=rosgen"}}},
     {"network.support", {{"network.fill_space=true"}}},
     {"network.dla.rule", {{"network.dla.visits=3", "network.dla.sticking=0.5"}, {"network.dla.visits=3"}}},
+    {"network.tokunaga.generator", {{"network.tokunaga.order=3"}}},
+    {"network.tokunaga.rule", // alike where lambda is 2, and below order 4
+     {{"network.tokunaga.generator=3", "network.tokunaga.order=4", "network.tokunaga.spacing=0", "grid.width=160",
+       "grid.height=160"}}},
     {"network.tokunaga.layer", {{"network.tokunaga.strokes=strokes.gpkg", "network.tokunaga.layer=strokes"}}},
     {"network.lines.layer", {{"network.lines.path=rivers.gpkg", "network.lines.layer=rivers"}}},
     {"network.lines.rank_field", {{"network.lines.orientation=as_drawn"}}},
@@ -208,10 +214,10 @@ std::map<std::string, std::vector<Words>> const beside = {
     {"surface.mean_slope", {{"surface.relief=300"}}},
     {"surface.drain", {{"detail.sigma=20", "detail.levels=3"}}},
     {"surface.allow_negative", {{"surface.increment=3-x"}}},
-    {"surface.sweeps", {{"surface.diffusion=explicit"}}},
-    {"surface.start", {{"surface.diffusion=explicit"}}},
-    {"surface.alpha", {{"surface.diffusion=explicit"}}},
-    {"surface.slope_mode", {{"statistics.slope=1.2"}}},
+    {"surface.sweeps", {{"surface.diffusion=explicit", "surface.sweeps=30"}}},
+    {"surface.start", {{"surface.diffusion=explicit", "surface.sweeps=30"}}},
+    {"surface.alpha", {{"surface.diffusion=explicit", "surface.sweeps=30"}}},
+    {"surface.slope_mode", {{"statistics.skeleton=points", "statistics.slope=1.2"}}},
     {"statistics.falloff", {{"statistics.reach=0"}}},
 };
 
@@ -229,7 +235,11 @@ Recipe recipe_of(BaseRecipe const& base, Words const& assignments) {
     Recipe recipe = read_recipe(base.toml, "base");
     recipe.folder = files().folder();
     for (std::string const& assignment : assignments) {
-        set_key(recipe, assignment);
+        auto const equals = assignment.find('=');
+        Key const* const key = find_key(assignment.substr(0, equals));
+        set_key(recipe, key != nullptr && key->help.is_file // else found from the current folder
+                            ? key->help.path + "=" + files() / assignment.substr(equals + 1)
+                            : assignment);
     }
     return recipe;
 }

@@ -120,8 +120,6 @@ std::vector<Row> make_rows() {
         {"network.slope", slope()},
         {"network.concavity", graded() || equilibrium()},
         {"network.rotate", source_is("dla")},
-        {"network.meander", source_is("dla") || source_is("tokunaga") || source_is("lines") ||
-                                (source_is("forest") && is("network.forest.shape", {"grid"}))},
         {"network.inland", equilibrium() && is("network.source", {"dla", "tokunaga", "lines"})},
         {"network.fill_space", equilibrium()},
         {"network.support", equilibrium() && is("network.fill_space", {"true"})},

@@ -21,7 +21,6 @@ std::multimap<std::string, Value> const earlier_defaults = {
     {"network.concavity", 0.45},
     {"surface.roughness", 0.4},
     {"surface.mean_slope", 25.0},
-    {"network.meander", 0.0},
 };
 
 Recipe with_all_sections() {
