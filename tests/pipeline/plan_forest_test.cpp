@@ -111,7 +111,7 @@ TEST(PlanForest, KeysThatDoNotGoTogetherAreNamed) {
     EXPECT_TRUE(has(fault_of("[network]\n[network.forest]\nregion = \"a.gpkg\"\n"), "source is not \"forest\""));
     EXPECT_TRUE(has(fault_of(small_grid + forest + "[network.forest]\nspacing = 7\n"), "spacing: 7 is outside"));
     EXPECT_TRUE(has(fault_of(small_grid + forest + "[network.forest]\nregion = \"none.gpkg\"\n"), "none.gpkg"));
-    EXPECT_TRUE(has(fault_of("[grid]\nwidth = 7\nheight = 200\n" + forest), "no river finds room"));
+    EXPECT_TRUE(has(fault_of("[grid]\nwidth = 7\nheight = 200\n" + forest), "there is no room for a river"));
     EXPECT_TRUE(has(fault_of(small_grid + forest + "prune = 9000\n"), "removes every arc"));
 }
 
@@ -176,7 +176,7 @@ TEST(PlanForest, ARegionThatLeavesTheGridIsRefusedOrCut) {
 TEST(PlanForest, ACoastThatLeavesNoLandIsRefused) {
     Files const files;
     EXPECT_TRUE(has(fault_of(forest + "[network.forest]\nregion = \"sliver.geojson\"\n" + dilated, files.folder()),
-                    "no river finds room on the land"));
+                    "there is no room for a river"));
 }
 
 TEST(PlanForest, PointsMoveToTheCoast) {
@@ -188,7 +188,7 @@ TEST(PlanForest, PointsMoveToTheCoast) {
     EXPECT_EQ(count(t.story.repairs, "moved_outlet"), 1);
     EXPECT_EQ(count(t.story.repairs, "added_outlet"), 1); // the islet's
     EXPECT_EQ(NetworkIndex(t.network.plan).outlets.size(), 3U);
-    EXPECT_TRUE(has(fault_of(recipe + "seeds = 4\n" + dilated, files.folder()), "leave seeds out"));
+    EXPECT_TRUE(has(fault_of(recipe + "seeds = 4\n" + dilated, files.folder()), "leave network.forest.seeds out"));
 }
 
 TEST(PlanForest, LinesAndPolygonsTellWhereTheCoastHasOutlets) {

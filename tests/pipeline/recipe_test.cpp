@@ -38,7 +38,7 @@ TEST(Recipe, EmptyHasNoStages) {
     Recipe const recipe = read_recipe("", "r.toml");
     EXPECT_FALSE(recipe.network);
     EXPECT_FALSE(recipe.surface);
-    EXPECT_TRUE(has(fault_of(""), "nothing tells what the land is like: give [network]"));
+    EXPECT_TRUE(has(fault_of(""), "the recipe describes no terrain: give [network]"));
 }
 
 TEST(Recipe, SectionLeftOutIsStageLeftOut) {

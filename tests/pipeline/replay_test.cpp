@@ -34,7 +34,8 @@ std::map<std::string, Case> const cases = {
      {grid + "[network]\nsource = \"tokunaga\"\n[network.tokunaga]\norder = 3\nregion = \"region.geojson\"\n",
       "inputs/region/region.geojson"}},
     {"network.tokunaga.strokes",
-     {grid + "[network]\nsource = \"tokunaga\"\n[network.tokunaga]\nstrokes = \"strokes.geojson\"\norder = 4\n",
+     {"[grid]\nwidth = 96\nheight = 96\n[network]\nsource = \"tokunaga\"\n[network.tokunaga]\norder = 3\n"
+      "strokes = \"strokes.geojson\"\n",
       "inputs/strokes/strokes.geojson"}},
     {"network.forest.region",
      {grid + "[network]\nsource = \"forest\"\nprune = 6\n[network.forest]\nregion = \"region.geojson\"\n",
