@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/read_network_layers.hpp>
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -80,6 +81,10 @@ std::optional<Schema> choose_schema(Layer const& arcs, Wish const& wish) {
         return wish.schema;
     }
     auto const found = recognised(*arcs.layer);
+    // Thalweg's own files hold the columns of the user's beside theirs.
+    if (std::ranges::find(found, Schema::native) != found.end()) {
+        return Schema::native;
+    }
     if (found.size() == 1) {
         return found.front();
     }

@@ -20,11 +20,11 @@ using LinkFields = std::pair<std::string_view, std::string_view>;
 
 // The fields of a line's own id and of the id downstream; the first pair that a layer has counts.
 constexpr std::array<LinkFields, 8> known_links{{
+    {"arc_id", "ds_arc"},        // thalweg, before the columns of a user
     {"hydroseq", "dnhydroseq"},  // NHDPlus
     {"comid", "tocomid"},        // nhdplusTools
     {"hyriv_id", "next_down"},   // HydroRIVERS
     {"object_id", "nextdownid"}, // EU-Hydro
-    {"arc_id", "ds_arc"},        // thalweg
     {"linkno", "dslinkno"},      // TauDEM
     {"stream", "next_stream"},   // GRASS
     {"cat", "next_stream"},

@@ -176,6 +176,9 @@ Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& ru
     terrain.story.repairs = left_out(lines);
     terrain.story.repairs.insert(terrain.story.repairs.end(), adopted.repairs.begin(), adopted.repairs.end());
     terrain.secondary = lines.secondary;
+    for (RiverLine const& line : lines.lines) {
+        terrain.drawn.push_back({line.feature, line.vertices, "", line.feature});
+    }
     terrain.attributes = std::move(lines.attributes);
     terrain.sources = LineSources(adopted.network, adopted.stretches);
     terrain.secondary.insert(terrain.secondary.end(), adopted.secondary.begin(), adopted.secondary.end());

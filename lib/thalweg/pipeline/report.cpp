@@ -250,7 +250,7 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
                         {"peak_rss_mb", static_cast<double>(peak_memory_bytes()) / 1e6}};
     if (t.recipe.network) {
         report["network"] = network_object(t);
-        report["network"]["secondary"] = t.secondary.size();
+        report["network"]["secondary"] = secondary_of(t).size();
         report["shortened_fields"] = ordered_json::array();
         for (io::ShortenedName const& one : shortened_names(t)) {
             report["shortened_fields"].push_back({{"field", one.name}, {"in_shapefile", one.in_shapefile}});

@@ -99,6 +99,7 @@ struct Terrain {
     Grid grid;
     RaisedNetwork network;
     std::vector<SecondaryLine> secondary; ///< lines of the file that are not in the network
+    std::vector<SecondaryLine> drawn;     ///< lines of the file as they are drawn, without reasons
     AttributeTable attributes;            ///< of the file's lines
     LineSources sources;                  ///< the file's lines in the network
     Mask land;                            ///< 0: sea, which has no heights; without cells: all is land

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/user_data.hpp>
 
+#include <set>
+#include <utility>
+
 namespace thalweg::pipeline {
 
 std::optional<io::UserData> user_data(Terrain const& t, StreamNetwork const& plan) {
@@ -13,6 +16,26 @@ std::optional<io::UserData> user_data(Terrain const& t, StreamNetwork const& pla
         user.record.push_back(plan[arc].feature);
     }
     return user;
+}
+
+std::vector<SecondaryLine> secondary_of(Terrain const& t) {
+    std::vector<SecondaryLine> secondary = t.secondary;
+    std::set<std::int64_t> known;
+    for (SecondaryLine const& line : t.secondary) {
+        known.insert(line.feature);
+    }
+    for (auto const& of_arc : t.sources.of(t.network.plan)) {
+        for (Stretch const& s : of_arc) {
+            known.insert(s.feature);
+        }
+    }
+    for (SecondaryLine line : t.drawn) {
+        if (known.count(line.feature) == 0) {
+            line.reason = "pruned or shortened";
+            secondary.push_back(std::move(line));
+        }
+    }
+    return secondary;
 }
 
 std::vector<io::ShortenedName> shortened_names(Terrain const& t) {

@@ -140,6 +140,7 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
                                                       {"area_from", t.areas.source},
                                                       {"height_unit", name_of(t.recipe.output.units)}};
     auto const user = user_data(t, t.network.plan);
+    auto const secondary = secondary_of(t);
     io::NetworkTables const tables{t.network,
                                    t.orders,
                                    t.areas.us_area_m2,
@@ -149,7 +150,7 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
                                    about,
                                    t.types.braided.empty() ? nullptr : &t.types.braided,
                                    &t.ridges,
-                                   &t.secondary,
+                                   &secondary,
                                    user ? &*user : nullptr,
                                    t.recipe.output.units};
     io::write_geopackage(tables, out.path("network"), run);
