@@ -68,6 +68,24 @@ TEST(RaiseFromLand, VerticesTakeTheirCellsHeightsAndShareADrop) {
     EXPECT_EQ(raised.node_z, (std::vector<double>{1.0, 2.0, 5.0}));
 }
 
+TEST(RaiseFromLand, CellsOfOneHeightMakeNoLevelArcOffALake) {
+    // two confluences stand equally high where the water passes beside one of them
+    StreamNetwork const net =
+        test::network_of({{0.5, 0.5}, {1.5, 0.5}, {2.5, 0.5}, {3.5, 0.5}}, {{1, 0}, {2, 1}, {3, 2}});
+    Grid const grid = test::grid_of(4, 1);
+    Raster<float> land(grid);
+    land[0] = 1.0F;
+    land[1] = 2.0F;
+    land[2] = 2.0F;
+    land[3] = 5.0F;
+    Channels rivers = channels(net, grid).channels;
+    EXPECT_EQ(raise_from_land(net, rivers, land).node_z, (std::vector<double>{1.0, 1.5, 2.0, 5.0}));
+    rivers.level.assign(rivers.cell.size(), 0);
+    auto const at = std::find(rivers.cell.begin(), rivers.cell.end(), grid.index({2, 0}));
+    rivers.level[static_cast<std::size_t>(at - rivers.cell.begin())] = 1;
+    EXPECT_EQ(raise_from_land(net, rivers, land).node_z, (std::vector<double>{1.0, 2.0, 2.0, 5.0}));
+}
+
 TEST(RaiseFromLand, ArcsFallWhereTheLandDoes) {
     ASSERT_TRUE(rc::check("on a lattice", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();

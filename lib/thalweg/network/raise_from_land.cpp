@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -49,6 +50,12 @@ public:
         Mask is_channel(channels.grid, 0);
         for (std::int64_t const cell : channels.cell) {
             is_channel[cell] = 1;
+        }
+        for (std::size_t i = 0; i < channels.level.size(); ++i) {
+            if (channels.level[i] != 0) {
+                lake_.insert(channels.cell[i]);
+                lake_.insert(channels.cell[static_cast<std::size_t>(channels.receiver[i])]);
+            }
         }
         for (std::size_t a = 0; a < index.arcs.size(); ++a) {
             cells_.push_back(cells_of_vertices(line(a), channels.grid, fmt::format("arc {}", a + 1)));
@@ -95,8 +102,13 @@ private:
         }
     }
 
-    /// Sources first: the nearest known height above each vertex; of several arcs' the lowest. A cell says its height
-    /// once: lines may come back to it from below.
+    /// Whether a height says nothing beside the one above it: it is higher; or as high, of the same cell, to which
+    /// lines may come back from below, or off a lake, where the water took another way.
+    bool says_nothing(double z, Cell cell, Known above) const {
+        return z > above.z || (z == above.z && (cell == above.cell || !lake_.contains(land_.grid().index(cell))));
+    }
+
+    /// Sources first: the nearest known height above each vertex; of several arcs' the lowest.
     void look_up() {
         std::vector<Known> above(index_.out.size());
         for (auto n = index_.upstream_order.rbegin(); n != index_.upstream_order.rend(); ++n) {
@@ -108,7 +120,7 @@ private:
             for (std::size_t i = 0; i < z_[a].size(); ++i) {
                 at = farther(at, i == 0 ? 0.0 : distance(line(a)[i - 1], line(a)[i]));
                 bool const is_outlet = i + 1 == z_[a].size() && index_.out[index_.to[a]] < 0;
-                if (!is_outlet && (z_[a][i] > at.z || (z_[a][i] == at.z && cells_[a][i] == at.cell))) {
+                if (!is_outlet && says_nothing(z_[a][i], cells_[a][i], at)) {
                     z_[a][i] = unknown;
                 }
                 at = std::isnan(z_[a][i]) ? at : Known{z_[a][i], 0.0, cells_[a][i]};
@@ -150,9 +162,10 @@ private:
     StreamNetwork const& network_;
     NetworkIndex const& index_;
     Raster<float> const& land_;
-    std::vector<std::vector<Cell>> cells_; ///< by arc and vertex
-    std::vector<std::vector<double>> z_;   ///< likewise
-    std::vector<std::vector<Known>> up_;   ///< likewise: the nearest known height above, itself included
+    std::unordered_set<std::int64_t> lake_; ///< cells of lakes and of their outlets
+    std::vector<std::vector<Cell>> cells_;  ///< by arc and vertex
+    std::vector<std::vector<double>> z_;    ///< likewise
+    std::vector<std::vector<Known>> up_;    ///< likewise: the nearest known height above, itself included
 };
 
 } // namespace
