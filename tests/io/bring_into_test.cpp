@@ -99,7 +99,7 @@ TEST(BringInto, OtherCellsLieOnTheGridsLattice) {
 }
 
 TEST(BringInto, RealLandComesIntoItsZone) {
-    Raster<float> const srtm = io::read_dem(std::string(THALWEG_SOURCE_DIR) + "/samples/jacksboro_srtm3.tif");
+    Raster<float> const srtm = io::read_dem(THALWEG_SOURCE_DIR "/samples/jacksboro_srtm3.tif");
     EXPECT_EQ(io::metric_crs(srtm.grid(), "srtm"), "EPSG:32616");
     Grid const grid{400, 300, 90.0, 737000.0, 4060000.0, "EPSG:32616"};
     EXPECT_TRUE(io::overlap_on_earth(srtm.grid(), grid, "a", "b"));

@@ -28,7 +28,7 @@ bool has(std::string const& text, std::string const& part) {
 }
 
 std::string sample(std::string const& name) {
-    std::ifstream in(std::string(THALWEG_SOURCE_DIR) + "/samples/" + name);
+    std::ifstream in(THALWEG_SOURCE_DIR "/samples/" + name);
     return {std::istreambuf_iterator<char>(in), {}};
 }
 

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string const folder = std::string(THALWEG_SOURCE_DIR) + "/tests/data/recipes_0_1_0";
+std::string const folder = THALWEG_SOURCE_DIR "/tests/data/recipes_0_1_0";
 
 std::vector<std::string> names() {
     std::vector<std::string> found;

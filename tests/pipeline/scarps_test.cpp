@@ -20,7 +20,7 @@ namespace {
 /// The network of samples/dla.toml in the first paper's units: cells of 1, valleys as steep as it has them, increments
 /// of 0.1 a dilation.
 Terrain on(Base base, double slope) {
-    std::ifstream file(std::string(THALWEG_SOURCE_DIR) + "/samples/dla.toml");
+    std::ifstream file(THALWEG_SOURCE_DIR "/samples/dla.toml");
     Recipe recipe = read_recipe(std::string(std::istreambuf_iterator<char>(file), {}), "dla.toml");
     recipe.grid.cell_m = 1.0;
     recipe.network->slope = slope;

@@ -44,7 +44,7 @@ Raster<float> rivers_and_ridges(skeleton::RidgesParams::Method method) {
 
 /// The rivers of a DEM: its cells through which the water of a hundred others runs.
 Raster<float> streams_of_land() {
-    Raster<float> dem = io::read_dem(std::string(THALWEG_SOURCE_DIR) + "/samples/jacksboro_srtm3.tif");
+    Raster<float> dem = io::read_dem(THALWEG_SOURCE_DIR "/samples/jacksboro_srtm3.tif");
     measure::Drainage const drainage = measure::drain(dem);
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         dem[i] = drainage.area_cells[i] >= 100 ? dem[i] : std::numeric_limits<float>::quiet_NaN();

@@ -40,10 +40,6 @@ bool says(std::string const& text, std::string const& part) {
     return text.find(part) != std::string::npos;
 }
 
-Vec2 plan(Vec3 const& p) {
-    return {p.x, p.y};
-}
-
 double height_in(Tin const& tin, std::array<std::uint32_t, 3> const& t, Vec2 p) {
     return geometry::height_on_plane(tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]], p);
 }

@@ -151,7 +151,7 @@ TEST(Blend, GoesWhereItIsAskedToAndElseToTheMiddle) {
 TEST(Blend, RealLandOfAnotherCrsAndSomewhereElse) {
     Workplace const place;
     write(place, "target.tif", land(target_grid, 0.0));
-    std::string const srtm = std::string(THALWEG_SOURCE_DIR) + "/samples/jacksboro_srtm3.tif";
+    std::string const srtm = THALWEG_SOURCE_DIR "/samples/jacksboro_srtm3.tif";
     Outcome const o = blend(place, "target.tif " + srtm + " -o out.tif --window 100,80,12,10 --feather 3 --json");
     ASSERT_EQ(o.code, 0) << o.err;
     auto const json = nlohmann::json::parse(o.out);

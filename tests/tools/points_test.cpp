@@ -138,7 +138,7 @@ TEST(Points, BadInputIsRefused) {
 
 TEST(Points, SkeletonsHaveTheirRidgesToo) {
     Workplace const place;
-    std::string const recipe = std::string(THALWEG_SOURCE_DIR) + "/samples/tokunaga.toml";
+    std::string const recipe = THALWEG_SOURCE_DIR "/samples/tokunaga.toml";
     ASSERT_EQ(thalweg_run("make " + recipe +
                               " -o land -q --set grid.width=128 --set grid.height=128 --set network.tokunaga.order=3",
                           place.path())

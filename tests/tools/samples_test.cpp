@@ -182,9 +182,9 @@ TEST(Samples, EveryBranchAndHeight) {
     Workplace const place;
     for (char const* branch : {"largest", "north", "east", "south", "west", "all"}) {
         for (char const* heights : {"straight_repaired", "along_stream"}) {
-            Outcome const o = thalweg_run(std::string("make --set network.dla.particles=3000 --set network.prune=8 ") +
-                                              "--set network.dla.branch=" + branch +
-                                              " --set network.heights=" + heights + " --overwrite -o out -q",
+            Outcome const o = thalweg_run(std::string("make --set network.dla.particles=3000 --set network.prune=8 "
+                                                      "--set network.dla.branch=") +
+                                              branch + " --set network.heights=" + heights + " --overwrite -o out -q",
                                           place.path());
             EXPECT_EQ(o.code, 0) << branch << o.err;
             hold_to_contract(place / "out");
