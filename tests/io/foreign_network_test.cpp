@@ -260,7 +260,7 @@ TEST(ForeignNetwork, NhdPlusIsLinkedByHydroseq) {
     EXPECT_EQ(file.arcs[2].us_area_m2, 750000.0);
     EXPECT_EQ(file.arcs[2].basin, 55000500000010);
     EXPECT_EQ(file.arcs[2].feature, 3);
-    EXPECT_EQ(std::get<std::int64_t>(file.attributes.rows[2][0]), 55000800000013);
+    EXPECT_EQ(std::get<double>(file.attributes.rows[2][0]), 55000800000013.0);
     EXPECT_TRUE(file.says.ends && file.says.downstream && file.says.strahler && file.says.basin);
     EXPECT_FALSE(file.says.nodes || file.says.shreve);
     EXPECT_FALSE(file.says.heights); // a Z that is 0 everywhere

@@ -146,7 +146,7 @@ TEST(ReadNetwork, NumbersMustBeThereAndWhole) {
                      "strahler 1.5, not a whole number"));
     ScratchFolder const text;
     EXPECT_TRUE(says(refusal(hand_made(text, wkbLineString25D, "LINESTRING Z (0 0 1, 1 1 0)", leave, OFTString)),
-                     "arc_id does not hold numbers"));
+                     "arc_id holds text, which is read as numbers"));
     ScratchFolder const whole;
     EXPECT_EQ(io::read_network(hand_made(
                                    whole, wkbLineString25D, "LINESTRING Z (0 0 1, 1 1 0)",

@@ -151,7 +151,7 @@ TEST(ReadPoints, BadLayersNameTheFeature) {
     EXPECT_TRUE(says(why({{"POINT (1 2)", ""}}), "feature 1 of p.gpkg has no height: neither Z nor a field 'z'"));
     EXPECT_TRUE(
         says(why({{"POINT (1 2)", "5"}, {"POINT (1 2)", ""}}, 32631, "z"), "feature 2 of p.gpkg has no height"));
-    EXPECT_TRUE(says(why({{"POINT (1 2)", "high"}}, 32631, "z", OFTString), "z is 'high', no number"));
+    EXPECT_TRUE(says(why({{"POINT (1 2)", "high"}}, 32631, "z", OFTString), "z is 'high', not a number"));
     EXPECT_TRUE(says(why({{"LINESTRING (1 2, 3 4)", "5"}}, 32631, "z"), "is Line String, not a point"));
     EXPECT_TRUE(says(why({{"POINT EMPTY", "5"}}, 32631, "z"), "is empty"));
     EXPECT_TRUE(says(why({{"POINT Z (1 2 3)", ""}}, 0), "has no CRS"));

@@ -199,7 +199,7 @@ TEST_F(ReadRivers, CoordinatesThatAreNotFinite) {
         ASSERT_NE(place, std::string::npos);
         shp.replace(place, sizeof bad, reinterpret_cast<char const*>(&bad), sizeof bad);
         std::ofstream(file, std::ios::binary) << shp;
-        EXPECT_TRUE(has(refusal({.path = file}), "vertex 2 of feature 1 of a.shp is not finite: (500200, "))
+        EXPECT_TRUE(has(refusal({.path = file}), "vertex 2 of feature 2 of a.shp is not finite: (500200, "))
             << refusal({.path = file});
     }
 }

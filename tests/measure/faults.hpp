@@ -326,7 +326,7 @@ inline std::vector<Fault> const& all() {
              f.arcs.push_back(back);
              return Features{new_id, f.arcs[*a].id};
          },
-         false,
+         true,
          {"several_outflows", "z_rising", "no_outlet"}},
         {"no_outlet", "the last arc runs back",
          [](NetworkFile& f, std::size_t k) {
@@ -476,8 +476,7 @@ inline std::vector<Fault> const& all() {
              beyond.z = line.back().z;
              line.insert(line.end() - 1, beyond);
              return Features{f.arcs[*a].id, f.arcs[*b].id};
-         },
-         false},
+         }},
     };
     return faults;
 }

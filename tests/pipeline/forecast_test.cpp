@@ -81,7 +81,7 @@ TEST(Forecast, OfSettingsThatAddStages) {
     for (std::vector<std::string> const& settings : std::vector<std::vector<std::string>>{
              {"network.fill_space=true", "output.accumulation=true"},
              {"network.heights=soft", "network.slope=0.01", "output.catchments=false"},
-             {"grid.cell=0", "surface.drain=none"},
+             {"surface.drain=none"},
              {"network.meander=0.5"}}) {
         Recipe recipe = recipe_in(folder / "equilibrium_lines");
         for (std::string const& setting : settings) {
@@ -89,6 +89,9 @@ TEST(Forecast, OfSettingsThatAddStages) {
         }
         expect_as_foretold(recipe, settings.front());
     }
+    Recipe recipe = recipe_in(folder / "equilibrium_lines");
+    recipe.grid.cell_m = 0.0;
+    expect_as_foretold(recipe, "a cell chosen from the rivers");
 }
 
 // A cluster's grid is known where it is given, and guessed within a factor of three elsewhere.

@@ -107,7 +107,7 @@ TEST(Blend, LiesWhereItsOwnCoordinatesSay) {
         EXPECT_TRUE(inside || after[i] == before[i]) << c.col << " " << c.row;
     }
     EXPECT_GT(changed(before, after), 18 * 14 / 2);
-    EXPECT_NE(blend(place, "target.tif source.tif -o b.tif").err.find("blend  252 cells around (500600.000"),
+    EXPECT_NE(blend(place, "target.tif source.tif -o b.tif").err.find("blend      252 cells around (500600.000"),
               std::string::npos);
     EXPECT_EQ(blend(place, "-q target.tif source.tif -o c.tif").err, "");
     EXPECT_EQ(file_bytes(place / "out.tif"), file_bytes(place / "c.tif"));

@@ -104,11 +104,11 @@ TEST(Convert, RefusesWhatCannotBeAndLeavesNothing) {
     refused(place, read_lines + "-o a.gpkg --schema taudems", "taudem");
     refused(place, read_lines + "-o a.gpkg --schema taudem", "--max-upstream 2");
     refused(place, read_lines + "-o a.gpkg --max-upstream 1", "--max-upstream");
-    refused(place, read_lines + "-o a.tif", "a mask needs its cells");
-    refused(place, read_lines + "-o rivers.geojson --schema grass --overwrite", "may be what is read");
+    refused(place, read_lines + "-o a.tif", "a raster needs cells: give --dem or --cell");
+    refused(place, read_lines + "-o rivers.geojson --schema grass --overwrite", "may be the input");
     fs::create_directory(place / "folder");
     refused(place, "folder/arcs.shp -o folder/nodes.shp --schema grass", "folder/arcs.shp");
-    refused(place, "PG:dbname=x -o PG:dbname=x --overwrite", "is the one that is read");
+    refused(place, "PG:dbname=x -o PG:dbname=x --overwrite", "the output is the input database");
     refused(place, "rivers.geojson --field nr -o a.gpkg", "QUANTITY=NAME");
     refused(place, read_lines + "-o PG:dbname=x --table 'a; drop table b'", "is not a valid table name");
 }

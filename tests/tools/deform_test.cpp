@@ -74,7 +74,7 @@ TEST(Deform, BadInputIsRefusedWithItsPlace) {
     Workplace const place;
     write_lands(place);
     for (auto const& [arguments, words] : std::vector<std::pair<std::string, std::string>>{
-             {"land.tif -o x.tif --mask region.tif", "nothing is asked for"},
+             {"land.tif -o x.tif --mask region.tif", "nothing to do"},
              {"land.tif -o x.tif --mask region.tif --pull 1,2,3", "(1, 2) lies outside"},
              {"land.tif -o x.tif --mask region.tif --pull 500005,3999995,3", "column 0, row 0"},
              {"land.tif -o x.tif --mask region.tif --pull 500205,3999845", "three for each place"},

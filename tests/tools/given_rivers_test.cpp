@@ -207,7 +207,7 @@ TEST(GivenRivers, WhatIsNeitherIsRefusedInWords) {
                                   R"("geometry":{"type":"Point","coordinates":[1,2]}}]})");
     refused(place, "points.geojson", "points.geojson has no layer with lines (points)");
     place.write("point.geojson", utm + line("[500000,4000000],[500000,4000000]") + "]}");
-    refused(place, "point.geojson", "all vertices lie at one place");
+    refused(place, "point.geojson", "holds no line: feature 1 has no line of any length");
     Outcome const points = thalweg_run("make '" THALWEG_SOURCE_DIR "/samples/points.toml' -q -o dots", place.path());
     ASSERT_EQ(points.code, 0) << points.err;
     refused(place, "dots", "its terrain has no rivers; to make it again, give its recipe.toml");
@@ -250,5 +250,5 @@ TEST(GivenRivers, TheCrsIsAsked) {
     fs::remove_all(place / "out");
     refused(place, "'" + walker + "' --crs EPSG:4326", "geographic");
     refused(place, "'" + walker + "' --crs EPSG:2227", "US survey foot");
-    refused(place, "'" + walker + "' --crs nonsense", "is no coordinate system");
+    refused(place, "'" + walker + "' --crs nonsense", "is not a coordinate system");
 }

@@ -42,7 +42,7 @@ TEST(Points, OfADemInEveryFormat) {
         Outcome const o = thalweg_run("points dem.asc -o " + name, place.path());
         ASSERT_EQ(o.code, 0) << o.err;
         EXPECT_EQ(o.out, name + "\n");
-        EXPECT_NE(o.err.find("points 19"), std::string::npos) << o.err;
+        EXPECT_NE(o.err.find("points     19"), std::string::npos) << o.err;
     }
     auto const xyz = point_files::read_xyz(file_bytes(place / "a.xyz"));
     ASSERT_EQ(xyz.size(), 19U);
@@ -126,14 +126,14 @@ TEST(Points, BadInputIsRefused) {
     refused(place, "dem.asc", "--output");
     refused(place, "nowhere.tif -o a.las", "nowhere.tif does not exist");
     refused(place, "nothing -o a.las", "nothing/dem.tif");
-    refused(place, "dem.asc -o a.laz", "says no format; name one of las, ply, xyz");
+    refused(place, "dem.asc -o a.laz", "does not tell the format; name one of las, ply, xyz");
     refused(place, "dem.asc -o a.las --format e57", "'e57' is not a format");
     refused(place, "dem.asc -o none/a.las", "there is no folder none");
     refused(place, "dem.asc -o a.las --every 0", "--every");
     refused(place, "dem.asc -o a.las --every some", "--every");
-    refused(place, "dem.asc -o a.las --skeleton", "a skeleton is that of a folder");
+    refused(place, "dem.asc -o a.las --skeleton", "--skeleton needs a folder written by make");
     refused(place, "empty.asc -o a.las", "empty.asc");
-    refused(place, "degrees.asc -o a.las", "the coordinates of degrees.asc are geographic: bring it into");
+    refused(place, "degrees.asc -o a.las", "the coordinates of degrees.asc are geographic: reproject it");
 }
 
 TEST(Points, SkeletonsHaveTheirRidgesToo) {

@@ -107,7 +107,7 @@ TEST(Tin, BadInputIsRefused) {
     refused(place, "", "SOURCE");
     refused(place, "p.csv", "--output");
     refused(place, "nowhere.tif -o a.2dm", "nowhere.tif does not exist");
-    refused(place, "p.csv -o a.dxf", "says no format; name one of 2dm, ply, gpkg");
+    refused(place, "p.csv -o a.dxf", "does not tell the format; name one of 2dm, ply, gpkg");
     refused(place, "p.csv -o a.2dm --format dxf", "'dxf' is not a format");
     refused(place, "p.csv -o none/a.2dm", "there is no folder none");
     refused(place, "p.csv -o .", "");
@@ -119,7 +119,7 @@ TEST(Tin, BadInputIsRefused) {
     refused(place, "dem.asc -o a.2dm --error -2", "an error of -2 m");
     refused(place, "dem.asc -o a.2dm --error nan", "above 0");
     refused(place, "dem.asc -o a.2dm --error much", "--error");
-    refused(place, "dem.asc -o a.2dm --breaklines flat.geojson", "not with a DEM");
+    refused(place, "dem.asc -o a.2dm --breaklines flat.geojson", "not to a DEM");
     refused(place, "p.csv -o a.2dm --error 3", "--error applies to a DEM only");
     refused(place, "p.csv -o a.2dm --breaklines dem.asc", "holds no lines");
     refused(place, "p.csv -o a.2dm --breaklines flat.geojson", "have no heights");

@@ -157,6 +157,13 @@ Planned follow_strokes(Recipe& recipe, Terrain& terrain, Diary& diary, Run const
     RiverLines const strokes = diary.stage("read", [&] {
         return io::read_rivers({.path = file_in(recipe, wanted.strokes), .layer = wanted.layer, .crs = crs}, run);
     });
+    if (!strokes.findings.empty()) { // who draws strokes means each of them
+        Finding const& none = strokes.findings.front();
+        throw BadInput(
+            fmt::format("pipeline.plan_tokunaga: stroke {} of {} at ({:.3f}, {:.3f}) is a single point or has no "
+                        "geometry; remove it",
+                        none.feature, strokes.name, none.where.x, none.where.y));
+    }
     recipe.grid.crs = strokes.crs;
     diary.say(fmt::format("{} strokes from {}", strokes.lines.size(), strokes.name));
     Grid const grid = frame_lines(strokes, recipe.grid);
