@@ -8,7 +8,7 @@ if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Files that are compiled as one see one another's names, and g++ knows no main file whose types are its own;
   # at -O3 it takes an inlined vector for memory that was never allocated.
   target_compile_options(thalweg_options INTERFACE -Wshadow=local -Wno-subobject-linkage -Wno-free-nonheap-object)
-else()
+elseif(NOT CMAKE_UNITY_BUILD) # clang++ has no warning of local names alone
   target_compile_options(thalweg_options INTERFACE -Wshadow)
 endif()
 if(CMAKE_BUILD_TYPE STREQUAL "Debug")

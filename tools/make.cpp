@@ -69,11 +69,11 @@ void tell_all(char const* what, std::vector<Finding> const& findings, Run const&
 int make(MakeOptions const& options, Session const& session) {
     auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
     pipeline::Recipe const recipe = recipe_of(options);
-    pipeline::check_folder(options.folder, existing);
     if (options.dry_run) {
         fmt::print("{}", forecast_in_words(pipeline::forecast(recipe, session.run), session.json));
         return Exit::done;
     }
+    pipeline::check_folder(options.folder, existing);
     pipeline::Terrain const terrain = pipeline::make_terrain(recipe, session.run);
     pipeline::write_terrain(terrain, options.folder, existing, session.run);
     if (session.verbose) {

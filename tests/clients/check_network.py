@@ -67,9 +67,10 @@ def read(path, name, fields, shape, report):
         raise FileNotFoundError(f"{path} has no layer {name}")
     definition = layer.GetLayerDefn()
     report.unless(layer.GetGeomType() == shape, "layer_type", f"{name}: {ogr.GeometryTypeToName(layer.GetGeomType())}")
-    names = [definition.GetFieldDefn(i).GetName() for i in range(definition.GetFieldCount())]
+    columns = [definition.GetFieldDefn(i).GetName() for i in range(definition.GetFieldCount())]
     own = {field for of_kind in fields.values() for field in of_kind} | OTHER_FIELDS
-    for field in own & set(names):  # a user's columns are as the user has them
+    own = own if name == "arcs" else set(columns)  # a user's columns, which arcs alone have, are as the user has them
+    for field in own & set(columns):
         report.unless(len(field) <= 10, "field_name_too_long", f"{name}.{field}")
     wanted = []
     for kind, names in fields.items():
@@ -83,7 +84,7 @@ def read(path, name, fields, shape, report):
     rows = []
     for feature in layer:
         where = f"{name} {feature.GetFID()}"
-        for i, field in enumerate(names):
+        for i, field in enumerate(columns):
             report.unless(field not in own or feature.IsFieldSetAndNotNull(i), "null", f"{where}: {field}")
         geometry = feature.GetGeometryRef()
         row = {field: feature.GetField(field) for field in wanted}

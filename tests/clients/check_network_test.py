@@ -102,7 +102,7 @@ PLANTED = [
     ("not_simple", vertices("arcs", loop)),
     ("isolated_node", sql("DELETE FROM arcs WHERE arc_id = 1")),
     ("field_missing", sql("ALTER TABLE arcs DROP COLUMN hack")),
-    ("field_name_too_long", sql("ALTER TABLE arcs ADD COLUMN eleven_char INTEGER DEFAULT 1")),
+    ("field_name_too_long", sql("ALTER TABLE nodes ADD COLUMN eleven_char INTEGER DEFAULT 1")),
     ("null", sql("ALTER TABLE nodes ADD COLUMN empty INTEGER")),
     ("field_type", sql("ALTER TABLE arcs RENAME COLUMN strahler TO a", "ALTER TABLE arcs RENAME COLUMN length TO strahler",
                        "ALTER TABLE arcs RENAME COLUMN a TO length")),

@@ -124,7 +124,16 @@ bool is_end(Column const& column) {
 }
 
 char const* graphml_type(Kind kind) {
-    return kind == Kind::text ? "string" : kind == Kind::real ? "double" : "long";
+    switch (kind) {
+    case Kind::integer:
+    case Kind::wide_integer: return "long";
+    case Kind::real: return "double";
+    case Kind::text:
+    case Kind::date:
+    case Kind::time:
+    case Kind::datetime: break; // GraphML knows no dates
+    }
+    return "string";
 }
 
 std::string graphml_key(std::string const& id, char const* of, std::string const& name, char const* type) {

@@ -17,8 +17,7 @@ Raster<float> in_unit(Raster<float> const& dem, HeightUnit unit) {
     heights.reserve(static_cast<std::size_t>(dem.cells()));
     std::ranges::copy_if(dem.values(), std::back_inserter(heights), [](float z) { return !std::isnan(z); });
     std::ranges::sort(heights);
-    auto const repeated = std::ranges::unique(heights);
-    heights.erase(repeated.begin(), repeated.end());
+    heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
 
     std::vector<float> converted;
     converted.reserve(heights.size());
