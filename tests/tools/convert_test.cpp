@@ -149,6 +149,60 @@ TEST(Convert, ForeignLinesBecomeEverySchemaAndFormat) {
     EXPECT_EQ(network_in(place / "back_grass_shp.gpkg"), network_in(place / "back_grass_geojson.gpkg"));
 }
 
+// Law: what convert writes is read back without --schema, whatever columns its source had.
+TEST(Convert, FilesWithTheColumnsOfAnotherSchemaAreRecognised) {
+    Workplace const place;
+    place.write("rivers.geojson", lines);
+    std::vector<std::string> const schemas{"native", "taudem", "nhdplus", "hydrorivers", "grass"};
+    std::string const options = " --max-upstream 2 -q --json --schema ";
+    auto const converted_from = [&](std::string const& input, std::string const& schema, std::string const& output) {
+        Outcome const o = thalweg_run("convert " + input + " -o " + output + options + schema, place.path());
+        EXPECT_EQ(o.code, 0) << input << " to " << output << "\n" << o.err;
+        return o.code == 0 ? nlohmann::json::parse(o.out).at("schema").get<std::string>() : "";
+    };
+    for (std::string const& first : schemas) {
+        converted_from(read_lines, first, first + ".gpkg");
+        for (std::string const& second : schemas) {
+            std::string const name = first + "_" + second;
+            for (std::string const ending : {".gpkg", ".shp"}) {
+                EXPECT_EQ(converted_from(first + ".gpkg", second, name + ending), first);
+            }
+            // With the columns of two schemas beside those of a third.
+            std::string const shapefile = name + (second == "native" ? "_arcs.shp" : ".shp");
+            EXPECT_EQ(converted_from(shapefile, "grass", name + "_grass.gpkg"), second);
+            EXPECT_EQ(converted_from(name + ".gpkg", "taudem", name + "_taudem.shp"), second);
+            EXPECT_EQ(converted_from(name + "_grass.gpkg", "native", name + "_g.gpkg"), "grass");
+            EXPECT_EQ(converted_from(name + "_taudem.shp", "native", name + "_t.gpkg"), "taudem");
+        }
+    }
+}
+
+TEST(Convert, ColumnsOfNhdPlusKeepTheirValuesUnderAnotherName) {
+    Workplace const place;
+    std::string const walker = THALWEG_SOURCE_DIR "/samples/walker_nhdplus.gpkg";
+    ASSERT_EQ(thalweg_run("convert '" + walker + "' -o net.shp --schema taudem --max-upstream 2 -q", place.path()).code,
+              0);
+    Outcome const back = thalweg_run("convert net.shp -o back.gpkg --json -q", place.path());
+    ASSERT_EQ(back.code, 0) << back.err;
+    EXPECT_EQ(nlohmann::json::parse(back.out).at("schema"), "taudem");
+    std::map<std::string, int> comids;
+    GDALAllRegister();
+    auto const count = [&](std::string const& file, char const* field, int by) {
+        GDALDatasetUniquePtr const data(GDALDataset::Open((place / file).c_str(), GDAL_OF_VECTOR));
+        ASSERT_NE(data, nullptr);
+        ASSERT_GE(data->GetLayer(0)->GetLayerDefn()->GetFieldIndex(field), 0) << file;
+        for (auto const& row : *data->GetLayer(0)) {
+            comids[std::to_string(row->GetFieldAsInteger64(field))] += by;
+        }
+    };
+    count("net.shp", "u_COMID", 1);
+    count("back.gpkg", "u_COMID", -1);
+    EXPECT_GT(comids.size(), 10U);
+    for (auto const& [comid, difference] : comids) {
+        EXPECT_EQ(difference, 0) << comid;
+    }
+}
+
 TEST(Convert, JsonTellsWhatBecameOfIt) {
     Workplace const place;
     place.write("rivers.geojson", lines);

@@ -247,7 +247,8 @@ Table schema_arcs(SchemaTable const& schema, NetworkTables const& tables, Networ
     if (tables.user != nullptr) {
         add_user_columns(
             table, tables.user->attributes,
-            [&user = *tables.user](std::int64_t a) { return user.record[static_cast<std::size_t>(a)]; }, short_names);
+            [&user = *tables.user](std::int64_t a) { return user.record[static_cast<std::size_t>(a)]; }, short_names,
+            schema.schema);
     }
     return table;
 }

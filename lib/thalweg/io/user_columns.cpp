@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <variant>
 
@@ -76,17 +78,53 @@ int user_decimals(AttributeTable const& attributes, std::size_t column) {
     return std::clamp(room - digits, 0, most);
 }
 
+/// Whether one of the names, a blank between them, is there.
+bool has_one_of(std::set<std::string> const& there, std::string_view names) {
+    std::istringstream words{std::string(names)};
+    return std::any_of(std::istream_iterator<std::string>(words), {},
+                       [&](std::string const& word) { return there.contains(word); });
+}
+
+/// The names, in small letters, by which a layer with these columns would be recognised as another schema's. The
+/// network schema has none: whoever reads it looks for no other.
+std::set<std::string> misleading_names(AttributeTable const& attributes, std::vector<std::string> const& taken,
+                                       Schema schema) {
+    std::set<std::string> result;
+    if (schema == Schema::native) {
+        return result;
+    }
+    std::set<std::string> there = in_lower(taken);
+    for (auto const& column : attributes.columns) {
+        there.insert(without_case(column.name));
+    }
+    for (SchemaTable const& other : all_schemas()) {
+        bool const is_recognised =
+            std::ranges::all_of(other.told_by, [&](std::string_view names) { return has_one_of(there, names); });
+        if (other.schema == schema || !is_recognised) {
+            continue;
+        }
+        for (std::string_view const names : other.told_by) {
+            std::istringstream words{std::string(names)};
+            result.insert(std::istream_iterator<std::string>(words), {});
+        }
+    }
+    return result;
+}
+
 } // namespace
 
-std::vector<std::string> user_names(AttributeTable const& attributes, std::vector<std::string> const& taken) {
+std::vector<std::string> user_names(AttributeTable const& attributes, std::vector<std::string> const& taken,
+                                    Schema schema) {
     std::set<std::string> used = in_lower(taken);
+    std::set<std::string> const misleading = misleading_names(attributes, taken, schema);
     for (char const* const reserved : {"fid", "geom", "geometry", "ogc_fid"}) {
         used.insert(reserved);
     }
     std::vector<std::string> names;
     for (auto const& column : attributes.columns) {
         std::string const own = column.name.empty() ? "column" : column.name;
-        std::string name = used.contains(without_case(own)) ? "u_" + own : own;
+        bool const is_free = !used.contains(without_case(own)) && !misleading.contains(without_case(own));
+        std::string name = is_free ? own : "u_" + own;
         for (int k = 2; !used.insert(without_case(name)).second; ++k) {
             name = fmt::format("{}_{}", own, k);
         }
@@ -116,12 +154,12 @@ std::vector<std::string> short_user_names(std::vector<std::string> const& names,
 }
 
 void add_user_columns(Table& table, AttributeTable const& attributes,
-                      std::function<std::int64_t(std::int64_t row)> const& record, bool short_names) {
+                      std::function<std::int64_t(std::int64_t row)> const& record, bool short_names, Schema schema) {
     std::vector<std::string> taken;
     for (Column const& column : table.columns) {
         taken.push_back(column.name);
     }
-    std::vector<std::string> names = user_names(attributes, taken);
+    std::vector<std::string> names = user_names(attributes, taken, schema);
     if (short_names) {
         names = short_user_names(names, taken);
     }
