@@ -34,6 +34,7 @@ struct SecondaryLine {
     std::vector<Vec3> vertices; ///< [m] as RiverLine
     std::string reason;         ///< a few words: "minor channel", "FTYPE Coastline"
     std::int64_t record = 0;    ///< of its attributes, from 1; 0 for none
+    bool is_coast = false;      ///< a coastline, as its fields say
 };
 
 struct RiverLines {

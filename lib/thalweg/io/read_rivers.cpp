@@ -174,6 +174,7 @@ struct Read {
     std::vector<RiverLine> lines;
     std::vector<RiverLine> unnatural;
     std::vector<std::string> reasons; ///< of these
+    std::vector<bool> coasts;         ///< likewise
     std::vector<Finding> findings;
     AttributeTable attributes;
 };
@@ -215,6 +216,7 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
             lines[k].lambda = lambda_of(*feature, lambda_field, lines[first], name);
         }
         read.reasons.resize(read.unnatural.size(), reason);
+        read.coasts.resize(read.unnatural.size(), !reason.empty() && fields.is_coast(*feature));
     }
     fields.link(read.lines);
     read.attributes = attributes.take();
@@ -337,7 +339,7 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     }
     for (std::size_t k = 0; k < read.unnatural.size(); ++k) {
         rivers.secondary.push_back({read.unnatural[k].feature, std::move(read.unnatural[k].vertices),
-                                    std::move(read.reasons[k]), read.unnatural[k].feature});
+                                    std::move(read.reasons[k]), read.unnatural[k].feature, read.coasts[k]});
     }
     bring(rivers.findings, metres);
     rivers.has_z = have_heights(rivers.lines);

@@ -42,6 +42,9 @@ constexpr std::array<std::string_view, 6> river_names{"name",       "gnis_name",
 constexpr std::array<std::string_view, 8> natural_waterways{"river", "stream", "tidal_channel", "brook",
                                                             "creek", "wadi",   "rapids",        "waterfall"};
 
+// What lines of OpenStreetMap are besides; its extracts hold them all in one layer.
+constexpr std::array<std::string_view, 6> osm_ways{"highway", "railway", "aerialway", "barrier", "power", "route"};
+
 template <std::size_t N> int first_of(OGRFeatureDefn& schema, std::array<std::string_view, N> const& wanted) {
     for (std::string_view const name : wanted) {
         if (int const field = schema.GetFieldIndex(std::string(name).c_str()); field >= 0) {
@@ -93,6 +96,12 @@ RiverFields::RiverFields(OGRLayer& layer) {
     waterway_ = find("waterway");
     tunnel_ = find("tunnel");
     man_made_ = find("man_made");
+    natural_ = find("natural");
+    for (std::string_view const way : osm_ways) {
+        if (int const field = find(std::string(way).c_str()); waterway_ >= 0 && field >= 0) {
+            ways_.push_back(field);
+        }
+    }
     ftype_ = find("ftype");
     fcode_ = numeric(find("fcode"));
 }
@@ -130,6 +139,16 @@ std::string RiverFields::unnatural(OGRFeature const& feature) const {
         !kind.empty() && std::ranges::find(natural_waterways, kind) == natural_waterways.end()) {
         return "waterway " + kind;
     }
+    if (text(feature, waterway_).empty()) {
+        for (int const way : ways_) {
+            if (std::string const kind = small_letters(text(feature, way)); !kind.empty()) {
+                return fmt::format("{} {}", small_letters(feature.GetFieldDefnRef(way)->GetNameRef()), kind);
+            }
+        }
+    }
+    if (small_letters(text(feature, natural_)) == "coastline") {
+        return "natural coastline";
+    }
     if (std::string const tunnel = small_letters(text(feature, tunnel_)); tunnel == "flooded") {
         return "tunnel " + tunnel;
     }
@@ -147,6 +166,12 @@ std::string RiverFields::unnatural(OGRFeature const& feature) const {
         return fmt::format("FCODE {} {}", text(feature, fcode_), of_code);
     }
     return "";
+}
+
+bool RiverFields::is_coast(OGRFeature const& feature) const {
+    std::string const type = small_letters(text(feature, ftype_));
+    return type == "coastline" || type == "566" || kind_of_fcode(number(feature, fcode_)) == "Coastline" ||
+           small_letters(text(feature, natural_)) == "coastline";
 }
 
 void RiverFields::link(std::vector<RiverLine>& lines) const {

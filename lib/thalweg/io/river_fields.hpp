@@ -25,6 +25,8 @@ public:
     void read(OGRFeature const& feature, RiverLine& line);
     /// Why a feature is no natural watercourse ("FTYPE Coastline"); "" where it is one, or no field says so.
     std::string unnatural(OGRFeature const& feature) const;
+    /// Whether it is a coastline.
+    bool is_coast(OGRFeature const& feature) const;
     /// Sets `down` of all lines, once every feature has been read.
     void link(std::vector<RiverLine>& lines) const;
 
@@ -46,6 +48,8 @@ private:
     int waterway_ = -1;
     int tunnel_ = -1;
     int man_made_ = -1;
+    int natural_ = -1;
+    std::vector<int> ways_; ///< roads, railways and the like in OpenStreetMap
     int ftype_ = -1;
     int fcode_ = -1;
     std::map<std::string, std::int64_t> feature_of_; ///< by own id: the first feature that has it

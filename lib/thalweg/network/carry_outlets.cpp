@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells_along.hpp>
+#include <thalweg/core/cells_around.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/network/require_trees.hpp>
 #include <thalweg/network/segment_grid.hpp>
@@ -167,13 +169,54 @@ private:
     std::unordered_map<std::int64_t, std::vector<std::size_t>> touching_; ///< looked up only, never walked
 };
 
-std::int64_t to_border(Grid const& grid, Cell c) {
-    return std::min({c.col, c.row, grid.width - 1 - c.col, grid.height - 1 - c.row});
-}
+/// Where rivers may end: on the grid's border and beside the sea.
+class Ends {
+public:
+    explicit Ends(Grid const& grid) : grid_(grid) {}
 
-/// The cheapest way from a river's end to the border, its own cell first; empty where there is none.
-/// A* (Hart, Nilsson and Raphael 1968): each step costs at least one and comes at most one cell nearer to the border.
-std::vector<Cell> way_out(Vec2 outlet, Cell start, Ground const& ground) {
+    explicit Ends(Mask const& land) : grid_(land.grid()), land_(land), steps_(land.grid(), unreached) {
+        std::vector<Cell> front;
+        for (std::int64_t i = 0; i < land.cells(); ++i) {
+            Cell const c = grid_.at(i);
+            bool at_sea = false;
+            cells_around(grid_, c, 1, [&](Cell n) { at_sea = at_sea || land[n] == 0; });
+            if (at_sea || grid_.on_border(c)) {
+                steps_[i] = 0;
+                front.push_back(c);
+            }
+        }
+        for (std::int32_t steps = 1; !front.empty(); ++steps) {
+            std::vector<Cell> next;
+            for (Cell const c : front) {
+                cells_around(grid_, c, 1, [&](Cell n) {
+                    if (steps_[n] == unreached) {
+                        steps_[n] = steps;
+                        next.push_back(n);
+                    }
+                });
+            }
+            front = std::move(next);
+        }
+    }
+
+    /// King's moves to the nearest end.
+    std::int64_t steps(Cell c) const {
+        return steps_.cells() > 0 ? steps_[c]
+                                  : std::min({c.col, c.row, grid_.width - 1 - c.col, grid_.height - 1 - c.row});
+    }
+    bool is_land(Cell c) const { return !grid_.contains(c) || land_.cells() == 0 || land_[c] != 0; }
+    bool at_border(Cell c) const { return grid_.on_border(c); }
+
+private:
+    static constexpr std::int32_t unreached = -1;
+    Grid grid_;
+    Mask land_;
+    Raster<std::int32_t> steps_;
+};
+
+/// The cheapest way from a river's end to where rivers may end, its own cell first; empty where there is none.
+/// A* (Hart, Nilsson and Raphael 1968): each step costs at least one and comes at most one cell nearer.
+std::vector<Cell> way_out(Vec2 outlet, Cell start, Ground const& ground, Ends const& ends) {
     struct Reached {
         double cost = 0.0;
         std::int64_t from = -1;
@@ -185,7 +228,7 @@ std::vector<Cell> way_out(Vec2 outlet, Cell start, Ground const& ground) {
     using Entry = std::pair<double, std::int64_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     reached[grid.index(start)] = {};
-    queue.emplace(static_cast<double>(to_border(grid, start)), grid.index(start));
+    queue.emplace(static_cast<double>(ends.steps(start)), grid.index(start));
     while (!queue.empty()) {
         std::int64_t const at = queue.top().second;
         queue.pop();
@@ -195,7 +238,7 @@ std::vector<Cell> way_out(Vec2 outlet, Cell start, Ground const& ground) {
         reached[at].settled = true;
         Reached const here = reached[at];
         Cell const c = grid.at(at);
-        if (to_border(grid, c) == 0) {
+        if (ends.steps(c) == 0) {
             std::vector<Cell> cells;
             for (std::int64_t i = at; i >= 0; i = reached[i].from) {
                 cells.push_back(grid.at(i));
@@ -206,7 +249,8 @@ std::vector<Cell> way_out(Vec2 outlet, Cell start, Ground const& ground) {
         for (std::int64_t dr = -1; dr <= 1; ++dr) {
             for (std::int64_t dc = -1; dc <= 1; ++dc) {
                 Cell const next{c.col + dc, c.row + dr};
-                if ((dr == 0 && dc == 0) || !ground.open(c == start ? outlet : grid.centre(c), c, next)) {
+                if ((dr == 0 && dc == 0) || !ends.is_land(next) ||
+                    !ground.open(c == start ? outlet : grid.centre(c), c, next)) {
                     continue;
                 }
                 std::int64_t const to = grid.index(next);
@@ -217,7 +261,7 @@ std::vector<Cell> way_out(Vec2 outlet, Cell start, Ground const& ground) {
                 if (is_new || cost < known->second.cost ||
                     (straight && cost == known->second.cost && !known->second.settled)) {
                     known->second = {cost, at, false};
-                    queue.emplace(cost + static_cast<double>(to_border(grid, next)), to);
+                    queue.emplace(cost + static_cast<double>(ends.steps(next)), to);
                 }
             }
         }
@@ -225,9 +269,7 @@ std::vector<Cell> way_out(Vec2 outlet, Cell start, Ground const& ground) {
     return {};
 }
 
-} // namespace
-
-Carried carry_outlets(StreamNetwork const& network, Grid const& grid) {
+Carried carry(StreamNetwork const& network, Grid const& grid, Ends const& ends, std::int64_t reach_cells) {
     NetworkIndex const index(network);
     require_trees(network, index, "network.carry_outlets");
     Ground ground(grid);
@@ -235,12 +277,12 @@ Carried carry_outlets(StreamNetwork const& network, Grid const& grid) {
         ground.add(network[index.arcs[a]].line, fmt::format("arc {}", a + 1));
     }
 
-    // The nearest to the border go first: their short ways leave the others the most room.
+    // The nearest to an end go first: their short ways leave the others the most room.
     std::vector<std::pair<std::int64_t, NodeId>> inside;
     for (NodeId const outlet : index.outlets) {
         Cell const cell = cells_along({network[outlet].at}, grid).front();
-        if (!grid.on_border(cell)) {
-            inside.emplace_back(to_border(grid, cell), outlet);
+        if (std::int64_t const steps = ends.steps(cell); steps > 0 && steps <= reach_cells) {
+            inside.emplace_back(steps, outlet);
         }
     }
     std::sort(inside.begin(), inside.end());
@@ -255,7 +297,7 @@ Carried carry_outlets(StreamNetwork const& network, Grid const& grid) {
         Finding note;
         note.feature = feature != 0 ? feature : static_cast<std::int64_t>(last) + 1;
         note.where = at;
-        std::vector<Cell> const way = way_out(at, cells_along({at}, grid).front(), ground);
+        std::vector<Cell> const way = way_out(at, cells_along({at}, grid).front(), ground, ends);
         if (way.empty()) {
             note.kind = "closed_basin";
             note.text = fmt::format("the outlet at ({:.3f}, {:.3f}) stays inside the grid: every way to its border "
@@ -271,8 +313,9 @@ Carried carry_outlets(StreamNetwork const& network, Grid const& grid) {
         ground.add(line, "a carried outlet");
         note.kind = "carried_outlet";
         note.amount = length_of(line);
-        note.text = fmt::format("the outlet at ({:.3f}, {:.3f}) was carried {:.3f} m to the border at ({:.3f}, {:.3f})",
-                                at.x, at.y, note.amount, line.back().x, line.back().y);
+        note.text =
+            fmt::format("the outlet at ({:.3f}, {:.3f}) was carried {:.3f} m to the {} at ({:.3f}, {:.3f})", at.x, at.y,
+                        note.amount, ends.at_border(way.back()) ? "border" : "coast", line.back().x, line.back().y);
         carried.notes.push_back(std::move(note));
         if (index.in[outlet].size() == 1) {
             std::vector<Vec2>& drawn = carried.network[copy.arcs[last]].line;
@@ -290,6 +333,16 @@ Carried carry_outlets(StreamNetwork const& network, Grid const& grid) {
         add_arc(carried.network, outlet, mouth, std::move(trunk));
     }
     return carried;
+}
+
+} // namespace
+
+Carried carry_outlets(StreamNetwork const& network, Grid const& grid) {
+    return carry(network, grid, Ends(grid), std::numeric_limits<std::int64_t>::max());
+}
+
+Carried carry_outlets(StreamNetwork const& network, Mask const& land, std::int64_t reach_cells) {
+    return carry(network, land.grid(), Ends(land), reach_cells);
 }
 
 } // namespace thalweg::network

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 namespace thalweg::network {
@@ -24,5 +25,10 @@ struct Carried {
 /// the line's id in its file, or the number of the arc, from 1.
 /// Throws: BadInput for a vertex outside the grid or a network that is no forest.
 Carried carry_outlets(StreamNetwork const& network, Grid const& grid);
+
+/// The same, to the border or a cell that touches the sea by a side or corner, whichever costs less, over land alone.
+/// Takes: land, 0 for sea; every cell of a river is land. reach_cells: outlets farther away from both, in steps of
+/// king's moves, are left where they are, without a note.
+Carried carry_outlets(StreamNetwork const& network, Mask const& land, std::int64_t reach_cells);
 
 } // namespace thalweg::network

@@ -137,6 +137,7 @@ std::vector<Row> make_rows() {
         {"network.forest.ruggedness", shape && is("network.forest.shape", {"island"})},
         {"network.forest.", source_is("forest")},
         {"network.lines.rank_field", source_is("lines") && is("network.lines.orientation", {"auto", "rank"})},
+        {"network.lines.coastlines", source_is("lines") && is("network.lines.filter", {"natural"})},
         {"network.lines.", source_is("lines")},
         {"network.", always()},
 

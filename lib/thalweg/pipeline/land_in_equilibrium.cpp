@@ -39,9 +39,14 @@ bool has_sea(Mask const& land) {
     return std::any_of(land.values().begin(), land.values().end(), [](std::uint8_t is_land) { return is_land == 0; });
 }
 
-surface::EquilibriumParams params_of(Recipe& recipe, Mask const& land) {
+surface::Edge edge_of(Recipe const& recipe, Terrain const& terrain, Mask const& land) {
+    bool const by_coastlines = recipe.network->source == Source::lines && terrain.land.cells() > 0;
+    return by_coastlines ? surface::Edge::mainland : has_sea(land) ? surface::Edge::coast : surface::Edge::open;
+}
+
+surface::EquilibriumParams params_of(Recipe& recipe, surface::Edge edge) {
     EquilibriumRecipe& wanted = recipe.surface->equilibrium;
-    wanted.edge = wanted.edge.value_or(has_sea(land) ? surface::Edge::coast : surface::Edge::open);
+    wanted.edge = wanted.edge.value_or(edge);
     double const relief_m = recipe.surface->dilate.relief_m;
     surface::EquilibriumParams params;
     params.theta = recipe.network->concavity;
@@ -191,8 +196,10 @@ void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run) {
     flood(terrain, rivers, run);
     surface::EquilibriumFields const fields = fields_of(terrain, rivers.channels, run);
     run.at(0.0, fmt::format("fill {} cells", terrain.grid.cells()).c_str());
-    surface::EquilibriumLand land = diary.stage(
-        "fill", [&] { return surface::equilibrium(rivers.channels, fields, params_of(recipe, fields.land), run); });
+    surface::EquilibriumLand land = diary.stage("fill", [&] {
+        return surface::equilibrium(rivers.channels, fields, params_of(recipe, edge_of(recipe, terrain, fields.land)),
+                                    run);
+    });
     tell(terrain, land, rivers.channels);
     if (!land.shortened.empty()) {
         network::Shortened shortened = network::shorten(terrain.network.plan, rivers, land.shortened);

@@ -9,6 +9,7 @@
 #include <thalweg/network/choose_cell.hpp>
 #include <thalweg/network/clip_lines.hpp>
 #include <thalweg/network/keep_heights.hpp>
+#include <thalweg/network/land_and_sea.hpp>
 #include <thalweg/network/rotate.hpp>
 #include <thalweg/network/thin.hpp>
 #include <thalweg/network/trace.hpp>
@@ -92,6 +93,31 @@ std::vector<Finding> left_out(RiverLines const& lines) {
                             fmt::format("line {} is not a river: {}", one.feature, one.reason)});
     }
     return findings;
+}
+
+/// The land beside the sea that coastlines of a file bound; without cells where there is none.
+Mask land_of_coastlines(RiverLines const& lines, Grid const& grid, Diary& diary, Run const& run) {
+    RiverLines coast;
+    for (SecondaryLine const& line : lines.secondary) {
+        if (line.is_coast) {
+            RiverLine& one = coast.lines.emplace_back();
+            one.feature = line.feature;
+            one.vertices = line.vertices;
+        }
+    }
+    if (coast.lines.empty()) {
+        return {};
+    }
+    network::LandAndSea divided = diary.stage("sea", [&] { return network::land_and_sea(coast, lines, grid, run); });
+    diary.say(fmt::format("{:.3g} % of the grid, by {} coastlines",
+                          100.0 * static_cast<double>(divided.sea_cells) / static_cast<double>(grid.cells()),
+                          coast.lines.size()));
+    if (4 * divided.beyond > divided.behind) {
+        run.say(fmt::format("warning: rivers lie on both sides of the coastlines of {} ({} cells, and {} on the side "
+                            "that became sea); --set network.lines.coastlines=none leaves the coastlines out.",
+                            lines.name, divided.behind, divided.beyond));
+    }
+    return std::move(divided.land);
 }
 
 } // namespace
@@ -186,6 +212,9 @@ Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& ru
                           terrain.secondary.empty() ? "" : fmt::format(", {} secondary", terrain.secondary.size())));
 
     Planned planned{std::move(adopted.network), grid, {}};
+    if (wanted.coastlines == Coastlines::sea) {
+        planned.land = land_of_coastlines(lines, grid, diary, run);
+    }
     Heights& heights = recipe.network->heights;
     if (heights == Heights::automatic) {
         heights = lines.has_z ? Heights::file : in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;

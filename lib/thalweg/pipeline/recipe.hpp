@@ -58,6 +58,12 @@ enum class Heights : std::uint8_t {
 enum class InlandEnds : std::uint8_t { carry, sink };
 enum class Side : std::uint8_t { north, east, south, west };
 
+/// What coastlines among the lines of a file are to the land.
+enum class Coastlines : std::uint8_t {
+    sea, ///< its coast
+    none ///< nothing
+};
+
 struct LinesRecipe {
     std::string path;
     std::string layer;
@@ -67,6 +73,7 @@ struct LinesRecipe {
     network::Orientation orientation = network::Orientation::automatic;
     network::Divergences divergences = network::Divergences::main;
     io::LineFilter filter = io::LineFilter::natural;
+    Coastlines coastlines = Coastlines::sea;
 };
 
 struct TokunagaRecipe {
@@ -143,7 +150,7 @@ struct EquilibriumRecipe {
     double hillslope_m = 0.0;             ///< [m] 0: one cell
     double floor_width = 0.04;            ///< as surface::EquilibriumParams
     double roughness = 0.25;
-    std::optional<surface::Edge> edge; ///< none: coast where there is sea, else open
+    std::optional<surface::Edge> edge; ///< none: mainland by coastlines, coast by other sea, else open
     std::string uplift;                ///< raster on the grid; "" for none
     std::string erodibility;           ///< raster on the grid, or polygons with a field of that name; "" for none
     std::string lakes;                 ///< polygons; "" for none

@@ -80,9 +80,14 @@ void add_equilibrium_keys(std::vector<Key>& keys) {
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.equilibrium.roughness; })));
     keys.push_back(choice<MaybeEdge>(
         "surface.edge",
-        {{"auto", std::nullopt}, {"open", Edge::open}, {"closed", Edge::closed}, {"coast", Edge::coast}},
-        "boundary condition: the terrain continues (open), all water goes to the rivers (closed), or sea (coast); "
-        "auto: coast where there is sea, else open",
+        {{"auto", std::nullopt},
+         {"open", Edge::open},
+         {"closed", Edge::closed},
+         {"coast", Edge::coast},
+         {"mainland", Edge::mainland}},
+        "boundary condition: the terrain continues (open), all water goes to the rivers (closed), sea (coast), or sea "
+        "where the mask or coastlines have it and beyond the grid the terrain continues (mainland); auto: mainland "
+        "with coastlines of a river file, coast with other sea, else open",
         in_surface<MaybeEdge>([](SurfaceRecipe& s) -> MaybeEdge& { return s.equilibrium.edge; })));
     keys.push_back(
         file("surface.uplift", "raster over the grid, values above 0; only ratios count",

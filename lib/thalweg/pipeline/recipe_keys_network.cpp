@@ -189,6 +189,10 @@ void add_network_keys(std::vector<Key>& keys) {
         "natural leaves out canals, ditches, pipes, weirs and coastlines, as the fields of OSM and NHD name them; none "
         "keeps all lines",
         in_network<io::LineFilter>([](NetworkRecipe& n) -> io::LineFilter& { return n.lines.filter; })));
+    keys.push_back(choice<Coastlines>(
+        "network.lines.coastlines", {{"sea", Coastlines::sea}, {"none", Coastlines::none}},
+        "coastlines among the lines: sea, beyond them is the sea, where rivers end; none, they mean nothing",
+        in_network<Coastlines>([](NetworkRecipe& n) -> Coastlines& { return n.lines.coastlines; })));
 }
 
 } // namespace thalweg::pipeline

@@ -7,6 +7,7 @@
 #include <thalweg/network/carry_outlets.hpp>
 #include <thalweg/network/count_streams.hpp>
 #include <thalweg/network/keep_heights.hpp>
+#include <thalweg/network/land_and_sea.hpp>
 #include <thalweg/network/meander.hpp>
 #include <thalweg/network/order.hpp>
 #include <thalweg/network/prune.hpp>
@@ -19,6 +20,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -78,6 +80,33 @@ void let_wander(Planned& planned, Terrain& terrain, Diary& diary, Run const& run
     planned.plan = std::move(bent.network);
 }
 
+/// Outlets inside the grid: carried to where rivers may end, where the recipe wants it. Those at the sea reach it in
+/// any case; what lies beside a river is land.
+void carry_outlets(StreamNetwork& plan, Terrain& terrain) {
+    constexpr std::int64_t at_sea_cells = 4;
+    bool const all = terrain.recipe.network->inland == InlandEnds::carry;
+    auto const take = [&](network::Carried carried) {
+        terrain.story.repairs.insert(terrain.story.repairs.end(), carried.notes.begin(), carried.notes.end());
+        plan = std::move(carried.network);
+    };
+    if (terrain.land.cells() == 0) {
+        if (all) {
+            take(network::carry_outlets(plan, terrain.grid));
+        }
+        return;
+    }
+    // A river that is carried may close the way of another.
+    for (std::size_t moved = 1, rounds = 0; moved > 0 && rounds < 4; ++rounds) {
+        terrain.land = network::land_along_rivers(std::move(terrain.land), plan);
+        network::Carried carried =
+            network::carry_outlets(plan, terrain.land, all ? terrain.grid.cells() : at_sea_cells);
+        moved = static_cast<std::size_t>(std::count_if(carried.notes.begin(), carried.notes.end(),
+                                                       [](Finding const& f) { return f.kind == "carried_outlet"; }));
+        take(std::move(carried));
+    }
+    terrain.land = network::land_along_rivers(std::move(terrain.land), plan);
+}
+
 Planned plan(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     switch (recipe.network->source) {
     case Source::dla: return plan_dla(recipe, terrain, diary, run);
@@ -135,10 +164,8 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     }
     terrain.land = std::move(planned.land);
     planned.plan = std::move(pruned.network);
-    if (rivers.inland == InlandEnds::carry && rivers.source != Source::forest) {
-        network::Carried carried = network::carry_outlets(planned.plan, grid);
-        repairs.insert(repairs.end(), carried.notes.begin(), carried.notes.end());
-        planned.plan = std::move(carried.network);
+    if (rivers.source != Source::forest) {
+        carry_outlets(planned.plan, terrain);
     }
 
     let_wander(planned, terrain, diary, run);

@@ -47,18 +47,25 @@ Mask coarsened(Mask const& land) {
 }
 
 void cover_cells(LandLevel& level, Mask const& land, Edge edge, RiverBanks banks) {
-    Cover const rest = edge == Edge::coast ? Cover::sea : Cover::outside;
-    level.cover.assign(static_cast<std::size_t>(level.cells()), edge == Edge::open ? Cover::edge : rest);
-    for (std::int64_t row = 1; row + 1 < level.height; ++row) {
-        for (std::int64_t col = 1; col + 1 < level.width; ++col) {
-            bool const dry = land.cells() == 0 || land[Cell{col - 1, row - 1}] != 0;
-            level.cover[static_cast<std::size_t>(row * level.width + col)] = dry ? Cover::land : rest;
+    bool const has_sea = edge == Edge::coast || edge == Edge::mainland;
+    Cover const rest = has_sea ? Cover::sea : Cover::outside;
+    Cover const frame = edge == Edge::open || edge == Edge::mainland ? Cover::edge : rest;
+    Cover const frame_at_rest = edge == Edge::mainland ? Cover::sea : frame;
+    level.cover.resize(static_cast<std::size_t>(level.cells()));
+    for (std::int64_t row = 0; row < level.height; ++row) {
+        for (std::int64_t col = 0; col < level.width; ++col) {
+            Cell const inner{std::clamp<std::int64_t>(col, 1, level.width - 2) - 1,
+                             std::clamp<std::int64_t>(row, 1, level.height - 2) - 1};
+            bool const on_frame = inner.col + 1 != col || inner.row + 1 != row;
+            bool const dry = land.cells() == 0 || land[inner] != 0;
+            level.cover[static_cast<std::size_t>(row * level.width + col)] =
+                on_frame ? (dry ? frame : frame_at_rest) : (dry ? Cover::land : rest);
         }
     }
     for (std::uint32_t const river : level.rivers.cell) {
         level.cover[river] = Cover::river;
     }
-    if (edge != Edge::coast) {
+    if (!has_sea) {
         each_inner(level, [&](std::size_t i) {
             if (level.cover[i] == Cover::land && beside(level, i, Cover::outside)) {
                 level.cover[i] = edge == Edge::open ? Cover::edge : Cover::rim;

@@ -4,12 +4,12 @@
 
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/nearest_cells.hpp>
 #include <thalweg/core/parallel.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/core/value_noise.hpp>
 #include <thalweg/solver/relax_explicit.hpp>
 #include <thalweg/surface/coarse_start.hpp>
-#include <thalweg/surface/euclid.hpp>
 #include <thalweg/surface/heights_of.hpp>
 #include <thalweg/surface/problem_through.hpp>
 #include <thalweg/surface/smooth_free.hpp>
@@ -75,11 +75,11 @@ void smooth(Raster<std::uint8_t> const& kind, DiffuseParams const& params, Raste
 void add_noise(Raster<std::uint8_t> const& kind, Raster<float> const& z, DiffuseParams const& params,
                Raster<double>& value, Run const& run) {
     Grid const& grid = kind.grid();
-    Valley skeleton{Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
+    Mask skeleton(grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        skeleton.z[i] = kind[i] == solver::fixed_cell ? z[i] : skeleton.z[i];
+        skeleton[i] = kind[i] == solver::fixed_cell && !std::isnan(z[i]) ? 1 : 0;
     }
-    Raster<std::int64_t> const nearest = nearest_valley_cells(skeleton, run);
+    Raster<std::int64_t> const nearest = nearest_cells(skeleton, run);
     parallel_ranges(run, grid.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin * grid.width; i < end * grid.width; ++i) {
             if (kind[i] == solver::free_cell) {

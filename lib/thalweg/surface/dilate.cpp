@@ -3,9 +3,9 @@
 #include <thalweg/surface/dilate.hpp>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/nearest_cells.hpp>
 #include <thalweg/core/parallel.hpp>
 #include <thalweg/surface/check_valley.hpp>
-#include <thalweg/surface/euclid.hpp>
 #include <thalweg/surface/flat_share.hpp>
 #include <thalweg/surface/separable.hpp>
 
@@ -161,7 +161,11 @@ Dilated dilate_euclid(Valley valley, Mask const& inside, DilateParams const& par
         }
     }
     check_heights(valley.z);
-    Raster<std::int64_t> const nearest = nearest_valley_cells(valley, run);
+    Mask rivers(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        rivers[i] = std::isnan(valley.z[i]) ? 0 : 1;
+    }
+    Raster<std::int64_t> const nearest = nearest_cells(rivers, run);
     run.at(0.6, "dilate");
     double farthest = 0.0;
     for (std::int64_t i = 0; i < grid.cells(); ++i) {

@@ -45,7 +45,10 @@ EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near) {
     auto const nearest = [&](std::size_t i) { return level.rivers.cell[near.number[i]]; };
     auto const put = [&](std::int64_t col, std::int64_t row) {
         auto const i = static_cast<std::size_t>(row * w + col);
-        if (level.cover[i] == Cover::edge) {
+        if (level.cover[i] == Cover::sea) {
+            edge.ring.push_back(static_cast<std::uint32_t>(i));
+            edge.ring_river.push_back(static_cast<std::uint32_t>(i)); // whose height is 0
+        } else if (level.cover[i] == Cover::edge) {
             std::int64_t const inner =
                 std::clamp<std::int64_t>(row, 1, h - 2) * w + std::clamp<std::int64_t>(col, 1, w - 2);
             edge.ring.push_back(static_cast<std::uint32_t>(i));
@@ -86,6 +89,9 @@ void set_edge_heights(LandLevel& level, EdgeCells const& edge) {
     auto const reach = std::max<std::int64_t>(2, static_cast<std::int64_t>(half_stretch / level.side));
     heights = ring_means(ring_means(heights, reach), reach);
     for (std::size_t k = 0; k < heights.size(); ++k) {
+        if (level.cover[edge.ring[k]] == Cover::sea) {
+            continue;
+        }
         level.z[edge.ring[k]] = above_rivers(level, edge.ring[k], static_cast<float>(heights[k]));
     }
 }

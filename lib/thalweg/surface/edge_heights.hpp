@@ -13,8 +13,8 @@ namespace thalweg::surface {
 
 /// The cells at which an open land ends: the frame, once round, and land beside what is masked out.
 struct EdgeCells {
-    std::vector<std::uint32_t> ring;       ///< clockwise from the north-west corner
-    std::vector<std::uint32_t> ring_river; ///< cell of the nearest river
+    std::vector<std::uint32_t> ring;       ///< clockwise from the north-west corner, the sea's cells among them
+    std::vector<std::uint32_t> ring_river; ///< cell of the nearest river; of the sea its own
     std::vector<std::uint32_t> inner;
     std::vector<std::uint32_t> inner_river;
 };

@@ -118,7 +118,7 @@ public:
           per_length_(jittered_per_length()) {}
 
     void solve(LandLevel& level, std::size_t number, std::size_t levels) {
-        EdgeCells const edge = params_.edge == Edge::open ? edge_cells(level, nearest_river(level)) : EdgeCells{};
+        EdgeCells const edge = goes_on(params_.edge) ? edge_cells(level, nearest_river(level)) : EdgeCells{};
         set_edge_heights(level, edge);
         flood_land(level);
         int const rounds = rounds_of(number, levels);
@@ -230,7 +230,7 @@ float base_of(Channels const& rivers, Edge edge) {
     for (float const z : rivers.z) {
         low = z < low ? z : low;
     }
-    return edge == Edge::coast ? 0.0F : low;
+    return edge == Edge::coast || edge == Edge::mainland ? 0.0F : low;
 }
 
 } // namespace

@@ -14,9 +14,10 @@ namespace thalweg::surface {
 
 /// What the land does where no river leaves it.
 enum class Edge : std::uint8_t {
-    open,   ///< it goes on beyond the grid: water leaves as if the neighbouring basins stood as high as ours
-    closed, ///< it ends: all its water goes to the given rivers
-    coast   ///< it ends at the sea, at height 0
+    open,    ///< it goes on beyond the grid: water leaves as if the neighbouring basins stood as high as ours
+    closed,  ///< it ends: all its water goes to the given rivers
+    coast,   ///< it ends at the sea, at height 0
+    mainland ///< the sea where the mask says so, at height 0; beyond the grid it goes on
 };
 
 /// What given heights of rivers are to the land.

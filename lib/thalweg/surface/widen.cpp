@@ -129,7 +129,7 @@ private:
 } // namespace
 
 WidenedLand widened(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params) {
-    std::int64_t const margin = params.edge == Edge::open ? open_margin : 0;
+    std::int64_t const margin = goes_on(params.edge) ? open_margin : 0;
     return {grown(rivers.grid, margin),
             margin,
             Carried(rivers, margin).all(),

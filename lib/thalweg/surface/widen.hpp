@@ -9,7 +9,12 @@
 /// Private to this room.
 namespace thalweg::surface {
 
-/// What the solver works on: the caller's grid with a margin around it, in which an open land goes on.
+/// Whether the land goes on beyond the grid.
+inline bool goes_on(Edge edge) {
+    return edge == Edge::open || edge == Edge::mainland;
+}
+
+/// What the solver works on: the caller's grid with a margin around it, in which land may go on.
 struct WidenedLand {
     Grid grid;           ///< without the frame
     std::int64_t margin; ///< [cells] on each side

@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/surface/euclid.hpp>
+#include <thalweg/core/nearest_cells.hpp>
 
 #include <thalweg/core/parallel.hpp>
 
-#include <cmath>
 #include <vector>
 
-namespace thalweg::surface {
+namespace thalweg {
 namespace {
 
-/// The valley cell of one column that is nearest to the row in hand, and the columns it is nearest to.
+/// The marked cell of one column that is nearest to the row in hand, and the columns it is nearest to.
 struct Site {
     std::int64_t col = 0;
     std::int64_t row = 0;
@@ -36,13 +35,13 @@ std::int64_t crossing(Site const& left, Site const& right) {
     return num / den + (wins_tie ? 0 : 1);
 }
 
-/// Rows of the nearest valley cells within the columns [first, last), the upper of two; -1 in a column without any.
-void search_columns(Valley const& valley, Raster<std::int64_t>& nearest, std::int64_t first, std::int64_t last) {
-    std::int64_t const width = valley.z.width();
-    std::int64_t const height = valley.z.height();
+/// Rows of the nearest marked cells within the columns [first, last), the upper of two; -1 in a column without any.
+void search_columns(Mask const& marked, Raster<std::int64_t>& nearest, std::int64_t first, std::int64_t last) {
+    std::int64_t const width = marked.width();
+    std::int64_t const height = marked.height();
     for (std::int64_t row = 0; row < height; ++row) {
         for (std::int64_t i = row * width + first; i < row * width + last; ++i) {
-            nearest[i] = !std::isnan(valley.z[i]) ? row : (row > 0 ? nearest[i - width] : -1);
+            nearest[i] = marked[i] != 0 ? row : (row > 0 ? nearest[i - width] : -1);
         }
     }
     for (std::int64_t row = height - 2; row >= 0; --row) {
@@ -86,13 +85,13 @@ void search_row(Raster<std::int64_t>& nearest, std::int64_t row, std::vector<Sit
 
 } // namespace
 
-Raster<std::int64_t> nearest_valley_cells(Valley const& valley, Run const& run) {
-    Raster<std::int64_t> nearest(valley.z.grid());
-    parallel_ranges(run, valley.z.width(), 64, [&](std::int64_t first, std::int64_t last) {
+Raster<std::int64_t> nearest_cells(Mask const& marked, Run const& run) {
+    Raster<std::int64_t> nearest(marked.grid());
+    parallel_ranges(run, marked.width(), 64, [&](std::int64_t first, std::int64_t last) {
         run.check();
-        search_columns(valley, nearest, first, last);
+        search_columns(marked, nearest, first, last);
     });
-    parallel_ranges(run, valley.z.height(), 64, [&](std::int64_t first, std::int64_t last) {
+    parallel_ranges(run, marked.height(), 64, [&](std::int64_t first, std::int64_t last) {
         std::vector<Site> envelope;
         for (std::int64_t row = first; row < last; ++row) {
             run.check();
@@ -102,4 +101,4 @@ Raster<std::int64_t> nearest_valley_cells(Valley const& valley, Run const& run) 
     return nearest;
 }
 
-} // namespace thalweg::surface
+} // namespace thalweg

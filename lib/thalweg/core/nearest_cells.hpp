@@ -6,14 +6,13 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run.hpp>
-#include <thalweg/core/valley.hpp>
 
-namespace thalweg::surface {
+namespace thalweg {
 
-/// Index of the valley cell nearest to each cell, by exact Euclidean distance in cells.
-/// Takes: a valley with at least one cell.
+/// Index of the marked cell nearest to each cell, by exact Euclidean distance in cells.
+/// Takes: a mask with at least one cell that is not 0.
 /// Gives: squared distances are compared as integers; of equally near cells the one with the lowest index.
 /// Source: Meijster, Roerdink & Hesselink 2000, with the tie made part of the order.
-Raster<std::int64_t> nearest_valley_cells(Valley const& valley, Run const& run);
+Raster<std::int64_t> nearest_cells(Mask const& marked, Run const& run);
 
-} // namespace thalweg::surface
+} // namespace thalweg
