@@ -34,6 +34,7 @@
 #include <thalweg/network/grow_dla.hpp>
 #include <thalweg/network/grow_strokes.hpp>
 #include <thalweg/network/grow_tokunaga.hpp>
+#include <thalweg/network/land_and_sea.hpp>
 #include <thalweg/network/lsystem.hpp>
 #include <thalweg/network/meander.hpp>
 #include <thalweg/network/order.hpp>
@@ -592,7 +593,12 @@ void print_forest(Run const& run) {
     slow.sticking = 0.6;
     slow.visits = 2;
     print("plant_forest S=0.6 M=2", hash_of(network::plant_forest(island, outlets, slow, run).network));
-    print("plant_forest", hash_of(network::plant_forest(island, outlets, {}, run).network));
+    StreamNetwork const planted = network::plant_forest(island, outlets, {}, run).network;
+    print("plant_forest", hash_of(planted));
+    print("land_behind_outlets", hash_of(network::land_behind_outlets(planted, grid, run)));
+    RiverLines coast;
+    coast.lines.emplace_back().vertices = {{-100.0, 3000.0, 0.0}, {4000.0, 2500.0, 0.0}, {9700.0, 3300.0, 0.0}};
+    print("land_and_sea", hash_of(network::land_and_sea(coast, {}, grid, run).land));
 }
 
 } // namespace

@@ -207,6 +207,8 @@ std::map<std::string, std::vector<Words>> const beside = {
     {"network.lines.rank_field", {{"network.lines.orientation=as_drawn"}}},
     {"network.lines.divergences", {{"network.lines.path=loop.geojson"}}},
     {"network.lines.filter", {{"network.lines.path=canal.geojson"}}},
+    {"network.lines.coastlines", {{"network.lines.path=coast.geojson"}}},
+    {"network.inland", {{"network.lines.path=inland.geojson"}}},
     {"skeleton.ridge_gain", {{"skeleton.ridges=segments"}}},
     {"skeleton.ridge_noise", {{"skeleton.ridges=segments"}}},
     {"skeleton.ridge_wavelength",

@@ -36,6 +36,10 @@ public:
         write("canal.geojson",
               layer(upper + "," + lower + "," +
                     line("[501500,5001600],[501200,5001100],[500900,5000700]", R"("waterway":"canal")")));
+        write("coast.geojson",
+              layer(upper + "," + lower + "," +
+                    line("[499000,5000020],[501000,5000010],[503000,4999990]", R"("FTYPE":"Coastline")")));
+        write("inland.geojson", layer(line("[500300,5001500],[500700,5001200],[500900,5000700]", "")));
         write("outlets.csv", "x,y\n500000,4999000\n501900,4999500\n");
         write("lakes.geojson",
               layer(polygon(square(500700, 5000500, 400)) + "," + polygon(square(500600, 4998600, 800))));

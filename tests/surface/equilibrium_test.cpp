@@ -105,7 +105,7 @@ Scene any_scene() {
     auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
     auto const cells = *rc::gen::inRange<std::int64_t>(1, 200).as("river cells");
     Scene scene;
-    scene.params.edge = *rc::gen::element(Edge::open, Edge::closed, Edge::coast).as("edge");
+    scene.params.edge = *rc::gen::element(Edge::open, Edge::closed, Edge::coast, Edge::mainland).as("edge");
     scene.params.seed = seed;
     scene.params.theta = *rc::gen::element(0.45, 0.45, 0.1, 0.9).as("theta");
     scene.params.hillslope_cells = *rc::gen::element(1.3, 1.3, 0.5, 100.0).as("hillslope");
@@ -256,7 +256,7 @@ bool has(std::string const& text, std::string const& part) {
 
 // The least there can be: a cell, a row, a column; and a grid that is all river.
 TEST(Equilibrium, TinyGridsHaveLand) {
-    for (Edge const edge : {Edge::open, Edge::closed, Edge::coast}) {
+    for (Edge const edge : {Edge::open, Edge::closed, Edge::coast, Edge::mainland}) {
         for (auto const& [width, height] :
              {std::pair<std::int64_t, std::int64_t>{1, 1}, {5, 1}, {1, 5}, {2, 2}, {3, 3}}) {
             Scene scene;
@@ -409,7 +409,7 @@ TEST(Equilibrium, ThreadsDoNotMatterSeedsDo) {
 }
 
 TEST(Equilibrium, HasTheReliefAsked) {
-    for (Edge const edge : {Edge::open, Edge::closed, Edge::coast}) {
+    for (Edge const edge : {Edge::open, Edge::closed, Edge::coast, Edge::mainland}) {
         Scene scene = square(64, edge);
         scene.params.relief_m = 123.0;
         EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
@@ -417,6 +417,45 @@ TEST(Equilibrium, HasTheReliefAsked) {
         auto const [low, high] = std::minmax_element(values.begin(), values.end());
         EXPECT_NEAR(*high - *low, 123.0F, 0.01F);
     }
+}
+
+TEST(Equilibrium, AMainlandIsLowAtTheSeaAndGoesOnInland) {
+    Scene scene = square(64, Edge::mainland);
+    scene.fields.land = Mask(scene.rivers.grid, 1);
+    for (std::int64_t row = 0; row < 64; ++row) {
+        for (std::int64_t col = 0; col < 12; ++col) {
+            scene.fields.land[Cell{col, row}] = 0;
+        }
+    }
+    for (std::int64_t const cell : scene.rivers.cell) {
+        scene.fields.land[cell] = 1;
+    }
+    EquilibriumLand const land = equilibrium(scene.rivers, scene.fields, scene.params);
+    scene.params.edge = Edge::coast;
+    EquilibriumLand const island = equilibrium(scene.rivers, scene.fields, scene.params);
+    auto const mean = [](Raster<float> const& dem, std::int64_t col) {
+        double sum = 0.0;
+        int cells = 0;
+        for (std::int64_t row = 0; row < dem.height(); ++row) {
+            if (!std::isnan(dem[Cell{col, row}])) {
+                sum += static_cast<double>(dem[Cell{col, row}]);
+                ++cells;
+            }
+        }
+        return sum / cells;
+    };
+    // At the sea both are low; at the far border only the island is.
+    EXPECT_LT(mean(land.dem, 12), 0.4 * mean(land.dem, 40));
+    EXPECT_GT(mean(land.dem, 63), 0.5 * mean(land.dem, 40));
+    EXPECT_LT(mean(island.dem, 63), 0.4 * mean(island.dem, 40));
+}
+
+TEST(Equilibrium, AMainlandWithoutSeaIsOpen) {
+    Scene scene = square(48);
+    Raster<float> const open = equilibrium(scene.rivers, {}, scene.params).dem;
+    scene.params.edge = Edge::mainland;
+    Raster<float> const mainland = equilibrium(scene.rivers, {}, scene.params).dem;
+    EXPECT_TRUE(std::equal(open.values().begin(), open.values().end(), mainland.values().begin()));
 }
 
 TEST(Equilibrium, HasTheMeanSlopeAsked) {

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -228,6 +230,39 @@ Lines from_eu_hydro() {
 
 std::string const coarse = " --set grid.cell=100";
 
+/// Length [m] of the longest straight stretch of any arc.
+double longest_straight_run(fs::path const& path) {
+    double longest = 0.0;
+    auto const data = opened(path);
+    for (auto const& row : *data->GetLayerByName("arcs")) {
+        OGRLineString const& line = *row->GetGeometryRef()->toLineString();
+        double run = 0.0;
+        double heading = 0.0;
+        for (int i = 1; i < line.getNumPoints(); ++i) {
+            double const dx = line.getX(i) - line.getX(i - 1);
+            double const dy = line.getY(i) - line.getY(i - 1);
+            double const here = std::atan2(dy, dx);
+            run = i > 1 && std::fabs(here - heading) < 1e-6 ? run + std::hypot(dx, dy) : std::hypot(dx, dy);
+            heading = here;
+            longest = std::max(longest, run);
+        }
+    }
+    return longest;
+}
+
+double share_without_data(fs::path const& path) {
+    GDALDatasetH const data = GDALOpen(path.string().c_str(), GA_ReadOnly);
+    GDALRasterBandH const band = GDALGetRasterBand(data, 1);
+    int const width = GDALGetRasterXSize(data);
+    int const height = GDALGetRasterYSize(data);
+    std::vector<float> z(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    EXPECT_EQ(GDALRasterIO(band, GF_Read, 0, 0, width, height, z.data(), width, height, GDT_Float32, 0, 0), CE_None);
+    auto const nodata = static_cast<float>(GDALGetRasterNoDataValue(band, nullptr));
+    GDALClose(data);
+    auto const holes = std::count_if(z.begin(), z.end(), [&](float v) { return std::isnan(v) || v == nodata; });
+    return static_cast<double>(holes) / static_cast<double>(z.size());
+}
+
 } // namespace
 
 TEST(RiverFiles, NhdPlusWithDivergencesAndCoastlines) {
@@ -261,6 +296,30 @@ TEST(RiverFiles, NhdPlusWithDivergencesAndCoastlines) {
                   std::string(arc->GetFieldAsString("gnis_name")).empty());
     }
     EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
+    // The sea begins at the coastlines: rivers end there, not on the border behind it.
+    double carried_m = 0.0;
+    for (json const& repair : report.at("repairs")) {
+        carried_m += repair.at("kind") == "carried_outlet" ? repair.at("amount").get<double>() : 0.0;
+    }
+    EXPECT_LT(carried_m, 5000.0);
+    EXPECT_LT(longest_straight_run(place / "out/network.gpkg"), 30.0 * 90.0);
+    EXPECT_NEAR(share_without_data(place / "out/dem.tif"), 0.37, 0.02);
+}
+
+TEST(RiverFiles, OutletsOfAFileWithoutCoastlinesAreCarriedWithAWarningOrMakeACoast) {
+    Workplace const place;
+    std::string const coastal = THALWEG_SOURCE_DIR "/samples/coastal_nhdplus.gpkg";
+    std::string const without = "make '" + coastal + "' --set grid.cell=90 --set network.lines.coastlines=none -o ";
+    Outcome const carried = thalweg_run(without + "carried", place.path());
+    EXPECT_EQ(carried.code, 0);
+    EXPECT_NE(carried.err.find("29 rivers end inside the grid"), std::string::npos) << carried.err;
+    EXPECT_NE(carried.err.find("network.inland=coast"), std::string::npos) << carried.err;
+    Outcome const coast = thalweg_run(without + "coast --set network.inland=coast", place.path());
+    EXPECT_EQ(coast.code, 0) << coast.err;
+    EXPECT_EQ(coast.err.find("warning"), std::string::npos) << coast.err;
+    EXPECT_NEAR(share_without_data(place / "coast/dem.tif"), 0.37, 0.04); // as the coastlines say
+    EXPECT_EQ(thalweg_run("check coast/network.gpkg --dem coast/dem.tif", place.path()).code, 0);
+    EXPECT_EQ(thalweg_run("replay coast --verify", place.path()).code, 0);
 }
 
 TEST(RiverFiles, TheMendedCopyOfNhdPlusKeepsItsColumns) {

@@ -19,7 +19,9 @@ namespace thalweg::network {
 
 namespace {
 
-constexpr std::int64_t near_cells = 8; ///< within which a coastline says on which of its sides a cell lies
+constexpr std::int64_t mouth_cells = 12; ///< before an outlet, where the sea begins
+constexpr double heading_cells = 8.0;    ///< over which a river's end says where it heads
+constexpr std::int64_t near_cells = 8;   ///< within which a coastline says on which of its sides a cell lies
 
 std::vector<Vec2> plan_of(RiverLine const& line) {
     std::vector<Vec2> out;
@@ -103,6 +105,15 @@ template <class Visit> void each_stretch(std::vector<Cell> const& cells, CoastSi
     visit(begin, cells.size(), side);
 }
 
+/// The place on a line, or its upstream end, so far before its downstream end.
+Vec2 before_end(std::vector<Vec2> const& line, double distance_m) {
+    std::size_t i = line.size() - 1;
+    while (i > 0 && distance(line[i], line.back()) < distance_m) {
+        --i;
+    }
+    return line[i];
+}
+
 } // namespace
 
 LandAndSea land_and_sea(RiverLines const& coastlines, RiverLines const& rivers, Grid const& grid, Run const& run) {
@@ -151,6 +162,47 @@ LandAndSea land_and_sea(RiverLines const& coastlines, RiverLines const& rivers, 
         divided.land = std::move(spread);
     }
     return divided;
+}
+
+Mask land_behind_outlets(StreamNetwork const& network, Grid const& grid, Run const& run) {
+    NetworkIndex const index(network);
+    Mask rivers(grid);
+    for (ArcId const arc : index.arcs) {
+        for (Cell const c : cells_along(network[arc].line, grid, "a river")) {
+            rivers[c] = 1;
+        }
+    }
+    Mask decided = rivers;
+    Raster<std::int64_t> nearest = nearest_cells(rivers, run);
+    bool has_sea = false;
+    for (NodeId const outlet : index.outlets) {
+        Cell const end = cells_along({network[outlet].at}, grid).front();
+        if (grid.on_border(end) || index.in[outlet].empty()) {
+            continue;
+        }
+        auto const last = static_cast<std::size_t>(index.in[outlet].front());
+        Vec2 const from = before_end(network[index.arcs[last]].line, heading_cells * grid.cell_m);
+        Vec2 const at = network[outlet].at;
+        cells_around(grid, end, mouth_cells, [&](Cell c) {
+            Vec2 const p = grid.centre(c);
+            double const ahead = (p.x - at.x) * (at.x - from.x) + (p.y - at.y) * (at.y - from.y);
+            bool const is_before = ahead > 0.35 * distance(p, at) * distance(at, from);
+            if (rivers[c] == 0 && nearest[c] == grid.index(end) && is_before &&
+                squared_cells(c, end) <= mouth_cells * mouth_cells) {
+                decided[c] = 1;
+                has_sea = true;
+            }
+        });
+    }
+    if (!has_sea) {
+        return {};
+    }
+    nearest = nearest_cells(decided, run);
+    Mask land(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        land[i] = rivers[nearest[i]];
+    }
+    return land;
 }
 
 Mask land_along_rivers(Mask land, StreamNetwork const& network) {

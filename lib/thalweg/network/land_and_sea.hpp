@@ -26,6 +26,13 @@ struct LandAndSea {
 /// same mask for any number of threads. Throws: Cancelled.
 LandAndSea land_and_sea(RiverLines const& coastlines, RiverLines const& rivers, Grid const& grid, Run const& run = {});
 
+/// Divides a grid where outlets that lie inside it are taken for the mouths of rivers at the sea: the sea begins before
+/// each of them, in the direction in which its river ends; a cell farther away is like the nearest one that is decided,
+/// by an outlet or because a river runs there. So the coast runs from outlet to outlet.
+/// Takes: a network of trees inside the grid. Gives: every river cell is land; without cells where no outlet lies
+/// inside. Throws: Cancelled.
+Mask land_behind_outlets(StreamNetwork const& network, Grid const& grid, Run const& run = {});
+
 /// Land with all the cells rivers run through, and the cells around each of them but those around outlets alone: so
 /// water cannot leave a river sideways into the sea. Takes: a network inside the mask's grid.
 Mask land_along_rivers(Mask land, StreamNetwork const& network);

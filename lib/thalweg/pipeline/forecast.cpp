@@ -31,6 +31,7 @@ struct KnownBefore {
     std::optional<Grid> grid;
     std::int64_t cells = 0; ///< about, where the grid is unknown
     bool lines_have_z = false;
+    bool lines_have_coast = false;
 };
 
 void require_files(Recipe const& recipe) {
@@ -62,7 +63,7 @@ std::int64_t links_of(Recipe const& recipe, Run const& run) {
 }
 
 KnownBefore known_of_grid(Grid const& grid) {
-    return {grid, grid.cells(), false};
+    return {grid, grid.cells(), false, false};
 }
 
 KnownBefore known_of_lines(Recipe recipe, Run const& run) {
@@ -70,6 +71,9 @@ KnownBefore known_of_lines(Recipe recipe, Run const& run) {
     settle_on_lines(recipe, lines, run);
     KnownBefore known = known_of_grid(frame_lines(lines, recipe.grid));
     known.lines_have_z = lines.has_z;
+    known.lines_have_coast =
+        recipe.network->lines.coastlines == Coastlines::sea &&
+        std::any_of(lines.secondary.begin(), lines.secondary.end(), [](SecondaryLine const& l) { return l.is_coast; });
     return known;
 }
 
@@ -119,7 +123,7 @@ KnownBefore known_of_rivers(Recipe const& recipe, Run const& run) {
     if (recipe.grid.width > 0) {
         return known_of_tree(recipe, 1);
     }
-    return {std::nullopt, cells_of_cluster(rivers.dla.particles), false};
+    return {std::nullopt, cells_of_cluster(rivers.dla.particles), false, false};
 }
 
 KnownBefore known_of_points(Recipe recipe, Run const& run) {
@@ -128,7 +132,7 @@ KnownBefore known_of_points(Recipe recipe, Run const& run) {
 }
 
 /// The stages in which rivers are made, as make_rivers() runs them.
-std::vector<std::string> stages_of_rivers(Recipe const& recipe, bool lines_have_z) {
+std::vector<std::string> stages_of_rivers(Recipe const& recipe, KnownBefore const& known) {
     NetworkRecipe const& rivers = *recipe.network;
     std::vector<std::string> stages;
     switch (rivers.source) {
@@ -140,6 +144,9 @@ std::vector<std::string> stages_of_rivers(Recipe const& recipe, bool lines_have_
                                                  : std::vector<std::string>{"read", "grow"};
         break;
     }
+    if (known.lines_have_coast) {
+        stages.emplace_back("sea");
+    }
     stages.emplace_back("prune");
     bool const has_coast =
         rivers.source == Source::forest && (!rivers.forest.region.empty() || rivers.forest.shape == LandShape::island);
@@ -148,7 +155,7 @@ std::vector<std::string> stages_of_rivers(Recipe const& recipe, bool lines_have_
         stages.emplace_back("meander");
     }
     bool const graded = rivers.heights == Heights::graded ||
-                        (rivers.heights == Heights::automatic && !(rivers.source == Source::lines && lines_have_z));
+                        (rivers.heights == Heights::automatic && !(rivers.source == Source::lines && known.lines_have_z));
     if (!(in_equilibrium(recipe) && graded)) {
         stages.emplace_back("raise");
     }
@@ -207,13 +214,13 @@ std::vector<std::string> stages_after(Recipe const& recipe) {
     return stages;
 }
 
-std::vector<std::string> stages_of(Recipe const& recipe, bool lines_have_z) {
+std::vector<std::string> stages_of(Recipe const& recipe, KnownBefore const& known) {
     std::vector<std::string> stages;
     auto const append = [&](std::vector<std::string> const& more) {
         stages.insert(stages.end(), more.begin(), more.end());
     };
     if (recipe.network) {
-        append(stages_of_rivers(recipe, lines_have_z));
+        append(stages_of_rivers(recipe, known));
     }
     if (recipe.surface || !recipe.network) {
         append(stages_of_surface(recipe));
@@ -269,7 +276,7 @@ Forecast forecast(Recipe const& recipe, Run const& run) {
     Forecast found;
     found.grid = known.grid;
     found.cells = known.cells;
-    found.stages = stages_of(recipe, known.lines_have_z);
+    found.stages = stages_of(recipe, known);
     found.memory_bytes = memory_of(recipe, known.cells);
     found.seconds = seconds_of(recipe, found);
     if (known.grid) {

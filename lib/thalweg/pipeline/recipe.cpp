@@ -346,10 +346,16 @@ void check_equilibrium(Recipe const& recipe, std::vector<std::string>& faults) {
         if (n.fill_space) {
             faults.push_back(fmt::format("network.fill_space{}: only equilibrium terrain grows side valleys", needs));
         }
-        if (n.inland == InlandEnds::sink) {
-            faults.push_back(fmt::format("network.inland = \"sink\"{}", needs));
+        if (n.inland != InlandEnds::carry) {
+            faults.push_back(
+                fmt::format("network.inland = \"{}\"{}", n.inland == InlandEnds::sink ? "sink" : "coast", needs));
         }
         return;
+    }
+    if (n.inland == InlandEnds::coast && n.source != Source::lines) {
+        faults.emplace_back(
+            "network.inland = \"coast\" needs network.source = \"lines\"; rivers that grow from a coast "
+            "are network.source = \"forest\"");
     }
     EquilibriumRecipe const& e = recipe.surface->equilibrium;
     double const usual_slope_deg = surface::EquilibriumParams{}.mean_slope_deg;

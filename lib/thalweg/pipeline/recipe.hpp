@@ -55,7 +55,7 @@ enum class Heights : std::uint8_t {
     ends   ///< likewise those of sources and outlets, kept; graded between
 };
 /// What becomes of rivers that end inside the grid.
-enum class InlandEnds : std::uint8_t { carry, sink };
+enum class InlandEnds : std::uint8_t { carry, sink, coast };
 enum class Side : std::uint8_t { north, east, south, west };
 
 /// What coastlines among the lines of a file are to the land.

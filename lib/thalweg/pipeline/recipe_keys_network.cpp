@@ -67,10 +67,11 @@ void add_course_keys(std::vector<Key>& keys) {
     keys.push_back(maybe("network.meander", "", {0, 2},
                          "meander amplitude, 1 as in nature; left out: 1 for grown rivers with equilibrium, else 0",
                          in_network<MaybeNumber>([](NetworkRecipe& n) -> MaybeNumber& { return n.meander; })));
-    keys.push_back(
-        choice<InlandEnds>("network.inland", {{"carry", InlandEnds::carry}, {"sink", InlandEnds::sink}},
-                           "rivers that end inside the grid: extend them to its border, or keep them as sinks",
-                           in_network<InlandEnds>([](NetworkRecipe& n) -> InlandEnds& { return n.inland; })));
+    keys.push_back(choice<InlandEnds>(
+        "network.inland", {{"carry", InlandEnds::carry}, {"sink", InlandEnds::sink}, {"coast", InlandEnds::coast}},
+        "rivers that end inside the grid: extend them to its border or the sea, keep them as sinks, "
+        "or take their ends for mouths on a coast and make what lies before them the sea",
+        in_network<InlandEnds>([](NetworkRecipe& n) -> InlandEnds& { return n.inland; })));
     keys.push_back(yes_no("network.fill_space", "add the side valleys of the terrain to the network as arcs",
                           in_network<bool>([](NetworkRecipe& n) -> bool& { return n.fill_space; })));
     keys.push_back(integer<std::int64_t>(

@@ -80,15 +80,42 @@ void let_wander(Planned& planned, Terrain& terrain, Diary& diary, Run const& run
     planned.plan = std::move(bent.network);
 }
 
+/// A word where outlets went far over ground of which the file says nothing.
+void warn_of_long_ways(std::vector<Finding> const& notes, StreamNetwork const& plan, Run const& run) {
+    constexpr std::int64_t many = 3;
+    constexpr double much = 0.1; // of the length of all rivers
+    double carried_m = 0.0;
+    std::int64_t outlets = 0;
+    for (Finding const& note : notes) {
+        if (note.kind == "carried_outlet") {
+            carried_m += note.amount;
+            ++outlets;
+        }
+    }
+    double length_m = 0.0;
+    for (auto const arc : boost::make_iterator_range(boost::edges(plan))) {
+        length_m += length_of(plan[arc].line);
+    }
+    if (outlets >= many && carried_m > much * length_m) {
+        run.say(fmt::format("warning: {} rivers end inside the grid and were extended by {:.3g} km in all, by the "
+                            "shortest ways. If they end at the sea: --set network.inland=coast.",
+                            outlets, carried_m / 1000.0));
+    }
+}
+
 /// Outlets inside the grid: carried to where rivers may end, where the recipe wants it. Those at the sea reach it in
 /// any case; what lies beside a river is land.
-void carry_outlets(StreamNetwork& plan, Terrain& terrain) {
+void carry_outlets(StreamNetwork& plan, Terrain& terrain, Run const& run) {
     constexpr std::int64_t at_sea_cells = 4;
-    bool const all = terrain.recipe.network->inland == InlandEnds::carry;
+    bool const all = terrain.recipe.network->inland != InlandEnds::sink;
     auto const take = [&](network::Carried carried) {
+        warn_of_long_ways(carried.notes, plan, run);
         terrain.story.repairs.insert(terrain.story.repairs.end(), carried.notes.begin(), carried.notes.end());
         plan = std::move(carried.network);
     };
+    if (terrain.land.cells() == 0 && terrain.recipe.network->inland == InlandEnds::coast) {
+        terrain.land = network::land_behind_outlets(plan, terrain.grid, run);
+    }
     if (terrain.land.cells() == 0) {
         if (all) {
             take(network::carry_outlets(plan, terrain.grid));
@@ -165,7 +192,7 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.land = std::move(planned.land);
     planned.plan = std::move(pruned.network);
     if (rivers.source != Source::forest) {
-        carry_outlets(planned.plan, terrain);
+        carry_outlets(planned.plan, terrain, run);
     }
 
     let_wander(planned, terrain, diary, run);
