@@ -133,12 +133,50 @@ TEST(AdoptDivides, ByWhatTheLineUpstreamNames) {
 
 TEST(AdoptDivides, BySizeThenByName) {
     auto sized = flats(braid());
-    sized.lines[3].size = 2.0;
-    sized.lines[1].size = 1.0;
+    sized.lines[3].size = {2.0};
+    sized.lines[1].size = {1.0};
     EXPECT_EQ(beside(adopt(sized)), (Features{2}));
     auto named = flats(braid());
     named.lines[0].name = named.lines[3].name = "Po";
     EXPECT_EQ(beside(adopt(named)), (Features{2}));
+}
+
+// Sizes are compared one after another: the next decides where one is the same, or known of neither.
+TEST(AdoptDivides, ByTheNextSizeWhereOneTies) {
+    auto lines = flats(braid());
+    for (auto& line : lines.lines) {
+        line.size = {7.0, 0.0, 1.0};
+    }
+    EXPECT_EQ(beside(adopt(lines)), (Features{4, 5})); // by the angle
+    lines.lines[3].size = {7.0, 0.0, 2.0};
+    EXPECT_EQ(beside(adopt(lines)), (Features{2}));
+    lines.lines[1].size = {7.0, 0.5, 1.0};
+    EXPECT_EQ(beside(adopt(lines)), (Features{4, 5}));
+    lines.lines[3].size = {8.0, 0.0, 0.0};
+    EXPECT_EQ(beside(adopt(lines)), (Features{2}));
+}
+
+TEST(AdoptDivides, ByRankWhereNothingFinerTells) {
+    auto lines = flats(braid());
+    std::int64_t const rank[] = {50, 40, 10, 30, 20}; // numbered upstream, first along the channel beside
+    for (std::size_t i = 0; i < lines.lines.size(); ++i) {
+        lines.lines[i].rank = rank[i];
+    }
+    for (auto const orientation : {Orientation::automatic, Orientation::rank, Orientation::as_drawn}) {
+        auto const adopted = adopt(lines, {.orientation = orientation});
+        EXPECT_EQ(beside(adopted), (Features{2}));
+        expect_forest(adopted);
+    }
+    lines.lines[1].rank = 25;
+    EXPECT_EQ(beside(adopt(lines)), (Features{4, 5}));
+    lines.lines[3].size = {2.0};
+    for (std::size_t const other : {0U, 1U, 2U, 4U}) {
+        lines.lines[other].size = {1.0};
+    }
+    EXPECT_EQ(beside(adopt(lines)), (Features{2})); // size is finer
+    lines.lines[3].rank = 0;
+    lines.lines[3].size = {1.0};
+    EXPECT_EQ(beside(adopt(lines)), (Features{4, 5})); // a branch without a rank is the last
 }
 
 TEST(AdoptDivides, LinksTellTheDirectionWhateverWasDrawn) {

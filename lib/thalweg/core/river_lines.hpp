@@ -23,7 +23,9 @@ struct RiverLine {
     std::int64_t rank = 0;      ///< flow rank from the direction field: falls downstream; 0 where there is none
     int lambda = 0;             ///< generator of the network a stroke grows; 0 where the file has none
     std::int64_t down = 0;      ///< feature of the line downstream, by the file's links; 0 where it names none
-    double size = 0.0;          ///< order, area or discharge, greater for greater rivers; 0 where there is none
+    /// Areas, discharge, orders, classes by the fields of the file, the most telling first: each greater for greater
+    /// rivers, 0 where it is not known. All lines of a file have the same, and are compared one after another.
+    std::vector<double> size = {};
     Channel channel = Channel::unknown;
     std::string name = {}; ///< the river's name, or ""
 };

@@ -180,8 +180,10 @@ private:
         if (!native) {
             RiverLine line;
             fields_.read(feature, line);
-            arc.size = line.size;
+            arc.size = std::move(line.size);
             arc.channel = line.channel;
+            arc.name = std::move(line.name);
+            arc.rank = key_;
             arc.unnatural = fields_.unnatural(feature);
         }
         arc.type = columns_.column(Q::type).text(feature);

@@ -30,10 +30,14 @@ constexpr std::array<LinkFields, 8> known_links{{
     {"cat", "next_stream"},
 }};
 
-// How great a river is, the most telling first: what a minor channel carries, areas, discharge, orders.
+// How great a river is, the most telling first: what a minor channel carries, areas, discharge, orders. Where one is
+// the same for two rivers, the next tells.
 constexpr std::array<std::string_view, 15> river_sizes{
     "divdasqkm",   "upland_skm", "dis_av_cms", "ds_area",   "dscontarea", "totdasqkm", "streamcalc", "streamorde",
     "streamorder", "ord_stra",   "strahler",   "strmorder", "stream_ord", "strord",    "horton"};
+
+// The same as classes, of which 1 is the greatest.
+constexpr std::array<std::string_view, 5> river_classes{"streamleve", "streamlevel", "ord_clas", "ord_flow", "hack"};
 
 constexpr std::array<std::string_view, 6> river_names{"name",       "gnis_name", "nametxtint",
                                                       "river_name", "rivername", "riv_name"};
@@ -54,14 +58,26 @@ template <std::size_t N> int first_of(OGRFeatureDefn& schema, std::array<std::st
     return -1;
 }
 
-std::string small_letters(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 bool is_number_field(OGRFeatureDefn& schema, int field) {
     auto const type = schema.GetFieldDefn(field)->GetType();
     return type == OFTInteger || type == OFTInteger64 || type == OFTReal;
+}
+
+template <std::size_t N>
+std::vector<int> numbers_among(OGRFeatureDefn& schema, std::array<std::string_view, N> const& wanted) {
+    std::vector<int> found;
+    for (std::string_view const name : wanted) {
+        int const field = schema.GetFieldIndex(std::string(name).c_str());
+        if (field >= 0 && is_number_field(schema, field)) {
+            found.push_back(field);
+        }
+    }
+    return found;
+}
+
+std::string small_letters(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
 }
 
 // NHD: 566xx coastline, 428xx pipeline, 336xx canal or ditch.
@@ -91,7 +107,8 @@ RiverFields::RiverFields(OGRLayer& layer) {
     divergence_ = numeric(find("divergence"));
     calculated_order_ = numeric(find("streamcalc"));
     order_ = numeric(find("streamorde") >= 0 ? find("streamorde") : find("streamorder"));
-    size_ = numeric(first_of(schema, river_sizes));
+    sizes_ = numbers_among(schema, river_sizes);
+    classes_ = numbers_among(schema, river_classes);
     name_ = first_of(schema, river_names);
     waterway_ = find("waterway");
     tunnel_ = find("tunnel");
@@ -116,7 +133,14 @@ double RiverFields::number(OGRFeature const& feature, int field) const {
 }
 
 void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
-    line.size = std::max(0.0, number(feature, size_));
+    line.size.clear();
+    for (int const field : sizes_) {
+        line.size.push_back(std::max(0.0, number(feature, field)));
+    }
+    for (int const field : classes_) {
+        double const of = number(feature, field);
+        line.size.push_back(of >= 1.0 ? 1.0 / of : 0.0);
+    }
     line.name = text(feature, name_);
     double const divergence = number(feature, divergence_);
     bool const minor_path = calculated_order_ >= 0 && feature.IsFieldSetAndNotNull(calculated_order_) != 0 &&

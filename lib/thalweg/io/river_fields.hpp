@@ -43,7 +43,8 @@ private:
     int divergence_ = -1;
     int calculated_order_ = -1; ///< StreamCalc of NHDPlus: 0 on minor paths
     int order_ = -1;
-    int size_ = -1;
+    std::vector<int> sizes_;   ///< greater for greater rivers
+    std::vector<int> classes_; ///< 1 for the greatest rivers
     int name_ = -1;
     int waterway_ = -1;
     int tunnel_ = -1;

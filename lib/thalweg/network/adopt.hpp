@@ -56,18 +56,18 @@ struct Adopted {
 /// types differ.
 /// Where water could go more than one way (a divergence, a braid, a loop) the main path stays: at each such place the
 /// branch that the file marks as main, else the one that a line upstream names as the next, else the one that goes on
-/// as the same line, else the largest, else that of the same name, else the one that turns least (ties: by place). Of a
-/// circle that has no way out the smallest piece goes. The other branches are secondary, each down to where it rejoins
-/// or a stream with a source of its own joins it. Two rivers that run away from one place are a divergence where the
-/// file's links, heights or ranks say so, or under as_drawn; where only the drawn direction does, and no loop is
-/// closed, one of them is turned round. In a component with loops of which the drawn directions contradict one another
-/// (more than a quarter of its length would be turned), or under topology, they say nothing: the tree of the largest,
-/// then shortest ways to the outlet stays. Gives: trees; every vertex of every kept line stays, in its order and within
-/// 1e-6 m (snapped ends within snap_m, each reported); only crossings are added. Throws: BadInput naming the feature
-/// and its place: NaN, a line of no length; heights or ranks by which a river runs away from both its ends into places
-/// that nothing leaves; when there is no line, none is left, or what orientation asks for is not in the file; under
-/// Divergences::error a cycle of rivers or a bifurcation (under automatic by height or rank only); BadParameter;
-/// Cancelled.
+/// as the same line, else the largest, else that of the same name, else that of the least rank, else the one that turns
+/// least (ties: by place). Of a circle that has no way out the smallest piece goes. The other branches are secondary,
+/// each down to where it rejoins or a stream with a source of its own joins it. Two rivers that run away from one place
+/// are a divergence where the file's links, heights or ranks say so, or under as_drawn; where only the drawn direction
+/// does, and no loop is closed, one of them is turned round. In a component with loops of which the drawn directions
+/// contradict one another (more than a quarter of its length would be turned), or under topology, they say nothing: the
+/// tree of the largest, then shortest ways to the outlet stays. Gives: trees; every vertex of every kept line stays, in
+/// its order and within 1e-6 m (snapped ends within snap_m, each reported); only crossings are added. Throws: BadInput
+/// naming the feature and its place: NaN, a line of no length; heights or ranks by which a river runs away from both
+/// its ends into places that nothing leaves; when there is no line, none is left, or what orientation asks for is not
+/// in the file; under Divergences::error a cycle of rivers or a bifurcation (under automatic by height or rank only);
+/// BadParameter; Cancelled.
 Adopted adopt(RiverLines const& lines, AdoptParams const& params = {}, Run const& run = {});
 
 /// The heights the file gave, as those of the network.

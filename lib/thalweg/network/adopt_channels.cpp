@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <limits>
 #include <tuple>
 
 #include <thalweg/network/adopt_tree.hpp>
@@ -108,9 +110,10 @@ std::size_t main_of(Pieces const& p, std::vector<RiverLine> const& lines, Divide
         bool const named = any_in([&](RiverLine const& up) { return up.down == own.feature && own.feature != 0; });
         bool const goes_on = any_in([&](RiverLine const& up) { return &up == &own; });
         bool const same_name = any_in([&](RiverLine const& up) { return !own.name.empty() && up.name == own.name; });
+        std::int64_t const low = own.rank == 0 ? std::numeric_limits<std::int64_t>::min() : -own.rank;
         double const straight = in.empty() ? 0.0 : straightness(p, lines, node, *greatest, k);
         Vec2 const end = p.nodes[other_end(p.pieces[k], node)];
-        return std::tuple(marked, named, goes_on, own.size, same_name, straight, -end.x, -end.y);
+        return std::tuple(marked, named, goes_on, own.size, same_name, low, straight, -end.x, -end.y);
     };
     return *std::ranges::max_element(branches, {}, key);
 }

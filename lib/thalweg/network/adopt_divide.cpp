@@ -154,7 +154,7 @@ private:
         return divided_.runs[k] > 0 ? piece.to : piece.from;
     }
     std::size_t above(std::size_t k) const { return other_end(p_.pieces[k], below(k)); }
-    double size_of(std::size_t k) const { return lines_[p_.pieces[k].line].size; }
+    std::vector<double> const& size_of(std::size_t k) const { return lines_[p_.pieces[k].line].size; }
 
     std::vector<std::size_t> branches(std::size_t node) const {
         std::vector<std::size_t> result;
@@ -240,8 +240,9 @@ private:
         std::vector<std::size_t> others;
         std::ranges::copy_if(c.pieces, std::back_inserter(others),
                              [&](std::size_t k) { return !is_out(k) && main_[above(k)] != k; });
-        std::ranges::stable_sort(others, {},
-                                 [&](std::size_t k) { return std::pair(-size_of(k), -p_.pieces[k].length_m); });
+        std::ranges::stable_sort(others, std::greater(), [&](std::size_t k) {
+            return std::tuple<std::vector<double> const&, double>(size_of(k), p_.pieces[k].length_m);
+        });
         for (std::size_t const k : others) {
             if (certain != nullptr && (certain->votes[k] != 0 || ends_the_links(k, *certain))) {
                 refuse_pit(k, *certain);
@@ -333,12 +334,12 @@ private:
     /// Keeps the tree of the largest, then shortest ways to an outlet (Prim 1957; Dijkstra 1959).
     void span(Component const& c, std::size_t outlet) {
         struct Step {
-            double size;
+            std::vector<double> const* size;
             double way_m;
             std::size_t piece;
             std::size_t to;
             bool operator<(Step const& o) const { // the queue gives the greatest
-                return std::tuple(size, -way_m, o.piece) < std::tuple(o.size, -o.way_m, piece);
+                return std::forward_as_tuple(*size, -way_m, o.piece) < std::forward_as_tuple(*o.size, -o.way_m, piece);
             }
         };
         for (std::size_t const k : c.pieces) {
@@ -353,7 +354,7 @@ private:
             for (std::size_t const k : p_.at_node[n]) {
                 auto const& piece = p_.pieces[k];
                 if (reached_[other_end(piece, n)] == 0) {
-                    queue.push({size_of(k), way_m + piece.length_m, k, other_end(piece, n)});
+                    queue.push({&size_of(k), way_m + piece.length_m, k, other_end(piece, n)});
                 }
             }
         };

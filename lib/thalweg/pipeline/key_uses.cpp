@@ -136,7 +136,9 @@ std::vector<Row> make_rows() {
         {"network.forest.shape", shape},
         {"network.forest.ruggedness", shape && is("network.forest.shape", {"island"})},
         {"network.forest.", source_is("forest")},
-        {"network.lines.rank_field", source_is("lines") && is("network.lines.orientation", {"auto", "rank"})},
+        {"network.lines.rank_field", source_is("lines") && (is("network.lines.orientation", {"auto", "rank"}) ||
+                                                            (is("network.lines.orientation", {"height", "as_drawn"}) &&
+                                                             is("network.lines.divergences", {"main"})))},
         {"network.lines.coastlines", source_is("lines") && is("network.lines.filter", {"natural"})},
         {"network.lines.", source_is("lines")},
         {"network.", always()},

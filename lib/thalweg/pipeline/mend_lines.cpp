@@ -141,7 +141,8 @@ public:
             result_.secondary.push_back({arc.id, std::move(line), arc.unnatural});
             return;
         }
-        result_.rivers.lines.push_back({arc.id, std::move(line), arc.type, 0, 0, arc.ds_arc, arc.size, arc.channel});
+        result_.rivers.lines.push_back(
+            {arc.id, std::move(line), arc.type, arc.rank, 0, arc.ds_arc, arc.size, arc.channel, arc.name});
         result_.arcs.push_back(a);
     }
 

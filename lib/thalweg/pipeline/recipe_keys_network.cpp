@@ -164,9 +164,11 @@ void add_network_keys(std::vector<Key>& keys) {
     keys.push_back(text("network.lines.type_field", "name",
                         "field with the river type; the field rosgen may be missing",
                         in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.lines.type_field; })));
-    keys.push_back(text("network.lines.rank_field", "name",
-                        "integer field that decreases downstream; \"\": hydroseq where there is one",
-                        in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.lines.rank_field; })));
+    keys.push_back(
+        text("network.lines.rank_field", "name",
+             "integer field that decreases downstream, and is least on the main of several branches; \"\": hydroseq "
+             "where there is one",
+             in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.lines.rank_field; })));
     keys.push_back(number("network.lines.snap", "m", {0, 1e6},
                           "line ends closer than this are joined; 0: 1e-6 of the extent",
                           in_network<double>([](NetworkRecipe& n) -> double& { return n.lines.snap_m; })));
