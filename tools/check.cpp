@@ -96,7 +96,8 @@ Command add_check(CLI::App& app, Session& session) {
         ->type_name("FILE(tif)");
     app.add_option(
            "--fix", options->job.fix,
-           "Write a repaired copy in the native schema and list the repairs. Nothing is written if faults remain.")
+           "Write a repaired copy in the native schema and list the repairs. Nothing is written if faults remain. "
+           "NETWORK may then be any file of lines.")
         ->type_name("FILE(gpkg,shp)");
     app.add_option("--findings", options->job.findings, "Write the findings as a point layer, for QGIS.")
         ->type_name("FILE(gpkg)");

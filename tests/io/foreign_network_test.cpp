@@ -425,6 +425,46 @@ TEST(ForeignNetwork, TheFeatureIdMayBeTheArcId) {
     EXPECT_TRUE(hangs_together(file));
 }
 
+TEST(ForeignNetwork, AnyLinesAreTakenByTheirFeaturesOnRequest) {
+    // Ways as in OpenStreetMap: no links; the first in two parts that do not meet.
+    ForeignLayer const ways{.name = "ways",
+                            .type = wkbUnknown,
+                            .fields = {{"osm_id", OFTString}, {"waterway", OFTString}, {"name", OFTString}},
+                            .rows = {{"MULTILINESTRING ((50 200, 100 100), (50 300, 60 300))", {"70", "river", "Po"}},
+                                     {"POINT (1 2)", {"71", "", ""}},
+                                     {"LINESTRING (150 200, 100 100)", {"72", "canal", ""}},
+                                     {"LINESTRING (100 100, 100 0)", {"73", "river", "Po"}}}};
+    ScratchFolder const folder;
+    std::string const path = written(folder, "ways.gpkg", "GPKG", {ways});
+    EXPECT_TRUE(says(refusal(path), "osm_id, waterway, name"));
+    NetworkFile const file = io::read_network(path, {.any_lines = true});
+    EXPECT_EQ(file.schema, "lines");
+    EXPECT_EQ(flow_of(file), (Flow{{1, 4}, {1, 0}, {3, 4}, {4, 0}})); // as they meet
+    EXPECT_FALSE(file.says.downstream || file.says.ends || file.says.strahler || file.says.heights);
+    EXPECT_EQ(finding_of(file, "by_feature").amount, 4.0);
+    EXPECT_EQ(file.arcs[2].record, 3);
+    EXPECT_EQ(file.arcs[2].unnatural, "waterway canal");
+    EXPECT_EQ(file.arcs[3].name, "Po");
+    EXPECT_EQ(std::get<std::string>(file.attributes.rows[3][0]), "73");
+    // Fields that a user names are never passed over, and known schemas stay what they are.
+    EXPECT_TRUE(says(refusal(path, {.fields = {{"ds_arc", "osm_id"}}, .any_lines = true}), "no schema"));
+    std::string const known = written(folder, "known.gpkg", "GPKG", {taudem()});
+    EXPECT_EQ(io::read_network(known, {.any_lines = true}).schema, "taudem");
+}
+
+TEST(ForeignNetwork, AnyLinesHaveTheLinksOfTheirFields) {
+    ForeignLayer const eu{.name = "River_Net_l",
+                          .fields = {{"OBJECT_ID", OFTString}, {"NEXTDOWNID", OFTString}, {"STRAHLER", OFTInteger}},
+                          .rows = {{"LINESTRING (50 200, 100 100)", {"RL1", "RL3", "1"}},
+                                   {"LINESTRING (100 100, 150 200)", {"RL2", "RL3", "1"}}, // drawn upstream
+                                   {"LINESTRING (100 100, 100 0)", {"RL3", "RL9", "2"}}}};
+    ScratchFolder const folder;
+    NetworkFile const file = io::read_network(written(folder, "eu.gpkg", "GPKG", {eu}), {.any_lines = true});
+    EXPECT_EQ(flow_of(file), (Flow{{1, 3}, {2, 3}, {3, 0}}));
+    EXPECT_TRUE(file.says.downstream);
+    EXPECT_EQ(file.arcs[2].size, (std::vector<double>{2.0}));
+}
+
 TEST(ForeignNetwork, FieldsOfTwoSchemasAreAmbiguous) {
     ForeignLayer layer = hydrorivers();
     layer.fields.emplace_back("LINKNO", OFTInteger);

@@ -69,6 +69,22 @@ std::set<std::int64_t> features_in(fs::path const& gpkg, char const* layer) {
     return found;
 }
 
+/// The lines beside the main path, and why; what the terrain took away aside.
+std::set<std::pair<std::int64_t, std::string>> beside(fs::path const& gpkg) {
+    std::set<std::pair<std::int64_t, std::string>> found;
+    auto const data = opened(gpkg);
+    OGRLayer* const rows = data == nullptr ? nullptr : data->GetLayerByName("secondary");
+    if (rows != nullptr) {
+        for (auto const& row : *rows) {
+            std::string const reason = row->GetFieldAsString("reason");
+            if (reason != "pruned or shortened") {
+                found.emplace(row->GetFieldAsInteger64("feature"), reason);
+            }
+        }
+    }
+    return found;
+}
+
 /// Every feature from 1 to count is on the arcs or in secondary.
 void expect_all_found(fs::path const& gpkg, std::int64_t count) {
     auto found = features_in(gpkg, "sources");
@@ -78,6 +94,16 @@ void expect_all_found(fs::path const& gpkg, std::int64_t count) {
     for (std::int64_t f = 1; f <= count; ++f) {
         EXPECT_TRUE(found.contains(f)) << "feature " << f << " of " << gpkg;
     }
+}
+
+/// check --fix: every line is found again in the mended copy, which has no faults and the main path of make.
+void mended(Workplace const& place, std::string const& input, std::int64_t count) {
+    Outcome const fixed = thalweg_run("check '" + input + "' --fix mended.gpkg --json", place.path());
+    EXPECT_TRUE(fixed.code == 0 || fixed.code == 3) << fixed.err;
+    ASSERT_TRUE(fs::exists(place / "mended.gpkg")) << fixed.out;
+    EXPECT_EQ(thalweg_run("check mended.gpkg", place.path()).code, 0);
+    expect_all_found(place / "mended.gpkg", count);
+    EXPECT_EQ(beside(place / "mended.gpkg"), beside(place / "out/network.gpkg"));
 }
 
 /// make, check, check --fix: exit 0, 0, and a mended copy without faults. Gives the report.
@@ -94,6 +120,7 @@ json made(Workplace const& place, std::string const& input, std::int64_t count, 
     expect_all_found(place / "out/network.gpkg", count);
     Outcome const checked = thalweg_run("check out --dem out/dem.tif", place.path());
     EXPECT_EQ(checked.code, 0) << checked.out;
+    mended(place, input, count);
     return report;
 }
 
@@ -364,7 +391,29 @@ TEST(RiverFiles, WaysOfOpenStreetMap) {
         EXPECT_EQ(reasons["waterway ditch"], 1);
         EXPECT_EQ(reasons["tunnel flooded"], 1);
         EXPECT_EQ(reasons["closed ring"], 1);
+        // Without a mended copy the links are asked for.
+        Outcome const asked = thalweg_run("check osm.geojson", place.path());
+        EXPECT_EQ(asked.code, 2);
+        EXPECT_NE(asked.err.find("match no schema"), std::string::npos) << asked.err;
     }
+}
+
+TEST(RiverFiles, WaysInSeveralPartsAreMended) {
+    Workplace const place;
+    place.write(
+        "parts.geojson",
+        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":)"
+        R"("urn:ogc:def:crs:EPSG::32631"}},"features":[)"
+        R"({"type":"Feature","properties":{"name":"a"},"geometry":{"type":"MultiLineString","coordinates":)"
+        R"([[[0,8000],[0,4000]],[[3000,8000],[2000,6000],[0,4000]]]}},)"
+        R"({"type":"Feature","properties":{"name":"b"},"geometry":{"type":"LineString","coordinates":[[0,4000],[0,0]]}}]})");
+    made(place, "parts.geojson", 2, coarse);
+    auto const data = opened(place / "mended.gpkg");
+    std::map<std::string, int> names;
+    for (auto const& row : *data->GetLayerByName("arcs")) {
+        ++names[row->GetFieldAsString("name")];
+    }
+    EXPECT_EQ(names, (std::map<std::string, int>{{"a", 2}, {"b", 1}}));
 }
 
 TEST(RiverFiles, HydroRivers) {

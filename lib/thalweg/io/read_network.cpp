@@ -33,8 +33,11 @@ namespace {
 using FileArc = NetworkFile::FileArc;
 
 Wish wish_of(ReadNetworkParams const& params) {
-    Wish wish{
-        .schema = params.schema, .arcs_layer = params.arcs_layer, .nodes_layer = params.nodes_layer, .crs = params.crs};
+    Wish wish{.schema = params.schema,
+              .arcs_layer = params.arcs_layer,
+              .nodes_layer = params.nodes_layer,
+              .crs = params.crs,
+              .any_lines = params.any_lines};
     for (auto const& [quantity, field] : params.fields) {
         if (quantity == "node_id") {
             wish.node_id = field;

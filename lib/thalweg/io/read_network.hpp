@@ -17,6 +17,7 @@ struct ReadNetworkParams {
     std::map<std::string, std::string> fields = {}; ///< a quantity (name_of), or node_id, to the field that holds it
     std::string arcs_layer = {};  ///< "" takes the layer arcs, else the only layer of lines that is understood
     std::string nodes_layer = {}; ///< "" takes the layer nodes of a network in the native schema, if it is there
+    bool any_lines = false;       ///< lines of which neither schema nor fields are known are taken by their features
     std::string crs = {};         ///< to bring it into, projected in metres; "" for its own, or its UTM zone
 };
 
@@ -25,8 +26,9 @@ struct ReadNetworkParams {
 /// Takes: anything OGR reads: a GeoPackage, FlatGeobuf, GeoJSON, a shapefile, a file geodatabase, a database
 /// ("PG:dbname=..."), the folder of network.gpkg or of NAME_arcs.shp; with a NAME_arcs file its NAME_nodes (given
 /// either). Fields are those of the schema in any case of letters, but for those that params.fields names; when these
-/// tell arc_id and ds_arc, or arc_id, from_node and to_node, no schema is needed. A column that is the feature id of
-/// its format is found like a field. The source is opened to be read only, and nothing is left beside it.
+/// tell arc_id and ds_arc, or arc_id, from_node and to_node, no schema is needed. Nor is one under any_lines: arcs have
+/// the numbers of their features, from 1, and the links that docs/river_files.md lists, if any. A column that is the
+/// feature id of its format is found like a field. The source is opened to be read only, and nothing is left beside it.
 ///
 /// Gives: arcs drawn downstream (where the lines of most linked arcs are drawn up, all are turned), in metres (what is
 /// not in a projected CRS in metres is brought into its UTM zone, to 1e-6 m), areas in m2; NetworkFile::says tells
@@ -40,7 +42,8 @@ struct ReadNetworkParams {
 /// not_a_line (none; features passed over), multi_part (arc; parts: when they join end to end they are one line, else
 /// each is an arc of the same id), curve (arc; vertices of its line), measures (none; arcs whose M is left out),
 /// no_heights (none; arcs), no_crs (none; 0), reprojected (none; 0), heights_converted (none; metres of a unit), turned
-/// (none; arcs), cut_below (arc; the number of the arc downstream, which the file does not hold: an outlet).
+/// (none; arcs), by_feature (none; arcs of a file taken so under any_lines), cut_below (arc; the number of the arc
+/// downstream, which the file does not hold: an outlet).
 ///
 /// Throws: BadInput: no such file or layer, several layers, a schema that is not recognised (lists what was looked
 /// for), no field of arc ids, a field without numbers, arcs and nodes in different CRS; IoError: the file is damaged,

@@ -98,12 +98,15 @@ class ArcReader {
 public:
     ArcReader(Layer const& arcs, std::optional<Schema> schema, Wish const& wish, Notes& notes)
         : arcs_(arcs), schema_(schema), table_(table_of(schema.value_or(Schema::native))), notes_(notes),
-          columns_(*arcs.layer, schema, wish.fields, arcs.what, notes), fields_(*arcs.layer), attributes_(*arcs.layer) {
-        require_fields(arcs, columns_, schema, notes);
+          columns_(*arcs.layer, schema, wish.fields, arcs.what, notes), fields_(*arcs.layer), attributes_(*arcs.layer),
+          by_feature_(!schema && takes_any_lines(wish)) {
+        if (!by_feature_) {
+            require_fields(arcs, columns_, schema, notes);
+        }
     }
 
     void read(NetworkFile& file, Driver const& driver, Run const& run) {
-        file.schema = schema_ ? table_.name : "mapped";
+        file.schema = schema_ ? table_.name : by_feature_ ? "lines" : "mapped";
         file.id_shift = 1 - table_.first_id;
         file.says.nodes = false;
         file.says.ends = columns_.has(Q::from_node) && columns_.has(Q::to_node);
@@ -119,11 +122,28 @@ public:
         if (!columns_.has(Q::ds_arc) && file.says.downstream) {
             link_by_keys(file, keys_, ds_keys_);
         }
+        if (by_feature_) {
+            link_by_features(file);
+        }
         file.attributes = attributes_.take();
         say_what_was_drawn(file);
     }
 
 private:
+    void link_by_features(NetworkFile& file) {
+        file.says.downstream = fields_.has_links();
+        for (FileArc& arc : file.arcs) {
+            arc.ds_arc = fields_.down_of(arc.id);
+        }
+        notes_.add(arcs_.what,
+                   {"by_feature",
+                    0,
+                    {},
+                    static_cast<double>(file.arcs.size()),
+                    fmt::format("its fields match no schema: lines are numbered by their features and joined by {}",
+                                file.says.downstream ? "their links" : "their ends")});
+    }
+
     void add(NetworkFile& file, OGRFeature const& feature) {
         ++number_;
         attributes_.read(feature);
@@ -150,7 +170,7 @@ private:
     FileArc numbers_of(OGRFeature const& feature) {
         Numbers const numbers(feature, number_, arcs_.what, notes_);
         bool const native = schema_ == Schema::native;
-        std::int64_t const id = numbers.whole(columns_.column(Q::arc_id), 0, false);
+        std::int64_t const id = by_feature_ ? number_ : numbers.whole(columns_.column(Q::arc_id), 0, false);
         auto const number = [&](Quantity q) { return numbers.whole(columns_.column(q), id, false); };
         auto const link = [&](Quantity q) {
             FileColumn const& column = columns_.column(q);
@@ -159,7 +179,8 @@ private:
             return none ? 0 : value + 1 - table_.first_id;
         };
         FileArc arc;
-        arc.id = columns_.column(Q::arc_id).is_null(feature) ? 0 : id + 1 - table_.first_id;
+        bool const unnamed = !by_feature_ && columns_.column(Q::arc_id).is_null(feature);
+        arc.id = unnamed ? 0 : id + 1 - table_.first_id;
         arc.from_node = number(Q::from_node);
         arc.to_node = number(Q::to_node);
         arc.ds_arc = link(Q::ds_arc);
@@ -179,6 +200,7 @@ private:
         arc.record = number_;
         if (!native) {
             RiverLine line;
+            line.feature = number_;
             fields_.read(feature, line);
             arc.size = std::move(line.size);
             arc.channel = line.channel;
@@ -274,6 +296,7 @@ private:
     ArcColumns columns_;
     RiverFields fields_;
     AttributeReader attributes_;
+    bool by_feature_ = false; // arcs have the numbers of their features
     std::int64_t number_ = 0; // of the feature in hand, in the order of the layer, from 1
     Drawn drawn_;
     std::int64_t key_ = 0; // of the feature in hand

@@ -45,6 +45,10 @@ void Layer::each(Driver const& driver, Run const& run, std::function<void(OGRFea
     }
 }
 
+bool takes_any_lines(Wish const& wish) {
+    return wish.any_lines && wish.fields.empty();
+}
+
 Layer choose_arcs(NetworkSource const& source, Wish const& wish) {
     std::string const& what = source.what();
     if (!wish.arcs_layer.empty()) {
@@ -88,7 +92,7 @@ std::optional<Schema> choose_schema(Layer const& arcs, Wish const& wish) {
     if (found.size() == 1) {
         return found.front();
     }
-    if (is_enough(wish.fields)) {
+    if (is_enough(wish.fields) || (found.empty() && takes_any_lines(wish))) {
         return std::nullopt;
     }
     std::vector<std::string_view> names;
@@ -117,7 +121,7 @@ std::optional<Layer> choose_nodes(NetworkSource const* source, NetworkSource con
         throw BadInput(fmt::format("{} has no layer {} (there are {})", arcs_source.what(), wish.nodes_layer,
                                    names_of(arcs_source.layers())));
     }
-    if (source == nullptr || (schema && schema != Schema::native)) {
+    if (source == nullptr || (schema ? schema != Schema::native : takes_any_lines(wish))) {
         return std::nullopt;
     }
     if (OGRLayer* const layer = source->layer("nodes")) {

@@ -25,8 +25,12 @@ struct Wish {
     std::string arcs_layer = {};
     std::string nodes_layer = {};
     std::string crs = {};
+    bool any_lines = false;
     bool whole = false; ///< every layer, field and value of the native schema, or an error
 };
+
+/// Whether lines without a known schema are arcs as they are.
+bool takes_any_lines(Wish const& wish);
 
 /// A layer, and how it is called in messages.
 struct Layer {
@@ -45,7 +49,7 @@ Layer choose_arcs(NetworkSource const& source, Wish const& wish);
 std::optional<Layer> choose_nodes(NetworkSource const* source, NetworkSource const& arcs_source, Layer const& arcs,
                                   std::optional<Schema> schema, Wish const& wish);
 
-/// Nothing when the fields that the user names are enough. Throws: BadInput like read_network.
+/// Nothing when the fields that the user names are enough, or any lines are taken. Throws: BadInput like read_network.
 std::optional<Schema> choose_schema(Layer const& arcs, Wish const& wish);
 
 } // namespace thalweg::io

@@ -153,7 +153,7 @@ void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
     if (std::string const own = text(feature, id_); !own.empty()) {
         feature_of_.try_emplace(own, line.feature);
         if (std::string const down = text(feature, down_); !down.empty() && down != own) {
-            down_of_.emplace(line.feature, down);
+            down_id_.emplace(line.feature, down);
         }
     }
 }
@@ -198,12 +198,15 @@ bool RiverFields::is_coast(OGRFeature const& feature) const {
            small_letters(text(feature, natural_)) == "coastline";
 }
 
+std::int64_t RiverFields::down_of(std::int64_t feature) const {
+    auto const down = down_id_.find(feature);
+    auto const below = down == down_id_.end() ? feature_of_.end() : feature_of_.find(down->second);
+    return below == feature_of_.end() || below->second == feature ? 0 : below->second;
+}
+
 void RiverFields::link(std::vector<RiverLine>& lines) const {
     for (RiverLine& line : lines) {
-        if (auto const down = down_of_.find(line.feature); down != down_of_.end()) {
-            auto const below = feature_of_.find(down->second);
-            line.down = below == feature_of_.end() || below->second == line.feature ? 0 : below->second;
-        }
+        line.down = down_of(line.feature);
     }
 }
 

@@ -27,14 +27,14 @@ public:
     std::string unnatural(OGRFeature const& feature) const;
     /// Whether it is a coastline.
     bool is_coast(OGRFeature const& feature) const;
+    /// Whether there are fields of links.
+    bool has_links() const { return down_ >= 0; }
+    /// The feature downstream by the file's links, once every feature has been read; 0 where it names none.
+    std::int64_t down_of(std::int64_t feature) const;
     /// Sets `down` of all lines, once every feature has been read.
     void link(std::vector<RiverLine>& lines) const;
 
 private:
-    struct Ids {
-        std::string own;
-        std::string down;
-    };
     std::string text(OGRFeature const& feature, int field) const;
     double number(OGRFeature const& feature, int field) const;
 
@@ -54,7 +54,7 @@ private:
     int ftype_ = -1;
     int fcode_ = -1;
     std::map<std::string, std::int64_t> feature_of_; ///< by own id: the first feature that has it
-    std::map<std::int64_t, std::string> down_of_;    ///< by feature: the id downstream
+    std::map<std::int64_t, std::string> down_id_;    ///< by feature: the id downstream
 };
 
 } // namespace thalweg::io

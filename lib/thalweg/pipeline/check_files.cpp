@@ -154,7 +154,9 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
     if (!job.findings.empty()) {
         layer.emplace_back(job.findings, "--findings", false, job);
     }
-    NetworkFile const network = io::read_network(job.network, job.read, run);
+    io::ReadNetworkParams read = job.read;
+    read.any_lines = !job.fix.empty();
+    NetworkFile const network = io::read_network(job.network, read, run);
     CheckedFiles checked;
     checked.arcs = static_cast<std::int64_t>(network.arcs.size());
     checked.nodes = static_cast<std::int64_t>(network.nodes.size());

@@ -40,7 +40,8 @@ struct CheckedFiles {
 };
 
 /// Checks a network's files, and a DEM with them; writes the findings, and a mended copy in the native schema when it
-/// passes the check of the topology itself. The input is never touched.
+/// passes the check of the topology itself. For a mended copy lines of no known schema are taken as they are. The input
+/// is never touched.
 /// Throws: BadInput when a file cannot be read as a network or DEM, or an output is there already; BadParameter, also
 /// for an output that is the input or no .gpkg or .shp; IoError; Cancelled.
 CheckedFiles check_files(CheckJob const& job, Run const& run = {});

@@ -119,6 +119,10 @@ public:
             put_onto(to, line.back(), arc.id);
         }
         fill_heights(line, from, to);
+        if (!arc.unnatural.empty()) {
+            put_aside(arc, std::move(line), arc.unnatural);
+            return;
+        }
         if (found_.upstream[a] != 0) {
             std::reverse(line.begin(), line.end());
             say("turned", arc.id, plan(line.front()), length_of_plan(line),
@@ -126,23 +130,17 @@ public:
         }
         if (looped_.count(arc.id) > 0) {
             network::CutLine cut = network::cut_loops(line, near_m_);
+            if (length_of_plan(cut.line) <= 0.0) {
+                put_aside(arc, std::move(line), "closed ring");
+                return;
+            }
             line = std::move(cut.line);
             say("cut", arc.id, plan(line.front()), cut.cut_m,
                 fmt::format("arc {}: loops and spikes of {} m are cut off", arc.id, cut.cut_m));
         }
-        if (length_of_plan(line) <= 0.0) {
-            say("left_out", arc.id, plan(line.front()), 0.0,
-                fmt::format("arc {}: it is a loop and is left out", arc.id));
-            return;
-        }
-        if (!arc.unnatural.empty()) {
-            say("secondary", arc.id, plan(line.front()), length_of_plan(line),
-                fmt::format("arc {}: is not a river: {}", arc.id, arc.unnatural));
-            result_.secondary.push_back({arc.id, std::move(line), arc.unnatural});
-            return;
-        }
+        std::int64_t const ds_arc = file_.says.downstream ? arc.ds_arc : 0; // else told by places alone
         result_.rivers.lines.push_back(
-            {arc.id, std::move(line), arc.type, arc.rank, 0, arc.ds_arc, arc.size, arc.channel, arc.name});
+            {arc.id, std::move(line), arc.type, arc.rank, 0, ds_arc, arc.size, arc.channel, arc.name});
         result_.arcs.push_back(a);
     }
 
@@ -156,6 +154,12 @@ public:
 private:
     void say(char const* kind, std::int64_t feature, Vec2 at, double amount, std::string text) {
         result_.mended.push_back({kind, feature, at, amount, std::move(text)});
+    }
+
+    void put_aside(NetworkFile::FileArc const& arc, std::vector<Vec3> line, std::string const& reason) {
+        say("secondary", arc.id, plan(line.front()), length_of_plan(line),
+            fmt::format("arc {}: is not a river: {}", arc.id, reason));
+        result_.secondary.push_back({arc.id, std::move(line), reason});
     }
 
     std::vector<Vec3> numbers_of(NetworkFile::FileArc const& arc) {
