@@ -597,7 +597,7 @@ void print_forest(Run const& run) {
     print("plant_forest", hash_of(planted));
     print("land_behind_outlets", hash_of(network::land_behind_outlets(planted, grid, run)));
     RiverLines coast;
-    coast.lines.emplace_back().vertices = {{-100.0, 3000.0, 0.0}, {4000.0, 2500.0, 0.0}, {9700.0, 3300.0, 0.0}};
+    coast.lines.emplace_back().vertices = {{-100.0, -3000.0, 0.0}, {4000.0, -2500.0, 0.0}, {9700.0, -3300.0, 0.0}};
     print("land_and_sea", hash_of(network::land_and_sea(coast, {}, grid, run).land));
 }
 

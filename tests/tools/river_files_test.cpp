@@ -278,6 +278,7 @@ double longest_straight_run(fs::path const& path) {
 }
 
 double share_without_data(fs::path const& path) {
+    GDALAllRegister();
     GDALDatasetH const data = GDALOpen(path.string().c_str(), GA_ReadOnly);
     GDALRasterBandH const band = GDALGetRasterBand(data, 1);
     int const width = GDALGetRasterXSize(data);

@@ -154,8 +154,8 @@ std::vector<std::string> stages_of_rivers(Recipe const& recipe, KnownBefore cons
     if (grown_for_land || rivers.meander.value_or(0.0) != 0.0) {
         stages.emplace_back("meander");
     }
-    bool const graded = rivers.heights == Heights::graded ||
-                        (rivers.heights == Heights::automatic && !(rivers.source == Source::lines && known.lines_have_z));
+    bool const graded = rivers.heights == Heights::graded || (rivers.heights == Heights::automatic &&
+                                                              !(rivers.source == Source::lines && known.lines_have_z));
     if (!(in_equilibrium(recipe) && graded)) {
         stages.emplace_back("raise");
     }

@@ -86,7 +86,7 @@ void add_equilibrium_keys(std::vector<Key>& keys) {
          {"coast", Edge::coast},
          {"mainland", Edge::mainland}},
         "boundary condition: the terrain continues (open), all water goes to the rivers (closed), sea (coast), or sea "
-        "where the mask or coastlines have it and beyond the grid the terrain continues (mainland); auto: mainland "
+        "where the mask or coastlines say so and beyond the grid the terrain continues (mainland); auto: mainland "
         "with coastlines of a river file, coast with other sea, else open",
         in_surface<MaybeEdge>([](SurfaceRecipe& s) -> MaybeEdge& { return s.equilibrium.edge; })));
     keys.push_back(
