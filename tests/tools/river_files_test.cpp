@@ -69,6 +69,34 @@ std::set<std::int64_t> features_in(fs::path const& gpkg, char const* layer) {
     return found;
 }
 
+/// Every arc that came from the file is made of its lines without gaps, but for what an outlet was extended by.
+void expect_sources_cover_arcs(fs::path const& gpkg) {
+    using Row = std::pair<double, double>;
+    std::map<std::int64_t, std::vector<Row>> rows;
+    auto const data = opened(gpkg);
+    ASSERT_NE(data->GetLayerByName("sources"), nullptr) << gpkg;
+    for (auto const& row : *data->GetLayerByName("sources")) {
+        rows[row->GetFieldAsInteger64("arc_id")].emplace_back(row->GetFieldAsDouble("from_m"),
+                                                              row->GetFieldAsDouble("to_m"));
+    }
+    for (auto const& arc : *data->GetLayerByName("arcs")) {
+        if (arc->GetFieldAsInteger64("feature") == 0) {
+            continue;
+        }
+        std::int64_t const id = arc->GetFieldAsInteger64("arc_id");
+        double const length = arc->GetFieldAsDouble("length");
+        double at = 0.0;
+        for (auto const& [from, to] : rows[id]) {
+            EXPECT_NEAR(from, at, 1e-6 * length) << "arc " << id << " of " << gpkg;
+            EXPECT_LT(from, to) << "arc " << id << " of " << gpkg;
+            at = to;
+        }
+        if (arc->GetFieldAsInteger64("ds_arc") != 0) {
+            EXPECT_NEAR(at, length, 1e-6 * length) << "arc " << id << " of " << gpkg;
+        }
+    }
+}
+
 /// The lines beside the main path, and why; what the terrain took away aside.
 std::set<std::pair<std::int64_t, std::string>> beside(fs::path const& gpkg) {
     std::set<std::pair<std::int64_t, std::string>> found;
@@ -103,6 +131,7 @@ void mended(Workplace const& place, std::string const& input, std::int64_t count
     ASSERT_TRUE(fs::exists(place / "mended.gpkg")) << fixed.out;
     EXPECT_EQ(thalweg_run("check mended.gpkg", place.path()).code, 0);
     expect_all_found(place / "mended.gpkg", count);
+    expect_sources_cover_arcs(place / "mended.gpkg");
     EXPECT_EQ(beside(place / "mended.gpkg"), beside(place / "out/network.gpkg"));
 }
 
@@ -118,6 +147,10 @@ json made(Workplace const& place, std::string const& input, std::int64_t count, 
         EXPECT_TRUE(check["ok"].get<bool>()) << check;
     }
     expect_all_found(place / "out/network.gpkg", count);
+    expect_sources_cover_arcs(place / "out/network.gpkg");
+    Outcome const split = thalweg_run("convert out -o split.gpkg --max-upstream 2", place.path());
+    EXPECT_EQ(split.code, 0) << split.err;
+    expect_sources_cover_arcs(place / "split.gpkg");
     Outcome const checked = thalweg_run("check out --dem out/dem.tif", place.path());
     EXPECT_EQ(checked.code, 0) << checked.out;
     mended(place, input, count);
@@ -459,6 +492,12 @@ TEST(RiverFiles, NamesOfColumnsAndNull) {
     auto const converted = opened(place / "c.gpkg");
     EXPECT_GE(converted->GetLayerByName("arcs")->GetLayerDefn()->GetFieldIndex("u_slope"), 0);
     expect_all_found(place / "c.gpkg", 2);
+}
+
+TEST(RiverFiles, RiversThatMeanderAreMadeOfTheirLines) {
+    Workplace const place;
+    std::string const walker = THALWEG_SOURCE_DIR "/samples/walker_nhdplus.gpkg";
+    made(place, walker, 62, " --set network.meander=2");
 }
 
 TEST(RiverFiles, SmallDefectsAreLeftOutAndReported) {

@@ -62,6 +62,10 @@ void add_field(LayerTarget const& target, OGRLayer& layer, Column const& column)
         width = 0;
         break;
     }
+    bool const is_part_of_moment = column.kind == Column::Kind::date || column.kind == Column::Kind::time;
+    if (target.format == LayerFormat::flatgeobuf && is_part_of_moment) { // which has no other
+        field.SetType(OFTString);
+    }
     if (target.format == LayerFormat::shapefile) {
         field.SetWidth(column.is_users ? users_width(column.kind, width) : width);
         field.SetPrecision(column.decimals);

@@ -103,6 +103,11 @@ public:
         if (!by_feature_) {
             require_fields(arcs, columns_, schema, notes);
         }
+        if (!wish.whole) {
+            for (Finding const& finding : attributes_.findings()) {
+                notes.add(arcs.what, finding);
+            }
+        }
     }
 
     void read(NetworkFile& file, Driver const& driver, Run const& run) {

@@ -94,7 +94,7 @@ void split(Ready& ready, ConvertParams const& params, Converted& converted, Run 
         source.braided.push_back(source.braided[piece.of]);
         source.records.push_back(source.records[piece.of]);
     }
-    source.stretches = LineSources(source.network.plan, source.stretches).of(made.network.plan);
+    source.stretches = LineSources(source.network.plan, source.stretches).redrawn(made.network.plan);
     source.network = std::move(made.network);
     ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
 }

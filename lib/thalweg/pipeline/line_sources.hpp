@@ -22,10 +22,13 @@ public:
     /// Takes: by arc its stretches.
     LineSources(StreamNetwork const& network, std::vector<std::vector<Stretch>> const& stretches);
 
-    bool knows_any() const { return !segments_.empty(); }
+    bool knows_any() const { return knows_any_; }
     /// The stretches of arcs that are made of the network's vertices. What is drawn beyond them (an outlet carried to
     /// the border) came from no feature.
     std::vector<std::vector<Stretch>> of(StreamNetwork const& network) const;
+    /// The stretches of arcs of which some are cut and some were drawn anew, as split_confluences leaves them: what is
+    /// drawn anew came from the feature of what it replaced. Gives: arcs made of features wholly still are so.
+    std::vector<std::vector<Stretch>> redrawn(StreamNetwork const& network) const;
     /// The same for a network whose arcs are those of this one by number, of other shape: each stretch takes its share
     /// of the arc. Takes: the network as it was.
     LineSources bent(StreamNetwork const& before, StreamNetwork const& after) const;
@@ -35,8 +38,14 @@ private:
         std::size_t operator()(Vec2 p) const;
         std::size_t operator()(std::pair<Vec2, Vec2> const& segment) const;
     };
-    std::unordered_map<std::pair<Vec2, Vec2>, std::int64_t, Hash> segments_; ///< looked up only, never walked
-    std::unordered_map<Vec2, std::int64_t, Hash> arriving_;                  ///< by a segment's end; likewise
+    using ByPlace = std::unordered_map<Vec2, std::int64_t, Hash>; ///< looked up only, never walked
+
+    std::int64_t replaced(Arc const& arc, std::size_t segment) const;
+
+    bool knows_any_ = false;
+    std::unordered_map<std::pair<Vec2, Vec2>, std::int64_t, Hash> segments_; ///< likewise; 0 for no feature
+    ByPlace arriving_;                                                       ///< by a segment's end; -1 for several
+    ByPlace leaving_;                                                        ///< by its beginning
 };
 
 } // namespace thalweg::pipeline
