@@ -249,3 +249,18 @@ TEST(Units, DegreesAreSaid) {
     EXPECT_NEAR(stats["max"]["z"].get<double>(),
                 foot * static_cast<double>(*std::max_element(piece.z.begin(), piece.z.end())), 0.1);
 }
+
+TEST(Units, ACrsWithoutACodeIsKeptWithoutAWord) {
+    Workplace const place;
+    // Albers as R writes it: no code, and a transformation to WGS 84 beside it.
+    run_gdal(
+        "ogr2ogr -t_srs '+proj=aea +lat_0=37 +lon_0=-122 +lat_1=34 +lat_2=41 +ellps=GRS80 +towgs84=0,0,0 +units=m' "
+        "albers.gpkg '" +
+            walker + "'",
+        place);
+    json const report = made(place, "albers.gpkg --set grid.cell=80", "out");
+    EXPECT_FALSE(tells(report, "reprojected"));
+    EXPECT_NE(report["recipe"]["grid"]["crs"].get<std::string>().find("Albers"), std::string::npos);
+    json const utm = made(place, "albers.gpkg --set grid.cell=80 --crs EPSG:32610", "utm");
+    EXPECT_TRUE(tells(utm, "are reprojected into EPSG:32610"));
+}

@@ -84,10 +84,11 @@ std::vector<std::string> conversions_of(std::string const& path, std::string con
         in_feet = plan.IsProjected() != 0 && std::fabs(plan.GetLinearUnits() - 1.0) > 1e-9;
         OGRSpatialReference target = read_reference(crs);
         target.StripVertical();
-        if (name_of(plan) != name_of(target)) {
-            said.push_back(fmt::format("{}: coordinates in {} ({}) are reprojected into {:.60}", name,
+        if (name_of(plan) != name_of(target) && plan.IsSame(&target) == 0) {
+            bool const is_code = crs.size() < 40; // EPSG:32631; else the whole WKT
+            said.push_back(fmt::format("{}: coordinates in {} ({}) are reprojected into {}", name,
                                        plan.GetName() == nullptr ? "its CRS" : plan.GetName(), unit_in_plan(plan),
-                                       crs));
+                                       is_code || target.GetName() == nullptr ? crs : target.GetName()));
         }
     }
     if (std::fabs(units.height_m - 1.0) > 1e-9 && units.has_heights) {
