@@ -66,7 +66,7 @@ int tin(TinOptions const& options, Session const& session) {
     auto const format = io::tin_format(options.format, options.file);
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     pipeline::MadeTin const made = pipeline::make_tin(options.source, session.run);
-    io::write_tin(made.tin, made.crs, file.staging(), format, session.run);
+    io::write_tin(made.tin, made.crs, file.staging(), format, HeightUnit::metre, session.run);
     file.commit();
     session.run.tell("tin", tin_in_words(made));
     fmt::print("{}", session.json ? as_json(made, options.file) : options.file + "\n");

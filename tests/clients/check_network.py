@@ -4,7 +4,7 @@
 """check_network.py NETWORK: does a file keep every law of the network schema?
 
 NETWORK is a GeoPackage, one shapefile of a pair, or a folder with network.gpkg or NAME_arcs.shp and NAME_nodes.shp
-(arcs.shp and nodes.shp do too). Nothing of thalweg is used: OGR reads, networkx walks, shapely finds crossings.
+(arcs.shp and nodes.shp do too). Heights are in the unit that the column z_unit names, in m without it. Nothing of thalweg is used: OGR reads, networkx walks, shapely finds crossings.
 Prints one JSON object and exits with 1 on any violation, 2 when there is nothing to check.
 """
 import math
@@ -31,7 +31,8 @@ NODE_FIELDS = {
     "text": ["kind"],
 }
 RIDGE_FIELDS = {"int": "ridge_id left right".split(), "real": "length z_min z_max".split()}
-OTHER_FIELDS = set("survives feature type braided given".split())
+OTHER_FIELDS = set("survives feature type braided given z_unit".split())
+UNITS = {"ft": 0.3048}
 TYPES = {"int": {ogr.OFTInteger, ogr.OFTInteger64}, "real": {ogr.OFTReal}, "text": {ogr.OFTString}}
 
 
@@ -73,6 +74,10 @@ def read(path, name, fields, shape, report):
     for field in own & set(columns):
         report.unless(len(field) <= 10, "field_name_too_long", f"{name}.{field}")
     wanted = []
+    has_unit = "z_unit" in columns
+    if has_unit:
+        kind = definition.GetFieldDefn(columns.index("z_unit")).GetType()
+        report.unless(kind in TYPES["text"], "field_type", f"{name}.z_unit")
     for kind, names in fields.items():
         for field in names:
             i = definition.GetFieldIndex(field)
@@ -97,6 +102,9 @@ def read(path, name, fields, shape, report):
         if geometry.GetGeometryType() != shape:
             report.fault("geometry_type", where)
             continue
+        unit = feature.GetField("z_unit") if has_unit else "m"
+        report.unless(not has_unit or unit in UNITS, "z_unit", f"{where}: {unit}")
+        row["unit"] = UNITS.get(unit, 1.0)
         row["xyz"] = geometry.GetPoints()
         if not all(math.isfinite(c) for p in row["xyz"] for c in p):
             report.fault("not_finite", where)
@@ -128,13 +136,14 @@ def check_shapes(arcs, nodes, report):
         report.unless(all(a >= b for a, b in zip(z, z[1:])), "uphill", f"arc {i}")
         report.unless(all(a != b for a, b in zip(plan, plan[1:])), "repeated_vertex", f"arc {i}")
         length = math.fsum(math.dist(a, b) for a, b in zip(plan, plan[1:]))
-        length_3d = math.fsum(math.dist(a, b) for a, b in zip(xyz, xyz[1:]))
+        metres = [(x, y, arc["unit"] * z) for x, y, z in xyz]
+        length_3d = math.fsum(math.dist(a, b) for a, b in zip(metres, metres[1:]))
         report.unless(length > 0, "no_length", f"arc {i}")
         for field, value in (("length", length), ("length_3d", length_3d), ("straight", math.dist(plan[0], plan[-1])),
                              ("z_up", z[0]), ("z_down", z[-1])):
             report.unless(near(arc[field], value), field, f"arc {i}: {arc[field]}, not {value}")
         if length > 0:
-            report.unless(abs(arc["slope"] - (z[0] - z[-1]) / length) <= 1e-9, "slope", f"arc {i}")
+            report.unless(abs(arc["slope"] - arc["unit"] * (z[0] - z[-1]) / length) <= 1e-9, "slope", f"arc {i}")
         report.unless(arc["us_area"] >= 0 and arc["ds_area"] >= 0, "area_below_zero", f"arc {i}")
         report.unless(len(plan) > 1 and LineString(plan).is_simple, "not_simple", f"arc {i}")
     for i, node in nodes.items():
@@ -267,6 +276,8 @@ def main(path):
     if not any(report.counts[kind] for kind in ("field_missing", "field_type", "null", "not_finite")):
         arcs = by_id(arc_rows, "arc_id", report)
         nodes = by_id(node_rows, "node_id", report)
+        units = {row["unit"] for row in arc_rows + node_rows + ridge_rows}
+        report.unless(len(units) <= 1, "several_units", sorted(units))
         check_shapes(arcs, nodes, report)
         check_crossings(arcs, nodes, report)
         answer.update(check_graph(arcs, nodes, report))

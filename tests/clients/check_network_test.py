@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """check_network_test.py NETWORK.gpkg: does check_network.py find each fault planted in a copy of a good network?
 
-Where the network has ridges, the faults are theirs alone.
+Where the network has ridges, the faults are theirs alone; where it names the unit of its heights, that unit's.
 Exits with 1 when a fault goes unseen or the network itself is not good.
 """
 import json
@@ -127,9 +127,25 @@ RIDGES_PLANTED = [
 ]
 
 
+UNITS_PLANTED = [
+    ("z_unit", sql("UPDATE arcs SET z_unit = 'yd' WHERE arc_id = 1")),
+    ("several_units", sql("ALTER TABLE nodes DROP COLUMN z_unit")),
+    ("length_3d", sql("ALTER TABLE arcs DROP COLUMN z_unit")),
+    ("slope", sql("ALTER TABLE arcs DROP COLUMN z_unit")),
+    ("slope", number("arcs", "slope", lambda v: v / 0.3048)),
+    ("field_type", sql("ALTER TABLE arcs DROP COLUMN z_unit", "ALTER TABLE arcs ADD COLUMN z_unit INTEGER DEFAULT 1")),
+]
+
+
+def planted_in(path):
+    dataset = ogr.Open(str(path))
+    if dataset.GetLayerByName("arcs").FindFieldIndex("z_unit", 1) >= 0:
+        return UNITS_PLANTED
+    return PLANTED if dataset.GetLayerByName("ridges") is None else RIDGES_PLANTED
+
+
 def main(path):
-    ridges = ogr.Open(str(path)).GetLayerByName("ridges") is not None
-    planted = RIDGES_PLANTED if ridges else PLANTED
+    planted = planted_in(path)
     unseen = [f"{path} itself has {fault}" for fault in sorted(faults_in(path))]
     with tempfile.TemporaryDirectory() as folder:
         for fault, plant in planted:

@@ -67,13 +67,13 @@ bool says(std::string const& text, std::string const& part) {
     return text.find(part) != std::string::npos;
 }
 
-Tin read_2dm(std::string const& text) {
+Tin read_2dm(std::string const& text, std::string const& title = "MESHNAME \"tin\"") {
     std::istringstream in(text);
     std::string line;
     std::getline(in, line);
     EXPECT_EQ(line, "MESH2D");
     std::getline(in, line);
-    EXPECT_EQ(line, "MESHNAME \"tin\"");
+    EXPECT_EQ(line, title);
     Tin tin;
     while (std::getline(in, line)) {
         std::istringstream card(line);
@@ -333,6 +333,34 @@ TEST(WriteTin, Las) {
         EXPECT_NEAR(las.points[i].y, tin.vertices[i].y, 0.0005 + 1e-9);
         EXPECT_NEAR(las.points[i].z, tin.vertices[i].z, 0.0005 + 1e-9);
         EXPECT_EQ(las.classes[i], 2); // ground
+    }
+}
+
+// Law: the unit of heights is said, and changes no coordinate; in metres nothing is said.
+TEST(WriteTin, HeightsInFeetAreSaid) {
+    ScratchFolder const folder;
+    Tin const tin = awkward();
+    auto const in_feet = [&](TinFormat format, std::string const& name) {
+        write_tin(tin, "EPSG:32631", folder / name, format, HeightUnit::foot);
+        return bytes_of(folder / name);
+    };
+    Tin const mesh = read_2dm(in_feet(TinFormat::mesh_2dm, "a.2dm"), "MESHNAME \"tin, heights in ft\"");
+    EXPECT_EQ(mesh.vertices, tin.vertices);
+    std::string const ply = in_feet(TinFormat::ply, "a.ply");
+    EXPECT_TRUE(says(ply, "\ncomment heights in ft\n"));
+    EXPECT_EQ(read_ply(ply).vertices, tin.vertices);
+    EXPECT_TRUE(says(in_feet(TinFormat::ply_points, "points.ply"), "\ncomment heights in ft\n"));
+    EXPECT_TRUE(says(in_feet(TinFormat::obj, "a.obj"), "\n# heights in ft\n"));
+    EXPECT_TRUE(says(in_feet(TinFormat::off, "a.off"), "\n# heights in ft\n"));
+    for (auto const& f : io::tin_formats()) {
+        std::string const name = std::string("metres") + f.ending;
+        write_tin(tin, "EPSG:32631", folder / name, f.format);
+        EXPECT_FALSE(says(bytes_of(folder / name), "heights in")) << f.name;
+        std::filesystem::remove(folder / name);
+    }
+    for (TinFormat const other : {TinFormat::geopackage, TinFormat::landxml, TinFormat::las, TinFormat::xyz}) {
+        EXPECT_THROW(in_feet(other, "b"), BadParameter);
+        EXPECT_FALSE(std::filesystem::exists(folder / "b"));
     }
 }
 

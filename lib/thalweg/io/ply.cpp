@@ -10,10 +10,13 @@
 namespace thalweg::io {
 
 void put_ply_header(std::string& bytes, std::string const& crs, std::uint64_t vertices,
-                    std::optional<std::uint64_t> faces) {
+                    std::optional<std::uint64_t> faces, HeightUnit unit) {
     bytes += "ply\nformat binary_little_endian 1.0\ncomment thalweg\n";
     if (!crs.empty()) {
         bytes += fmt::format("comment crs {}\n", one_line(crs));
+    }
+    if (unit != HeightUnit::metre) {
+        bytes += fmt::format("comment heights in {}\n", name_of(unit));
     }
     bytes += fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n", vertices);
     if (faces) {

@@ -61,8 +61,13 @@ void require_whole(Tin const& tin, std::string const& what) {
     }
 }
 
-void write_2dm(Bytes& out, Tin const& tin) {
-    out.text("MESH2D\nMESHNAME \"tin\"\n");
+/// "heights in ft" after some words; nothing for metres.
+std::string unit_after(std::string const& before, HeightUnit unit, char const* after) {
+    return unit == HeightUnit::metre ? "" : fmt::format("{}heights in {}{}", before, name_of(unit), after);
+}
+
+void write_2dm(Bytes& out, Tin const& tin, HeightUnit unit) {
+    out.text("MESH2D\nMESHNAME \"tin{}\"\n", unit_after(", ", unit, ""));
     for (std::size_t i = 0; auto const& t : tin.triangles) {
         out.text("E3T {} {} {} {} 1\n", ++i, t[0] + std::size_t{1}, t[1] + std::size_t{1}, t[2] + std::size_t{1});
     }
@@ -71,9 +76,9 @@ void write_2dm(Bytes& out, Tin const& tin) {
     }
 }
 
-void write_ply(Bytes& out, Tin const& tin, std::string const& crs, bool faces) {
+void write_ply(Bytes& out, Tin const& tin, std::string const& crs, bool faces, HeightUnit unit) {
     put_ply_header(out.bytes(), crs, tin.vertices.size(),
-                   faces ? std::optional<std::uint64_t>(tin.triangles.size()) : std::nullopt);
+                   faces ? std::optional<std::uint64_t>(tin.triangles.size()) : std::nullopt, unit);
     for (Vec3 const& v : tin.vertices) {
         put_ply_vertex(out.bytes(), v);
     }
@@ -87,11 +92,12 @@ void write_ply(Bytes& out, Tin const& tin, std::string const& crs, bool faces) {
     }
 }
 
-void write_obj(Bytes& out, Tin const& tin, std::string const& crs) {
+void write_obj(Bytes& out, Tin const& tin, std::string const& crs, HeightUnit unit) {
     out.text("# thalweg\n");
     if (!crs.empty()) {
         out.text("# crs {}\n", one_line(crs));
     }
+    out.text("{}", unit_after("# ", unit, "\n"));
     for (auto const& v : tin.vertices) {
         out.text("v {} {} {}\n", v.x, v.y, v.z);
     }
@@ -100,11 +106,12 @@ void write_obj(Bytes& out, Tin const& tin, std::string const& crs) {
     }
 }
 
-void write_off(Bytes& out, Tin const& tin, std::string const& crs) {
+void write_off(Bytes& out, Tin const& tin, std::string const& crs, HeightUnit unit) {
     out.text("OFF\n");
     if (!crs.empty()) {
         out.text("# crs {}\n", one_line(crs));
     }
+    out.text("{}", unit_after("# ", unit, "\n"));
     out.text("{} {} 0\n", tin.vertices.size(), tin.triangles.size());
     for (auto const& v : tin.vertices) {
         out.text("{} {} {}\n", v.x, v.y, v.z);
@@ -221,19 +228,26 @@ TinFormat tin_format(std::string const& name, std::string const& path) {
     return format_of(tin_formats(), name, path, "io.write_tin");
 }
 
-void write_tin(Tin const& tin, std::string const& crs, std::string const& path, TinFormat format, Run const& run) {
+void write_tin(Tin const& tin, std::string const& crs, std::string const& path, TinFormat format, HeightUnit unit,
+               Run const& run) {
     require_whole(tin, "io.write_tin: " + path);
+    bool const keeps_unit = format == TinFormat::mesh_2dm || format == TinFormat::ply ||
+                            format == TinFormat::ply_points || format == TinFormat::obj || format == TinFormat::off;
+    if (unit != HeightUnit::metre && !keeps_unit) {
+        throw BadParameter(
+            fmt::format("io.write_tin: {}: this format holds heights in metres, not in {}", path, name_of(unit)));
+    }
     run.check();
     Bytes out;
     switch (format) {
-    case TinFormat::mesh_2dm: write_2dm(out, tin); break;
-    case TinFormat::ply: write_ply(out, tin, crs, true); break;
+    case TinFormat::mesh_2dm: write_2dm(out, tin, unit); break;
+    case TinFormat::ply: write_ply(out, tin, crs, true, unit); break;
     case TinFormat::geopackage: write_tables({faces_table(tin)}, crs, path, run); return;
-    case TinFormat::obj: write_obj(out, tin, crs); break;
-    case TinFormat::off: write_off(out, tin, crs); break;
+    case TinFormat::obj: write_obj(out, tin, crs, unit); break;
+    case TinFormat::off: write_off(out, tin, crs, unit); break;
     case TinFormat::landxml: write_landxml(out, tin, crs); break;
     case TinFormat::las: write_las(out, tin, crs); break;
-    case TinFormat::ply_points: write_ply(out, tin, crs, false); break;
+    case TinFormat::ply_points: write_ply(out, tin, crs, false, unit); break;
     case TinFormat::xyz: write_xyz(out, tin); break;
     }
     write_text(path, out.str());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/run.hpp>
 #include <thalweg/core/tin.hpp>
 
@@ -36,13 +37,16 @@ std::vector<TinFormatName> const& tin_formats();
 TinFormat tin_format(std::string const& name, std::string const& path);
 
 /// Writes a TIN as a new file.
-/// Takes: a TIN; crs as in Grid, kept by ply, obj, off (comment), geopackage, landxml and las (EPSG code), "" for none.
+/// Takes: a TIN; crs as in Grid, kept by ply, obj, off (comment), geopackage, landxml and las (EPSG code), "" for none;
+/// the unit of its heights, which 2dm (name of the mesh), ply, obj and off (comment) keep: other formats hold metres.
 /// Gives: coordinates that read back bit for bit, in LAS within half a millimetre (of extents beyond 4000 km: half the
 /// least power of ten that fits); vertex i of the TIN is number i of the file, from 1 in 2dm, obj, landxml and the
 /// fields of geopackage, from 0 in ply and off. The same bytes for the same TIN, on any day.
-/// Throws: BadInput naming the vertex or triangle when a coordinate is not finite, a vertex is not there or the format
-/// cannot number so many; IoError, also when the file exists; Cancelled.
-/// Source: Aquaveo, 2DM files; Turk 1994, The PLY polygon file format; ASPRS LAS 1.2; LandXML-1.2.xsd.
-void write_tin(Tin const& tin, std::string const& crs, std::string const& path, TinFormat format, Run const& run = {});
+/// Throws: BadParameter when the format does not keep the unit; BadInput naming the vertex or triangle when a
+/// coordinate is not finite, a vertex is not there or the format cannot number so many; IoError, also when the file
+/// exists; Cancelled. Source: Aquaveo, 2DM files; Turk 1994, The PLY polygon file format; ASPRS LAS 1.2;
+/// LandXML-1.2.xsd.
+void write_tin(Tin const& tin, std::string const& crs, std::string const& path, TinFormat format,
+               HeightUnit unit = HeightUnit::metre, Run const& run = {});
 
 } // namespace thalweg::io

@@ -231,9 +231,10 @@ std::vector<std::string> write_terrain(Terrain const& terrain, std::string const
         write_network(terrain, out, run);
     }
     if (terrain.tin && terrain.recipe.skeleton && terrain.recipe.skeleton->tin) {
-        Tin const tin = in_unit(*terrain.tin, terrain.recipe.output.units);
-        io::write_tin(tin, terrain.grid.crs, out.path("tin.2dm"), io::TinFormat::mesh_2dm, run);
-        io::write_tin(tin, terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, run);
+        HeightUnit const unit = terrain.recipe.output.units;
+        Tin const tin = in_unit(*terrain.tin, unit);
+        io::write_tin(tin, terrain.grid.crs, out.path("tin.2dm"), io::TinFormat::mesh_2dm, unit, run);
+        io::write_tin(tin, terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, unit, run);
     }
     run.at(0.3, "write");
     std::string const title = title_of(terrain.recipe);
