@@ -252,3 +252,19 @@ TEST(GivenRivers, TheCrsIsAsked) {
     refused(place, "'" + walker + "' --crs EPSG:2227", "US survey foot");
     refused(place, "'" + walker + "' --crs nonsense", "is not a coordinate system");
 }
+
+TEST(GivenRivers, CoarserCellsHaveGentlerSlopes) {
+    Workplace const place;
+    auto const slope_at = [&](std::string const& cell) {
+        Outcome const o = thalweg_run("make '" + walker + "' -o out" + cell + " --set grid.cell=" + cell, place.path());
+        EXPECT_EQ(o.code, 0) << o.err;
+        json const report = json::parse(file_bytes(place / ("out" + cell) / "report.json"));
+        return report["recipe"]["surface"]["mean_slope"].get<double>();
+    };
+    EXPECT_EQ(slope_at("30"), 25.0);
+    EXPECT_EQ(slope_at("75"), 22.5);
+    EXPECT_EQ(slope_at("300"), 16.0);
+    Outcome const high = thalweg_run("make '" + walker + "' --set surface.relief=12000 -o high", place.path());
+    EXPECT_EQ(high.code, 0);
+    EXPECT_NE(high.err.find("warning: the terrain is 12000 m high"), std::string::npos) << high.err;
+}

@@ -159,6 +159,22 @@ void tell(Terrain& terrain, surface::EquilibriumLand const& land, Channels const
     story.rise = land.rise;
 }
 
+void warn_of_heights(Raster<float> const& dem, Run const& run) {
+    constexpr float most_m = 9000.0F;
+    float low = std::numeric_limits<float>::infinity();
+    float high = -low;
+    for (float const z : dem.values()) {
+        low = z < low ? z : low;
+        high = z > high ? z : high;
+    }
+    if (high - low > most_m) {
+        run.say(
+            fmt::format("warning: the terrain is {:.0f} m high, higher than any on Earth. --set surface.relief=1000 "
+                        "gives it a height of 1000 m.",
+                        high - low));
+    }
+}
+
 /// Lays the lakes that are asked for into the channels.
 void flood(Terrain& terrain, network::ChannelsOfArcs& rivers, Run const& run) {
     Raster<std::int32_t> const labels = lakes_of(terrain, rivers, run);
@@ -201,6 +217,7 @@ void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run) {
                                     run);
     });
     tell(terrain, land, rivers.channels);
+    warn_of_heights(land.dem, run);
     if (!land.shortened.empty()) {
         network::Shortened shortened = network::shorten(terrain.network.plan, rivers, land.shortened);
         take_notes(terrain, shortened.notes);

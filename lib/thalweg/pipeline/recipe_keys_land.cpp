@@ -67,7 +67,8 @@ void add_diffusion_keys(std::vector<Key>& keys) {
 void add_equilibrium_keys(std::vector<Key>& keys) {
     using surface::Edge;
     using MaybeEdge = std::optional<Edge>;
-    keys.push_back(maybe("surface.mean_slope", "degrees", {0, 60, true}, "mean slope of the terrain; left out: 25",
+    keys.push_back(maybe("surface.mean_slope", "degrees", {0, 60, true},
+                         "mean slope of the terrain; left out: 25, around rivers of a file less on cells above 30 m",
                          in_surface<std::optional<double>>(
                              [](SurfaceRecipe& s) -> std::optional<double>& { return s.equilibrium.mean_slope_deg; })));
     keys.push_back(number("surface.hillslope", "m", {0, 1e5},
