@@ -268,3 +268,24 @@ TEST(GivenRivers, CoarserCellsHaveGentlerSlopes) {
     EXPECT_EQ(high.code, 0);
     EXPECT_NE(high.err.find("warning: the terrain is 12000 m high"), std::string::npos) << high.err;
 }
+
+TEST(GivenRivers, ATributaryThatDoesNotQuiteMeetItsRiverIsSaid) {
+    Workplace const place;
+    auto const line = [](std::string const& vertices) {
+        return R"({"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[)" + vertices +
+               "]}}";
+    };
+    place.write(
+        "gap.geojson",
+        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32631"}},)"
+        R"("features":[)" +
+            line("[500000,5005000],[505000,5004000],[510000,5005000]") + "," +
+            line("[505000,5009000],[505000,5004070]") + "]}");
+    Outcome const o = thalweg_run("make gap.geojson --set grid.cell=50 -o out", place.path());
+    EXPECT_NE(o.err.find("warning: 1 river ends within 2 cells"), std::string::npos) << o.err;
+    Outcome const joined =
+        thalweg_run("make gap.geojson --set grid.cell=50 --set network.lines.snap=100 -o joined", place.path());
+    EXPECT_EQ(joined.code, 0) << joined.err;
+    EXPECT_EQ(joined.err.find("within 2 cells"), std::string::npos) << joined.err;
+    EXPECT_EQ(report_of(place / "joined")["network"]["outlets"], 1);
+}

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/plan_rivers.hpp>
 
+#include <thalweg/core/cells_along.hpp>
+#include <thalweg/core/cells_around.hpp>
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/projection.hpp>
@@ -110,6 +112,36 @@ std::vector<Finding> left_out(RiverLines const& lines) {
                             fmt::format("line {} is not a river: {}", one.feature, one.reason)});
     }
     return findings;
+}
+
+/// A word where rivers end so near to the course of others, not to their mouths, that they were meant to meet them.
+void warn_of_gaps(StreamNetwork const& network, Grid const& grid, Run const& run) {
+    constexpr std::int64_t near_cells = 2;
+    constexpr std::int64_t mouth_cells = 5;
+    NetworkIndex const index(network);
+    Raster<std::int64_t> basin(grid, 0);
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        for (Cell const c : cells_along(network[index.arcs[a]].line, grid, "a river")) {
+            basin[c] = index.basin[index.to[a]];
+        }
+    }
+    auto const end_of = [&](NodeId outlet) { return cells_along({network[outlet].at}, grid).front(); };
+    std::int64_t gaps = 0;
+    for (NodeId const outlet : index.outlets) {
+        bool is_near = false;
+        cells_around(grid, end_of(outlet), near_cells, [&](Cell c) {
+            if (basin[c] != 0 && basin[c] != index.basin[outlet]) {
+                Cell const mouth = end_of(index.outlets[static_cast<std::size_t>(basin[c] - 1)]);
+                is_near = is_near || squared_cells(mouth, end_of(outlet)) > mouth_cells * mouth_cells;
+            }
+        });
+        gaps += is_near ? 1 : 0;
+    }
+    if (gaps > 0) {
+        run.say(fmt::format("warning: {} within {} cells of another river without meeting it. If they should meet: "
+                            "--set network.lines.snap={}.",
+                            gaps, near_cells, static_cast<double>(near_cells) * grid.cell_m));
+    }
 }
 
 /// The land beside the sea that coastlines of a file bound; without cells where there is none.
@@ -230,6 +262,7 @@ Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& ru
     diary.say(fmt::format("{} arcs, {} repairs{}", boost::num_edges(adopted.network), terrain.story.repairs.size(),
                           terrain.secondary.empty() ? "" : fmt::format(", {} secondary", terrain.secondary.size())));
 
+    warn_of_gaps(adopted.network, grid, run);
     Planned planned{std::move(adopted.network), grid, {}};
     if (wanted.coastlines == Coastlines::sea) {
         planned.land = land_of_coastlines(lines, grid, diary, run);
