@@ -140,7 +140,8 @@ void warn_of_gaps(StreamNetwork const& network, Grid const& grid, Run const& run
     if (gaps > 0) {
         run.say(fmt::format("warning: {} within {} cells of another river without meeting it. If they should meet: "
                             "--set network.lines.snap={}.",
-                            gaps, near_cells, static_cast<double>(near_cells) * grid.cell_m));
+                            gaps == 1 ? "1 river ends" : fmt::format("{} rivers end", gaps), near_cells,
+                            static_cast<double>(near_cells) * grid.cell_m));
     }
 }
 
