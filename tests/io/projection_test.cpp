@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/projection.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -111,4 +112,25 @@ TEST(Driver, KeepsErrorsUntilTheyAreAskedFor) {
 
 TEST(Driver, SaysItsVersion) {
     EXPECT_EQ(io::gdal_version().substr(0, 6), "GDAL 3");
+}
+
+TEST(Projection, UtmStretchesFarFromItsCentralMeridian) {
+    // Of zone 33, whose central meridian is 15 degrees east, scaled by 0.9996.
+    EXPECT_EQ(io::utm_stretch("EPSG:32633", {15.0, 45.0, 15.0, 46.0}), 0.0);
+    EXPECT_NEAR(io::utm_stretch("EPSG:32633", {12.0, 0.0, 18.0, 10.0}), 0.00097, 1e-5);
+    EXPECT_NEAR(io::utm_stretch("EPSG:32633", {-15.0, 0.0, 15.0, 1.0}), 0.9996 / std::sqrt(0.75) - 1.0, 1e-12);
+    // The latitude nearest to the equator counts, and both sides.
+    EXPECT_EQ(io::utm_stretch("EPSG:32633", {0.0, -5.0, 20.0, 60.0}),
+              io::utm_stretch("EPSG:32733", {0.0, 0.0, 1.0, 0.0}));
+    EXPECT_LT(io::utm_stretch("EPSG:32633", {0.0, 60.0, 20.0, 70.0}), 0.009);
+    // Round the globe, and a quarter of it away.
+    EXPECT_EQ(io::utm_stretch("EPSG:32601", {179.0, 50.0, 181.0, 51.0}),
+              io::utm_stretch("EPSG:32601", {-181.0, 50.0, -179.0, 51.0}));
+    EXPECT_EQ(io::utm_stretch("EPSG:32633", {-100.0, 0.0, 15.0, 1.0}), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(io::utm_stretch("EPSG:3035", {-60.0, 0.0, 60.0, 10.0}), 0.0);
+    EXPECT_EQ(io::utm_number("EPSG:32660"), 60);
+    EXPECT_EQ(io::utm_number("EPSG:32701"), 1);
+    for (char const* const other : {"EPSG:32661", "EPSG:32700", "EPSG:32600", "EPSG:4326", "", "PROJCS[]"}) {
+        EXPECT_FALSE(io::utm_number(other)) << other;
+    }
 }

@@ -17,6 +17,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/driver.hpp>
+#include <thalweg/io/projection.hpp>
 #include <thalweg/network/adopt.hpp>
 
 using namespace thalweg;
@@ -277,6 +278,26 @@ TEST_F(ReadRivers, GeographicGoesToItsUtmZone) {
         io::read_rivers({.path = write("b.gpkg", {{.epsg = 4326, .features = {{"LINESTRING(15 -45,15 -45.01)"}}}})})
             .crs,
         "EPSG:32733");
+}
+
+TEST_F(ReadRivers, WideExtentsGoToAnEqualAreaProjection) {
+    // 10 degrees around the middle: a zone; 25 degrees, and lengths in it would be up to 5 % too long.
+    auto const zone = write("a.gpkg", {{.epsg = 4326, .features = {{"LINESTRING(0 45,20 45)"}}}});
+    EXPECT_EQ(io::read_rivers({.path = zone}).crs, "EPSG:32632");
+    auto const wide = write("b.gpkg", {{.epsg = 4326, .features = {{"LINESTRING(-10 48,40 48)"}}}});
+    auto const rivers = io::read_rivers({.path = wide});
+    EXPECT_TRUE(has(rivers.crs, "Equal area around 15, 48")) << rivers.crs;
+    auto const& line = rivers.lines[0].vertices;
+    EXPECT_NEAR(line.front().x, -line.back().x, 1e-5); // the middle is the origin
+    EXPECT_EQ(io::projected_crs(rivers.crs), rivers.crs);
+    EXPECT_EQ(io::read_rivers({.path = wide, .crs = "EPSG:3035"}).crs, "EPSG:3035");
+    // As far at 70 degrees north is less far.
+    auto const north = write("c.gpkg", {{.epsg = 4326, .features = {{"LINESTRING(-5 70,35 70)"}}}});
+    EXPECT_EQ(io::read_rivers({.path = north}).crs, "EPSG:32633");
+    auto const across = write(
+        "d.gpkg", {{.epsg = 4326, .features = {{"LINESTRING(179 60,179.5 61)"}, {"LINESTRING(-179 60,-179.5 61)"}}}});
+    std::string const refused = refusal({.path = across});
+    EXPECT_TRUE(has(refused, "over 359 degrees of longitude") && has(refused, "--crs")) << refused;
 }
 
 TEST_F(ReadRivers, FeetGoToTheUtmZone) {

@@ -157,6 +157,47 @@ TEST(Units, TerrainInFeetIsTheTerrainInMetres) {
     EXPECT_EQ(thalweg_run("replay ft --verify", place.path()).code, 0);
 }
 
+/// A river along a parallel, with a tributary, in degrees.
+std::string along_parallel(double west, double east) {
+    json file{{"type", "FeatureCollection"}, {"features", json::array()}};
+    auto const add = [&](json const& coordinates) {
+        file["features"].push_back({{"type", "Feature"},
+                                    {"properties", json::object()},
+                                    {"geometry", {{"type", "LineString"}, {"coordinates", coordinates}}}});
+    };
+    double const middle = 0.5 * (west + east);
+    add({{west, 46.0}, {0.5 * (west + middle), 46.4}, {middle, 46.1}});
+    add({{middle, 46.1}, {0.5 * (middle + east), 46.5}, {east, 46.0}});
+    add({{middle - 1.0, 49.0}, {middle, 46.1}});
+    return file.dump();
+}
+
+TEST(Units, WideExtentsAreWarnedOfOrGetAnotherProjection) {
+    Workplace const place;
+    place.write("narrow.geojson", along_parallel(6.0, 12.0));
+    place.write("wide.geojson", along_parallel(0.0, 20.0));
+    place.write("wider.geojson", along_parallel(-10.0, 40.0));
+    auto const words_of = [&](std::string const& name) {
+        Outcome const o = thalweg_run("make " + name + ".geojson -o " + name + " --set grid.cell=10000", place.path());
+        EXPECT_EQ(o.code, 0) << o.err;
+        EXPECT_EQ(thalweg_run("check " + name + " --dem " + name + "/dem.tif", place.path()).code, 0) << name;
+        EXPECT_EQ(thalweg_run("replay " + name + " --verify", place.path()).code, 0) << name;
+        return o.err;
+    };
+    EXPECT_EQ(words_of("narrow").find("beyond its UTM zone"), std::string::npos);
+    std::string const wide = words_of("wide");
+    EXPECT_NE(wide.find("warning: the grid reaches far beyond its UTM zone EPSG:32632"), std::string::npos) << wide;
+    EXPECT_NE(wide.find("--crs"), std::string::npos) << wide;
+    EXPECT_TRUE(tells(json::parse(file_bytes(place / "wide/report.json")), "too long there"));
+    std::string const wider = words_of("wider");
+    EXPECT_NE(wider.find("reprojected into Equal area around 15, 48"), std::string::npos) << wider;
+    EXPECT_EQ(wider.find("beyond its UTM zone"), std::string::npos) << wider;
+    // The folder's own rivers make the same terrain, and other formats hold the projection.
+    EXPECT_EQ(thalweg_run("make wider -o again --set grid.cell=10000", place.path()).code, 0);
+    EXPECT_EQ(thalweg_run("convert wider -o wider.shp --schema hydrorivers", place.path()).code, 0);
+    EXPECT_EQ(thalweg_run("check wider.shp", place.path()).code, 0);
+}
+
 TEST(Units, WhatIsInFeetIsReadAsSuch) {
     Workplace const place;
     std::string const rivers = "'" + walker + "' --set grid.cell=60 -q";

@@ -3,6 +3,7 @@
 #include <thalweg/io/into_metres.hpp>
 
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/vec.hpp>
+#include <thalweg/io/driver.hpp>
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/spatial_reference.hpp>
 
@@ -19,8 +21,27 @@ namespace {
 
 using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
 
-// The UTM zone of a position.
-std::string zone_of(Vec2 at, OGRSpatialReference const& from, std::string const& name) {
+constexpr double most_stretch = 0.04;
+
+// Nothing where a corner has no place on the globe.
+std::optional<DegreeBox> degrees_of(FileBox const& box, OGRCoordinateTransformation& turn) {
+    constexpr int points_a_side = 21;
+    Driver const driver; // that there is none is no error
+    DegreeBox degrees;
+    bool const done = turn.TransformBounds(box.low.x, box.low.y, box.high.x, box.high.y, &degrees.west, &degrees.south,
+                                           &degrees.east, &degrees.north, points_a_side) != 0;
+    bool const on_earth = done && std::fabs(degrees.west) <= 360.0 && std::fabs(degrees.east) <= 360.0 &&
+                          std::fabs(degrees.south) <= 90.0 && std::fabs(degrees.north) <= 90.0;
+    if (!on_earth) {
+        return std::nullopt;
+    }
+    degrees.east += degrees.east < degrees.west ? 360.0 : 0.0; // across the antimeridian
+    return degrees;
+}
+
+// The UTM zone of the middle, or of wide extents an equal-area projection.
+std::string zone_of(FileBox const& box, OGRSpatialReference const& from, std::string const& name) {
+    Vec2 const at{0.5 * (box.low.x + box.high.x), 0.5 * (box.low.y + box.high.y)};
     OGRSpatialReference const geographic = read_reference("EPSG:4326");
     Transformation const turn(OGRCreateCoordinateTransformation(&from, &geographic));
     Vec2 turned = at;
@@ -32,7 +53,19 @@ std::string zone_of(Vec2 at, OGRSpatialReference const& from, std::string const&
                         "CRS, {}; check both",
                         name, at.x, at.y, from.GetName()));
     }
-    return utm_zone(turned.x, turned.y);
+    auto const degrees = degrees_of(box, *turn);
+    bool const has_zone = turned.y >= -80.0 && turned.y <= 84.0;
+    if (!has_zone || !degrees || utm_stretch(utm_zone(turned.x, turned.y), *degrees) <= most_stretch) {
+        return utm_zone(turned.x, turned.y);
+    }
+    if (degrees->east - degrees->west > 180.0) {
+        throw BadInput(
+            fmt::format("io.into_metres: {} reaches over {:.0f} degrees of longitude, from {:.4g} to {:.4g}: "
+                        "no projection in metres serves all of it. Cut a part out (ogr2ogr -clipsrc), or "
+                        "name a CRS (--crs)",
+                        name, degrees->east - degrees->west, degrees->west, degrees->east));
+    }
+    return name_of(equal_area_around(std::round(turned.x), std::round(turned.y)));
 }
 
 // PROJ's last bits differ between machines: a millionth of a metre does not.
@@ -47,7 +80,8 @@ struct IntoMetres::Turn {
     Transformation into;
 };
 
-IntoMetres::IntoMetres(OGRSpatialReference const& own, std::string const& wanted, Vec2 middle, std::string const& name)
+IntoMetres::IntoMetres(OGRSpatialReference const& own, std::string const& wanted, FileBox const& box,
+                       std::string const& name)
     : turn_(std::make_unique<Turn>()) {
     OGRSpatialReference from(own);
     height_unit_m_ = from.IsCompound() != 0 ? from.GetTargetLinearUnits("VERT_CS") : 1.0;
@@ -55,7 +89,7 @@ IntoMetres::IntoMetres(OGRSpatialReference const& own, std::string const& wanted
     from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     crs_ = !wanted.empty()                ? projected_crs(wanted)
            : is_projected_in_metres(from) ? name_of(from)
-                                          : zone_of(middle, from, name);
+                                          : zone_of(box, from, name);
     if (crs_ == name_of(from)) {
         return;
     }

@@ -17,13 +17,20 @@ namespace thalweg::io {
 /// Whether a layer has no CRS, or one that says so (a GeoPackage without CRS has one that is named "Undefined").
 bool is_missing(OGRSpatialReference const* reference);
 
+/// What is read of a file, in its coordinates.
+struct FileBox {
+    Vec2 low;
+    Vec2 high;
+};
+
 /// A projection from a file's CRS into one in metres. Needs a Driver that outlives it.
 class IntoMetres {
 public:
     /// Takes: the file's CRS; the one wanted, "" for the file's own when it is projected in metres, else the UTM zone
-    /// of a position in the middle, in the file's coordinates. Throws: BadInput when there is none: "io.into_metres:
-    /// name ...".
-    IntoMetres(OGRSpatialReference const& own, std::string const& wanted, Vec2 middle, std::string const& name);
+    /// of the middle of what is read, in the file's coordinates; where that lengthens lines by more than 4 %, Lambert's
+    /// azimuthal equal-area projection around the middle. Throws: BadInput when there is none, or more than 180 degrees
+    /// of longitude are read: "io.into_metres: name ...".
+    IntoMetres(OGRSpatialReference const& own, std::string const& wanted, FileBox const& box, std::string const& name);
     ~IntoMetres();
     IntoMetres(IntoMetres const&) = delete;
     IntoMetres& operator=(IntoMetres const&) = delete;

@@ -3,6 +3,7 @@
 #include <thalweg/io/places_on_earth.hpp>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include <fmt/format.h>
@@ -51,6 +52,18 @@ bool overlap_on_earth(Grid const& a, Grid const& b, std::string const& of_a, std
         overlaps = overlaps || (p.west < q.east + turn && q.west + turn < p.east);
     }
     return overlaps && p.south < q.north && q.south < p.north;
+}
+
+double zone_stretch(Grid const& grid) {
+    if (!utm_number(grid.crs)) {
+        return 0.0;
+    }
+    try {
+        Degrees const box = box_of(grid, "the grid");
+        return utm_stretch(grid.crs, {box.west, box.south, box.east, box.north});
+    } catch (BadInput const&) { // as far away as that
+        return std::numeric_limits<double>::infinity();
+    }
 }
 
 std::string metric_crs(Grid const& grid, std::string const& what) {

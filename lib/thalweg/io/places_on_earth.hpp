@@ -16,4 +16,7 @@ bool overlap_on_earth(Grid const& a, Grid const& b, std::string const& of_a, std
 /// of its middle. Takes: a grid with a CRS. Throws: BadInput when the middle is in no UTM zone.
 std::string metric_crs(Grid const& grid, std::string const& what);
 
+/// By how much a grid's UTM zone lengthens lines at most: 0.01 is 1 %. 0 for a grid in another CRS or in none.
+double zone_stretch(Grid const& grid);
+
 } // namespace thalweg::io

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace thalweg::io {
@@ -14,5 +15,20 @@ std::string projected_crs(std::string const& text);
 /// The UTM zone (WGS 84) of a geographic position, as "EPSG:326zz" or "EPSG:327zz".
 /// Takes: latitude within [-80, 84]; zones are 6 degrees wide everywhere. Throws BadInput elsewhere.
 std::string utm_zone(double longitude_deg, double latitude_deg);
+
+/// The number of a UTM zone (WGS 84), 1 to 60, of "EPSG:326zz" or "EPSG:327zz"; nothing of another CRS.
+std::optional<int> utm_number(std::string const& crs);
+
+/// A box of longitudes and latitudes [degrees], west <= east, south <= north.
+struct DegreeBox {
+    double west = 0.0;
+    double south = 0.0;
+    double east = 0.0;
+    double north = 0.0;
+};
+
+/// By how much a UTM zone lengthens a line at most, anywhere in a box: 0.01 is 1 %; another CRS by 0. Source: Snyder
+/// 1987, Map Projections, eq. 8-4 (of the sphere).
+double utm_stretch(std::string const& crs, DegreeBox const& box);
 
 } // namespace thalweg::io

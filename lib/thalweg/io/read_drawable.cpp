@@ -76,12 +76,7 @@ OGRSpatialReference projection_for(GDALDataset& dataset, Frame const& frame, std
     if (wide_deg <= widest_zone_deg && middle.y > -80.0 && middle.y < 84.0) {
         return read_reference(utm_zone(middle.x, middle.y));
     }
-    OGRSpatialReference centred;
-    centred.SetProjCS(fmt::format("Equal area around {:.0f}, {:.0f}", middle.x, middle.y).c_str());
-    centred.SetWellKnownGeogCS("WGS84");
-    centred.SetLAEA(middle.y, middle.x, 0.0, 0.0);
-    centred.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    return centred;
+    return equal_area_around(middle.x, middle.y);
 }
 
 struct Warped {

@@ -15,6 +15,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/suggest.hpp>
+#include <thalweg/io/crs_text.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/into_metres.hpp>
 #include <thalweg/io/read_network_arcs.hpp>
@@ -57,7 +58,7 @@ Wish wish_of(ReadNetworkParams const& params) {
     return wish;
 }
 
-Vec2 middle_of(NetworkFile const& file) {
+FileBox extent_of(NetworkFile const& file) {
     Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     Vec2 high{-low.x, -low.y};
     for (FileArc const& arc : file.arcs) {
@@ -68,7 +69,7 @@ Vec2 middle_of(NetworkFile const& file) {
             }
         }
     }
-    return {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)};
+    return {low, high};
 }
 
 /// Brings heights into metres, from the unit that the layer of arcs says.
@@ -110,12 +111,12 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes,
         }
         return;
     }
-    Vec2 const middle = middle_of(file);
-    if (!std::isfinite(middle.x)) { // nothing is anywhere
+    FileBox const box = extent_of(file);
+    if (!std::isfinite(box.low.x)) { // nothing is anywhere
         file.crs = name_of(*own);
         return;
     }
-    IntoMetres const metres(*own, wanted, middle, arcs.what);
+    IntoMetres const metres(*own, wanted, box, arcs.what);
     file.crs = metres.crs();
     auto const move = [&](std::span<Vec3> points) {
         auto const done = metres.apply(points);
@@ -136,11 +137,12 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes,
     for (NetworkFile::FileNode& node : file.nodes) {
         move({&node.at, 1});
     }
-    notes.add(arcs.what, {"reprojected",
-                          0,
-                          {},
-                          0.0,
-                          fmt::format("its coordinates were reprojected from {} to {}", own->GetName(), file.crs)});
+    notes.add(arcs.what,
+              {"reprojected",
+               0,
+               {},
+               0.0,
+               fmt::format("its coordinates were reprojected from {} to {}", own->GetName(), in_message(file.crs))});
 }
 
 void take_nodes(NetworkFile& file, std::optional<Layer> const& nodes, Layer const& arcs, std::string const& source_name,

@@ -206,10 +206,10 @@ std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::str
     return points;
 }
 
-Vec2 middle_of(std::vector<Vec3> const& points) {
+FileBox extent_of(std::vector<Vec3> const& points) {
     auto const [west, east] = std::ranges::minmax_element(points, {}, &Vec3::x);
     auto const [south, north] = std::ranges::minmax_element(points, {}, &Vec3::y);
-    return {0.5 * (west->x + east->x), 0.5 * (south->y + north->y)};
+    return {{west->x, south->y}, {east->x, north->y}};
 }
 
 FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name, Run const& run) {
@@ -231,7 +231,7 @@ FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name
         read.crs = projected_crs(params.crs);
         return read;
     }
-    IntoMetres const metres(*own, params.crs, middle_of(read.points), name);
+    IntoMetres const metres(*own, params.crs, extent_of(read.points), name);
     read.crs = metres.crs();
     auto const done = metres.apply(read.points);
     for (std::size_t i = 0; i < done.size(); ++i) {

@@ -189,8 +189,7 @@ std::string crs_for_polygons(std::string const& path) {
         refuse_polygons(fmt::format("layer {} of {} has no CRS or no polygons; assign one (ogr2ogr -a_srs EPSG:n)",
                                     layer.GetName(), name));
     }
-    Vec2 const middle{0.5 * (box.MinX + box.MaxX), 0.5 * (box.MinY + box.MaxY)};
-    return IntoMetres(*layer.GetSpatialRef(), "", middle, name).crs();
+    return IntoMetres(*layer.GetSpatialRef(), "", {{box.MinX, box.MinY}, {box.MaxX, box.MaxY}}, name).crs();
 }
 
 Polygons read_polygons(std::string const& path, std::string const& crs, Run const& run) {

@@ -241,9 +241,9 @@ Box box_of(std::vector<RiverLine> const& lines) {
     return box;
 }
 
-Vec2 middle_of(std::vector<RiverLine> const& lines) {
+FileBox extent_of(std::vector<RiverLine> const& lines) {
     Box const box = box_of(lines);
-    return {0.5 * (box.west + box.east), 0.5 * (box.south + box.north)};
+    return {{box.west, box.south}, {box.east, box.north}};
 }
 
 void bring(std::vector<RiverLine>& lines, IntoMetres const& metres, std::string const& name, Driver const& driver,
@@ -326,7 +326,7 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         refuse_rivers(
             fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
     }
-    IntoMetres const metres(*own, params.crs, middle_of(rivers.lines), name);
+    IntoMetres const metres(*own, params.crs, extent_of(rivers.lines), name);
     rivers.crs = metres.crs();
     double const unit = height_unit_of(layer);
     for (auto* const lines : {&rivers.lines, &read.unnatural}) {

@@ -41,6 +41,15 @@ OGRSpatialReference read_reference(std::string const& text) {
     return reference;
 }
 
+OGRSpatialReference equal_area_around(double longitude_deg, double latitude_deg) {
+    OGRSpatialReference centred;
+    centred.SetProjCS(fmt::format("Equal area around {:.0f}, {:.0f}", longitude_deg, latitude_deg).c_str());
+    centred.SetWellKnownGeogCS("WGS84");
+    centred.SetLAEA(latitude_deg, longitude_deg, 0.0, 0.0);
+    centred.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return centred;
+}
+
 std::string name_of(OGRSpatialReference const& reference) {
     auto const code_of = [](OGRSpatialReference const& r) -> std::string {
         char const* const authority = r.GetAuthorityName(nullptr);

@@ -13,6 +13,9 @@ namespace thalweg::io {
 /// Throws BadInput when it is none.
 OGRSpatialReference read_reference(std::string const& text);
 
+/// Lambert's azimuthal equal-area projection (WGS 84) around a place.
+OGRSpatialReference equal_area_around(double longitude_deg, double latitude_deg);
+
 /// "EPSG:n" where it has a code, else WKT.
 std::string name_of(OGRSpatialReference const& reference);
 

@@ -3,6 +3,7 @@
 #include <thalweg/pipeline/conversions.hpp>
 
 #include <thalweg/io/conversions.hpp>
+#include <thalweg/io/places_on_earth.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/pipeline/recipe_keys.hpp>
 
@@ -25,6 +26,22 @@ void report_file(Terrain& terrain, std::string const& name, std::string const& l
     }
 }
 
+/// Far from its central meridian a UTM zone measures other lengths than the ground has.
+void warn_of_stretch(Terrain& terrain, Run const& run) {
+    constexpr double much = 0.01;
+    constexpr double percent = 100.0;
+    double const stretch = io::zone_stretch(terrain.grid);
+    if (!(stretch > much)) {
+        return;
+    }
+    std::string const words =
+        fmt::format("the grid reaches far beyond its UTM zone {}: lengths are up to {:.1f} % too long there. Name "
+                    "another CRS: --crs EPSG:n",
+                    terrain.grid.crs, percent * stretch);
+    run.say("warning: " + words);
+    terrain.story.repairs.push_back({"stretched", 0, {}, stretch, words});
+}
+
 } // namespace
 
 void report_conversions(Terrain& terrain, Run const& run) {
@@ -40,6 +57,7 @@ void report_conversions(Terrain& terrain, Run const& run) {
         report_file(terrain, patch.source, "", run);
         report_file(terrain, patch.mask, "", run);
     }
+    warn_of_stretch(terrain, run);
 }
 
 } // namespace thalweg::pipeline

@@ -8,7 +8,8 @@
 /// Private to this module.
 namespace thalweg::pipeline {
 
-/// Logs what reading changed in the files that the recipe names (CRS, units), and notes it for the report.
+/// Logs what reading changed in the files that the recipe names (CRS, units), and where the grid's UTM zone measures
+/// wrong lengths; notes both for the report.
 /// Takes: a terrain whose grid is known.
 void report_conversions(Terrain& terrain, Run const& run);
 
