@@ -97,13 +97,13 @@ int main(int argc, char** argv) {
             ->excludes(quiet);
         commands[sub] = add_command(*sub, session);
     };
-    add("make", "Make terrain and a river network from a recipe.", add_make);
+    add("make", "Make terrain and a river network from a recipe or a river file.", add_make);
     add("check", "Check the topology of a river network, and its drainage on a DEM.", add_check);
     add("convert", "Convert a river network to another schema or format.", add_convert);
     add("stats", "Print statistics of a DEM.", add_stats);
     add("measure", "Write contributing areas, flow directions and catchments of a DEM.", add_measure);
     add("draw", "Draw pictures of a DEM or of a folder written by make.", add_draw);
-    add("tin", "Make a TIN of a DEM, of points or of a network.", add_tin);
+    add("tin", "Write a TIN of a DEM, of points or of a network.", add_tin);
     add("points", "Write the cells of a DEM as a point cloud.", add_points);
     add("blend", "Paste a part of one DEM into another without a seam.", add_blend);
     add("deform", "Scale the relief of a region of a DEM, or pull it to heights.", add_deform);

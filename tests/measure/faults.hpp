@@ -107,7 +107,6 @@ struct Fault {
     char const* kind;
     char const* what;
     std::function<Features(NetworkFile&, std::size_t k)> plant; ///< at arc k, or the next that will do
-    bool mends = true;                                          ///< a copy can be mended
     std::set<std::string> besides = {};                         ///< kinds that it cannot help but cause as well
 };
 
@@ -197,7 +196,6 @@ inline std::vector<Fault> const& all() {
              f.arcs.push_back(f.arcs[k]);
              return Features{f.arcs[k].id};
          },
-         true,
          {"duplicate_arc_id"}},
         {"duplicate_geometry", "the way back",
          [](NetworkFile& f, std::size_t k) {
@@ -234,7 +232,6 @@ inline std::vector<Fault> const& all() {
              f.arcs[k].line.back() = moved(f.arcs[k].line.back(), 0.04, 0.02);
              return Features{f.arcs[k].id};
          },
-         true,
          {"crossing"}},
         {"end_mismatch", "another node's name",
          [](NetworkFile& f, std::size_t k) {
@@ -245,7 +242,6 @@ inline std::vector<Fault> const& all() {
              f.arcs[k].from_node = f.arcs[*other].from_node;
              return Features{f.arcs[k].id};
          },
-         true,
          {"several_outflows", "cycle", "no_outlet"}},
         {"wrong_direction", "drawn upstream",
          [](NetworkFile& f, std::size_t k) {
@@ -308,7 +304,6 @@ inline std::vector<Fault> const& all() {
              f.arcs[k].to_node = f.arcs[k].from_node;
              return Features{f.arcs[k].id};
          },
-         true,
          {"no_outlet", "end_mismatch"}},
         {"cycle", "drawn",
          [](NetworkFile& f, std::size_t k) {
@@ -326,7 +321,6 @@ inline std::vector<Fault> const& all() {
              f.arcs.push_back(back);
              return Features{new_id, f.arcs[*a].id};
          },
-         true,
          {"several_outflows", "z_rising", "no_outlet"}},
         {"no_outlet", "the last arc runs back",
          [](NetworkFile& f, std::size_t k) {
@@ -344,7 +338,6 @@ inline std::vector<Fault> const& all() {
                         ? part
                         : Features{};
          },
-         true,
          {"cycle", "end_mismatch"}},
         {"ds_arc_mismatch", "one that is not there",
          [](NetworkFile& f, std::size_t k) {

@@ -91,14 +91,20 @@ std::vector<std::vector<Vec2>> braid() {
     return {{{0, 90}, {0, 60}}, {{0, 60}, {0, 20}}, {{0, 20}, {0, 0}}, {{0, 60}, {15, 40}}, {{15, 40}, {0, 20}}};
 }
 
+/// What stays when these features are beside the main path.
+Adopted expect_beside(RiverLines const& lines, Features const& features, network::AdoptParams const& params = {}) {
+    Adopted adopted = adopt(lines, params);
+    EXPECT_EQ(beside(adopted), features);
+    expect_forest(adopted);
+    return adopted;
+}
+
 } // namespace
 
 TEST(AdoptDivides, TheStraightChannelOfABraidStays) {
-    auto const adopted = adopt(flats(braid()));
+    auto const adopted = expect_beside(flats(braid()), {4, 5});
     EXPECT_EQ(boost::num_edges(adopted.network), 1U);
     EXPECT_EQ(in_network(adopted), (Features{1, 2, 3}));
-    EXPECT_EQ(beside(adopted), (Features{4, 5}));
-    expect_forest(adopted);
 }
 
 TEST(AdoptDivides, AMinorChannelIsAStreamFromWhereOneWithASourceJoins) {
@@ -114,10 +120,7 @@ TEST(AdoptDivides, ByWhatTheFileMarks) {
     auto lines = flats(braid());
     lines.lines[1].channel = Channel::minor;
     lines.lines[3].channel = Channel::main;
-    auto const adopted = adopt(lines);
-    EXPECT_EQ(in_network(adopted), (Features{1, 3, 4, 5}));
-    EXPECT_EQ(beside(adopted), (Features{2}));
-    expect_forest(adopted);
+    EXPECT_EQ(in_network(expect_beside(lines, {2})), (Features{1, 3, 4, 5}));
 }
 
 TEST(AdoptDivides, ByWhatTheLineUpstreamNames) {
@@ -126,9 +129,7 @@ TEST(AdoptDivides, ByWhatTheLineUpstreamNames) {
     lines.lines[3].down = 5;
     lines.lines[4].down = 3;
     lines.lines[1].down = 3;
-    auto const adopted = adopt(lines);
-    EXPECT_EQ(beside(adopted), (Features{2}));
-    expect_forest(adopted);
+    expect_beside(lines, {2});
 }
 
 TEST(AdoptDivides, BySizeThenByName) {
@@ -147,13 +148,13 @@ TEST(AdoptDivides, ByTheNextSizeWhereOneTies) {
     for (auto& line : lines.lines) {
         line.size = {7.0, 0.0, 1.0};
     }
-    EXPECT_EQ(beside(adopt(lines)), (Features{4, 5})); // by the angle
+    expect_beside(lines, {4, 5}); // by the angle
     lines.lines[3].size = {7.0, 0.0, 2.0};
-    EXPECT_EQ(beside(adopt(lines)), (Features{2}));
+    expect_beside(lines, {2});
     lines.lines[1].size = {7.0, 0.5, 1.0};
-    EXPECT_EQ(beside(adopt(lines)), (Features{4, 5}));
+    expect_beside(lines, {4, 5});
     lines.lines[3].size = {8.0, 0.0, 0.0};
-    EXPECT_EQ(beside(adopt(lines)), (Features{2}));
+    expect_beside(lines, {2});
 }
 
 TEST(AdoptDivides, ByRankWhereNothingFinerTells) {
@@ -163,20 +164,18 @@ TEST(AdoptDivides, ByRankWhereNothingFinerTells) {
         lines.lines[i].rank = rank[i];
     }
     for (auto const orientation : {Orientation::automatic, Orientation::rank, Orientation::as_drawn}) {
-        auto const adopted = adopt(lines, {.orientation = orientation});
-        EXPECT_EQ(beside(adopted), (Features{2}));
-        expect_forest(adopted);
+        expect_beside(lines, {2}, {.orientation = orientation});
     }
     lines.lines[1].rank = 25;
-    EXPECT_EQ(beside(adopt(lines)), (Features{4, 5}));
+    expect_beside(lines, {4, 5});
     lines.lines[3].size = {2.0};
     for (std::size_t const other : {0U, 1U, 2U, 4U}) {
         lines.lines[other].size = {1.0};
     }
-    EXPECT_EQ(beside(adopt(lines)), (Features{2})); // size is finer
+    expect_beside(lines, {2}); // size is finer
     lines.lines[3].rank = 0;
     lines.lines[3].size = {1.0};
-    EXPECT_EQ(beside(adopt(lines)), (Features{4, 5})); // a branch without a rank is the last
+    expect_beside(lines, {4, 5}); // a branch without a rank is the last
 }
 
 TEST(AdoptDivides, LinksTellTheDirectionWhateverWasDrawn) {
@@ -243,10 +242,8 @@ TEST(AdoptDivides, ARiverThroughAPondKeepsOneShore) {
 }
 
 TEST(AdoptDivides, WithoutDirectionsTheShortestWaysStay) {
-    auto const adopted = adopt(flats(braid()), {.orientation = Orientation::topology});
+    auto const adopted = expect_beside(flats(braid()), {4, 5}, {.orientation = Orientation::topology});
     EXPECT_EQ(in_network(adopted), (Features{1, 2, 3}));
-    EXPECT_EQ(beside(adopted), (Features{4, 5}));
-    expect_forest(adopted);
 }
 
 TEST(AdoptDivides, HeightsThatLeadIntoAPitAreRefused) {

@@ -10,6 +10,8 @@
 
 #include <io/scratch_folder.hpp>
 
+#include "ascii_grid.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -72,20 +74,7 @@ public:
 
     /// An ESRI grid of 140 x 120 cells of 30 m, with value(column, row).
     template <class Value> void raster(std::string const& name, Value value) const {
-        std::ofstream out(folder_ / name);
-        out << "ncols 140\nnrows 120\nxllcorner 500000\nyllcorner 5000000\ncellsize 30\nNODATA_value -9999\n";
-        for (int r = 0; r < 120; ++r) {
-            for (int c = 0; c < 140; ++c) {
-                out << value(c, r) << " ";
-            }
-            out << "\n";
-        }
-        std::ofstream(folder_ / (name.substr(0, name.find('.')) + ".prj"))
-            << "PROJCS[\"WGS 84 / UTM zone 31N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
-               "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION["
-               "\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],PARAMETER[\"central_meridian\",3],"
-               "PARAMETER[\"scale_factor\",0.9996],PARAMETER[\"false_easting\",500000],PARAMETER[\"false_northing\",0],"
-               "UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"32631\"]]";
+        write_ascii_grid(folder_ / name, {140, 120, 30, 500000, 5000000}, value);
     }
 
 private:

@@ -28,11 +28,6 @@ std::vector<std::string> kinds_of(MendedNetwork const& mended) {
     return kinds;
 }
 
-bool has(MendedNetwork const& mended, std::string const& kind) {
-    auto const kinds = kinds_of(mended);
-    return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
-}
-
 /// Lines with their heights, sorted: what a network is but for its numbers.
 std::vector<std::vector<std::tuple<double, double, double>>> lines_of(NetworkFile const& file) {
     std::vector<std::vector<std::tuple<double, double, double>>> lines;
@@ -74,15 +69,11 @@ TEST(MendNetwork, EveryFaultThatCanBeMendedIs) {
             }
             MendedNetwork const mended = mend(file);
             std::string const why = mended.mended.empty() ? "nothing" : mended.mended.back().text;
-            ASSERT_EQ(mended.done, f.mends) << f.kind << ", " << f.what << ", seed " << seed << ": " << why;
+            ASSERT_TRUE(mended.done) << f.kind << ", " << f.what << ", seed " << seed << ": " << why;
             EXPECT_FALSE(mended.mended.empty()) << f.kind << ", " << f.what << ": nothing is said";
-            if (mended.done) {
-                // By the check itself, once more and not by its own word.
-                auto const left = check_topology(measure::as_file(mended.network, mended.orders)).findings;
-                EXPECT_TRUE(left.empty()) << f.kind << ", " << f.what << ": " << left.front().text;
-            } else {
-                EXPECT_TRUE(has(mended, "not_mended")) << f.kind << ", " << f.what;
-            }
+            // By the check itself, once more and not by its own word.
+            auto const left = check_topology(measure::as_file(mended.network, mended.orders)).findings;
+            EXPECT_TRUE(left.empty()) << f.kind << ", " << f.what << ": " << left.front().text;
         }
     }
 }

@@ -7,6 +7,8 @@
 
 #include <io/scratch_folder.hpp>
 
+#include "ascii_grid.hpp"
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -94,21 +96,7 @@ private:
     }
     void write(std::string const& name, std::string const& text) const { std::ofstream(folder_ / name) << text; }
     void raster(std::string const& name, int side, int cell, int west, int south, Value const& value) const {
-        std::ofstream out(folder_ / name);
-        out << "ncols " << side << "\nnrows " << side << "\nxllcorner " << west << "\nyllcorner " << south
-            << "\ncellsize " << cell << "\nNODATA_value -9999\n";
-        for (int r = 0; r < side; ++r) {
-            for (int c = 0; c < side; ++c) {
-                out << value(c, r) << " ";
-            }
-            out << "\n";
-        }
-        std::ofstream(folder_ / (name.substr(0, name.find('.')) + ".prj"))
-            << "PROJCS[\"WGS 84 / UTM zone 31N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
-               "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION["
-               "\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],PARAMETER[\"central_meridian\",3],"
-               "PARAMETER[\"scale_factor\",0.9996],PARAMETER[\"false_easting\",500000],PARAMETER[\"false_northing\",0],"
-               "UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"32631\"]]";
+        write_ascii_grid(folder_ / name, {side, side, cell, west, south}, value);
     }
     /// A GeoPackage whose layers are two of the GeoJSON files.
     void two_layers(std::string const& name, std::string const& first, std::string const& second) const {

@@ -53,13 +53,7 @@ std::int64_t cells_of_cluster(std::int64_t particles) {
 }
 
 std::int64_t links_of(Recipe const& recipe, Run const& run) {
-    TokunagaRecipe const& wanted = recipe.network->tokunaga;
-    network::TokunagaParams params;
-    params.seed = recipe.seed;
-    params.generator = wanted.generator;
-    params.order = wanted.order;
-    params.rule = wanted.rule;
-    return static_cast<std::int64_t>(network::grow_tokunaga(params, run).links.size());
+    return static_cast<std::int64_t>(network::grow_tokunaga(tree_of(recipe), run).links.size());
 }
 
 KnownBefore known_of_grid(Grid const& grid) {

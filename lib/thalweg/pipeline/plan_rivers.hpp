@@ -31,6 +31,9 @@ RiverLines read_lines(Recipe const& recipe, Run const& run);
 /// the end of a sentence; "" where it was given.
 std::string settle_on_lines(Recipe& recipe, RiverLines const& lines, Run const& run);
 
+/// The tree that a recipe grows by Tokunaga's law.
+network::TokunagaParams tree_of(Recipe const& recipe);
+
 /// One arm of a cluster that grew by diffusion-limited aggregation, thinned and traced.
 Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run);
 

@@ -74,16 +74,6 @@ Region inside(Polygons const& polygons, Side mouth) {
     return region;
 }
 
-network::TokunagaParams tree_of(Recipe const& recipe) {
-    TokunagaRecipe const& wanted = recipe.network->tokunaga;
-    network::TokunagaParams params;
-    params.seed = recipe.seed;
-    params.generator = wanted.generator;
-    params.order = wanted.order;
-    params.rule = wanted.rule;
-    return params;
-}
-
 std::vector<std::int64_t> downstream(network::TokunagaTree const& tree) {
     std::vector<std::int64_t> down;
     down.reserve(tree.links.size());
@@ -182,6 +172,16 @@ Planned follow_strokes(Recipe& recipe, Terrain& terrain, Diary& diary, Run const
 }
 
 } // namespace
+
+network::TokunagaParams tree_of(Recipe const& recipe) {
+    TokunagaRecipe const& wanted = recipe.network->tokunaga;
+    network::TokunagaParams params;
+    params.seed = recipe.seed;
+    params.generator = wanted.generator;
+    params.order = wanted.order;
+    params.rule = wanted.rule;
+    return params;
+}
 
 Planned plan_tokunaga(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     return recipe.network->tokunaga.strokes.empty() ? fill_region(recipe, terrain, diary, run)

@@ -80,13 +80,7 @@ std::vector<Key> make_keys() {
                                       "also write network_SCHEMA.gpkg in this schema, unless native",
                                       in_recipe<io::Schema>([](Recipe& r) -> io::Schema& { return r.output.schema; })));
 
-    Recipe standard;
-    standard.network.emplace();
-    standard.skeleton.emplace();
-    standard.surface.emplace();
-    standard.statistics.emplace();
-    standard.detail.emplace();
-    standard.patches.emplace_back();
+    Recipe const standard = with_all_sections();
     for (Key& key : keys) {
         if (auto const value = key.take(standard)) {
             auto const* const number = std::get_if<double>(&*value); // for a reader: 0.087, not its 17 digits
@@ -109,6 +103,17 @@ std::vector<Key> make_keys() {
 
 bool names_file(Key const& key) {
     return key.help.is_file;
+}
+
+Recipe with_all_sections() {
+    Recipe recipe;
+    recipe.network.emplace();
+    recipe.skeleton.emplace();
+    recipe.surface.emplace();
+    recipe.statistics.emplace();
+    recipe.detail.emplace();
+    recipe.patches.emplace_back();
+    return recipe;
 }
 
 std::vector<Key> const& all_keys() {

@@ -41,6 +41,9 @@ bool names_file(Key const& key);
 /// A value as TOML writes it.
 std::string toml_text(Value const& value);
 
+/// A recipe in which every key of the table has its default: it has all sections, and one patch.
+Recipe with_all_sections();
+
 /// Every key in the order of recipe files. Those of [[patch]] read and write the last patch.
 std::vector<Key> const& all_keys();
 

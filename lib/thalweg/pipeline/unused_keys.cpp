@@ -23,17 +23,6 @@ std::multimap<std::string, Value> const earlier_defaults = {
     {"surface.mean_slope", 25.0},
 };
 
-Recipe with_all_sections() {
-    Recipe recipe;
-    recipe.network.emplace();
-    recipe.skeleton.emplace();
-    recipe.surface.emplace();
-    recipe.statistics.emplace();
-    recipe.detail.emplace();
-    recipe.patches.emplace_back();
-    return recipe;
-}
-
 bool is_default(Key const& key, Value const& value, bool set_by_someone) {
     static Recipe const standard = with_all_sections();
     static Recipe const built_in = default_recipe();
