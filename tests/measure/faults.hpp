@@ -103,6 +103,14 @@ inline std::int64_t add_arc(NetworkFile& f, std::vector<Vec3> line) {
 /// The features of which the finding may name any; none where the fault cannot be put there.
 using Features = std::vector<std::int64_t>;
 
+inline double length_of_plan(FileArc const& arc) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < arc.line.size(); ++i) {
+        sum += thalweg::distance(plan(arc.line[i - 1]), plan(arc.line[i]));
+    }
+    return sum;
+}
+
 struct Fault {
     char const* kind;
     char const* what;
@@ -443,6 +451,63 @@ inline std::vector<Fault> const& all() {
              Vec3 const to = between(line[0], line[1], 0.75);
              std::int64_t const other = f.arcs[k].id;
              return Features{add_arc(f, {moved(from, 0.0625, 0.03125), from, to, moved(to, 0.0625, 0.0)}), other};
+         }},
+        {"column_mismatch", "length",
+         [](NetworkFile& f, std::size_t k) {
+             f.arcs[k].columns.length_m = 1e-3 + length_of_plan(f.arcs[k]);
+             return Features{f.arcs[k].id};
+         }},
+        {"column_mismatch", "straight",
+         [](NetworkFile& f, std::size_t k) {
+             f.arcs[k].columns.straight_m = 2.0 * length_of_plan(f.arcs[k]);
+             return Features{f.arcs[k].id};
+         }},
+        {"column_mismatch", "z_up",
+         [](NetworkFile& f, std::size_t k) {
+             f.arcs[k].columns.z_up_m = f.arcs[k].line.front().z + 1e-3;
+             return Features{f.arcs[k].id};
+         }},
+        {"column_mismatch", "z_down",
+         [](NetworkFile& f, std::size_t k) {
+             f.arcs[k].columns.z_down_m = f.arcs[k].line.back().z - 1e-3;
+             return Features{f.arcs[k].id};
+         }},
+        {"column_mismatch", "slope",
+         [](NetworkFile& f, std::size_t k) {
+             f.arcs[k].columns.slope =
+                 1e-3 + (f.arcs[k].line.front().z - f.arcs[k].line.back().z) / length_of_plan(f.arcs[k]);
+             return Features{f.arcs[k].id};
+         }},
+        {"column_mismatch", "n_up, topo_ord and hack",
+         [](NetworkFile& f, std::size_t k) {
+             f.arcs[k].columns.n_up = 17.0;
+             f.arcs[k].columns.topo_ord = 1e6;
+             return Features{f.arcs[k].id};
+         }},
+        {"column_mismatch", "dist_out",
+         [](NetworkFile& f, std::size_t k) {
+             f.arcs[k].columns.dist_out_m = 1e7;
+             return Features{f.arcs[k].id};
+         }},
+        {"column_mismatch", "us_area",
+         [](NetworkFile& f, std::size_t k) {
+             f.arcs[k].us_area_m2 = 2.0;
+             f.arcs[k].ds_area_m2 = 1.0;
+             return Features{f.arcs[k].id};
+         }},
+        {"node_column_mismatch", "kind",
+         [](NetworkFile& f, std::size_t k) {
+             auto& node = f.nodes[k % f.nodes.size()];
+             node.columns.kind = "spring";
+             return Features{node.id};
+         }},
+        {"node_column_mismatch", "deg_in, z and dist_out",
+         [](NetworkFile& f, std::size_t k) {
+             auto& node = f.nodes[k % f.nodes.size()];
+             node.columns.deg_in = 40.0;
+             node.columns.z_m = node.at.z + 1.0;
+             node.columns.dist_out_m = 1e7;
+             return Features{node.id};
          }},
         {"crossing", "a line across",
          [](NetworkFile& f, std::size_t k) {

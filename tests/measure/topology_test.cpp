@@ -48,7 +48,7 @@ TEST(CheckTopology, OneArc) {
     file.arcs = {{3, 7, 9, 0, 1, 1, 1, {{0, 0, 1}, {5, 0, 0}}}};
     TopologyReport const report = check_topology(file);
     EXPECT_TRUE(report.findings.empty());
-    EXPECT_EQ(report.checks.size(), 27U);
+    EXPECT_EQ(report.checks.size(), 29U);
     for (Check const& check : report.checks) {
         EXPECT_TRUE(check.ok) << check.name;
         EXPECT_EQ(check.value, 0.0);

@@ -157,3 +157,30 @@ TEST(Check, TheInputIsNeverAnOutput) {
     EXPECT_EQ(thalweg_run("check net.gpkg --fix there.gpkg --overwrite", place.path()).code, 3);
     EXPECT_EQ(thalweg_run("check there.gpkg", place.path()).code, 0);
 }
+
+TEST(Check, ForgedColumnsAreFound) {
+    std::map<std::string, std::vector<std::string>> const forged = {
+        {"arcs",
+         {"n_up", "topo_ord", "hack", "length", "length_3d", "straight", "z_up", "z_down", "dist_out", "slope",
+          "us_area"}},
+        {"nodes", {"deg_in", "deg_out", "basin_id", "strahler", "z", "dist_out"}}};
+    Workplace const place;
+    write_network(place);
+    ASSERT_EQ(thalweg_run("check net.gpkg", place.path()).code, 0);
+    for (auto const& [layer, columns] : forged) {
+        for (std::string const& column : columns) {
+            fs::copy_file(place / "net.gpkg", place / "forged.gpkg", fs::copy_options::overwrite_existing);
+            std::string const by = column == "us_area" ? " + 1e9" : " + 7";
+            change(place / "forged.gpkg", "UPDATE " + layer + " SET " + column + " = " + column + by);
+            Outcome const o = thalweg_run("check forged.gpkg --json", place.path());
+            EXPECT_EQ(o.code, 3) << column;
+            std::string const kind = layer == "arcs" ? "column_mismatch" : "node_column_mismatch";
+            EXPECT_NE(o.out.find(kind), std::string::npos) << column;
+            bool const named = o.out.find("its " + column + " is") != std::string::npos ||
+                               (column == "us_area" && o.out.find("its ds_area is") != std::string::npos);
+            EXPECT_TRUE(named) << column;
+        }
+    }
+    change(place / "net.gpkg", "UPDATE nodes SET kind = 'source'");
+    EXPECT_EQ(thalweg_run("check net.gpkg", place.path()).code, 3);
+}

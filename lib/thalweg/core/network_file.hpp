@@ -16,9 +16,34 @@ namespace thalweg {
 
 /// A network file as it was read, before anything is believed of it.
 struct NetworkFile {
+    static constexpr double untold = std::numeric_limits<double>::quiet_NaN();
+    /// What the file says of a node that follows from the rest; NaN, or "", where it does not.
+    struct NodeColumns {
+        std::string kind = {};
+        double deg_in = untold;
+        double deg_out = untold;
+        double basin_id = untold;
+        double strahler = untold;
+        double z_m = untold;
+        double dist_out_m = untold;
+    };
     struct FileNode {
         std::int64_t id = 0;
         Vec3 at; ///< [m]
+        NodeColumns columns = {};
+    };
+    /// What the file says of an arc that follows from the rest; NaN where it does not.
+    struct ArcColumns {
+        double n_up = untold;
+        double topo_ord = untold;
+        double hack = untold;
+        double length_m = untold;
+        double length_3d_m = untold;
+        double straight_m = untold;
+        double z_up_m = untold;
+        double z_down_m = untold;
+        double dist_out_m = untold;
+        double slope = untold;
     };
     struct FileArc {
         std::int64_t id = 0;
@@ -43,6 +68,7 @@ struct NetworkFile {
         std::string type = {};
         bool braided = false;
         bool given = true; ///< as Arc
+        ArcColumns columns = {};
     };
     /// What the file says. The rest was filled in by what reads it, or left alone, and is not to be checked.
     struct Says {

@@ -82,9 +82,12 @@ void convert_heights(NetworkFile& file, Layer const& arcs, bool told, Notes& not
         for (Vec3& p : arc.line) {
             p.z *= unit;
         }
+        arc.columns.z_up_m *= unit;
+        arc.columns.z_down_m *= unit;
     }
     for (NetworkFile::FileNode& node : file.nodes) {
         node.at.z *= unit;
+        node.columns.z_m *= unit;
     }
     if (told) {
         notes.add(arcs.what, {"heights_converted",
@@ -133,9 +136,14 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes,
     for (FileArc& arc : file.arcs) {
         run.check();
         move(arc.line);
+        for (double* const length : {&arc.columns.length_m, &arc.columns.length_3d_m, &arc.columns.straight_m,
+                                     &arc.columns.dist_out_m, &arc.columns.slope}) {
+            *length = nan; // of another projection
+        }
     }
     for (NetworkFile::FileNode& node : file.nodes) {
         move({&node.at, 1});
+        node.columns.dist_out_m = nan;
     }
     notes.add(arcs.what,
               {"reprojected",

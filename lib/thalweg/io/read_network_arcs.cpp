@@ -203,7 +203,9 @@ private:
         arc.survives = std::isnan(survives) ? std::numeric_limits<double>::infinity() : survives;
         arc.feature = native ? numbers.whole(columns_.column(Q::feature), id, true) : number_;
         arc.record = number_;
-        if (!native) {
+        if (native) {
+            arc.columns = columns_of(feature);
+        } else {
             RiverLine line;
             line.feature = number_;
             fields_.read(feature, line);
@@ -220,6 +222,20 @@ private:
         arc.braided = numbers.whole(columns_.column(Q::braided), id, true) != 0;
         arc.given = !columns_.has(Q::given) || numbers.whole(columns_.column(Q::given), id, true) != 0;
         return arc;
+    }
+
+    NetworkFile::ArcColumns columns_of(OGRFeature const& feature) const {
+        auto const told = [&](Quantity q) { return columns_.real(feature, q); };
+        return {.n_up = told(Q::n_up),
+                .topo_ord = told(Q::topo_ord),
+                .hack = told(Q::hack),
+                .length_m = told(Q::length),
+                .length_3d_m = told(Q::length_3d),
+                .straight_m = told(Q::straight),
+                .z_up_m = told(Q::z_up),
+                .z_down_m = told(Q::z_down),
+                .dist_out_m = told(Q::dist_out),
+                .slope = told(Q::slope)};
     }
 
     void note_shape(DrawnLine const& drawn, std::int64_t id) {
@@ -310,6 +326,36 @@ private:
     std::vector<std::int64_t> ds_keys_;
 };
 
+/// The columns of a node that follow from the rest.
+class NodeReader {
+public:
+    explicit NodeReader(OGRLayer& layer)
+        : kind_(layer, "kind"), deg_in_(layer, "deg_in"), deg_out_(layer, "deg_out"), basin_(layer, "basin_id"),
+          strahler_(layer, "strahler"), z_(layer, "z"), dist_out_(layer, "dist_out") {}
+
+    NetworkFile::NodeColumns read(OGRFeature const& feature) const {
+        return {.kind = kind_.is_there() ? kind_.text(feature) : "",
+                .deg_in = told(deg_in_, feature),
+                .deg_out = told(deg_out_, feature),
+                .basin_id = told(basin_, feature),
+                .strahler = told(strahler_, feature),
+                .z_m = told(z_, feature),
+                .dist_out_m = told(dist_out_, feature)};
+    }
+
+private:
+    static double told(FileColumn const& column, OGRFeature const& feature) {
+        return column.is_there() ? column.real(feature) : nan;
+    }
+    FileColumn kind_;
+    FileColumn deg_in_;
+    FileColumn deg_out_;
+    FileColumn basin_;
+    FileColumn strahler_;
+    FileColumn z_;
+    FileColumn dist_out_;
+};
+
 } // namespace
 
 void read_arcs(NetworkFile& file, Layer const& arcs, std::optional<Schema> schema, Wish const& wish,
@@ -347,6 +393,7 @@ void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_i
         throw BadInput(fmt::format("{}: no field {} (there are {})", nodes.what, node_id, fields_of(*nodes.layer)));
     }
     id.require_numbers(*nodes.layer, nodes.what, notes);
+    NodeReader const columns(*nodes.layer);
     std::int64_t number = 0;
     nodes.each(driver, run, [&](OGRFeature const& feature) {
         ++number;
@@ -359,7 +406,8 @@ void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_i
             notes.add(nodes.what, {"no_heights", 0, {}, 1.0, fmt::format("feature {} has no heights (Z)", number)});
         }
         file.nodes.push_back({Numbers(feature, number, nodes.what, notes).whole(id, 0, false),
-                              {p.getX(), p.getY(), p.Is3D() == FALSE ? nan : p.getZ()}});
+                              {p.getX(), p.getY(), p.Is3D() == FALSE ? nan : p.getZ()},
+                              columns.read(feature)});
     });
     file.says.nodes = true;
 }

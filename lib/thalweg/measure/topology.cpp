@@ -18,12 +18,35 @@ namespace {
 
 using namespace topology_steps;
 
-constexpr std::array<std::string_view, 27> kinds = {
-    "empty",           "bad_arc_id",        "duplicate_arc_id", "duplicate_node_id",  "null_geometry", "nan",
-    "zero_length",     "repeated_vertex",   "z_rising",         "duplicate_geometry", "missing_node",  "end_mismatch",
-    "wrong_direction", "dangling_end",      "several_outflows", "isolated_node",      "cycle",         "no_outlet",
-    "ds_arc_mismatch", "strahler_mismatch", "shreve_mismatch",  "basin_mismatch",     "spike",         "self_touching",
-    "touches",         "overlap",           "crossing"};
+constexpr std::array<std::string_view, 29> kinds = {"empty",
+                                                    "bad_arc_id",
+                                                    "duplicate_arc_id",
+                                                    "duplicate_node_id",
+                                                    "null_geometry",
+                                                    "nan",
+                                                    "zero_length",
+                                                    "repeated_vertex",
+                                                    "z_rising",
+                                                    "duplicate_geometry",
+                                                    "missing_node",
+                                                    "end_mismatch",
+                                                    "wrong_direction",
+                                                    "dangling_end",
+                                                    "several_outflows",
+                                                    "isolated_node",
+                                                    "cycle",
+                                                    "no_outlet",
+                                                    "ds_arc_mismatch",
+                                                    "strahler_mismatch",
+                                                    "shreve_mismatch",
+                                                    "basin_mismatch",
+                                                    "column_mismatch",
+                                                    "node_column_mismatch",
+                                                    "spike",
+                                                    "self_touching",
+                                                    "touches",
+                                                    "overlap",
+                                                    "crossing"};
 
 std::size_t place_of(std::string_view kind) {
     return static_cast<std::size_t>(std::find(kinds.begin(), kinds.end(), kind) - kinds.begin());
@@ -78,7 +101,9 @@ TopologyReport check_topology(NetworkFile const& file, TopologyParams const& par
     run.at(0.3, "check");
     std::size_t const junctions = joints.junctions.ids.size();
     check_trees(file, joints, Graph(joints.said, left_out, junctions), findings);
-    check_numbers(file, joints, Graph(joints.meant, left_out, junctions), ambiguous, findings);
+    Graph const meant(joints.meant, left_out, junctions);
+    check_numbers(file, joints, meant, ambiguous, findings);
+    check_columns(file, joints, meant, findings);
     run.at(0.4, "check");
     check_meetings(file, plans, joints, near_m, findings, run);
     std::stable_sort(findings.begin(), findings.end(),

@@ -120,6 +120,9 @@ void check_trees(NetworkFile const& file, Joints const& joints, Graph const& sai
 void check_numbers(NetworkFile const& file, Joints const& joints, Graph const& meant,
                    std::vector<char> const& ambiguous, Findings& findings);
 
+/// Finds columns of arcs and nodes that differ from what they are by the lines and the trees.
+void check_columns(NetworkFile const& file, Joints const& joints, Graph const& meant, Findings& findings);
+
 /// Finds spikes, arcs that touch themselves, and those that meet others but in common nodes.
 void check_meetings(NetworkFile const& file, Plans const& plans, Joints const& joints, double near_m,
                     Findings& findings, Run const& run);
