@@ -163,7 +163,7 @@ TEST(Check, ForgedColumnsAreFound) {
         {"arcs",
          {"n_up", "topo_ord", "hack", "length", "length_3d", "straight", "z_up", "z_down", "dist_out", "slope",
           "us_area"}},
-        {"nodes", {"deg_in", "deg_out", "basin_id", "strahler", "z", "dist_out"}}};
+        {"nodes", {"deg_in", "deg_out", "basin_id", "strahler", "z", "dist_out", "area"}}};
     Workplace const place;
     write_network(place);
     ASSERT_EQ(thalweg_run("check net.gpkg", place.path()).code, 0);

@@ -26,6 +26,7 @@ struct NetworkFile {
         double strahler = untold;
         double z_m = untold;
         double dist_out_m = untold;
+        double area_m2 = untold;
     };
     struct FileNode {
         std::int64_t id = 0;

@@ -331,7 +331,7 @@ class NodeReader {
 public:
     explicit NodeReader(OGRLayer& layer)
         : kind_(layer, "kind"), deg_in_(layer, "deg_in"), deg_out_(layer, "deg_out"), basin_(layer, "basin_id"),
-          strahler_(layer, "strahler"), z_(layer, "z"), dist_out_(layer, "dist_out") {}
+          strahler_(layer, "strahler"), z_(layer, "z"), dist_out_(layer, "dist_out"), area_(layer, "area") {}
 
     NetworkFile::NodeColumns read(OGRFeature const& feature) const {
         return {.kind = kind_.is_there() ? kind_.text(feature) : "",
@@ -340,7 +340,8 @@ public:
                 .basin_id = told(basin_, feature),
                 .strahler = told(strahler_, feature),
                 .z_m = told(z_, feature),
-                .dist_out_m = told(dist_out_, feature)};
+                .dist_out_m = told(dist_out_, feature),
+                .area_m2 = told(area_, feature)};
     }
 
 private:
@@ -354,6 +355,7 @@ private:
     FileColumn strahler_;
     FileColumn z_;
     FileColumn dist_out_;
+    FileColumn area_;
 };
 
 } // namespace

@@ -29,8 +29,8 @@ struct TopologyParams {
 /// strahler_mismatch, shreve_mismatch (arc; the right value), basin_mismatch (arc; the basin of most arcs above its
 /// outlet, or the one that is another outlet's too; not checked when all are 0), column_mismatch (arc; the right value
 /// of n_up, topo_ord, hack, length, length_3d, straight, z_up, z_down, dist_out, slope, us_area or ds_area, the least
-/// possible of areas), node_column_mismatch (node; the right value of deg_in, deg_out, basin_id, strahler, z or
-/// dist_out; 0 for kind), spike (arc; length [m] of the stretch
+/// possible of areas), node_column_mismatch (node; the right value of deg_in, deg_out, basin_id, strahler, z, area
+/// or dist_out; 0 for kind), spike (arc; length [m] of the stretch
 /// on which it turns back), self_touching (arc; places where it touches or crosses itself), touches (arc; id of the
 /// other, on which it ends, or whose end it runs through, where they have no common node), overlap (arc; length [m] of
 /// the stretch it shares with an earlier arc), crossing (arc; id of an earlier one that it crosses or touches inside).
