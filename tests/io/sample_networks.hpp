@@ -68,6 +68,9 @@ struct SampleNetwork {
             int greatest = 0;
             int how_often = 0;
             std::int64_t sources = 0;
+            if (index.out[*n] < 0 && !index.in[*n].empty()) {
+                node_area_m2[*n] = 0.0; // its cell belongs to an arc that enters it
+            }
             for (std::int64_t const above : index.in[*n]) {
                 auto const a = static_cast<std::size_t>(above);
                 how_often = orders.strahler[a] > greatest ? 1 : how_often + (orders.strahler[a] == greatest ? 1 : 0);
