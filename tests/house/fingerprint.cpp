@@ -67,6 +67,7 @@
 #include <thalweg/skeleton/regress.hpp>
 #include <thalweg/skeleton/ridges.hpp>
 #include <thalweg/skeleton/scatter.hpp>
+#include <thalweg/skeleton/scatter_between.hpp>
 #include <thalweg/skeleton/separable_ar.hpp>
 #include <thalweg/skeleton/shift_mean.hpp>
 #include <thalweg/solver/conjugate_gradients.hpp>
@@ -358,6 +359,15 @@ void print_skeleton(Valley const& valley, Run const& run) {
     FeaturePoints const points{{{middle.x, middle.y, 777.0}}, ""};
     Skeleton const drawn = skeleton::draw_skeleton(valley, ridges, points, {noise}, run).skeleton;
     print("draw_skeleton", hash_of(drawn.z));
+    for (skeleton::HeightLaw const law : {skeleton::HeightLaw::uniform, skeleton::HeightLaw::normal}) {
+        Fnv scattered;
+        for (Vec3 const& p : skeleton::scatter_between(valley, {}, {5, 60, 4.0, 0.3, law}, run).points.points) {
+            scattered.add(p.x);
+            scattered.add(p.y);
+            scattered.add(p.z);
+        }
+        print(law == skeleton::HeightLaw::uniform ? "scatter_between" : "scatter_between, normal", scattered);
+    }
     print("midpoint_inverse", hash_of(skeleton::midpoint_inverse(drawn, {6.0}, run).z));
 }
 

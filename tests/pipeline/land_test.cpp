@@ -121,6 +121,32 @@ TEST(Land, ABaseOfTrianglesTakesTheScarpsAway) {
     }
 }
 
+TEST(Land, RandomPointsBetweenTheRivers) {
+    std::string const skeleton = "[skeleton]\nscatter = 120\nspacing = 3\nridge_gain = 0.4\n";
+    std::string const detail = "[detail]\nsigma = 8\nlevels = 3\n";
+    for (std::string const& how :
+         {std::string("method = \"dilate\"\nrelief = 200\nbase = \"tin\"\n"),
+          "method = \"dilate\"\nrelief = 200\nbase = \"tin\"\n" + detail, std::string("method = \"tin\"\n"),
+          "method = \"tin\"\n" + detail, std::string("method = \"diffuse\"\n")}) {
+        Terrain const plain = made(rivers + "[surface]\n" + how);
+        Terrain const with = made(rivers + skeleton + "[surface]\n" + how);
+        expect_valley_kept(with);
+        ASSERT_TRUE(with.certificate) << how;
+        EXPECT_TRUE(std::equal(plain.valley.z.values().begin(), plain.valley.z.values().end(),
+                               with.valley.z.values().begin(),
+                               [](float a, float b) {
+                                   return a == b || (std::isnan(a) && std::isnan(b)); // rivers do not follow points
+                               }))
+            << how;
+        if (plain.tin) {
+            EXPECT_EQ(with.tin->vertices.size(), plain.tin->vertices.size() + 120) << how;
+        }
+        EXPECT_GT(with.statistics->mean, plain.statistics->mean + 1.0) << how;
+    }
+    Terrain const crowded = made(rivers + "[skeleton]\nscatter = 600\nspacing = 5\n[surface]\nmethod = \"tin\"\n");
+    EXPECT_TRUE(crowded.passed()); // with as many as have room
+}
+
 TEST(Land, DetailLeavesTheRiversAlone) {
     std::string const surface = "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\n";
     Terrain const smooth = made(rivers + surface);

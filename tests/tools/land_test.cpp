@@ -36,7 +36,7 @@ void refused(std::string const& arguments, std::string const& words) {
 } // namespace
 
 TEST(Land, EverySampleIsMadeAgainWithAnyNumberOfThreads) {
-    for (std::string const name : {"statistics", "points", "scattered", "tin"}) {
+    for (std::string const name : {"statistics", "points", "scattered", "tin", "feature_points"}) {
         Workplace const place;
         Outcome const o = thalweg_run("make " + samples + name + ".toml -o out -q --threads 1 --json", place.path());
         ASSERT_EQ(o.code, 0) << name << o.err;
@@ -44,9 +44,10 @@ TEST(Land, EverySampleIsMadeAgainWithAnyNumberOfThreads) {
         for (auto const& check : report["checks"]) {
             EXPECT_TRUE(check["ok"].get<bool>()) << name << check;
         }
-        EXPECT_EQ(report.contains("statistics"), name != "tin");
-        EXPECT_EQ(fs::exists(place / "out/tin.2dm"), name == "scattered" || name == "tin");
-        EXPECT_EQ(fs::exists(place / "out/network.gpkg"), name == "tin");
+        bool const has_rivers = name == "tin" || name == "feature_points";
+        EXPECT_EQ(report.contains("statistics"), !has_rivers);
+        EXPECT_EQ(fs::exists(place / "out/tin.2dm"), name == "scattered" || has_rivers);
+        EXPECT_EQ(fs::exists(place / "out/network.gpkg"), has_rivers);
         EXPECT_TRUE(fs::exists(place / "out/report.html"));
         EXPECT_EQ(thalweg_run("replay out --threads 2", place.path()).code, 0) << name;
     }
@@ -158,7 +159,7 @@ TEST(Land, WhatCannotBeIsRefusedWithItsNumbers) {
     refused("make line.toml -o out", "3 points lie on one line");
     refused("make same.toml -o out", "3 points in 1 different places");
     refused("make none.toml -o out", "none.csv");
-    refused("make -o out --set skeleton.scatter=9", "with [network] give skeleton.points");
+    refused("make -o out --set skeleton.scatter=9", "skeleton.scatter = 9 (--set) has no effect in this recipe");
     refused("make -o out --set detail.levels=2", "detail.sigma is missing");
     refused("make -o out --set detail.stencil=5", "not one of 4, 12, 16");
 }

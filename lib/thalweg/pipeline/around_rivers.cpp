@@ -14,6 +14,7 @@
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>
 #include <thalweg/skeleton/ridges.hpp>
+#include <thalweg/skeleton/scatter_between.hpp>
 #include <thalweg/surface/diffuse.hpp>
 #include <thalweg/surface/dilate_over.hpp>
 #include <thalweg/surface/harmonic.hpp>
@@ -49,6 +50,24 @@ void make_ridges(Terrain& terrain, Diary& diary, Run const& run) {
                                 params, run);
     });
     diary.say(fmt::format("{} ridges", terrain.ridges.lines.size()));
+}
+
+/// Random points between the rivers, where the recipe asks for them.
+FeaturePoints scattered(Terrain const& terrain, Mask const& inside, Diary& diary, Run const& run) {
+    SkeletonRecipe const& wanted = *terrain.recipe.skeleton;
+    skeleton::ScatterBetweenParams params;
+    params.seed = terrain.recipe.seed;
+    params.count = wanted.scatter;
+    params.spacing_cells = wanted.spacing_cells;
+    params.gain = wanted.ridge_gain;
+    params.law = wanted.law;
+    skeleton::Scattered points =
+        diary.stage("scatter", [&] { return skeleton::scatter_between(terrain.valley, inside, params, run); });
+    diary.say(fmt::format("{} points", points.points.points.size()));
+    if (points.missing > 0) {
+        run.say(fmt::format("warning: {} of {} points found no room", points.missing, params.count));
+    }
+    return std::move(points.points);
 }
 
 /// The triangles of points, rivers and ridges, whose lines are breaklines.
@@ -144,9 +163,8 @@ void add_detail(Terrain& terrain, Raster<float>& dem, Run const& run) {
     }
 }
 
-surface::Dilated draw(Terrain& terrain, FeaturePoints const& points, Run const& run) {
+surface::Dilated draw(Terrain& terrain, FeaturePoints const& points, Mask const& inside, Run const& run) {
     SurfaceRecipe const& wanted = *terrain.recipe.surface;
-    Mask const inside = inside_of(terrain.recipe, terrain.land, terrain.valley);
     if (wanted.method == Method::tin) {
         surface::Dilated drawn;
         drawn.dem = over_triangles(terrain, run);
@@ -175,11 +193,18 @@ std::string about(Terrain const& terrain) {
 
 } // namespace
 
-void draw_around_rivers(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
+void draw_around_rivers(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run const& run) {
     Recipe const& recipe = terrain.recipe;
     SurfaceRecipe const& wanted = *recipe.surface;
+    Mask inside;
+    FeaturePoints points = given;
     if (in_equilibrium(recipe)) { // whose rivers have their heights from it
         draw_in_equilibrium(terrain, diary, run);
+    } else {
+        inside = inside_of(recipe, terrain.land, terrain.valley);
+    }
+    if (recipe.skeleton && recipe.skeleton->scatter > 0) {
+        points = scattered(terrain, inside, diary, run);
     }
     if (recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
         make_ridges(terrain, diary, run);
@@ -189,7 +214,7 @@ void draw_around_rivers(Terrain& terrain, FeaturePoints const& points, Diary& di
         make_skeleton_tin(terrain, points, diary, run);
     }
     if (!in_equilibrium(recipe)) {
-        terrain.surface = diary.stage("fill", [&] { return draw(terrain, points, run); });
+        terrain.surface = diary.stage("fill", [&] { return draw(terrain, points, inside, run); });
         diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height, about(terrain)));
     }
     add_detail(terrain, terrain.surface->dem, run);

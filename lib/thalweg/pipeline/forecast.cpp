@@ -172,6 +172,9 @@ std::vector<std::string> stages_of_surface(Recipe const& recipe) {
     if (in_equilibrium(recipe)) {
         stages = {"channels", "fill"};
     }
+    if (recipe.skeleton && recipe.skeleton->scatter > 0) {
+        stages.emplace_back("scatter");
+    }
     if (recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
         stages.emplace_back("ridge");
     }

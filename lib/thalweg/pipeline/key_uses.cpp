@@ -109,7 +109,8 @@ std::vector<Row> make_rows() {
     Use const shape = source_is("forest") && not_given("network.forest.region");
     Use const no_scatter =
         when("skeleton.scatter = 0", [](Recipe const& r) { return !r.skeleton || r.skeleton->scatter == 0; });
-    Use const scatter = from_points() && above("skeleton.scatter", 0.0);
+    Use const scatters_beside = skeleton_beside_rivers() && above("skeleton.scatter", 0.0);
+    Use const scatter = (from_points() || skeleton_beside_rivers()) && above("skeleton.scatter", 0.0);
     Use const midpoint = is("detail.method", {"midpoint"});
     Use const prior = is("statistics.skeleton", {"separable", "markov3"});
     Use const relief_left_out =
@@ -144,12 +145,12 @@ std::vector<Row> make_rows() {
         {"network.", always()},
 
         {"skeleton.ridges", skeleton_beside_rivers()},
-        {"skeleton.ridge_gain", ridges()},
+        {"skeleton.ridge_gain", ridges() || scatters_beside},
         {"skeleton.ridge_noise", noise_on_ridges()},
         {"skeleton.ridge_wavelength", noise_on_ridges() && above("skeleton.ridge_noise", 0.0)},
         {"skeleton.midpoint_inverse", method_is({"diffuse"})},
-        {"skeleton.points", (from_points() && no_scatter) || skeleton_beside_rivers()},
-        {"skeleton.scatter", from_points() && not_given("skeleton.points")},
+        {"skeleton.points", (from_points() || skeleton_beside_rivers()) && no_scatter},
+        {"skeleton.scatter", (from_points() || skeleton_beside_rivers()) && not_given("skeleton.points")},
         {"skeleton.spacing", scatter},
         {"skeleton.law", scatter},
         {"skeleton.tin", (with("network") && with("surface")) || tin_of_points()},

@@ -415,9 +415,6 @@ void check_network(Recipe const& recipe, std::vector<std::string>& faults) {
     if (recipe.statistics) {
         faults.emplace_back("[statistics] and [network] do not go together: statistics would move the rivers");
     }
-    if (recipe.skeleton && recipe.skeleton->scatter > 0) {
-        faults.emplace_back("skeleton.scatter draws heights by [statistics]: with [network] give skeleton.points");
-    }
     if (recipe.detail && recipe.detail->method == DetailMethod::midpoint && !recipe.detail->midpoint.sigma) {
         faults.emplace_back("detail.sigma is missing: with rivers it cannot be estimated");
     }

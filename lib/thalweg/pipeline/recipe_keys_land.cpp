@@ -15,7 +15,8 @@ void add_skeleton_keys(std::vector<Key>& keys) {
         "ridges midway between streams: edges of the Voronoi diagram of points along them, or exact medial lines",
         in_skeleton<Ridges>([](SkeletonRecipe& s) -> Ridges& { return s.ridges; })));
     keys.push_back(number("skeleton.ridge_gain", "m/m", {0, 100},
-                          "lambda_h: rise of a ridge above its rivers per metre of distance",
+                          "lambda_h: rise of a ridge above its rivers per metre of distance, and greatest rise of a "
+                          "random point",
                           in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.ridge_gain; })));
     keys.push_back(number("skeleton.ridge_noise", "m", {0, 1e5}, "amplitude of noise along ridges, 0 at their ends",
                           in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.ridge_noise_m; })));
@@ -28,13 +29,16 @@ void add_skeleton_keys(std::vector<Key>& keys) {
     keys.push_back(file("skeleton.points", "points with heights: CSV, XYZ, or any OGR source of points",
                         in_skeleton<std::string>([](SkeletonRecipe& s) -> std::string& { return s.points; })));
     keys.push_back(integer<std::int64_t>(
-        "skeleton.scatter", "", {0, 1e7}, "number of random points, including the extremes of [statistics]",
+        "skeleton.scatter", "", {0, 1e7},
+        "number of random points, between the rivers or, without [network], including the extremes of [statistics]",
         in_skeleton<std::int64_t>([](SkeletonRecipe& s) -> std::int64_t& { return s.scatter; })));
-    keys.push_back(number("skeleton.spacing", "cells", {0, 1e5}, "minimum distance r between random points",
+    keys.push_back(number("skeleton.spacing", "cells", {0, 1e5},
+                          "minimum distance r between random points, and from them to rivers",
                           in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.spacing_cells; })));
     keys.push_back(choice<skeleton::HeightLaw>(
         "skeleton.law", {{"uniform", skeleton::HeightLaw::uniform}, {"normal", skeleton::HeightLaw::normal}},
-        "distribution of the heights of random points",
+        "distribution of the heights of random points; with [network], of their share of ridge_gain times the distance "
+        "from the nearest river",
         in_skeleton<skeleton::HeightLaw>([](SkeletonRecipe& s) -> skeleton::HeightLaw& { return s.law; })));
     keys.push_back(yes_no("skeleton.tin", "write the TIN of rivers and points: tin.2dm, tin.ply",
                           in_skeleton<bool>([](SkeletonRecipe& s) -> bool& { return s.tin; })));
