@@ -361,7 +361,7 @@ void print_skeleton(Valley const& valley, Run const& run) {
     print("draw_skeleton", hash_of(drawn.z));
     for (skeleton::HeightLaw const law : {skeleton::HeightLaw::uniform, skeleton::HeightLaw::normal}) {
         Fnv scattered;
-        for (Vec3 const& p : skeleton::scatter_between(valley, {}, {5, 60, 4.0, 0.3, law}, run).points.points) {
+        for (Vec3 const& p : skeleton::scatter_between(valley, {}, {5, 60, 4.0, 0.3, 0.0, law}, run).points.points) {
             scattered.add(p.x);
             scattered.add(p.y);
             scattered.add(p.z);

@@ -48,8 +48,8 @@ std::string surface(std::string const& method, std::string const& more = "") {
     return "[surface]\nmethod = \"" + method + "\"\n" + more;
 }
 
-Words const diffusion = {"surface.diffusion", "surface.sweeps", "surface.start", "surface.alpha",
-                         "surface.smoothing", "surface.noise",  "surface.mask"};
+Words const diffusion = {"surface.diffusion", "surface.tolerance", "surface.sweeps", "surface.start",
+                         "surface.alpha",     "surface.smoothing", "surface.noise",  "surface.mask"};
 
 std::vector<BaseRecipe> const bases = {
     {"EquilibriumDla", dla + equilibrium, {"seed", "grid.", "network.", "-network.source", "surface.", "output."}},
@@ -83,7 +83,8 @@ std::vector<BaseRecipe> const bases = {
      {"skeleton.", "surface.relief"}},
     {"DilateTinScattered",
      grid + tokunaga + "order = 3\n[skeleton]\nscatter = 30\n" + surface("dilate", "base = \"tin\"\n"),
-     {"seed", "skeleton.ridge_gain", "skeleton.scatter", "skeleton.spacing", "skeleton.law"}},
+     {"seed", "skeleton.ridge_gain", "skeleton.ridge_farthest", "skeleton.scatter", "skeleton.spacing",
+      "skeleton.law"}},
     {"DilateIsland", forest + "[network.forest]\nshape = \"island\"\n" + surface("dilate"), {"surface.increment"}},
     {"DilatePatch",
      dla + surface("dilate") + "[[patch]]\nsource = \"patch.asc\"\nat = [501000, 4999000]\n",
@@ -125,6 +126,7 @@ std::map<std::string, Words> const values = {
     {"network.support", {"60"}},
     {"network.coast", {"600"}},
     {"network.dla.particles", {"300"}},
+    {"network.dla.radius", {"20"}},
     {"network.dla.sticking", {"0.5"}},
     {"network.dla.visits", {"3"}},
     {"network.tokunaga.generator", {"3"}},
@@ -147,6 +149,7 @@ std::map<std::string, Words> const values = {
     {"network.lines.rank_field", {"up"}},
     {"network.lines.snap", {"40"}},
     {"skeleton.ridge_gain", {"0.6"}},
+    {"skeleton.ridge_farthest", {"60"}},
     {"skeleton.ridge_noise", {"15"}},
     {"skeleton.ridge_wavelength", {"300"}},
     {"skeleton.midpoint_inverse", {"3"}},
@@ -163,6 +166,7 @@ std::map<std::string, Words> const values = {
     {"surface.erodibility", {"erodibility.asc"}},
     {"surface.lakes", {"lakes.geojson"}},
     {"surface.lake_share", {"1"}},
+    {"surface.tolerance", {"0.01"}},
     {"surface.sweeps", {"50"}},
     {"surface.alpha", {"0.1"}},
     {"surface.smoothing", {"3"}},
@@ -215,9 +219,11 @@ std::map<std::string, std::vector<Words>> const beside = {
     {"network.lines.coastlines", {{"network.lines.path=coast.geojson"}}},
     {"network.inland", {{"network.lines.path=inland.geojson"}}},
     {"skeleton.ridge_gain", {{"skeleton.ridges=segments"}}},
+    {"skeleton.ridge_farthest", {{"skeleton.ridges=segments"}}},
     {"skeleton.ridge_noise", {{"skeleton.ridges=segments"}}},
     {"skeleton.ridge_wavelength",
      {{"skeleton.ridges=segments", "skeleton.ridge_noise=15"}, {"skeleton.ridges=voronoi"}}},
+    {"skeleton.falloff", {{"statistics.reach=20"}}},
     {"surface.mean_slope", {{"surface.relief=300"}}},
     {"surface.drain", {{"detail.sigma=20", "detail.levels=3"}}},
     {"surface.allow_negative", {{"surface.increment=3-x"}}},

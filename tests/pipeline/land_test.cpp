@@ -29,6 +29,16 @@ Terrain made(std::string const& toml, std::string const& folder = "") {
     return make_terrain(recipe);
 }
 
+/// What make says of these increments.
+std::string said(std::string const& increment) {
+    std::string words;
+    Run run;
+    run.log = [&words](std::string_view line) { words += std::string(line) + "\n"; };
+    std::string const surface = "[surface]\nmethod = \"dilate\"\nrelief = 100\nincrement = \"";
+    make_terrain(read_recipe(rivers + surface + increment + "\"\n", "test"), run);
+    return words;
+}
+
 void expect_valley_kept(Terrain const& t) {
     std::int64_t valley = 0;
     for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
@@ -119,6 +129,22 @@ TEST(Land, ABaseOfTrianglesTakesTheScarpsAway) {
     for (std::int64_t i = 0; i < smooth.grid.cells(); ++i) {
         EXPECT_TRUE(std::isnan(base[i]) || !std::isnan(smooth.valley.z[i]) || smooth.surface->dem[i] > base[i] - 1e-3F);
     }
+}
+
+TEST(Land, ClustersStopAtTheirRadius) {
+    std::string const radius = "radius = 40\n";
+    Terrain const free = made(rivers);
+    Terrain const bound = made(rivers + radius);
+    EXPECT_FALSE(free.story.wide);
+    EXPECT_EQ(free.story.particles, 3000);
+    EXPECT_TRUE(bound.story.wide);
+    EXPECT_LT(bound.story.particles, 3000);
+}
+
+TEST(Land, IncrementsThatJumpAreWarnedOf) {
+    EXPECT_NE(said("x<=10 ? 0.1*x : 6-0.1*x").find("jumps from 1 to 5 at x = 10"), std::string::npos);
+    EXPECT_EQ(said("x<=30 ? 0.1*x : 6-0.1*x").find("jumps"), std::string::npos);
+    EXPECT_EQ(said("rise_fall").find("jumps"), std::string::npos);
 }
 
 TEST(Land, RandomPointsBetweenTheRivers) {

@@ -84,7 +84,7 @@ TEST(ScatterBetween, PointsKeepTheirDistancesAndStandAboveTheNearestRiver) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         for (double const spacing : {0.0, 2.5, 4.0}) {
             for (HeightLaw const law : {HeightLaw::uniform, HeightLaw::normal}) {
-                Scattered const s = scatter_between(valley, inside, {seed, 60, spacing, 0.4, law});
+                Scattered const s = scatter_between(valley, inside, {seed, 60, spacing, 0.4, 0.0, law});
                 EXPECT_EQ(static_cast<std::int64_t>(s.points.points.size()) + s.missing, 60);
                 EXPECT_EQ(s.missing, 0);
                 EXPECT_EQ(s.points.crs, ground.crs);
@@ -109,7 +109,7 @@ TEST(ScatterBetween, PointsKeepTheirDistancesAndStandAboveTheNearestRiver) {
 
 TEST(ScatterBetween, SharesFollowTheirLaw) {
     for (HeightLaw const law : {HeightLaw::uniform, HeightLaw::normal}) {
-        Scattered const s = scatter_between(two_rivers(), {}, {3, 4000, 0.0, 0.4, law});
+        Scattered const s = scatter_between(two_rivers(), {}, {3, 4000, 0.0, 0.4, 0.0, law});
         double mean = 0.0;
         double square = 0.0;
         for (Vec3 const& p : s.points.points) {
@@ -127,6 +127,23 @@ TEST(ScatterBetween, WithoutAGainPointsLieAsHighAsTheirRivers) {
     for (Vec3 const& p : scatter_between(two_rivers(), {}, {3, 50, 3.0, 0.0}).points.points) {
         EXPECT_EQ(p.z, nearest_by_search(two_rivers(), ground.cell_of({p.x, p.y})).z);
     }
+}
+
+TEST(ScatterBetween, PointsRiseNoMoreBeyondTheFarthestDistance) {
+    Valley const valley = two_rivers();
+    auto const free = scatter_between(valley, {}, {3, 200, 0.0, 0.4}).points.points;
+    auto const bound = scatter_between(valley, {}, {3, 200, 0.0, 0.4, 100.0}).points.points;
+    ASSERT_EQ(free.size(), bound.size());
+    std::size_t lowered = 0;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        Nearest const river = nearest_by_search(valley, ground.cell_of({free[i].x, free[i].y}));
+        double const away = river.cells * ground.cell_m;
+        double const share = (free[i].z - river.z) / (0.4 * away);
+        EXPECT_NEAR(bound[i].z, river.z + 0.4 * std::min(away, 100.0) * share, 1e-9);
+        lowered += away > 100.0 ? 1 : 0;
+    }
+    EXPECT_GT(lowered, 50U);
+    EXPECT_THROW(scatter_between(valley, {}, {.farthest_m = -1.0}), BadParameter);
 }
 
 TEST(ScatterBetween, SaysWhatFoundNoRoom) {

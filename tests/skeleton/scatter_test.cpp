@@ -99,6 +99,47 @@ TEST(Scatter, HeightsHaveTheAskedMeanAndDeviation) {
     }
 }
 
+TEST(Scatter, TheDeviationAsPrinted) {
+    ScatterParams params{.count = 5000, .mean_m = 536.0, .std_m = 131.6, .deviation = Deviation::printed};
+    auto const deviation = [](std::vector<Vec3> const& points, double mean) {
+        double square = 0.0;
+        for (Vec3 const& p : points) {
+            square += (p.z - mean) * (p.z - mean) / static_cast<double>(points.size());
+        }
+        return std::sqrt(square);
+    };
+    auto const uniform = scatter(ground, params).points.points;
+    EXPECT_NEAR(deviation(uniform, 536.0), 0.578 * 131.6, 2.0); // 1 / sqrt 3 in the mean
+    for (Vec3 const& p : uniform) {
+        EXPECT_LE(std::fabs(p.z - 536.0), 131.6);
+    }
+    params.law = HeightLaw::normal;
+    EXPECT_NEAR(deviation(scatter(ground, params).points.points, 536.0), 131.6, 4.0);
+}
+
+TEST(Scatter, ThePullEndsAtTheReachWithoutAStepWhereItIsContinuous) {
+    ScatterParams params{.count = 3000, .mean_m = 0.0, .std_m = 1.0, .highest = at_cell(60, 20, 1000.0)};
+    auto const free = scatter(ground, params).points.points;
+    params.reach_cells = 15.0;
+    auto const literal = scatter(ground, params).points.points;
+    params.falloff = Falloff::continuous;
+    auto const continuous = scatter(ground, params).points.points;
+    Vec2 const top = ground.centre({60, 20});
+    double near_reach = 0.0;
+    std::int64_t within = 0;
+    for (std::size_t i = 1; i < free.size(); ++i) {
+        double const share = distance({free[i].x, free[i].y}, top) / (15.0 * 300.0);
+        double const w = std::exp(-share * share);
+        double const pull = share <= 1.0 ? (w - std::exp(-1.0)) / (1.0 - std::exp(-1.0)) : 0.0;
+        EXPECT_NEAR(continuous[i].z, free[i].z + pull * (1000.0 - free[i].z), 2e-6);
+        EXPECT_NEAR(literal[i].z, free[i].z + (share <= 1.0 ? w : 0.0) * (1000.0 - free[i].z), 2e-6);
+        near_reach = share > 0.97 && share <= 1.0 ? std::max(near_reach, continuous[i].z) : near_reach;
+        within += share <= 1.0 ? 1 : 0;
+    }
+    EXPECT_GT(within, 200);
+    EXPECT_LT(near_reach, 50.0); // 368 m and more as printed
+}
+
 TEST(Scatter, ExtremesStandWhereAskedAndNothingPassesThem) {
     Vec3 const highest = at_cell(91, 1, 1038.0);
     Vec3 const lowest = at_cell(129, 26, 276.0);

@@ -40,6 +40,24 @@ TEST(Harmonic, RefusesWhatHasNoHeights) {
     EXPECT_THROW(harmonic(dry, Mask(valleys::frame(5, 5), 0)), BadInput);
 }
 
+TEST(Harmonic, ATighterToleranceIsNearerToTheEnd) {
+    Valley valley{Raster<float>(valleys::frame(200, 150), valleys::nan)};
+    valley.z[{3, 1}] = 0.0F;
+    valley.z[{190, 140}] = 1000.0F;
+    Raster<float> const end = harmonic(valley, {}, HarmonicParams{1e-12});
+    auto const off = [&](double tolerance) {
+        Raster<float> const e = harmonic(valley, {}, HarmonicParams{tolerance});
+        double most = 0.0;
+        for (std::int64_t i = 0; i < e.cells(); ++i) {
+            most = std::max(most, static_cast<double>(std::fabs(e[i] - end[i])));
+        }
+        return most;
+    };
+    EXPECT_LT(off(1e-10), 1e-4); // as printed: floats of 1000 m end at 6e-5
+    EXPECT_GT(off(1e-2), 10.0 * off(1e-8));
+    EXPECT_THROW(harmonic(valley, {}, HarmonicParams{0.0}), BadParameter);
+}
+
 TEST(Harmonic, IsTheMeanOfTheNeighbours) {
     ASSERT_TRUE(rc::check("valley exact, every other reached cell the mean of its neighbours inside", [] {
         Valley const valley = valleys::any(40);

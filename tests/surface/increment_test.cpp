@@ -48,6 +48,25 @@ TEST(Increments, FallOnlyWhereAllowed) {
     EXPECT_EQ(increments(1, {"-x", true}), std::vector<double>{-1.0});
 }
 
+TEST(Increments, JumpsAreFoundWhereTheyAre) {
+    for (char const* const name : {"uniform", "decreasing", "rise_fall", "3-0.01*x", "x<=150 ? 0.03*x : 6-0.01*x",
+                                   "x<300 ? 3-0.01*x : 0", "x*x*x", "exp(-x/20)", "abs(x-30)"}) {
+        EXPECT_TRUE(increment_jumps(700, {name}).empty()) << name;
+        EXPECT_TRUE(increment_jumps(700, {name, true}).empty()) << name;
+    }
+    EXPECT_TRUE(increment_jumps(0, {"x<10 ? 1 : 5"}).empty());
+    EXPECT_TRUE(increment_jumps(9, {"x<10 ? 1 : 5"}).empty());
+    auto const jumps = increment_jumps(200, {"x<=100 ? 0.03*x : 6-0.01*x"}); // a D = 3, K - b D = 5
+    ASSERT_EQ(jumps.size(), 1U);
+    EXPECT_NEAR(jumps[0].x, 100.0, 1e-6);
+    EXPECT_NEAR(jumps[0].from, 3.0, 1e-6);
+    EXPECT_NEAR(jumps[0].to, 5.0, 1e-6);
+    EXPECT_EQ(increment_jumps(100, {"rint(x/10)"}).size(), 10U);
+    EXPECT_TRUE(increment_jumps(200, {"x<=100 ? 0-x : 0-2*x"}).empty()); // all below 0, which count as 0
+    EXPECT_EQ(increment_jumps(200, {"x<=100 ? 0-x : 0-2*x", true}).size(), 1U);
+    EXPECT_THROW(increment_jumps(10, {"nonsense"}), BadParameter);
+}
+
 TEST(Increments, NamesWrittenOutAreTheSameTo32Bits) {
     for (auto const& [name, written] : {std::pair{"uniform", "0.1"},
                                         {"decreasing", "x<300 ? 3-0.01*x : 0"},

@@ -45,6 +45,7 @@ void make_ridges(Terrain& terrain, Diary& diary, Run const& run) {
     params.method = wanted.ridges == Ridges::voronoi ? skeleton::RidgesParams::Method::voronoi
                                                      : skeleton::RidgesParams::Method::segments;
     params.gain = wanted.ridge_gain;
+    params.farthest_m = wanted.ridge_farthest_m;
     terrain.ridges = diary.stage("ridge", [&] {
         return skeleton::ridges(terrain.network, network::streams(terrain.network.plan, terrain.orders), terrain.grid,
                                 params, run);
@@ -60,6 +61,7 @@ FeaturePoints scattered(Terrain const& terrain, Mask const& inside, Diary& diary
     params.count = wanted.scatter;
     params.spacing_cells = wanted.spacing_cells;
     params.gain = wanted.ridge_gain;
+    params.farthest_m = wanted.ridge_farthest_m;
     params.law = wanted.law;
     skeleton::Scattered points =
         diary.stage("scatter", [&] { return skeleton::scatter_between(terrain.valley, inside, params, run); });
@@ -112,6 +114,16 @@ Raster<float> over_triangles(Terrain const& terrain, Run const& run) {
     return land;
 }
 
+void warn_of_jumps(surface::Dilated const& drawn, surface::IncrementParams const& params, Run const& run) {
+    auto const jumps = surface::increment_jumps(drawn.levels, params);
+    if (!jumps.empty()) {
+        run.say(fmt::format("warning: surface.increment = \"{}\" jumps from {:.3g} to {:.3g} at x = {:.4g}{}: slopes "
+                            "break there",
+                            params.increment, jumps[0].from, jumps[0].to, jumps[0].x,
+                            jumps.size() > 1 ? fmt::format(", and {} times more", jumps.size() - 1) : ""));
+    }
+}
+
 surface::Dilated dilated(Terrain const& terrain, Mask const& inside, Run const& run) {
     SurfaceRecipe const& wanted = *terrain.recipe.surface;
     bool const whole = wanted.mask.empty() && terrain.land.values().empty();
@@ -119,8 +131,10 @@ surface::Dilated dilated(Terrain const& terrain, Mask const& inside, Run const& 
         return whole ? surface::dilate(terrain.valley, wanted.dilate, run)
                      : surface::dilate(terrain.valley, inside, wanted.dilate, run);
     }
-    Raster<float> const base =
-        wanted.base == Base::tin ? over_triangles(terrain, run) : surface::harmonic(terrain.valley, inside, run);
+    surface::HarmonicParams params;
+    params.tolerance = wanted.tolerance.value_or(params.tolerance);
+    Raster<float> const base = wanted.base == Base::tin ? over_triangles(terrain, run)
+                                                        : surface::harmonic(terrain.valley, inside, params, run);
     return whole ? surface::dilate_over(terrain.valley, base, wanted.dilate, run)
                  : surface::dilate_over(terrain.valley, base, inside, wanted.dilate, run);
 }
@@ -142,6 +156,7 @@ Skeleton gathered(Terrain const& terrain, FeaturePoints const& points, Run const
 surface::Dilated diffused(Terrain& terrain, FeaturePoints const& points, Mask const& inside, Run const& run) {
     surface::DiffuseParams params = terrain.recipe.surface->diffuse;
     params.seed = terrain.recipe.seed;
+    params.tolerance = terrain.recipe.surface->tolerance.value_or(params.tolerance);
     surface::Diffused land = surface::diffuse(gathered(terrain, points, run), inside, params, run);
     terrain.diffusion = {land.iterations, land.residual};
     surface::Dilated drawn;
@@ -216,6 +231,9 @@ void draw_around_rivers(Terrain& terrain, FeaturePoints const& given, Diary& dia
     if (!in_equilibrium(recipe)) {
         terrain.surface = diary.stage("fill", [&] { return draw(terrain, points, inside, run); });
         diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height, about(terrain)));
+        if (wanted.method == Method::dilate) {
+            warn_of_jumps(*terrain.surface, wanted.dilate.increment, run);
+        }
     }
     add_detail(terrain, terrain.surface->dem, run);
 }

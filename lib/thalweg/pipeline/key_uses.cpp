@@ -146,6 +146,7 @@ std::vector<Row> make_rows() {
 
         {"skeleton.ridges", skeleton_beside_rivers()},
         {"skeleton.ridge_gain", ridges() || scatters_beside},
+        {"skeleton.ridge_farthest", (ridges() || scatters_beside) && above("skeleton.ridge_gain", 0.0)},
         {"skeleton.ridge_noise", noise_on_ridges()},
         {"skeleton.ridge_wavelength", noise_on_ridges() && above("skeleton.ridge_noise", 0.0)},
         {"skeleton.midpoint_inverse", method_is({"diffuse"})},
@@ -153,6 +154,9 @@ std::vector<Row> make_rows() {
         {"skeleton.scatter", (from_points() || skeleton_beside_rivers()) && not_given("skeleton.points")},
         {"skeleton.spacing", scatter},
         {"skeleton.law", scatter},
+        {"skeleton.deviation", from_points() && above("skeleton.scatter", 0.0)},
+        {"skeleton.falloff",
+         from_points() && above("skeleton.scatter", 0.0) && above("statistics.reach", 0.0) && extremes()},
         {"skeleton.tin", (with("network") && with("surface")) || tin_of_points()},
 
         {"surface.method", with("network") || from_points()},
@@ -173,6 +177,8 @@ std::vector<Row> make_rows() {
         {"surface.lake_share", equilibrium()},
         {"surface.drain", always()},
         {"surface.diffusion", diffuse()},
+        {"surface.tolerance",
+         (dilate() && is("surface.base", {"harmonic"})) || (diffuse() && is("surface.diffusion", {"steady"}))},
         {"surface.sweeps", explicit_diffusion()},
         {"surface.start", explicit_diffusion()},
         {"surface.alpha", explicit_diffusion()},

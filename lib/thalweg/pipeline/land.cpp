@@ -132,6 +132,8 @@ FeaturePoints points_of(Recipe const& recipe, FeaturePoints const& given, Grid c
     params.mean_m = mean_of(s);
     params.std_m = s.std.value_or(default_std_m);
     params.reach_cells = s.reach_cells;
+    params.deviation = recipe.skeleton->deviation;
+    params.falloff = recipe.skeleton->falloff;
     auto const place = [&](std::optional<std::array<double, 3>> const& e) -> std::optional<Vec3> {
         if (!e) {
             return std::nullopt;
@@ -175,6 +177,7 @@ Raster<float> land_of_points(Terrain& terrain, FeaturePoints const& points, Grid
         Valley const no_rivers{Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
         surface::DiffuseParams params = wanted.diffuse;
         params.seed = terrain.recipe.seed;
+        params.tolerance = wanted.tolerance.value_or(params.tolerance);
         surface::Diffused land =
             surface::diffuse(skeleton::draw_skeleton(no_rivers, {}, points, {}, run).skeleton, params, run);
         terrain.diffusion = {land.iterations, land.residual};

@@ -208,8 +208,9 @@ Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run)
     wanted.dla.seed = recipe.seed;
     run.at(0.0, fmt::format("grow {} particles", wanted.dla.particles).c_str());
     network::Cluster const cluster = diary.stage("grow", [&] { return network::grow_dla(wanted.dla, run); });
-    diary.say(
-        fmt::format("{} particles  seed {}  radius {:.0f} cells", cluster.cells.size(), recipe.seed, cluster.radius));
+    terrain.story.wide = cluster.stop == network::GrowthStop::radius;
+    diary.say(fmt::format("{} particles  seed {}  radius {:.0f} cells{}", cluster.cells.size(), recipe.seed,
+                          cluster.radius, terrain.story.wide ? ", where it stops" : ""));
     terrain.story.particles = static_cast<std::int64_t>(cluster.cells.size());
     terrain.story.walkers = cluster.walkers;
 

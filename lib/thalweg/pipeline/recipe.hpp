@@ -130,6 +130,7 @@ enum class Ridges : std::uint8_t { none, voronoi, segments };
 struct SkeletonRecipe {
     Ridges ridges = Ridges::none;
     double ridge_gain = 0.3;             ///< [m/m] >= 0, lambda: rise above the rivers by distance from them
+    double ridge_farthest_m = 0.0;       ///< [m] >= 0, d_max: distance beyond which they rise no more; 0: none
     double ridge_noise_m = 0.0;          ///< [m] >= 0, amplitude of noise along them
     double ridge_wavelength_m = 1000.0;  ///< [m] > 0, of its longest waves
     double midpoint_inverse_cells = 0.0; ///< [cells] >= 0, L: cells beside the skeleton that follow from it; 0: none
@@ -137,7 +138,9 @@ struct SkeletonRecipe {
     std::int64_t scatter = 0;            ///< points at random; 0 for none
     double spacing_cells = 0.0;          ///< [cells] least distance of points at random
     skeleton::HeightLaw law = skeleton::HeightLaw::uniform;
-    bool tin = false; ///< write the skeleton's TIN
+    skeleton::Deviation deviation = skeleton::Deviation::exact; ///< of points at random
+    skeleton::Falloff falloff = skeleton::Falloff::literal;     ///< of their pull to the extremes
+    bool tin = false;                                           ///< write the skeleton's TIN
 };
 
 enum class Method : std::uint8_t { equilibrium, dilate, diffuse, tin, regress };
@@ -165,6 +168,7 @@ struct SurfaceRecipe {
     surface::DiffuseParams diffuse;
     std::string mask; ///< raster on the grid: cells with 0 or no data are left out; "" for none
     Interpolation interpolation = Interpolation::linear; ///< of a TIN
+    std::optional<double> tolerance;                     ///< (0, 0.1] of a solution; none: that of each method
     skeleton::RegressParams regress;
     std::optional<surface::Drain> drain; ///< none: carve where there are rivers, else surface::Drain::none
 };

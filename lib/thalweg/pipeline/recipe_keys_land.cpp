@@ -18,6 +18,9 @@ void add_skeleton_keys(std::vector<Key>& keys) {
                           "lambda_h: rise of a ridge above its rivers per metre of distance, and greatest rise of a "
                           "random point",
                           in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.ridge_gain; })));
+    keys.push_back(number("skeleton.ridge_farthest", "m", {0, 1e7},
+                          "d_max: distance from the rivers beyond which ridges and random points rise no more; 0: none",
+                          in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.ridge_farthest_m; })));
     keys.push_back(number("skeleton.ridge_noise", "m", {0, 1e5}, "amplitude of noise along ridges, 0 at their ends",
                           in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.ridge_noise_m; })));
     keys.push_back(number("skeleton.ridge_wavelength", "m", {0, 1e7, true}, "longest wavelength of that noise",
@@ -40,6 +43,15 @@ void add_skeleton_keys(std::vector<Key>& keys) {
         "distribution of the heights of random points; with [network], of their share of ridge_gain times the distance "
         "from the nearest river",
         in_skeleton<skeleton::HeightLaw>([](SkeletonRecipe& s) -> skeleton::HeightLaw& { return s.law; })));
+    keys.push_back(choice<skeleton::Deviation>(
+        "skeleton.deviation", {{"exact", skeleton::Deviation::exact}, {"printed", skeleton::Deviation::printed}},
+        "deviation of random points: exactly statistics.std, or by equation 8 of Zhang, Liu and Li, heights "
+        "uniform within statistics.std of the mean",
+        in_skeleton<skeleton::Deviation>([](SkeletonRecipe& s) -> skeleton::Deviation& { return s.deviation; })));
+    keys.push_back(choice<skeleton::Falloff>(
+        "skeleton.falloff", {{"literal", skeleton::Falloff::literal}, {"continuous", skeleton::Falloff::continuous}},
+        "pull of random points towards max and min at distance R: with a step as published, or continuous to 0",
+        in_skeleton<skeleton::Falloff>([](SkeletonRecipe& s) -> skeleton::Falloff& { return s.falloff; })));
     keys.push_back(yes_no("skeleton.tin", "write the TIN of rivers and points: tin.2dm, tin.ply",
                           in_skeleton<bool>([](SkeletonRecipe& s) -> bool& { return s.tin; })));
 }
@@ -49,6 +61,11 @@ namespace {
 void add_diffusion_keys(std::vector<Key>& keys) {
     using surface::Diffusion;
     using surface::DiffusionStart;
+    using MaybeNumber = std::optional<double>;
+    keys.push_back(maybe("surface.tolerance", "", {1e-12, 0.1},
+                         "relative residual at which the harmonic base or the steady state is solved; left out: 1e-8, "
+                         "or 1e-10 of the steady state",
+                         in_surface<MaybeNumber>([](SurfaceRecipe& s) -> MaybeNumber& { return s.tolerance; })));
     keys.push_back(choice<Diffusion>(
         "surface.diffusion", {{"steady", Diffusion::steady}, {"explicit", Diffusion::explicit_sweeps}},
         "steady state, or a number of explicit sweeps as published",

@@ -132,6 +132,9 @@ void add_network_keys(std::vector<Key>& keys) {
     keys.push_back(integer<std::int64_t>(
         "network.dla.particles", "", {1, 1e9}, "number of particles in the cluster",
         in_network<std::int64_t>([](NetworkRecipe& n) -> std::int64_t& { return n.dla.particles; })));
+    keys.push_back(integer<std::int64_t>(
+        "network.dla.radius", "cells", {0, 1e6}, "radius of the cluster at which growth stops early; 0: none",
+        in_network<std::int64_t>([](NetworkRecipe& n) -> std::int64_t& { return n.dla.max_radius; })));
     keys.push_back(number("network.dla.sticking", "", {0, 1, true},
                           "sticking probability S: a particle with n occupied neighbours sticks with S^(3-n)",
                           in_network<double>([](NetworkRecipe& n) -> double& { return n.dla.sticking; })));

@@ -164,6 +164,7 @@ ordered_json network_object(Terrain const& t) {
             {"stopped_at", t.story.particles == 0 ? ""
                            : t.story.full         ? "full"
                            : t.story.cut          ? "margin"
+                           : t.story.wide         ? "radius"
                                                   : "particles"},
             {"uphill_before_repair",
              {{"arcs", h.uphill_arcs}, {"length_m", h.uphill_length_m}, {"max_rise_m", h.max_rise_m}}},

@@ -45,6 +45,7 @@ struct NetworkStory {
     std::int64_t particles = 0; ///< of the cluster (dla) or the forest
     std::int64_t walkers = 0;   ///< released for it
     std::optional<TokunagaStory> tokunaga;
+    bool wide = false;              ///< the cluster stopped at its greatest radius
     bool full = false;              ///< the forest stopped where no particle found room
     bool cut = false;               ///< the branch reached the grid's margin before the last particle
     std::int64_t arcs_traced = 0;   ///< before pruning

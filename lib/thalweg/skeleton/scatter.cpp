@@ -30,20 +30,38 @@ double normal(std::uint64_t seed, std::uint64_t place) {
     return std::sqrt(-2.0 * exact::log(u)) * exact::cos(2.0 * exact::pi * unit(words[1]));
 }
 
-std::vector<double> heights(std::size_t count, ScatterParams const& params) {
+/// Numbers by the law: uniform in [-1, 1), or normal.
+std::vector<double> drawn(std::size_t count, ScatterParams const& params) {
     std::vector<double> z(count);
-    double mean = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
         z[i] = params.law == HeightLaw::normal ? normal(params.seed, i)
                                                : 2.0 * unit(chance(params.seed, height_stage, i)) - 1.0;
-        mean += z[i] / static_cast<double>(count);
+    }
+    return z;
+}
+
+/// Brings numbers to mean 0. Gives: their deviation.
+double centre(std::vector<double>& z) {
+    auto const count = static_cast<double>(z.size());
+    double mean = 0.0;
+    for (double const v : z) {
+        mean += v / count;
     }
     double square = 0.0;
     for (double& v : z) {
         v -= mean;
-        square += v * v / static_cast<double>(count);
+        square += v * v / count;
     }
-    double const scale = square > 0.0 ? params.std_m / std::sqrt(square) : 0.0;
+    return std::sqrt(square);
+}
+
+std::vector<double> heights(std::size_t count, ScatterParams const& params) {
+    std::vector<double> z = drawn(count, params);
+    double scale = params.std_m;
+    if (params.deviation == Deviation::exact) {
+        double const deviation = centre(z);
+        scale = deviation > 0.0 ? params.std_m / deviation : 0.0;
+    }
     for (double& v : z) {
         v = params.mean_m + v * scale;
     }
@@ -84,12 +102,14 @@ void demand(Grid const& grid, ScatterParams const& p, double spacing_m) {
     }
 }
 
-/// Equation 10: draws a height to an extreme, the whole way at its place, by 1/e at the reach.
-void attract(Vec3& point, Vec3 const& extreme, double reach_m) {
+/// Equation 10: draws a height to an extreme, the whole way at its place, at the reach by 1/e as printed, or not at
+/// all.
+void attract(Vec3& point, Vec3 const& extreme, double reach_m, Falloff falloff) {
     double const away = distance({point.x, point.y}, {extreme.x, extreme.y});
     if (away <= reach_m) {
         double const share = away / reach_m;
-        point.z += exact::exp(-share * share) * (extreme.z - point.z);
+        double const at_reach = falloff == Falloff::literal ? 0.0 : exact::exp(-1.0);
+        point.z += (exact::exp(-share * share) - at_reach) / (1.0 - at_reach) * (extreme.z - point.z);
     }
 }
 
@@ -122,7 +142,7 @@ Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run)
         Vec3 point{places[i].x, places[i].y, z[i]};
         for (Vec3 const& extreme : extremes) {
             if (params.reach_cells > 0.0) {
-                attract(point, extreme, params.reach_cells * grid.cell_m);
+                attract(point, extreme, params.reach_cells * grid.cell_m, params.falloff);
             }
         }
         point.z = std::clamp(point.z, bottom + hair, top - hair);

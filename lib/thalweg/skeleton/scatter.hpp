@@ -8,11 +8,18 @@
 #include <thalweg/core/feature_points.hpp>
 #include <thalweg/core/grid.hpp>
 #include <thalweg/core/run.hpp>
+#include <thalweg/skeleton/attract.hpp>
 
 namespace thalweg::skeleton {
 
 /// How heights of scattered points are distributed before they are brought to mean and deviation.
 enum class HeightLaw : std::uint8_t { uniform, normal };
+
+/// What the deviation of scattered points is.
+enum class Deviation : std::uint8_t {
+    exact,  ///< that of the points themselves, as equation 9 brings it about
+    printed ///< as equation 8 has it: heights are mean + deviation (2 u - 1), or mean + deviation n by the normal law
+};
 
 struct ScatterParams {
     std::uint64_t seed = 7;
@@ -24,6 +31,8 @@ struct ScatterParams {
     std::optional<Vec3> highest = std::nullopt; ///< [m] a point of its own; others stay below it
     std::optional<Vec3> lowest = std::nullopt;  ///< [m] likewise, above it
     double reach_cells = 0.0;                   ///< [cells] >= 0, R: within it heights are drawn to the extremes
+    Deviation deviation = Deviation::exact;
+    Falloff falloff = Falloff::literal; ///< of that pull
 };
 
 struct Scattered {
@@ -34,9 +43,10 @@ struct Scattered {
 
 /// Points at random on a grid's ground, no two nearer than a given distance, with heights of given mean and deviation.
 /// Takes: extremes inside the grid, apart by the spacing or more. Gives: distances >= spacing exactly; exactly count
-/// points or how many are missing; heights of mean and deviation before they are drawn to the extremes, then strictly
-/// between these. Throws: BadParameter, with the density, when no packing could hold the points.
-/// Source: paper 001, equations 6 to 11; up to a density of 0.62 darts, above it Bridson 2007 (denser).
+/// points or how many are missing; heights of mean and deviation before they are drawn to the extremes
+/// (Deviation::exact; as printed uniform ones deviate by std / sqrt 3, in the mean), then strictly between these.
+/// Throws: BadParameter, with the density, when no packing could hold the points. Source: paper 001, equations 6 to 11;
+/// up to a density of 0.62 darts, above it Bridson 2007 (denser).
 Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run = {});
 
 } // namespace thalweg::skeleton

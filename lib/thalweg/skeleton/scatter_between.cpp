@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -23,10 +24,12 @@ constexpr std::uint64_t share_stage = 0x7363617474657235; // "scatter5"
 constexpr double nearest_allowed_cells = 2.0;
 
 void demand(Valley const& valley, Mask const& inside, ScatterBetweenParams const& p) {
-    if (p.count < 0 || !(p.spacing_cells >= 0.0) || !(p.gain >= 0.0) || !std::isfinite(p.spacing_cells + p.gain)) {
-        throw BadParameter(fmt::format("skeleton.scatter_between: {} points, spacing {} cells, gain {}: give finite "
-                                       "numbers of 0 or more",
-                                       p.count, p.spacing_cells, p.gain));
+    if (p.count < 0 || !(p.spacing_cells >= 0.0) || !(p.gain >= 0.0) || !(p.farthest_m >= 0.0) ||
+        !std::isfinite(p.spacing_cells + p.gain + p.farthest_m)) {
+        throw BadParameter(
+            fmt::format("skeleton.scatter_between: {} points, spacing {} cells, gain {}, farthest {} m: give "
+                        "finite numbers of 0 or more",
+                        p.count, p.spacing_cells, p.gain, p.farthest_m));
     }
     if (inside.cells() > 0 && inside.grid() != valley.z.grid()) {
         throw BadInput("skeleton.scatter_between: the mask has another grid than the valley");
@@ -123,9 +126,11 @@ Scattered scatter_between(Valley const& valley, Mask const& inside, ScatterBetwe
     places.insert(places.end(), placed.places.begin(), placed.places.end());
     result.missing = placed.missing;
     result.density = placed.density;
+    double const most =
+        params.farthest_m > 0.0 ? params.farthest_m / grid.cell_m : std::numeric_limits<double>::infinity();
     for (std::uint64_t number = 0; Vec2 const p : places) {
         std::int64_t const cell = grid.index(grid.cell_of(p));
-        double const rise = params.gain * distance_cells(grid, cell, nearest[cell]) * grid.cell_m;
+        double const rise = params.gain * std::min(distance_cells(grid, cell, nearest[cell]), most) * grid.cell_m;
         result.points.points.push_back(
             {p.x, p.y, static_cast<double>(valley.z[nearest[cell]]) + rise * share_of(number++, params)});
     }

@@ -16,6 +16,7 @@ struct ScatterBetweenParams {
     std::int64_t count = 200;           ///< [0, ...] points
     double spacing_cells = 0.0;         ///< [cells] >= 0, least distance of any two points
     double gain = 0.3;                  ///< [m/m] >= 0, greatest rise of a point above its river by distance
+    double farthest_m = 0.0;            ///< [m] >= 0, distance beyond which points rise no more; 0: none
     HeightLaw law = HeightLaw::uniform; ///< of the share of that rise which a point has
 };
 
@@ -25,11 +26,11 @@ struct ScatterBetweenParams {
 /// cells; exactly count points or how many are missing. The first of them lie in cells of the grid's border, corners
 /// included, as far apart as points are that spread evenly, so that triangles of the points cover the grid; the others
 /// anywhere. A point stands at z + gain d share: z of the river cell nearest
-/// to its cell (of equally near ones that of the lowest index), d the distance of the two cells [m], share in [0, 1]:
-/// uniform there, or normal around 1/2 with a deviation of 1/6, drawn again beyond it.
-/// Throws: BadParameter, with the density, when no packing could hold the points; BadInput when no cell has a river or
-/// inside has another grid; Cancelled. Source: Zhang, Liu and Li, equations 6 to 8 and 11, heights by equation 10 of
-/// the thesis of 2015 with a random share.
+/// to its cell (of equally near ones that of the lowest index), d the distance of the two cells [m], farthest_m at
+/// most, share in [0, 1]: uniform there, or normal around 1/2 with a deviation of 1/6, drawn again beyond it. Throws:
+/// BadParameter, with the density, when no packing could hold the points; BadInput when no cell has a river or inside
+/// has another grid; Cancelled. Source: Zhang, Liu and Li, equations 6 to 8 and 11, heights by equation 10 of the
+/// thesis of 2015 with a random share.
 Scattered scatter_between(Valley const& valley, Mask const& inside, ScatterBetweenParams const& params = {},
                           Run const& run = {});
 

@@ -14,9 +14,13 @@ Raster<float> harmonic(Valley const& valley, Run const& run) {
 }
 
 Raster<float> harmonic(Valley const& valley, Mask const& inside, Run const& run) {
+    return harmonic(valley, inside, HarmonicParams{}, run);
+}
+
+Raster<float> harmonic(Valley const& valley, Mask const& inside, HarmonicParams const& params, Run const& run) {
     auto problem = problem_through(valley.z, inside, "surface.harmonic", run);
     Raster<std::uint8_t> const kind = problem.kind;
-    return heights_of(solver::solve_poisson(std::move(problem), {1e-8, 1000}, run).value, kind, valley.z);
+    return heights_of(solver::solve_poisson(std::move(problem), {params.tolerance, 1000}, run).value, kind, valley.z);
 }
 
 } // namespace thalweg::surface

@@ -29,6 +29,8 @@ constexpr std::array<Named, 3> table_1{{
     {"rise_fall", [](double x) { return x <= 150.0 ? 3.0 * x / 100.0 : (600.0 - x) / 100.0; }},
 }};
 
+constexpr int halvings = 40;
+constexpr double least_jump = 0.01; // of the greatest increment
 constexpr std::size_t longest_expression = 1000;
 constexpr std::string_view choices = "(uniform, decreasing, rise_fall, or an expression in x such as 3-0.01*x)";
 
@@ -132,6 +134,48 @@ std::vector<double> increments(std::int64_t levels, IncrementParams const& param
         }
     }
     return values;
+}
+
+std::vector<IncrementJump> increment_jumps(std::int64_t levels, IncrementParams const& params) {
+    std::vector<double> const values = increments(levels, params);
+    bool const named = std::any_of(table_1.begin(), table_1.end(),
+                                   [&](Named const& candidate) { return candidate.name == params.increment; });
+    std::vector<IncrementJump> jumps;
+    if (named || values.size() < 2) { // those of the table are continuous
+        return jumps;
+    }
+    double greatest = 0.0;
+    for (double const v : values) {
+        greatest = std::max(greatest, std::fabs(v));
+    }
+    double x = 1.0;
+    mu::Parser parser;
+    parser.DefineVar("x", &x);
+    parser.SetExpr(params.increment);
+    auto const at = [&](double where) {
+        x = where;
+        double const value = parser.Eval();
+        return params.allow_negative ? value : std::max(value, 0.0);
+    };
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        IncrementJump jump{static_cast<double>(i), values[i - 1], values[i]};
+        double end = static_cast<double>(i + 1);
+        for (int half = 0; half < halvings && std::fabs(jump.to - jump.from) > least_jump * greatest; ++half) {
+            double const middle = 0.5 * (jump.x + end);
+            double const value = at(middle);
+            if (!(std::fabs(value - jump.from) <= std::fabs(jump.to - value))) {
+                end = middle;
+                jump.to = value;
+            } else {
+                jump.x = middle;
+                jump.from = value;
+            }
+        }
+        if (!(std::fabs(jump.to - jump.from) <= least_jump * greatest)) {
+            jumps.push_back(jump);
+        }
+    }
+    return jumps;
 }
 
 std::vector<double> heights_above_valley(std::vector<double> const& increments) {

@@ -20,6 +20,19 @@ struct IncrementParams {
 /// Source: paper 000, Table 1.
 std::vector<double> increments(std::int64_t levels, IncrementParams const& params = {});
 
+/// A place where increments jump.
+struct IncrementJump {
+    double x = 0.0;    ///< dilations
+    double from = 0.0; ///< increment before it, in the papers' units
+    double to = 0.0;   ///< and behind it
+};
+
+/// Where dh(x) is not continuous between 1 and levels: slopes break there on every hillside at once.
+/// Takes: as increments(). Gives: jumps of more than a hundredth of the greatest increment that no bisection of x makes
+/// less, ascending; none for the names of Table 1. Throws: as increments(). Source: paper 000, Table 1, whose
+/// increments in two parts meet where they change.
+std::vector<IncrementJump> increment_jumps(std::int64_t levels, IncrementParams const& params = {});
+
 /// Sums H(d) = dh(1) + ... + dh(d), d = 0 .. levels.
 std::vector<double> heights_above_valley(std::vector<double> const& increments);
 
