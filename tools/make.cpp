@@ -12,6 +12,7 @@
 #include <thalweg/pipeline/recipe.hpp>
 #include <thalweg/pipeline/report.hpp>
 #include <thalweg/pipeline/terrain.hpp>
+#include <thalweg/pipeline/user_files.hpp>
 #include <thalweg/pipeline/write_terrain.hpp>
 
 #include <CLI/CLI.hpp>
@@ -68,7 +69,8 @@ void tell_all(char const* what, std::vector<Finding> const& findings, Run const&
 
 int make(MakeOptions const& options, Session const& session) {
     auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
-    pipeline::Recipe const recipe = recipe_of(options);
+    pipeline::Recipe recipe = recipe_of(options);
+    pipeline::UserFiles const files(recipe, session.run);
     if (options.dry_run) {
         fmt::print("{}", forecast_in_words(pipeline::forecast(recipe, session.run), session.json));
         return Exit::done;

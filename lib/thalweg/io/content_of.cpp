@@ -43,7 +43,7 @@ FileContent content_of(std::string const& path) {
         return content;
     }
     Driver const driver;
-    Dataset const data = open_file(content.path, GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr, what);
+    Dataset const data = open_file(content.path, GDAL_OF_RASTER | GDAL_OF_VECTOR, what);
     if (data->GetRasterCount() > 0) {
         return content;
     }

@@ -69,7 +69,7 @@ std::vector<std::string> conversions_of(std::string const& path, std::string con
         return {};
     }
     Driver const driver;
-    Dataset const data = open_undisturbed(path, GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr);
+    Dataset const data = open_undisturbed(path, GDAL_OF_RASTER | GDAL_OF_VECTOR);
     std::string const ignored = driver.take();
     if (!data) {
         return {};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,7 +14,11 @@
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/access.hpp>
 #include <thalweg/io/archive.hpp>
+#include <thalweg/io/driver.hpp>
+#include <thalweg/io/gdal_guard.hpp>
+#include <thalweg/io/recipe_formats.hpp>
 #include <thalweg/io/spatial_reference.hpp>
 #include <thalweg/io/undisturbed.hpp>
 
@@ -23,20 +28,99 @@ void CloseDataset::operator()(GDALDataset* dataset) const {
     GDALClose(dataset);
 }
 
-Dataset open_undisturbed(std::string const& path, unsigned kinds, char const* const* drivers) {
-    auto const file = std::make_shared<Undisturbed const>(path);
-    return Dataset(GDALDataset::Open(inside_archive(file->path()).c_str(),
-                                     kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers, file->options()),
-                   {file});
+namespace {
+
+constexpr std::array<char const*, 2> databases{"PostgreSQL", nullptr};
+
+bool is_database(std::string const& path) {
+    return path.starts_with("PG:") || path.starts_with("postg");
 }
 
-Dataset open_file(std::string const& path, unsigned kinds, char const* const* drivers, std::string const& what) {
+// What one data set needs as long as it is open, in this order.
+struct Held {
+    std::unique_ptr<Connection const> connection = {};
+    std::unique_ptr<Undisturbed const> file = {};
+    std::unique_ptr<WithNetcdf const> netcdf = {};
+    std::unique_ptr<Confined const> folder = {};
+    std::unique_ptr<Confined const> folder_of_copy = {};
+};
+
+// shown: the name in messages.
+Dataset opened(std::string const& path, unsigned kinds, char const* const* drivers, std::shared_ptr<Held const> held,
+               std::string const& shown) {
+    char const* const* const options = held->file ? held->file->options() : nullptr;
+    take_refused_address();
+    Dataset data(GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers, options),
+                 {std::move(held)});
+    if (std::string const address = take_refused_address(); !address.empty()) {
+        throw BadInput(fmt::format("io.open_undisturbed: {} makes a connection ({}), and thalweg connects only to what "
+                                   "the command line names; take the address out of the file",
+                                   shown, address));
+    }
+    return data;
+}
+
+Dataset open_connection(std::string const& path, unsigned kinds) {
+    auto held = std::make_shared<Held>();
+    held->connection = std::make_unique<Connection const>();
+    std::vector<char const*> const files = recipe_drivers();
+    return opened(path, kinds, is_database(path) ? databases.data() : files.data(), held, path);
+}
+
+Dataset open_recipe_file(std::string const& path, unsigned kinds) {
+    require_allowed(path);
+    auto held = std::make_shared<Held>();
+    held->file = std::make_unique<Undisturbed const>(path);
+    held->folder = std::make_unique<Confined const>(path);
+    held->folder_of_copy = std::make_unique<Confined const>(held->file->path());
+    std::string const name = inside_archive(held->file->path());
+    std::vector<char const*> const drivers = recipe_drivers();
+    Dataset data = opened(name, kinds, drivers.data(), held, path);
+    if (data == nullptr) {
+        refuse_other_format(name, path);
+    }
+    if (data != nullptr && data->GetDriver() != nullptr && EQUAL(data->GetDriver()->GetDescription(), "GPKG")) {
+        require_own_tables(*data, path);
+    }
+    return data;
+}
+
+} // namespace
+
+Dataset open_undisturbed(std::string const& path, unsigned kinds) {
+    if (reads_recipe_files()) {
+        return open_recipe_file(path, kinds);
+    }
+    if (names_connection(path)) {
+        return open_connection(path, kinds);
+    }
+    auto held = std::make_shared<Held>();
+    held->file = std::make_unique<Undisturbed const>(path);
+    held->netcdf = std::make_unique<WithNetcdf const>(path);
+    std::string const name = inside_archive(held->file->path());
+    return opened(name, kinds, nullptr, held, path);
+}
+
+bool is_recipe_file(std::string const& path) {
+    Driver const driver;
+    RecipeFiles const strictly;
+    try {
+        bool const opens = open_undisturbed(path, GDAL_OF_RASTER | GDAL_OF_VECTOR) != nullptr;
+        driver.take();
+        return opens;
+    } catch (BadInput const&) {
+        driver.take();
+        return false;
+    }
+}
+
+Dataset open_file(std::string const& path, unsigned kinds, std::string const& what) {
     // GDAL takes addresses and connection strings for file names.
     if (std::error_code ignored; !std::filesystem::exists(path, ignored)) {
         throw BadInput(what + " does not exist");
     }
     CPLErrorReset();
-    Dataset dataset = open_undisturbed(path, kinds, drivers);
+    Dataset dataset = open_undisturbed(path, kinds);
     if (dataset == nullptr) {
         throw BadInput(fmt::format("{} cannot be read: {}", what, CPLGetLastErrorMsg()));
     }

@@ -21,13 +21,13 @@ using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 /// What stands for a cell without height in files.
 inline constexpr float nodata_height = -9999.0F;
 
-/// Opens a file or a database read-only, so that neither a file nor its folder is changed (see Undisturbed); null when
-/// no driver reads it, with the reason in GDAL's errors. Throws: IoError like Undisturbed.
-Dataset open_undisturbed(std::string const& path, unsigned kinds, char const* const* drivers);
+/// Opens a file or a database, one of the given kinds (GDAL_OF_RASTER, ...), read-only, so that neither a file nor its
+/// folder is changed (see Undisturbed); null when no driver reads it, with the reason in GDAL's errors. What may be
+/// opened: see RecipeFiles. Throws: BadInput when it may not be opened; IoError like Undisturbed.
+Dataset open_undisturbed(std::string const& path, unsigned kinds);
 
-/// Opens an existing file, one of the given kinds (GDAL_OF_RASTER, ...), read-only, by the given drivers
-/// (null-terminated, nullptr for any). Throws: BadInput when there is none or no driver reads it.
-Dataset open_file(std::string const& path, unsigned kinds, char const* const* drivers, std::string const& what);
+/// Opens an existing file likewise. Throws: BadInput when there is none or no driver reads it.
+Dataset open_file(std::string const& path, unsigned kinds, std::string const& what);
 
 /// Sets position and CRS of a data set. Throws: BadInput when the CRS is none.
 void set_frame(GDALDataset& dataset, Grid const& grid);

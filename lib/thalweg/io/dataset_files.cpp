@@ -16,7 +16,7 @@ namespace thalweg::io {
 
 std::vector<std::string> dataset_files(std::string const& path) {
     Driver const driver;
-    Dataset const source = open_undisturbed(path, GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr);
+    Dataset const source = open_undisturbed(path, GDAL_OF_RASTER | GDAL_OF_VECTOR);
     if (!source) {
         throw BadInput("io.dataset_files: " + path + " is not a vector or raster source");
     }

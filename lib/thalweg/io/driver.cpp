@@ -8,10 +8,12 @@
 #include <vector>
 
 #include <cpl_error.h>
+#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_srs_api.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/gdal_guard.hpp>
 
 namespace thalweg::io {
 
@@ -39,6 +41,7 @@ Driver::Driver() : log_(std::make_unique<Log>()) {
     static std::once_flag once;
     std::call_once(once, [] {
         GDALAllRegister();
+        guard_gdal();
         OSRSetPROJEnableNetwork(0); // a datum grid fetched on one machine only would change the coordinates there
     });
     CPLPushErrorHandlerEx(note, &log_->errors);
@@ -58,6 +61,12 @@ std::string Driver::take() const {
 
 void Driver::check(std::string const& what) const {
     if (auto const words = take(); !words.empty()) {
+        bool const by_guard = !take_refused_address().empty();
+        if (by_guard || words.find("ALLOW_NETWORK_ACCESS=NO") != std::string::npos) {
+            throw BadInput(fmt::format("{}: thalweg connects only to what the command line names; take the address out "
+                                       "of the file ({})",
+                                       what, words));
+        }
         throw IoError(what + ": " + words);
     }
 }

@@ -16,7 +16,8 @@ public:
     ~Driver();
     Driver(Driver const&) = delete;
     Driver& operator=(Driver const&) = delete;
-    /// Throws IoError with GDAL's words when an error came since the last call. what: "io.write_dem: out/dem.tif".
+    /// Throws IoError with GDAL's words when an error came since the last call, BadInput when a file wanted a
+    /// connection. what: "io.write_dem: out/dem.tif".
     void check(std::string const& what) const;
     /// GDAL's words for the errors since the last call, "" for none: for messages of one's own.
     std::string take() const;

@@ -85,7 +85,7 @@ RiverSource find_rivers(std::string const& path) {
         }
     }
     Driver const driver;
-    Dataset const data = open_undisturbed(source.path, GDAL_OF_VECTOR | GDAL_OF_RASTER, nullptr);
+    Dataset const data = open_undisturbed(source.path, GDAL_OF_VECTOR | GDAL_OF_RASTER);
     if (!data) {
         std::string const words = driver.take();
         refuse(is_folder && source.path.size() <= path.size()

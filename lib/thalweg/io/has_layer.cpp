@@ -19,7 +19,7 @@ bool has_layer(std::string const& path, std::string const& layer) {
         return false;
     }
     Driver const driver;
-    return open_file(path, GDAL_OF_VECTOR, nullptr, "io.has_layer")->GetLayerByName(layer.c_str()) != nullptr;
+    return open_file(path, GDAL_OF_VECTOR, "io.has_layer")->GetLayerByName(layer.c_str()) != nullptr;
 }
 
 } // namespace thalweg::io

@@ -64,7 +64,7 @@ enum class Unit : std::uint8_t { metre, stored };
 Raster<float> read(std::string const& path, Unit wanted, Run const& run) {
     std::string const what = "io.read_dem: " + path;
     Driver const driver;
-    Dataset const dataset = open_file(path, GDAL_OF_RASTER, nullptr, what);
+    Dataset const dataset = open_file(path, GDAL_OF_RASTER, what);
     if (dataset->GetRasterCount() != 1) {
         throw BadInput(fmt::format("{} has {} bands: a DEM has one", what, dataset->GetRasterCount()));
     }

@@ -219,7 +219,7 @@ Drawable read_drawable(std::string const& path, std::int64_t most_side, Run cons
         throw BadParameter(fmt::format("io.read_drawable: most_side is {}, must lie in [16, 30000]", most_side));
     }
     Driver const driver;
-    Dataset source = open_file(path, GDAL_OF_RASTER, nullptr, what);
+    Dataset source = open_file(path, GDAL_OF_RASTER, what);
     if (source->GetRasterCount() < 1) {
         throw BadInput(what + " has no bands of its own: name one of its subdatasets (gdalinfo lists them)");
     }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/read_network_source.hpp>
 
-#include <array>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -80,20 +79,12 @@ std::string shown(std::string path) {
     return path;
 }
 
-// A server that does not answer shall not keep anyone waiting.
-std::string impatient(std::string const& path) {
-    return path.starts_with("PG:") && path.find("connect_timeout") == std::string::npos ? path + " connect_timeout=10"
-                                                                                        : path;
-}
-
 Dataset open(std::string const& path, std::string const& what, Driver const& driver) {
     bool const database = is_database(path);
     if (std::error_code ignored; !database && !fs::exists(path, ignored)) {
         throw BadInput(what + " does not exist");
     }
-    static std::array<char const*, 2> constexpr postgres{"PostgreSQL", nullptr};
-    Dataset dataset =
-        open_undisturbed(database ? impatient(path) : path, GDAL_OF_VECTOR, database ? postgres.data() : nullptr);
+    Dataset dataset = open_undisturbed(path, GDAL_OF_VECTOR);
     if (dataset == nullptr) {
         refuse(what, driver.take());
     }

@@ -20,6 +20,7 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/access.hpp>
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/io/files.hpp>
@@ -214,7 +215,7 @@ FileBox extent_of(std::vector<Vec3> const& points) {
 
 FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name, Run const& run) {
     Driver const driver;
-    Dataset const data = open_file(params.path, GDAL_OF_VECTOR, nullptr, "io.read_points: " + params.path);
+    Dataset const data = open_file(params.path, GDAL_OF_VECTOR, "io.read_points: " + params.path);
     OGRLayer& layer = choose_layer(*data, params.layer, name);
     FeaturePoints read;
     read.points = take(layer, params, name, run);
@@ -256,6 +257,7 @@ FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
     auto const name = std::filesystem::path(params.path).filename().string();
     FeaturePoints read;
     if (is_text_of_points(params.path)) {
+        require_allowed(params.path);
         constexpr std::int64_t most_bytes = std::int64_t{1} << 34;
         read.points = parse(read_text(params.path, most_bytes), params.heights, name, run);
         read.crs = params.crs.empty() ? "" : projected_crs(params.crs);

@@ -175,14 +175,14 @@ void reproject(std::vector<Polygon>& polygons, OGRSpatialReference const& from, 
 
 bool holds_polygons(std::string const& path) {
     Driver const driver;
-    Dataset const data = open_file(path, GDAL_OF_RASTER | GDAL_OF_VECTOR, nullptr, "io.holds_polygons: " + path);
+    Dataset const data = open_file(path, GDAL_OF_RASTER | GDAL_OF_VECTOR, "io.holds_polygons: " + path);
     return data->GetRasterCount() == 0 && !polygon_layers(*data).empty();
 }
 
 std::string crs_for_polygons(std::string const& path) {
     auto const name = std::filesystem::path(path).filename().string();
     Driver const driver;
-    Dataset const data = open_file(path, GDAL_OF_VECTOR, nullptr, "io.read_polygons: " + path);
+    Dataset const data = open_file(path, GDAL_OF_VECTOR, "io.read_polygons: " + path);
     OGRLayer& layer = choose_layer(*data, name);
     OGREnvelope box;
     if (is_missing(layer.GetSpatialRef()) || layer.GetExtent(&box) != OGRERR_NONE) {
@@ -199,7 +199,7 @@ Polygons read_polygons(std::string const& path, std::string const& crs, Run cons
 Polygons read_polygons(std::string const& path, std::string const& crs, std::string const& field, Run const& run) {
     auto const name = std::filesystem::path(path).filename().string();
     Driver const driver;
-    Dataset const data = open_file(path, GDAL_OF_VECTOR, nullptr, "io.read_polygons: " + path);
+    Dataset const data = open_file(path, GDAL_OF_VECTOR, "io.read_polygons: " + path);
     OGRLayer& layer = choose_layer(*data, name);
     Polygons read{take(layer, name, field, run), crs, name};
     driver.check("io.read_polygons: " + path);

@@ -301,7 +301,7 @@ bool have_heights(std::vector<RiverLine> const& lines) {
 RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     Driver const driver;
     auto const name = std::filesystem::path(params.path).filename().string();
-    Dataset const data = open_undisturbed(params.path, GDAL_OF_VECTOR, nullptr);
+    Dataset const data = open_undisturbed(params.path, GDAL_OF_VECTOR);
     if (!data) {
         auto const words = driver.take();
         VSIStatBufL status;

@@ -3,9 +3,7 @@
 #include <thalweg/io/undisturbed.hpp>
 
 #include <array>
-#include <cerrno>
 #include <cstdint>
-#include <cstdlib>
 #include <fstream>
 #include <system_error>
 
@@ -41,14 +39,6 @@ fs::path wal_of(fs::path const& file) {
     return file.string() + "-wal";
 }
 
-fs::path new_folder() {
-    std::string name = (fs::temp_directory_path() / "thalweg-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-        throw fs::filesystem_error("mkdtemp", name, std::error_code(errno, std::generic_category()));
-    }
-    return name;
-}
-
 // Whether neither part changed while they were copied.
 bool copied(fs::path const& file, fs::path const& copy) {
     std::array const before{state_of(file), state_of(wal_of(file))};
@@ -70,8 +60,8 @@ Undisturbed::Undisturbed(fs::path const& file) : path_(file) {
         return;
     }
     try {
-        copies_ = new_folder();
-        path_ = copies_ / file.filename();
+        copies_ = std::make_unique<TemporaryFolder>("thalweg");
+        path_ = copies_->path() / file.filename();
         constexpr int attempts = 3;
         for (int i = 0; i < attempts; ++i) {
             if (copied(file, path_)) {
@@ -79,20 +69,11 @@ Undisturbed::Undisturbed(fs::path const& file) : path_(file) {
             }
         }
     } catch (fs::filesystem_error const& error) {
-        fs::remove_all(copies_, ignored);
         throw IoError(fmt::format("io.Undisturbed: {} has changes in {}, and no copy of both can be made: {}",
                                   file.string(), wal_of(file).filename().string(), error.what()));
     }
-    fs::remove_all(copies_, ignored);
     throw IoError(fmt::format("io.Undisturbed: {} is being written by another program; close it there and try again",
                               file.string()));
-}
-
-Undisturbed::~Undisturbed() {
-    if (!copies_.empty()) {
-        std::error_code ignored;
-        fs::remove_all(copies_, ignored);
-    }
 }
 
 char const* const* Undisturbed::options() const {

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
+
+#include <thalweg/io/temporary_folder.hpp>
 
 namespace thalweg::io {
 
@@ -15,10 +18,6 @@ class Undisturbed {
 public:
     /// Throws: IoError when a copy is needed and cannot be made, or the file is being written meanwhile.
     explicit Undisturbed(std::filesystem::path const& file);
-    ~Undisturbed();
-    Undisturbed(Undisturbed const&) = delete;
-    Undisturbed& operator=(Undisturbed const&) = delete;
-
     /// What to open.
     std::string path() const { return path_.string(); }
     /// GDAL's open options, null-terminated.
@@ -26,7 +25,7 @@ public:
 
 private:
     std::filesystem::path path_;
-    std::filesystem::path copies_; // the folder of the copy; empty when there is none
+    std::unique_ptr<TemporaryFolder> copies_; // the folder of the copy; null when there is none
     bool immutable_ = false;
 };
 

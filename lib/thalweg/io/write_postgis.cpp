@@ -13,6 +13,7 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/dataset.hpp>
 #include <thalweg/io/driver.hpp>
+#include <thalweg/io/gdal_guard.hpp>
 #include <thalweg/io/layer_writer.hpp>
 #include <thalweg/io/network_layers.hpp>
 #include <thalweg/io/spatial_reference.hpp>
@@ -108,6 +109,7 @@ private:
 
     std::string what_;
     Driver driver_;
+    Connection connection_;
     Dataset dataset_;
     bool open_ = false;
 };

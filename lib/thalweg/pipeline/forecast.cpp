@@ -4,6 +4,7 @@
 
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/access.hpp>
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/read_polygons.hpp>
 #include <thalweg/io/read_rivers.hpp>
@@ -267,6 +268,7 @@ double seconds_of(Recipe const& recipe, Forecast const& found) {
 } // namespace
 
 Forecast forecast(Recipe const& recipe, Run const& run) {
+    io::RecipeFiles const confined;
     check_recipe(recipe);
     require_files(recipe);
     KnownBefore const known = recipe.network ? known_of_rivers(recipe, run) : known_of_points(recipe, run);

@@ -3,6 +3,7 @@
 #include <thalweg/pipeline/make_input.hpp>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/access.hpp>
 #include <thalweg/io/files.hpp>
 #include <thalweg/io/find_rivers.hpp>
 #include <thalweg/pipeline/plan_rivers.hpp>
@@ -65,6 +66,9 @@ bool begins_like_toml(std::string const& path) {
 
 /// What rivers of a path are called in a title.
 std::string title_of_path(std::string const& path) {
+    if (io::names_connection(path)) { // which may hold a password
+        return "rivers";
+    }
     fs::path at = fs::path(path).lexically_normal();
     at = at.has_filename() ? at : at.parent_path();
     std::error_code ignored;
@@ -104,6 +108,7 @@ Recipe recipe_from(std::string const& path) {
 
 Recipe settled_recipe(Recipe const& wanted, Run const& run) {
     check_recipe(wanted);
+    io::RecipeFiles const confined;
     Recipe recipe = wanted;
     if (recipe.network && recipe.network->source == Source::lines) {
         settle_on_lines(recipe, read_lines(recipe, run), run);

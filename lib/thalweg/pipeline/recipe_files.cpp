@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/recipe_files.hpp>
 
+#include <thalweg/io/access.hpp>
 #include <thalweg/pipeline/recipe_keys.hpp>
 
 #include <filesystem>
@@ -10,7 +11,7 @@
 namespace thalweg::pipeline {
 
 bool is_address(std::string const& name) {
-    return name.starts_with("PG:") || name.starts_with("postgresql:") || name.starts_with("/vsi");
+    return io::names_connection(name) || name.starts_with("/vsi");
 }
 
 std::string file_in(Recipe const& recipe, std::string const& name) {

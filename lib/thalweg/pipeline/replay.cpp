@@ -4,6 +4,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/files.hpp>
+#include <thalweg/io/temporary_folder.hpp>
 #include <thalweg/pipeline/recipe.hpp>
 #include <thalweg/pipeline/report.hpp>
 #include <thalweg/pipeline/terrain.hpp>
@@ -19,32 +20,14 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t largest_file = std::int64_t{1} << 40;
 
-/// A folder of our own in the system's temporary one, gone at the end.
-struct Aside {
-    fs::path path;
-    Aside() {
-        std::string name = (fs::temp_directory_path() / "thalweg-replay-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) {
-            throw IoError("pipeline.replay: no temporary folder can be made in " + fs::temp_directory_path().string());
-        }
-        path = name;
-    }
-    ~Aside() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    Aside(Aside const&) = delete;
-    Aside& operator=(Aside const&) = delete;
-};
-
 } // namespace
 
 Replayed replay(std::string const& folder, Run const& run) {
     std::string const recipe_file = folder + "/recipe.toml";
     Recipe recipe = read_recipe(io::read_text(recipe_file, 2 << 20), recipe_file);
     recipe.folder = folder;
-    Aside const aside;
-    std::string const again = (aside.path / "again").string();
+    io::TemporaryFolder const aside("thalweg-replay");
+    std::string const again = (aside.path() / "again").string();
     Replayed out;
     for (std::string const& name : write_terrain(make_terrain(recipe, run), again, io::Existing::refuse, run)) {
         if (name.rfind("report.", 0) == 0) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/terrain.hpp>
 
+#include <thalweg/io/access.hpp>
 #include <thalweg/measure/drain_dinf.hpp>
 #include <thalweg/measure/topology.hpp>
 #include <thalweg/pipeline/around_rivers.hpp>
@@ -147,6 +148,7 @@ bool Terrain::passed() const {
 
 Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
     check_recipe(wanted);
+    io::RecipeFiles const confined;
     Terrain terrain;
     terrain.recipe = wanted;
     Diary diary(run, terrain);

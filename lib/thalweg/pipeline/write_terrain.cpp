@@ -7,6 +7,7 @@
 #include <thalweg/draw/profile.hpp>
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/draw/wireframe.hpp>
+#include <thalweg/io/access.hpp>
 #include <thalweg/io/dataset_files.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/io/read_points.hpp>
@@ -60,8 +61,7 @@ double contour_interval_m(Terrain const& t) {
     return t.recipe.output.units == HeightUnit::metre ? contour_interval(t) : round_interval(relief_m(t));
 }
 
-/// Copies a named input and its companions into a folder of the output and gives the name it has there. A source that
-/// is no file (a database) keeps its name.
+/// Copies a named input and its companions into a folder of the output and gives the name it has there.
 std::string keep_input(io::OutputFolder const& out, std::string const& folder, std::string const& name,
                        std::string const& into) {
     fs::path const given(name);
@@ -69,9 +69,6 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
     std::vector<std::string> const files = io::is_text_of_points(path.string())
                                                ? std::vector<std::string>{path.string()}
                                                : io::dataset_files(path.string());
-    if (files.empty()) {
-        return name;
-    }
     std::string const own = path.filename().string();
     std::string const place = into + (fs::is_directory(path) ? own + "/" : "");
     for (std::string const& file : files) {
@@ -102,6 +99,7 @@ void keep_files(Recipe& recipe, std::string const& into, io::OutputFolder const&
 
 /// Copies every file the recipe names into inputs/ and gives the recipe that names the copies.
 Recipe keep_inputs(Terrain const& terrain, io::OutputFolder const& out) {
+    io::RecipeFiles const confined;
     Recipe recipe = terrain.recipe;
     auto const of_patch = [](Key const& key) { return key.section() == "patch"; };
     keep_files(recipe, "inputs/", out, [&](Key const& key) { return !of_patch(key) && key.use.holds(recipe); });

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace thalweg::io {
+
+/// A new folder in the system's temporary one (TMPDIR, else the usual place), removed with its content at the end.
+class TemporaryFolder {
+public:
+    /// Takes: the beginning of its name. Throws: IoError with the reason, naming TMPDIR where that is to blame.
+    explicit TemporaryFolder(std::string const& name);
+    ~TemporaryFolder();
+    TemporaryFolder(TemporaryFolder const&) = delete;
+    TemporaryFolder& operator=(TemporaryFolder const&) = delete;
+
+    std::filesystem::path const& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+} // namespace thalweg::io
