@@ -3,9 +3,13 @@
 #include "commands.hpp"
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/draw/lines.hpp>
+#include <thalweg/io/files.hpp>
+#include <thalweg/io/output_file.hpp>
 #include <thalweg/network/count_streams.hpp>
 #include <thalweg/network/grow_tokunaga.hpp>
 #include <thalweg/network/lsystem.hpp>
+#include <thalweg/network/rewrite.hpp>
 #include <thalweg/network/tokunaga_laws.hpp>
 
 #include <CLI/CLI.hpp>
@@ -25,6 +29,10 @@ struct GrowOptions {
     network::TokunagaParams params;
     std::string rule = "tokunaga";
     bool lsystem = false;
+    std::string rules;
+    std::string picture;
+    bool overwrite = false;
+    bool shapes_tree = false; ///< --generator, --order or --rule is given
 };
 
 network::SideRule rule_of(std::string const& word) {
@@ -90,7 +98,57 @@ void print_table(Count const& c) {
     }
 }
 
+draw::Format format_of(std::string const& path) {
+    auto const ends = [&](std::string_view ending) {
+        return path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+    };
+    if (!ends(".svg") && !ends(".png") && !ends(".pdf")) {
+        throw BadParameter(fmt::format("'{}' is not a picture: end its name in .svg, .png or .pdf", path));
+    }
+    return ends(".svg") ? draw::Format::svg : ends(".png") ? draw::Format::png : draw::Format::pdf;
+}
+
+void write_picture(GrowOptions const& options, std::vector<std::vector<Vec2>> const& lines) {
+    draw::LinesParams look;
+    look.format = format_of(options.picture);
+    io::OutputFile file(options.picture, options.overwrite ? io::Existing::replace : io::Existing::refuse);
+    io::write_text(file.staging(), draw::lines(lines, look).bytes);
+    file.commit();
+}
+
+/// Rewrites the word of a rules file: draws it, or prints it.
+int rewrite_rules(GrowOptions const& options, Session const& session) {
+    constexpr std::int64_t most_bytes = 1 << 20;
+    if (options.shapes_tree) {
+        throw BadParameter("--generator, --order and --rule are those of Tokunaga networks: --rules has its own");
+    }
+    if (options.picture.empty() == !options.lsystem) {
+        throw BadParameter("--rules needs --lsystem, to print the word, or -o FILE, to draw it");
+    }
+    network::LSystem const system = network::read_rules(io::read_text(options.rules, most_bytes), options.rules);
+    std::string const word = network::rewrite(system, options.params.seed, session.run);
+    if (options.picture.empty()) {
+        fmt::print("{}\n", word);
+        return Exit::done;
+    }
+    auto const lines = network::draw_word(word, system.angle_deg, session.run);
+    write_picture(options, lines);
+    if (session.json) {
+        nlohmann::ordered_json const out{{"file", options.picture}, {"signs", word.size()}, {"lines", lines.size()}};
+        fmt::print("{}\n", out.dump());
+    } else {
+        fmt::print("{}\n", options.picture);
+    }
+    return Exit::done;
+}
+
 int grow(GrowOptions const& options, Session const& session) {
+    if (!options.rules.empty()) {
+        return rewrite_rules(options, session);
+    }
+    if (!options.picture.empty()) {
+        throw BadParameter("-o draws the word of --rules FILE: give both");
+    }
     network::TokunagaParams params = options.params;
     params.rule = rule_of(options.rule);
     if (options.lsystem) {
@@ -116,17 +174,27 @@ Command add_grow(CLI::App& app, Session& session) {
     auto const options = std::make_shared<GrowOptions>();
     network::TokunagaParams& params = options->params;
     app.add_flag("--lsystem", options->lsystem, "Print the network as an L-system word on one line.");
-    app.add_option(
-           "--generator", params.generator,
-           "Use this generator (lambda), 1 to 50: 1 has no side branches, high numbers give a feathered network.")
-        ->type_name("N")
-        ->capture_default_str();
-    app.add_option("--order", params.order, "Set the Strahler order of the outlet, 1 to 30.")
-        ->type_name("N")
-        ->capture_default_str();
-    app.add_option("--rule", options->rule, "Choose how many side branches a link gets in each refinement.")
-        ->check(CLI::IsMember({"tokunaga", "constant", "plane"}))
-        ->capture_default_str();
+    app.add_option("--rules", options->rules,
+                   "Rewrite the L-system of this text file instead: lines axiom WORD, iterations N, angle DEGREES and "
+                   "SIGN -> WORD.")
+        ->type_name("FILE");
+    app.add_option("-o,--output", options->picture, "Draw the word of --rules as this picture: .svg, .png or .pdf.")
+        ->type_name("FILE");
+    app.add_flag("--overwrite", options->overwrite, "Replace an existing picture.");
+    CLI::Option const* const generator =
+        app.add_option(
+               "--generator", params.generator,
+               "Use this generator (lambda), 1 to 50: 1 has no side branches, high numbers give a feathered network.")
+            ->type_name("N")
+            ->capture_default_str();
+    CLI::Option const* const order =
+        app.add_option("--order", params.order, "Set the Strahler order of the outlet, 1 to 30.")
+            ->type_name("N")
+            ->capture_default_str();
+    CLI::Option const* const rule =
+        app.add_option("--rule", options->rule, "Choose how many side branches a link gets in each refinement.")
+            ->check(CLI::IsMember({"tokunaga", "constant", "plane"}))
+            ->capture_default_str();
     app.add_option("--seed", params.seed, "Set the random seed.")->type_name("N")->capture_default_str();
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.footer("Refines a generator until the outlet has the given order, then prints the streams of each order and "
@@ -135,8 +203,15 @@ Command add_grow(CLI::App& app, Session& session) {
                "Examples:\n"
                "  thalweg grow --order 8\n"
                "  thalweg grow --generator 4 --order 6 --seed 3 --json\n"
-               "  thalweg grow --lsystem --order 3\n");
-    return [options, &session] { return grow(*options, session); };
+               "  thalweg grow --lsystem --order 3\n"
+               "  thalweg grow --rules rules.txt -o word.svg\n\n"
+               "In a rules file capital letters draw a step, small letters make one without drawing, + and - turn, | "
+               "turns round, [ and ] enclose a branch; # begins a comment. Of several lines for one sign each is as "
+               "likely.\n");
+    return [options, generator, order, rule, &session] {
+        options->shapes_tree = generator->count() + order->count() + rule->count() > 0;
+        return grow(*options, session);
+    };
 }
 
 } // namespace thalweg::tools

@@ -43,6 +43,7 @@
 #include <thalweg/network/prune.hpp>
 #include <thalweg/network/raise_from_land.hpp>
 #include <thalweg/network/rasterise.hpp>
+#include <thalweg/network/rewrite.hpp>
 #include <thalweg/network/rotate.hpp>
 #include <thalweg/network/set_heights.hpp>
 #include <thalweg/network/set_heights_by_type.hpp>
@@ -542,6 +543,16 @@ void print_trees(Run const& run) {
         word.add(static_cast<std::int64_t>(letter));
     }
     print("write_lsystem", word);
+    Fnv turtle;
+    network::LSystem const rules =
+        network::read_rules("axiom G\niterations 6\nG -> F[--G]F[-G][+G]\nF -> FF\nF -> F[++G]F", "");
+    for (std::vector<Vec2> const& line : network::draw_word(network::rewrite(rules, 7, run), rules.angle_deg, run)) {
+        for (Vec2 const p : line) {
+            turtle.add(p.x);
+            turtle.add(p.y);
+        }
+    }
+    print("rewrite, draw_word", turtle);
     network::EmbedParams const params{.region = {{0, 0}, {4000, 0}, {4000, 2500}, {1500, 2000}, {0, 4000}},
                                       .mouth = {2000, 0}};
     print("embed_tree", hash_of(network::embed_tree(tree, params, run).network));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 namespace {
@@ -85,4 +86,31 @@ TEST(Grow, SeedAndRuleDecide) {
     EXPECT_EQ(grown(some + "--seed 4"), grown(some + "--seed 4"));
     EXPECT_NE(grown(some + "--seed 4"), grown(some + "--seed 5"));
     EXPECT_NE(grown(some + "--rule constant"), grown(some + "--rule plane"));
+}
+
+TEST(Grow, RulesOfAFileAreDrawnOrPrinted) {
+    Workplace const place;
+    place.write("koch.txt", "axiom F\niterations 2\nangle 60\nF -> F+F--F+F\n");
+    Outcome const word = thalweg_run("grow --rules koch.txt --lsystem", place.path());
+    EXPECT_EQ(word.code, 0) << word.err;
+    EXPECT_EQ(word.out, "F+F--F+F+F+F--F+F--F+F--F+F+F+F--F+F\n");
+    Outcome const drawn = thalweg_run("grow --rules koch.txt -o koch.svg --json", place.path());
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    auto const json = nlohmann::json::parse(drawn.out);
+    EXPECT_EQ(json["signs"], 36);
+    EXPECT_EQ(json["lines"], 1);
+    EXPECT_TRUE(std::filesystem::exists(place / "koch.svg"));
+    auto const refused_here = [&](std::string const& arguments, std::string const& words) {
+        Outcome const o = thalweg_run("grow " + arguments, place.path());
+        EXPECT_EQ(o.code, 2) << arguments << o.err;
+        EXPECT_NE(o.err.find(words), std::string::npos) << o.err;
+    };
+    place.write("bad.txt", "axiom F\nF > FF\n");
+    refused_here("--rules koch.txt -o koch.svg", "already exists");
+    refused_here("--rules koch.txt", "needs --lsystem");
+    refused_here("--rules koch.txt -o koch.txt", ".svg, .png or .pdf");
+    refused_here("--rules koch.txt --order 3 --lsystem", "--rules has its own");
+    refused_here("--rules bad.txt --lsystem", "bad.txt, line 2");
+    refused_here("--rules none.txt --lsystem", "none.txt");
+    refused_here("-o koch.svg", "--rules FILE");
 }
