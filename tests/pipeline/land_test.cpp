@@ -147,6 +147,19 @@ TEST(Land, IncrementsThatJumpAreWarnedOf) {
     EXPECT_EQ(said("rise_fall").find("jumps"), std::string::npos);
 }
 
+TEST(Land, RidgesAskedForAreComparedWithThoseOfTheSurface) {
+    std::string const tokunaga = "[grid]\nwidth = 200\nheight = 200\n[network]\nsource = \"tokunaga\"\n"
+                                 "[network.tokunaga]\norder = 3\n[surface]\nmethod = \"diffuse\"\n";
+    EXPECT_FALSE(made(tokunaga).surface_ridges);
+    Terrain const t = made(tokunaga + "[skeleton]\nridges = \"segments\"\n");
+    ASSERT_TRUE(t.surface_ridges);
+    EXPECT_GT(t.surface_ridges->ridge_cells, 500);
+    measure::Agreements const& found = t.surface_ridges->extracted;
+    EXPECT_GT(found[1].f(), 0.4);
+    EXPECT_GE(found[2].f(), found[1].f());
+    EXPECT_GE(found[1].f(), found[0].f());
+}
+
 TEST(Land, RandomPointsBetweenTheRivers) {
     std::string const skeleton = "[skeleton]\nscatter = 120\nspacing = 3\nridge_gain = 0.4\n";
     std::string const detail = "[detail]\nsigma = 8\nlevels = 3\n";

@@ -205,6 +205,9 @@ std::vector<std::string> stages_after(Recipe const& recipe) {
     if (recipe.network) {
         stages.emplace_back("certify");
     }
+    if (recipe.network && recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
+        stages.emplace_back("ridges");
+    }
     if (recipe.output.accumulation) {
         stages.emplace_back("areas");
     }

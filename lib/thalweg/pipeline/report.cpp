@@ -291,6 +291,11 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
     }
     if (!t.ridges.lines.empty()) {
         report["ridges"] = {{"count", t.ridges.lines.size()}};
+        if (t.surface_ridges) {
+            report["ridges"]["cells"] = t.surface_ridges->ridge_cells;
+            report["ridges"]["extracted"] = {{"area_cells", t.surface_ridges->threshold_cells},
+                                             {"agreement", agreements_object(t.surface_ridges->extracted)}};
+        }
     }
     if (t.equilibrium) {
         EquilibriumStory const& e = *t.equilibrium;

@@ -113,6 +113,14 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
                                     run);
         });
     }
+    if (terrain.recipe.skeleton && terrain.recipe.skeleton->ridges != Ridges::none) {
+        terrain.surface_ridges =
+            diary.stage("ridges", [&] { return measure::extract_ridges(dem, terrain.ridges, run); });
+        measure::Agreement const& within_a_cell = terrain.surface_ridges->extracted[1];
+        diary.say(
+            fmt::format("{:.0f} % of those asked for are ridges of the surface, {:.0f} % of its own are asked for",
+                        100.0 * within_a_cell.recall, 100.0 * within_a_cell.precision));
+    }
     if (terrain.drained) {
         check_drainage(terrain, static_cast<std::int64_t>(drainage.depressions.size()));
     }

@@ -22,6 +22,7 @@
 #include <thalweg/measure/catchments.hpp>
 #include <thalweg/measure/certificate.hpp>
 #include <thalweg/measure/drainage.hpp>
+#include <thalweg/measure/extract_ridges.hpp>
 #include <thalweg/measure/hypsometry.hpp>
 #include <thalweg/measure/statistics.hpp>
 #include <thalweg/network/assign_types.hpp>
@@ -110,7 +111,8 @@ struct Terrain {
     measure::ContributingAreas areas;
     RiverLaws laws;
     Valley valley;
-    RidgeLines ridges; ///< between streams, where they are asked for
+    RidgeLines ridges;                                      ///< between streams, where they are asked for
+    std::optional<measure::ExtractedRidges> surface_ridges; ///< those of the surface beside them
     std::optional<surface::Dilated> surface;
     Channels channels;                            ///< of rivers with which the land is in equilibrium
     std::int64_t lakes = 0;                       ///< laid into them
