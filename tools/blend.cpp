@@ -52,7 +52,7 @@ std::string as_json(pipeline::MadeBlend const& made, std::string const& file) {
                                       {"seam_rms_m", pasted.seam_rms_m},
                                       {"iterations", pasted.iterations},
                                       {"residual", pasted.residual}};
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string blend_in_words(pipeline::MadeBlend const& made, bool fills) {

@@ -5,6 +5,7 @@
 #include "terminal.hpp"
 #include "verdict.hpp"
 
+#include <thalweg/core/printable.hpp>
 #include <thalweg/pipeline/check_files.hpp>
 
 #include <CLI/CLI.hpp>
@@ -28,7 +29,7 @@ struct CheckOptions {
 void print_some(std::vector<Finding> const& findings, char const* before, Session const& session) {
     std::size_t const shown = session.verbose ? findings.size() : 50;
     for (std::size_t i = 0; i < std::min(shown, findings.size()); ++i) {
-        fmt::print("{}{}\n", before, findings[i].text);
+        fmt::print("{}{}\n", before, printable(findings[i].text));
     }
     if (findings.size() > shown) {
         fmt::print("{}... and {} more; --verbose prints all\n", before, findings.size() - shown);
@@ -71,7 +72,8 @@ void print_table(pipeline::CheckedFiles const& checked, std::string const& netwo
     for (std::string const& file : checked.written) {
         fmt::print("{}\n", file);
     }
-    fmt::print("{}\n", toned(checked.ok() ? Tone::good : Tone::bad, verdict(network, checked.checks), stdout));
+    fmt::print("{}\n",
+               toned(checked.ok() ? Tone::good : Tone::bad, printable(verdict(network, checked.checks)), stdout));
 }
 
 int check(CheckOptions& options, Session const& session) {

@@ -60,7 +60,7 @@ std::string as_json(pipeline::Converted const& made) {
                                     {"amount", f.amount},
                                     {"text", f.text}});
     }
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 int convert(ConvertOptions& options, Session const& session) {

@@ -88,7 +88,8 @@ int deform_file(DeformOptions& options, Session const& session) {
                                       {"handles", options.params.handles.size()},
                                       {"iterations", made.iterations},
                                       {"residual", made.residual}};
-    fmt::print("{}", session.json ? json.dump(2) + "\n" : options.file + "\n");
+    fmt::print("{}", session.json ? json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"
+                                  : options.file + "\n");
     return Exit::done;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "seed.hpp"
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/draw/lines.hpp>
@@ -195,7 +196,10 @@ Command add_grow(CLI::App& app, Session& session) {
         app.add_option("--rule", options->rule, "Choose how many side branches a link gets in each refinement.")
             ->check(CLI::IsMember({"tokunaga", "constant", "plane"}))
             ->capture_default_str();
-    app.add_option("--seed", params.seed, "Set the random seed.")->type_name("N")->capture_default_str();
+    app.add_option("--seed", params.seed, "Set the random seed.")
+        ->type_name("N")
+        ->check(is_seed)
+        ->capture_default_str();
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.footer("Refines a generator until the outlet has the given order, then prints the streams of each order and "
                "the side branches per stream next to Tokunaga's law. A word starts at the outlet and goes upstream: F "

@@ -8,6 +8,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/memory.hpp>
+#include <thalweg/core/printable.hpp>
 #include <thalweg/io/driver.hpp>
 #include <thalweg/pipeline/report.hpp>
 #include <thalweg/solver/devices.hpp>
@@ -29,7 +30,7 @@ using namespace thalweg;
 using namespace thalweg::tools;
 
 void complain(std::string const& text) {
-    fmt::print(stderr, "{} {}\n", toned(Tone::bad, "error:", stderr), text);
+    fmt::print(stderr, "{} {}\n", toned(Tone::bad, "error:", stderr), printable(text));
 }
 
 int call(Command const& command, Terminal& terminal) {

@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "forecast_words.hpp"
 #include "network_options.hpp"
+#include "seed.hpp"
 #include "terminal.hpp"
 #include "verdict.hpp"
 
@@ -121,7 +122,7 @@ Command add_make(CLI::App& app, Session& session) {
         ->type_name("KEY=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--seed", options->seed, "Set the random seed; the same as --set seed=N.");
+    app.add_option("--seed", options->seed, "Set the random seed; the same as --set seed=N.")->check(is_seed);
     app.add_option("--crs", options->crs,
                    "Make the terrain in this projected CRS in metres; the same as --set grid.crs=CRS.")
         ->type_name("EPSG:N");

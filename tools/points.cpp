@@ -36,7 +36,8 @@ int points(PointsOptions& options, Session const& session) {
     file.commit();
     session.run.tell("points", fmt::format("{}", made.count));
     nlohmann::ordered_json const json{{"file", options.file}, {"crs", made.crs}, {"points", made.count}};
-    fmt::print("{}\n", session.json ? json.dump(2) : options.file);
+    fmt::print("{}\n", session.json ? json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+                                    : options.file);
     return Exit::done;
 }
 

@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "terminal.hpp"
 
+#include <thalweg/core/printable.hpp>
 #include <thalweg/pipeline/replay.hpp>
 
 #include <CLI/CLI.hpp>
@@ -19,13 +20,13 @@ namespace {
 int replay(std::string const& folder, Session const& session) {
     pipeline::Replayed const found = pipeline::replay(folder, session.run);
     for (std::string const& name : found.same) {
-        fmt::print("{}     {}\n", toned(Tone::good, "same", stdout), name);
+        fmt::print("{}     {}\n", toned(Tone::good, "same", stdout), printable(name));
     }
     for (std::string const& name : found.differ) {
-        fmt::print("{}  {}\n", toned(Tone::bad, "DIFFERS", stdout), name);
+        fmt::print("{}  {}\n", toned(Tone::bad, "DIFFERS", stdout), printable(name));
     }
     for (std::string const& name : found.missing) {
-        fmt::print("{}  {}\n", toned(Tone::bad, "MISSING", stdout), name);
+        fmt::print("{}  {}\n", toned(Tone::bad, "MISSING", stdout), printable(name));
     }
     return found.verified() ? Exit::done : Exit::check_failed;
 }

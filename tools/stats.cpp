@@ -3,9 +3,11 @@
 #include "commands.hpp"
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/printable.hpp>
 #include <thalweg/io/conversions.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/measure/statistics.hpp>
+#include <thalweg/pipeline/dem_in_metres.hpp>
 #include <thalweg/pipeline/law_rows.hpp>
 #include <thalweg/pipeline/laws.hpp>
 #include <thalweg/pipeline/recipe_of_dem.hpp>
@@ -81,7 +83,7 @@ void print_relief(pipeline::LandRelief const& found) {
 
 void print_recipe(pipeline::DemRecipe const& made) {
     for (std::string const& note : made.notes) {
-        fmt::print("# {}\n", note);
+        fmt::print("# {}\n", printable(note));
     }
     fmt::print("{}", pipeline::write_recipe(made.recipe));
 }
@@ -90,9 +92,17 @@ int stats(StatsOptions const& options, Session const& session) {
     if (options.recipe && session.json) {
         throw BadParameter("thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
     }
-    Raster<float> const dem = io::read_dem(options.path, session.run);
-    for (std::string const& words : io::conversions_of(options.path, "", dem.grid().crs)) {
+    // A recipe has cells of its own: recipe_of_dem says how large.
+    pipeline::MetricDem const read = options.recipe ? pipeline::MetricDem{io::read_dem(options.path, session.run), {}}
+                                                    : pipeline::dem_in_metres(options.path, session.run);
+    Raster<float> const& dem = read.dem;
+    for (std::string const& words : read.notes) {
         session.run.say("note   " + words);
+    }
+    if (read.notes.empty()) {
+        for (std::string const& words : io::conversions_of(options.path, "", dem.grid().crs)) {
+            session.run.say("note   " + words);
+        }
     }
     measure::Statistics const s = measure::statistics(dem, session.run);
     std::optional<pipeline::DemLaws> laws;

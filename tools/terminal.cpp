@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "terminal.hpp"
 
+#include <thalweg/core/printable.hpp>
+
 #include <fmt/format.h>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
 
@@ -16,6 +19,29 @@ namespace thalweg::tools {
 namespace {
 
 constexpr std::string_view to_the_lines_begin = "\r\033[K";
+
+constexpr std::array<std::string_view, 5> tone_codes{"\033[32m", "\033[33m", "\033[1;31m", "\033[1m", "\033[0m"};
+
+/// A line whose tones stay where the stream takes them, and nothing else that acts on a terminal.
+std::string shown_line(std::string_view text, bool colours) {
+    std::string out;
+    while (colours) {
+        std::size_t first = std::string_view::npos;
+        std::string_view code;
+        for (std::string_view const one : tone_codes) {
+            if (std::size_t const at = text.find(one); at < first) {
+                first = at;
+                code = one;
+            }
+        }
+        if (code.empty()) {
+            break;
+        }
+        out += printable(text.substr(0, first)) + std::string(code);
+        text.remove_prefix(first + code.size());
+    }
+    return out + printable(text);
+}
 
 int columns_of_stderr() {
     winsize size{};
@@ -69,7 +95,7 @@ void Terminal::line(std::string_view text) {
     std::lock_guard const lock(mutex_);
     if (talks_) {
         take_bar_away();
-        fmt::print(stderr, "{}\n", text);
+        fmt::print(stderr, "{}\n", shown_line(text, abilities_.colours));
     }
 }
 

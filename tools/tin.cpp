@@ -40,7 +40,7 @@ std::string as_json(pipeline::MadeTin const& made, std::string const& file) {
     if (made.error_m) {
         json["error_m"] = *made.error_m;
     }
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string tin_in_words(pipeline::MadeTin const& made) {

@@ -112,8 +112,9 @@ TEST(Rivers, EverySampleHoldsItsContract) {
         EXPECT_GT(tokunaga["placed"], 0);
         EXPECT_EQ(tokunaga["dropped"], 0);
         EXPECT_EQ(tokunaga["drawn"]["links"], tokunaga["placed"]);
+        EXPECT_EQ(tokunaga["grown"]["links"], tokunaga["placed"]);
+        EXPECT_EQ(tokunaga.contains("asked"), name != "strokes") << "strokes have a lambda each";
         if (name != "strokes") {
-            EXPECT_EQ(tokunaga["grown"]["links"], tokunaga["placed"]);
             EXPECT_EQ(tokunaga["grown"]["streams"], tokunaga["drawn"]["streams"]);
             EXPECT_EQ(tokunaga["grown"]["side_branches"], tokunaga["drawn"]["side_branches"]);
             EXPECT_EQ(tokunaga["asked"]["a"], 2.0);

@@ -84,6 +84,23 @@ TEST(Tin, OfANetworkAndItsBreaklines) {
     EXPECT_EQ(nlohmann::json::parse(both.out)["vertices"], json["vertices"].get<int>() + 3);
 }
 
+TEST(Tin, OfAFolderKeepsItsRidges) {
+    Workplace const place;
+    ASSERT_EQ(thalweg_run("make -q --set grid.width=64 --set grid.height=64 --set network.dla.particles=400 "
+                          "--set network.prune=4 --set surface.method=tin --set skeleton.ridges=voronoi -o land",
+                          place.path())
+                  .code,
+              0);
+    Outcome const all = thalweg_run("tin land -o a.2dm --json", place.path());
+    ASSERT_EQ(all.code, 0) << all.err;
+    ASSERT_EQ(std::system(("cd '" + place.path().string() + "' && ogr2ogr arcs.gpkg land/network.gpkg arcs").c_str()),
+              0);
+    Outcome const arcs = thalweg_run("tin arcs.gpkg -o b.2dm --json", place.path());
+    ASSERT_EQ(arcs.code, 0) << arcs.err;
+    EXPECT_GT(nlohmann::json::parse(all.out)["vertices"].get<int>(),
+              nlohmann::json::parse(arcs.out)["vertices"].get<int>() + 20);
+}
+
 TEST(Tin, NothingIsOverwrittenUnasked) {
     Workplace const place;
     place.write("p.csv", points);

@@ -10,6 +10,7 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/printable.hpp>
 
 namespace thalweg::io {
 
@@ -65,20 +66,6 @@ NetworkPlace pair_of(fs::path const& path, bool whole) {
     throw BadInput(fmt::format("{} cannot be read: {}", what, words));
 }
 
-// What may be shown of a connection string: all but its password.
-std::string shown(std::string path) {
-    constexpr std::string_view key = "password=";
-    if (auto const at = path.find(key); is_database(path) && at != std::string::npos) {
-        auto const from = at + key.size();
-        auto const end = path.find(path[from] == '\'' ? '\'' : ' ', from + 1);
-        path.replace(from, end == std::string::npos ? end : end - from, "...");
-    }
-    if (auto const at = path.find('@'); path.starts_with("postgresql:") && at != std::string::npos) {
-        path.replace(0, at, "postgresql://...");
-    }
-    return path;
-}
-
 Dataset open(std::string const& path, std::string const& what, Driver const& driver) {
     bool const database = is_database(path);
     if (std::error_code ignored; !database && !fs::exists(path, ignored)) {
@@ -123,7 +110,7 @@ NetworkPlace find_network(std::string const& path, bool whole) {
 }
 
 NetworkSource::NetworkSource(std::string const& path, Driver const& driver)
-    : what_("io.read_network: " + shown(path)), dataset_(open(path, what_, driver)) {}
+    : what_("io.read_network: " + without_passwords(path)), dataset_(open(path, what_, driver)) {}
 
 OGRLayer* NetworkSource::layer(std::string const& name) const {
     return dataset_->GetLayerByName(name.c_str());

@@ -62,8 +62,7 @@ public:
             tops_[i] = top;
             if (static_cast<std::int64_t>(links_.size()) > params_.max_links) {
                 throw BadParameter(fmt::format("network.grow_tokunaga: order {} with generator {} has more than {} "
-                                               "links; lower the order or raise "
-                                               "max_links",
+                                               "links; lower the order or the generator",
                                                params_.order, params_.generator, params_.max_links));
             }
         }

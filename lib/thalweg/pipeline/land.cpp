@@ -25,6 +25,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -232,6 +233,29 @@ detail::Targets targets_of(StatisticsRecipe const& s) {
     return targets;
 }
 
+/// Calls the keys of [statistics] by their names in what a faulty target throws.
+template <class Work> auto naming_keys(Work const& work) {
+    try {
+        return work();
+    } catch (BadParameter const& fault) {
+        static constexpr std::array<std::pair<char const*, char const*>, 7> keys{{{"mean", "mean"},
+                                                                                  {"deviation", "std"},
+                                                                                  {"highest", "max"},
+                                                                                  {"lowest", "min"},
+                                                                                  {"correlation length", "length"},
+                                                                                  {"slope", "slope"},
+                                                                                  {"dimension", "dimension"}}};
+        std::string const words = fault.what();
+        std::string names;
+        for (auto const& [word, key] : keys) {
+            if (words.find(word) != std::string::npos) {
+                names += fmt::format("{}statistics.{}", names.empty() ? "" : ", ", key);
+            }
+        }
+        throw BadParameter(fmt::format("{}: {}", names.empty() ? "[statistics]" : names, words));
+    }
+}
+
 /// The land moved and stretched to the mean and deviation asked for, so that the projection begins near by.
 Raster<float> standardised(Raster<float> land, StatisticsRecipe const& s, Run const& run) {
     measure::Statistics const now = measure::statistics(land, run);
@@ -272,7 +296,7 @@ Raster<float> brought_to_statistics(Terrain& terrain, Raster<float> land, std::v
     StatisticsRecipe const& s = *recipe.statistics;
     detail::ProjectParams params;
     params.prior = covariance_of(s, 1.0);
-    terrain.projection = detail::project(land, targets_of(s), kept, params, run);
+    terrain.projection = naming_keys([&] { return detail::project(land, targets_of(s), kept, params, run); });
     if (!terrain.projection->converged && s.skeleton != Prior::grf) {
         land = standardised(std::move(land), s, run);
         Recipe other = recipe;
@@ -390,7 +414,7 @@ void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run c
     int const levels = levels_of(recipe);
     Grid const coarse = coarse_grid(grid, levels);
     if (recipe.statistics) { // before any work
-        detail::check_targets(Raster<float>(grid), targets_of(*recipe.statistics));
+        naming_keys([&] { detail::check_targets(Raster<float>(grid), targets_of(*recipe.statistics)); });
         warn_of_lengths(*recipe.statistics, grid, run);
     }
     bool const from_points = !recipe.statistics || recipe.statistics->skeleton == Prior::points;

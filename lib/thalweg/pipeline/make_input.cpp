@@ -3,6 +3,7 @@
 #include <thalweg/pipeline/make_input.hpp>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/printable.hpp>
 #include <thalweg/io/access.hpp>
 #include <thalweg/io/files.hpp>
 #include <thalweg/io/find_rivers.hpp>
@@ -72,7 +73,8 @@ std::string title_of_path(std::string const& path) {
     fs::path at = fs::path(path).lexically_normal();
     at = at.has_filename() ? at : at.parent_path();
     std::error_code ignored;
-    return (fs::is_directory(at, ignored) ? at.filename() : at.stem()).string();
+    std::string const name = (fs::is_directory(at, ignored) ? at.filename() : at.stem()).string();
+    return is_utf8(name) ? name : "rivers";
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/content_of.hpp>
+#include <thalweg/io/has_layer.hpp>
 #include <thalweg/io/raster_files.hpp>
 #include <thalweg/io/read_points.hpp>
 #include <thalweg/io/read_rivers.hpp>
@@ -93,6 +94,12 @@ MadeTin make_tin(MakeTinParams const& params, Run const& run) {
         return of_points(points.points, breaklines, "points", run);
     }
     Breaklines network = read_lines(content.path, params.crs, run);
+    if (content.layer == "arcs" && io::has_layer(content.path, "ridges")) {
+        RiverLines ridges = io::read_rivers({.path = content.path, .layer = "ridges", .crs = network.crs}, run);
+        for (RiverLine& line : ridges.lines) {
+            network.lines.push_back(std::move(line.vertices));
+        }
+    }
     if (!params.breaklines.empty()) {
         Breaklines more = read_lines(params.breaklines, network.crs, run);
         network.lines.insert(network.lines.end(), more.lines.begin(), more.lines.end());

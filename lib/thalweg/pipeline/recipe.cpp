@@ -3,6 +3,7 @@
 #include <thalweg/pipeline/recipe.hpp>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/printable.hpp>
 #include <thalweg/core/suggest.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/pipeline/recipe_keys.hpp>
@@ -112,6 +113,10 @@ std::string with_number(std::string const& path, Recipe const& recipe) {
                : path;
 }
 
+std::string cut(std::string_view s) {
+    return s.size() <= 80 ? std::string(s) : std::string(s.substr(0, 77)) + "...";
+}
+
 void read_table(toml::table const& table, std::string const& prefix, std::string const& name, Recipe& recipe,
                 std::vector<std::string>& faults) {
     for (auto const& [word, node] : table) {
@@ -122,7 +127,7 @@ void read_table(toml::table const& table, std::string const& prefix, std::string
         auto const line = node.source().begin.line;
         if (auto const* inner = node.as_table()) {
             if (!is_section(path)) {
-                faults.push_back(fmt::format("line {}: {}", line, unknown_key(path)));
+                faults.push_back(fmt::format("line {}: {}", line, unknown_key(cut(path))));
                 continue;
             }
             begin_section(recipe, path);
@@ -139,7 +144,7 @@ void read_table(toml::table const& table, std::string const& prefix, std::string
         }
         Key const* const key = find_key(path);
         if (key == nullptr) {
-            faults.push_back(fmt::format("line {}: {}", line, unknown_key(path)));
+            faults.push_back(fmt::format("line {}: {}", line, unknown_key(cut(path))));
             continue;
         }
         auto const value = value_of(node);
@@ -155,8 +160,17 @@ void read_table(toml::table const& table, std::string const& prefix, std::string
     }
 }
 
-std::string cut(std::string_view s) {
-    return s.size() <= 80 ? std::string(s) : std::string(s.substr(0, 77)) + "...";
+constexpr char const* too_large = "an integer of a recipe is at most 9223372036854775807";
+
+bool is_too_large(toml::parse_error const& fault) {
+    return fault.description().find("decimal integer") != std::string_view::npos &&
+           fault.description().find("not representable") != std::string_view::npos;
+}
+
+void require_integer_of_toml(toml::parse_error const& fault) {
+    if (is_too_large(fault)) {
+        throw BadParameter(too_large);
+    }
 }
 
 } // namespace
@@ -203,9 +217,10 @@ Recipe read_recipe(std::string const& toml, std::string const& name) {
     try {
         table = toml::parse(toml, name);
     } catch (toml::parse_error const& fault) {
+        bool const is_large = is_too_large(fault);
         throw BadParameter(fmt::format("pipeline.read_recipe: {}: line {}, column {}: {}", name,
                                        fault.source().begin.line, fault.source().begin.column,
-                                       cut(fault.description())));
+                                       is_large ? too_large : cut(fault.description())));
     }
     Recipe recipe;
     std::vector<std::string> faults;
@@ -253,6 +268,9 @@ void set_key(Recipe& recipe, std::string const& assignment) {
         throw BadParameter(fmt::format("--set {}: {}", cut(assignment), unknown_key(cut(path))));
     }
     try {
+        if (!is_utf8(text)) {
+            throw BadParameter("the value is not UTF-8");
+        }
         Value value = names_file(*key) ? from_here(recipe, text) : text;
         if (key->help.type != "text") {
             if (text.size() > 200) {
@@ -261,7 +279,8 @@ void set_key(Recipe& recipe, std::string const& assignment) {
             try {
                 toml::table const table = toml::parse("v = " + text);
                 value = value_of(*table.get("v")).value_or(Value(text));
-            } catch (toml::parse_error const&) {
+            } catch (toml::parse_error const& fault) {
+                require_integer_of_toml(fault);
                 value = text; // not TOML: put says what is wanted instead
             }
         }

@@ -29,7 +29,7 @@ void add_skeleton_keys(std::vector<Key>& keys) {
         "skeleton.midpoint_inverse", "cells", {0, 1e6},
         "L: heights of cells up to this far from rivers, ridges and points by inverse midpoint displacement; 0: none",
         in_skeleton<double>([](SkeletonRecipe& s) -> double& { return s.midpoint_inverse_cells; })));
-    keys.push_back(file("skeleton.points", "points with heights: CSV, XYZ, or any OGR source of points",
+    keys.push_back(file("skeleton.points", "points with heights: CSV, XYZ, or a file of points (GeoPackage, ...)",
                         in_skeleton<std::string>([](SkeletonRecipe& s) -> std::string& { return s.points; })));
     keys.push_back(integer<std::int64_t>(
         "skeleton.scatter", "", {0, 1e7},
@@ -78,7 +78,7 @@ void add_diffusion_keys(std::vector<Key>& keys) {
         in_surface<DiffusionStart>([](SurfaceRecipe& s) -> DiffusionStart& { return s.diffuse.start; })));
     keys.push_back(number("surface.alpha", "", {0, 0.25, true}, "D dt / h^2 of an explicit sweep",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.diffuse.alpha; })));
-    keys.push_back(number("surface.smoothing", "cells", {0, 1000},
+    keys.push_back(number("surface.smoothing", "cells", {0, 100},
                           "sigma of Gaussian smoothing away from rivers, ridges and points; 0: none",
                           in_surface<double>([](SurfaceRecipe& s) -> double& { return s.diffuse.sigma_cells; })));
     keys.push_back(number("surface.noise", "m", {0, 1e5}, "amplitude of noise far from rivers, ridges and points",

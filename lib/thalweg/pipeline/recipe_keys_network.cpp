@@ -160,7 +160,7 @@ void add_network_keys(std::vector<Key>& keys) {
     add_tokunaga_keys(keys);
     add_forest_keys(keys);
 
-    keys.push_back(file("network.lines.path", "any OGR source of lines",
+    keys.push_back(file("network.lines.path", "file of lines: GeoPackage, Shapefile, GeoJSON, ...",
                         in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.lines.path; })));
     keys.push_back(text("network.lines.layer", "name", "layer of the lines; \"\": the only line layer",
                         in_network<std::string>([](NetworkRecipe& n) -> std::string& { return n.lines.layer; })));

@@ -106,10 +106,14 @@ ordered_json streams_object(network::StreamCounts const& counts) {
 /// Side branches by Tokunaga's numbers: of the network as drawn, and of the tree it was grown from.
 ordered_json tokunaga_object(Terrain const& t) {
     ordered_json out{{"drawn", streams_object(t.streams)}};
-    if (t.story.tokunaga) {
+    if (t.story.tokunaga && !t.recipe.network->tokunaga.strokes.empty()) { // each has a tree and lambda of its own
+        out["grown"] = {{"links", t.story.tokunaga->placed + t.story.tokunaga->dropped}};
+    } else if (t.story.tokunaga) {
         network::TokunagaLaws const laws = network::tokunaga_laws(t.recipe.network->tokunaga.generator);
         out["grown"] = streams_object(t.story.tokunaga->tree);
         out["asked"] = {{"a", laws.a}, {"c", laws.c}, {"bifurcation", laws.bifurcation}};
+    }
+    if (t.story.tokunaga) {
         out["placed"] = t.story.tokunaga->placed;
         out["dropped"] = t.story.tokunaga->dropped;
     }

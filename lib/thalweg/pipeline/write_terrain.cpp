@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/write_terrain.hpp>
 
+#include <thalweg/core/printable.hpp>
 #include <thalweg/draw/curve.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/profile.hpp>
@@ -61,6 +62,15 @@ double contour_interval_m(Terrain const& t) {
     return t.recipe.output.units == HeightUnit::metre ? contour_interval(t) : round_interval(relief_m(t));
 }
 
+/// A file's name as TOML and JSON can hold it.
+std::string name_in_utf8(std::string name) {
+    if (!is_utf8(name)) {
+        std::ranges::replace_if(
+            name, [](char c) { return static_cast<unsigned char>(c) >= 0x80U; }, '_');
+    }
+    return name;
+}
+
 /// Copies a named input and its companions into a folder of the output and gives the name it has there.
 std::string keep_input(io::OutputFolder const& out, std::string const& folder, std::string const& name,
                        std::string const& into) {
@@ -69,11 +79,11 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
     std::vector<std::string> const files = io::is_text_of_points(path.string())
                                                ? std::vector<std::string>{path.string()}
                                                : io::dataset_files(path.string());
-    std::string const own = path.filename().string();
+    std::string const own = name_in_utf8(path.filename().string());
     std::string const place = into + (fs::is_directory(path) ? own + "/" : "");
     for (std::string const& file : files) {
         if (fs::is_regular_file(file)) {
-            io::copy_file(file, out.path(place + fs::path(file).filename().string()));
+            io::copy_file(file, out.path(place + name_in_utf8(fs::path(file).filename().string())));
         }
     }
     return into + own;
