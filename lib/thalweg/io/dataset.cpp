@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::array<char const*, 2> databases{"PostgreSQL", nullptr};
 
-bool is_database(std::string const& path) {
+bool is_postgres(std::string const& path) {
     return path.starts_with("PG:") || path.starts_with("postg");
 }
 
@@ -64,7 +64,7 @@ Dataset open_connection(std::string const& path, unsigned kinds) {
     auto held = std::make_shared<Held>();
     held->connection = std::make_unique<Connection const>();
     std::vector<char const*> const files = recipe_drivers();
-    return opened(path, kinds, is_database(path) ? databases.data() : files.data(), held, path);
+    return opened(path, kinds, is_postgres(path) ? databases.data() : files.data(), held, path);
 }
 
 Dataset open_recipe_file(std::string const& path, unsigned kinds) {

@@ -62,7 +62,7 @@ struct Aside {
     std::vector<GDALDriver*> never;
 };
 
-Aside& aside() {
+Aside& drivers_aside() {
     static Aside drivers;
     return drivers;
 }
@@ -220,11 +220,11 @@ void set_unless_set(char const* option, char const* value) {
 void guard_gdal() {
     for (char const* const name : network_drivers) {
         if (GDALDriver* const driver = take_away(name)) {
-            aside().never.push_back(driver);
+            drivers_aside().never.push_back(driver);
         }
     }
-    aside().postgres = take_away("PostgreSQL");
-    aside().netcdf = take_away("netCDF");
+    drivers_aside().postgres = take_away("PostgreSQL");
+    drivers_aside().netcdf = take_away("netCDF");
     if (char const* const table = CPLFindFile("gdal", "gdalvrt.xsd")) {
         roots().tables = real_path(fs::path(table).parent_path());
     }
@@ -239,15 +239,15 @@ Connection::Connection() {
         set_unless_set("GDAL_HTTP_CONNECTTIMEOUT", "10");
         set_unless_set("GDAL_HTTP_LOW_SPEED_TIME", "10");
         set_unless_set("GDAL_HTTP_LOW_SPEED_LIMIT", "1");
-        if (aside().postgres != nullptr) {
-            GetGDALDriverManager()->RegisterDriver(aside().postgres);
+        if (drivers_aside().postgres != nullptr) {
+            GetGDALDriverManager()->RegisterDriver(drivers_aside().postgres);
         }
     }
 }
 
 Connection::~Connection() {
-    if (--connections == 0 && aside().postgres != nullptr) {
-        GetGDALDriverManager()->DeregisterDriver(aside().postgres);
+    if (--connections == 0 && drivers_aside().postgres != nullptr) {
+        GetGDALDriverManager()->DeregisterDriver(drivers_aside().postgres);
     }
 }
 
@@ -275,20 +275,20 @@ Confined::~Confined() {
 WithNetcdf::WithNetcdf(std::string const& path) {
     std::array<char, 4> head{};
     std::error_code ignored;
-    if (aside().netcdf == nullptr || !fs::is_regular_file(path, ignored)) {
+    if (drivers_aside().netcdf == nullptr || !fs::is_regular_file(path, ignored)) {
         return;
     }
     std::ifstream(path, std::ios::binary).read(head.data(), head.size());
     std::string_view const magic(head.data(), head.size());
     if (magic.starts_with("CDF") || magic == "\x89HDF") {
         added_ = true;
-        GetGDALDriverManager()->RegisterDriver(aside().netcdf);
+        GetGDALDriverManager()->RegisterDriver(drivers_aside().netcdf);
     }
 }
 
 WithNetcdf::~WithNetcdf() {
     if (added_) {
-        GetGDALDriverManager()->DeregisterDriver(aside().netcdf);
+        GetGDALDriverManager()->DeregisterDriver(drivers_aside().netcdf);
     }
 }
 
