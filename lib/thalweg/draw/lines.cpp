@@ -14,15 +14,15 @@
 namespace thalweg::draw {
 namespace {
 
-constexpr Colour water{0.05, 0.28, 0.58};
+constexpr Colour link_colour{0.05, 0.28, 0.58};
 
-struct Extent {
+struct LinesBox {
     Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 };
 
-Extent extent_of(std::vector<std::vector<Vec2>> const& lines) {
-    Extent all;
+LinesBox box_of_lines(std::vector<std::vector<Vec2>> const& lines) {
+    LinesBox all;
     for (auto const& line : lines) {
         for (Vec2 const p : line) {
             if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
@@ -45,7 +45,7 @@ Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& pa
     double const unit = 0.014 * std::min(width, height);
     double const top = params.title.empty() ? 2.0 * unit : 4.2 * unit;
     Box const box{2.0 * unit, top, width - 4.0 * unit, height - top - 2.0 * unit};
-    Extent const all = extent_of(lines);
+    LinesBox const all = box_of_lines(lines);
     double const span_x = std::max(all.high.x - all.low.x, 1e-9);
     double const span_y = std::max(all.high.y - all.low.y, 1e-9);
     double const scale = std::min(box.width / span_x, box.height / span_y);
@@ -55,7 +55,7 @@ Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& pa
         if (!params.title.empty()) {
             draw_text_within(sheet, {box.x, 2.4 * unit}, params.title, {1.35 * unit, ink, Weight::bold}, box.width);
         }
-        set_colour(sheet, water);
+        set_colour(sheet, link_colour);
         cairo_set_line_width(sheet, std::clamp(0.12 * scale, 0.4, 2.0));
         cairo_set_line_cap(sheet, CAIRO_LINE_CAP_ROUND);
         cairo_set_line_join(sheet, CAIRO_LINE_JOIN_ROUND);
