@@ -12,7 +12,7 @@ thalweg_find(TBB)
 thalweg_find(fmt)
 thalweg_find(nlohmann_json)
 find_package(OpenCL QUIET) # optional: --device opencl
-foreach(LIBRARY muparser cairo)
+foreach(LIBRARY muparser cairo fontconfig)
   if(NOT TARGET PkgConfig::${LIBRARY})
     pkg_check_modules(${LIBRARY} REQUIRED IMPORTED_TARGET GLOBAL ${LIBRARY})
   endif()

@@ -14,7 +14,7 @@ class App;
 namespace thalweg::tools {
 
 /// Exit codes (contract).
-enum Exit : int { done = 0, failed = 1, wrong = 2, check_failed = 3, interrupted = 130 };
+enum Exit : int { done = 0, failed = 1, wrong = 2, check_failed = 3 }; // and of signals: interrupt.hpp
 
 /// How a command runs: options every command has.
 struct Session {

@@ -5,6 +5,7 @@
 #include "describe.hpp"
 #include "interrupt.hpp"
 #include "terminal.hpp"
+#include "threads.hpp"
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/memory.hpp>
@@ -16,11 +17,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <map>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -29,12 +33,45 @@ namespace {
 using namespace thalweg;
 using namespace thalweg::tools;
 
+// Ready before memory is exhausted.
+constexpr std::string_view out_of_memory = "error: out of memory: make the grid smaller or the cell larger\n";
+
 void complain(std::string const& text) {
-    fmt::print(stderr, "{} {}\n", toned(Tone::bad, "error:", stderr), printable(text));
+    write_to_stderr(fmt::format("{} {}\n", toned(Tone::bad, "error:", stderr), printable(text)));
+}
+
+/// Ends the process in words where an exception can reach no handler: in a thread of a library, or while another is
+/// handled.
+[[noreturn]] void end_without_handler() {
+    try {
+        if (std::exception_ptr const fault = std::current_exception()) {
+            std::rethrow_exception(fault);
+        }
+        write_to_stderr("error: a thread ended against the rules\n");
+    } catch (std::bad_alloc const&) {
+        write_to_stderr(out_of_memory);
+    } catch (std::exception const& e) {
+        write_to_stderr("error: ");
+        write_to_stderr(e.what());
+        write_to_stderr("\n");
+    } catch (...) {
+        write_to_stderr("error: a fault of an unknown kind\n");
+    }
+    _exit(Exit::failed);
+}
+
+/// Libraries say in words only that memory was short; what was read is then not wrong.
+int code_of_refusal(std::string const& words) {
+    for (char const* const of_memory : {"ut of memory", "annot allocate", "bad_alloc"}) {
+        if (words.find(of_memory) != std::string::npos) {
+            return Exit::failed;
+        }
+    }
+    return Exit::wrong;
 }
 
 int call(Command const& command, Terminal& terminal) {
-    auto const end = [&](std::string const& why, Exit code) {
+    auto const end = [&](std::string const& why, int code) {
         terminal.wipe();
         complain(why);
         return code;
@@ -42,13 +79,15 @@ int call(Command const& command, Terminal& terminal) {
     try {
         return command();
     } catch (Cancelled const&) {
-        return end("interrupted; nothing was written", Exit::interrupted);
+        return end("interrupted; nothing was written", exit_of_signal());
     } catch (BadParameter const& e) {
-        return end(e.what(), Exit::wrong);
+        return end(e.what(), code_of_refusal(e.what()));
     } catch (BadInput const& e) {
-        return end(e.what(), Exit::wrong);
+        return end(e.what(), code_of_refusal(e.what()));
     } catch (std::bad_alloc const&) {
-        return end("out of memory: make the grid smaller or the cell larger", Exit::failed);
+        terminal.wipe();
+        write_to_stderr(out_of_memory);
+        return Exit::failed;
     } catch (std::exception const& e) {
         return end(e.what(), Exit::failed);
     }
@@ -70,11 +109,19 @@ void tell_times(Session const& session, Terminal& terminal, double seconds) {
     tell_time(session.run, "total", seconds);
 }
 
-} // namespace
+/// A run that was made but whose results did not arrive has failed.
+int end_of_results(int code) {
+    std::string const fault = fault_of_stdout();
+    if (fault.empty() || (code != Exit::done && code != Exit::check_failed)) {
+        return code;
+    }
+    complain(fmt::format("cannot write to standard output: {}", fault));
+    return Exit::failed;
+}
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
     Session session;
-    session.run.stop = stop_at_interrupt();
+    session.run.stop = stop_at_signals();
 
     CLI::App app("thalweg makes terrain from its rivers outward.", "thalweg");
     app.formatter_fn([](CLI::App const* of, std::string const&, CLI::AppFormatMode) { return help_text(*of); });
@@ -124,21 +171,24 @@ int main(int argc, char** argv) {
                "  thalweg help make\n"); // after the commands: they would take it over
 
     if (argc == 1) {
-        fmt::print(stderr, "{}", app.help());
+        write_to_stderr(app.help());
         return Exit::wrong;
     }
     try {
         app.parse(argc, argv);
     } catch (CLI::ParseError const& e) {
         if (e.get_exit_code() == 0) { // --help, --version
-            return app.exit(e);
+            std::ostringstream text;
+            app.exit(e, text, text);
+            fmt::print("{}", text.str());
+            return Exit::done;
         }
         complain(complaint(app, {argv + 1, argv + argc}, e.what()));
         return Exit::wrong;
     }
 
     Terminal terminal(session.quiet ? Terminal::Manner::quiet : Terminal::Manner::talk);
-    session.run.threads = session.threads;
+    session.run.threads = can_start_threads(session.threads) ? session.threads : 1;
     session.run.progress = &Terminal::progress;
     session.run.progress_arg = &terminal;
     session.run.log = [&](std::string_view line) { terminal.line(line); };
@@ -147,6 +197,9 @@ int main(int argc, char** argv) {
         [&] {
             if (session.verbose) {
                 session.run.say(fmt::format("thalweg {} ({})", pipeline::version(), io::gdal_version()));
+            }
+            if (session.run.threads != session.threads) {
+                session.run.tell("threads", "one: the system lets no more start");
             }
             if (session.device == "opencl") {
                 session.run.device = Device::opencl;
@@ -162,4 +215,15 @@ int main(int argc, char** argv) {
             return code;
         },
         terminal);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    std::set_terminate(end_without_handler);
+    try {
+        return end_of_results(run(argc, argv));
+    } catch (...) {
+        end_without_handler();
+    }
 }

@@ -25,7 +25,8 @@ Rows const exit_codes{
     {"1", "Failed while running: disk full, out of memory, a file that could not be written."},
     {"2", "The command line, the recipe or an input is wrong. Nothing was written."},
     {"3", "A check failed, or a file differs from what its recipe makes. The output files are kept."},
-    {"130", "Interrupted by Ctrl-C (or SIGTERM). Nothing was written. A second Ctrl-C stops at once."},
+    {"130",
+     "Interrupted by Ctrl-C (143: by SIGTERM, 129: by SIGHUP). Nothing was written. A second signal stops at once."},
 };
 
 Rows const environment{

@@ -11,8 +11,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <system_error>
 
 namespace thalweg::tools {
 
@@ -85,8 +87,7 @@ void Terminal::wipe() {
 
 void Terminal::take_bar_away() {
     if (bar_shown_) {
-        fmt::print(stderr, "{}", to_the_lines_begin);
-        std::fflush(stderr);
+        write_to_stderr(to_the_lines_begin);
         bar_shown_ = false;
     }
 }
@@ -95,7 +96,7 @@ void Terminal::line(std::string_view text) {
     std::lock_guard const lock(mutex_);
     if (talks_) {
         take_bar_away();
-        fmt::print(stderr, "{}\n", shown_line(text, abilities_.colours));
+        write_to_stderr(fmt::format("{}\n", shown_line(text, abilities_.colours)));
     }
 }
 
@@ -141,9 +142,9 @@ void Terminal::show(double share) {
     state_.share = share;
     state_.per_second = pace_.per_second();
     state_.left_s = pace_.left_s();
-    fmt::print(stderr, "{}{}", to_the_lines_begin,
-               bar_text(state_, columns_of_stderr(), abilities_.colours ? Colour::ansi : Colour::none));
-    std::fflush(stderr);
+    write_to_stderr(
+        fmt::format("{}{}", to_the_lines_begin,
+                    bar_text(state_, columns_of_stderr(), abilities_.colours ? Colour::ansi : Colour::none)));
     bar_shown_ = true;
 }
 
@@ -164,11 +165,25 @@ int Terminal::progress(double share, char const* what, void* terminal) {
     return 1;
 }
 
+void write_to_stderr(std::string_view text) noexcept {
+    while (!text.empty()) {
+        ssize_t const written = write(STDERR_FILENO, text.data(), text.size());
+        if (written < 0 && errno != EINTR) {
+            return;
+        }
+        text.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
+    }
+}
+
+std::string fault_of_stdout() {
+    errno = 0;
+    bool const failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+    return !failed ? "" : errno == 0 ? "it failed earlier" : std::error_code(errno, std::generic_category()).message();
+}
+
 void wipe_last_line() {
     if (abilities(stderr).moves) {
-        // write, not stdio: another thread may hold the stream's lock.
-        [[maybe_unused]] auto const written =
-            write(STDERR_FILENO, to_the_lines_begin.data(), to_the_lines_begin.size());
+        write_to_stderr(to_the_lines_begin);
     }
 }
 

@@ -32,6 +32,10 @@ enum class Tone { good, careful, bad, name };
 /// Text in the tone's colour (green, yellow, red, bold) where the stream takes colours; else as it is.
 std::string toned(Tone tone, std::string_view text, std::FILE* stream);
 
+/// Writes to stderr; what cannot be written is dropped, for no work is worth less because nobody can be told of it.
+/// Takes no lock and no memory.
+void write_to_stderr(std::string_view text) noexcept;
+
 /// What a person sees on stderr: finished lines, and below them a bar with rate and time left, on a terminal only. A
 /// stage that is over within 0.3 s shows none.
 class Terminal {
@@ -67,6 +71,9 @@ private:
     std::chrono::steady_clock::time_point begin_;
     std::chrono::steady_clock::time_point last_;
 };
+
+/// Writes what stdout still holds; why something written to it did not arrive, or "".
+std::string fault_of_stdout();
 
 /// Takes whatever stands on stderr's last line away, where that is a terminal: for an end without unwinding.
 void wipe_last_line();

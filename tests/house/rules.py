@@ -20,7 +20,7 @@ FOREIGN = {
     "solver": ["Eigen/", "unsupported/Eigen/", "CL/", "petsc", "mpi.h"],
     "skeleton": ["noise/", "libnoise/"],
     "surface": ["muParser"],
-    "draw": ["cairo"],
+    "draw": ["cairo", "fontconfig/"],
     "io": ["gdal", "ogr", "cpl_"],
     "pipeline": ["toml++/", "nlohmann/"],
     "tools": ["CLI/", "nlohmann/", "spdlog/"],

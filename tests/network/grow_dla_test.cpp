@@ -128,7 +128,7 @@ TEST(GrowDla, is_cancelled_by_the_token_and_by_progress) {
         return ++*static_cast<int*>(arg) < 3 ? 1 : 0;
     };
     refused.progress_arg = &calls;
-    EXPECT_THROW(grow_dla(dla(1000, 1e-200, 1, 7), refused), Cancelled);
+    EXPECT_THROW(grow_dla(dla(1000, 1e-5, 1, 7), refused), Cancelled);
     EXPECT_EQ(calls, 3);
 }
 
@@ -223,4 +223,16 @@ TEST(GrowDla, small_shapes_come_as_often_as_by_unit_steps) {
             EXPECT_NEAR(static_cast<double>(fast_walkers) / static_cast<double>(slow_walkers), 1.0, 0.02);
         }
     }
+}
+
+TEST(GrowDla, what_would_not_end_is_refused_before_it_begins) {
+    for (double const sticking : {1e-300, 1e-100, 1e-6}) {
+        EXPECT_THROW(grow_dla(dla(1000, sticking, 1, 7)), BadParameter) << sticking;
+        EXPECT_THROW(grow_dla(dla(2, sticking, 1, 7)), BadParameter) << sticking;
+    }
+    EXPECT_EQ(grow_dla(dla(1, 1e-300, 1, 7)).cells.size(), 1U) << "the seed alone";
+    DlaParams narrow = dla(std::int64_t{1} << 40, 0.001, 1, 7);
+    EXPECT_THROW(thalweg::network::require_growth(narrow), BadParameter);
+    narrow.max_radius = 30;
+    EXPECT_NO_THROW(thalweg::network::require_growth(narrow));
 }

@@ -111,7 +111,7 @@ TEST(GrowForest, is_cancelled_while_nothing_grows) {
     thalweg::Run stopped;
     stopped.stop = source.get_token();
     EXPECT_THROW(grow_forest(land, {{0, 0}}, growth(5, 7), stopped), Cancelled);
-    EXPECT_THROW(grow_forest(Mask(grid_of(3, 3), 1), {{0, 0}}, growth(1, 7, 1e-200), stopped), Cancelled);
+    EXPECT_THROW(grow_forest(Mask(grid_of(3, 3), 1), {{0, 0}}, growth(1, 7, 1e-9), stopped), Cancelled);
 }
 
 // Laws of the header: a particle hangs on the one nearest to it, s to s + 1 away; it keeps 2 s from all others, but
@@ -234,4 +234,10 @@ TEST(GrowForest, shapes_come_as_often_as_by_unit_steps) {
         EXPECT_GT(test.freedom, 4.0);
         EXPECT_GT(test.p, 0.001) << sticking << " " << visits << ": chi2 " << test.x << " of " << test.freedom;
     }
+}
+
+TEST(GrowForest, what_would_not_end_is_refused_before_it_begins) {
+    Mask const region(grid_of(40, 40), 1);
+    EXPECT_THROW(grow_forest(region, {{20, 20}}, {.sticking = 1e-300}), BadParameter);
+    EXPECT_THROW(grow_forest(region, {{20, 20}}, {.sticking = 1e-12}), BadParameter);
 }

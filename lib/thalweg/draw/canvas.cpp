@@ -13,6 +13,7 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 #include <fmt/format.h>
+#include <fontconfig/fontconfig.h>
 
 #include <thalweg/core/error.hpp>
 
@@ -43,6 +44,22 @@ void demand(cairo_status_t status) {
         throw IoError(fmt::format("draw.paint: Cairo says '{}'; choose a smaller picture or free memory",
                                   cairo_status_to_string(status)));
     }
+}
+
+/// Reads the system's fonts. Cairo has them read at the first text, and where there is no memory for them Fontconfig
+/// then tries for ever.
+void load_fonts() {
+    [[maybe_unused]] static bool const is_loaded = [] {
+        FcConfig* const fonts = FcInitLoadConfigAndFonts();
+        bool const is_current = fonts != nullptr && FcConfigSetCurrent(fonts) == FcTrue;
+        if (fonts != nullptr) {
+            FcConfigDestroy(fonts); // the current one has its own reference
+        }
+        if (!is_current) {
+            throw IoError("draw.paint: the system's fonts cannot be read: out of memory");
+        }
+        return true;
+    }();
 }
 
 /// Cairo numbers surfaces and images by a counter of the process: they are renumbered by their place in the text.
@@ -192,6 +209,7 @@ Vec2 towards(Vec2 from, Vec2 to, double by) {
 } // namespace
 
 Picture paint(double width, double height, Format format, std::function<void(Cairo*)> const& fill) {
+    load_fonts();
     Picture picture{{}, format};
     std::unique_ptr<cairo_surface_t, EndSurface> surface;
     switch (format) {

@@ -106,6 +106,9 @@ Raster<float> bring_into(Raster<float> const& dem, Grid const& grid, std::string
     Watch watch(run, "warp");
     std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> const options(
         GDALWarpAppOptionsNew(words.List(), nullptr), &GDALWarpAppOptionsFree);
+    if (options == nullptr) {
+        throw BadInput(fmt::format("{} cannot be warped to cells of {}: {}", what, grid.cell_m, driver.take()));
+    }
     GDALWarpAppOptionsSetProgress(options.get(), &Watch::step, &watch);
     GDALDatasetH from = GDALDataset::ToHandle(source.get());
     Dataset const warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &from, options.get(), nullptr)));

@@ -74,6 +74,10 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
         }
         lines.push_back(std::move(line));
     }
+    driver.check(what); // an allocation that fails ends the loop, too
+    if (static_cast<GIntBig>(lines.size()) != layer->GetFeatureCount()) {
+        throw IoError(what + ": contours are missing: free memory");
+    }
     return lines;
 }
 

@@ -3,7 +3,9 @@
 #include <thalweg/io/driver.hpp>
 
 #include <algorithm>
-#include <mutex>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -11,40 +13,68 @@
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_srs_api.h>
+#include <unistd.h>
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/gdal_guard.hpp>
 
 namespace thalweg::io {
 
-struct Driver::Log {
-    std::vector<std::string> errors; // the first few: a corrupt file can give one a tile
-};
-
 namespace {
+
+struct Kept {
+    std::vector<std::string> errors; // the first few: a corrupt file can give one a tile
+    bool is_cut = false;             // there was no memory for another
+};
 
 constexpr std::size_t errors_kept = 4;
 
-void CPL_STDCALL note(CPLErr level, CPLErrorNum, char const* text) {
+// After an error of this level, an allocation that failed, GDAL calls abort().
+void end_if_fatal(CPLErr level, char const* text) {
+    if (level != CE_Fatal) {
+        return;
+    }
+    for (char const* const part : {"error: ", text, "\n"}) {
+        [[maybe_unused]] auto const written = write(STDERR_FILENO, part, std::strlen(part));
+    }
+    std::_Exit(EXIT_FAILURE);
+}
+
+void CPL_STDCALL note(CPLErr level, CPLErrorNum, char const* text) noexcept {
+    end_if_fatal(level, text);
     if (level < CE_Failure) {
         return;
     }
-    auto& errors = *static_cast<std::vector<std::string>*>(CPLGetErrorHandlerUserData());
-    if (errors.size() < errors_kept && std::ranges::find(errors, text) == errors.end()) {
-        errors.emplace_back(text);
+    auto& [errors, is_cut] = *static_cast<Kept*>(CPLGetErrorHandlerUserData());
+    try {
+        if (errors.size() < errors_kept && std::ranges::find(errors, text) == errors.end()) {
+            errors.emplace_back(text);
+        }
+    } catch (std::exception const&) { // must not cross frames of C
+        is_cut = true;
     }
+}
+
+// Of threads that have no Driver.
+void CPL_STDCALL note_elsewhere(CPLErr level, CPLErrorNum number, char const* text) {
+    end_if_fatal(level, text);
+    CPLDefaultErrorHandler(level, number, text);
 }
 
 } // namespace
 
+struct Driver::Log : Kept {};
+
 Driver::Driver() : log_(std::make_unique<Log>()) {
-    static std::once_flag once;
-    std::call_once(once, [] {
+    // Not call_once: an exception, of memory that is exhausted, would cross frames of C.
+    [[maybe_unused]] static bool const is_registered = [] {
         GDALAllRegister();
         guard_gdal();
+        CPLSetErrorHandler(note_elsewhere);
         OSRSetPROJEnableNetwork(0); // a datum grid fetched on one machine only would change the coordinates there
-    });
-    CPLPushErrorHandlerEx(note, &log_->errors);
+        return true;
+    }();
+    CPLPushErrorHandlerEx(note, static_cast<Kept*>(log_.get()));
 }
 
 Driver::~Driver() {
@@ -52,7 +82,7 @@ Driver::~Driver() {
 }
 
 std::string Driver::take() const {
-    std::string words;
+    std::string words = std::exchange(log_->is_cut, false) ? "out of memory" : "";
     for (auto const& error : std::exchange(log_->errors, {})) {
         words += (words.empty() ? "" : "; ") + error;
     }

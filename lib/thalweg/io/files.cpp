@@ -11,9 +11,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/durable.hpp>
+#include <thalweg/io/leftovers.hpp>
 #include <thalweg/io/new_file.hpp>
 
 namespace thalweg::io {
@@ -157,9 +158,12 @@ OutputFolder::OutputFolder(std::string const& folder, Existing existing, std::ve
             require_removable(place, name);
         }
     }
+    sweep_leftovers(place.parent_path());
+    if (existed_) {
+        sweep_leftovers(place);
+    }
     // In an existing folder, for it may be a mount point whose parent is another file system or not ours to write to.
-    std::string const stem =
-        (existed_ ? (place / ".thalweg-tmp-").string() : folder_ + ".thalweg-tmp-") + fmt::format("{}", getpid());
+    std::string const stem = (existed_ ? (place / ".").string() : folder_ + ".") + temporary_mark();
     fs::path missing = existed_ ? fs::path() : fs::absolute(place).parent_path();
     for (; !missing.empty() && !fs::exists(missing, error); missing = missing.parent_path()) {
         made_.insert(made_.begin(), missing.string());
@@ -202,12 +206,15 @@ std::vector<std::string> OutputFolder::files() const {
 
 void OutputFolder::commit() {
     fs::path const folder(folder_);
+    std::string const who = "io.output_folder";
     std::error_code error;
+    make_all_durable(staging_, who);
     if (!existed_) {
         // rename() would silently replace an empty folder that has come since; one that holds something stops it.
         fs::rename(staging_, folder, error);
         require(error, "io.output_folder: " + folder_);
         committed_ = true;
+        make_durable(folder.parent_path(), who);
         return;
     }
     std::vector<std::string> const names = files();
@@ -238,6 +245,7 @@ void OutputFolder::commit() {
     for (std::string const& name : names) {
         moves.move(fs::path(staging_) / name, folder / name);
     }
+    make_durable(folder, who);
     moves.keep();
     committed_ = true;
     fs::remove_all(aside, error);
@@ -249,8 +257,17 @@ void OutputFolder::commit() {
     }
 }
 
+void refuse_pipe(std::string const& path, std::string const& what) {
+    std::error_code ignored;
+    fs::file_status const status = fs::status(path, ignored);
+    if (fs::is_fifo(status) || fs::is_socket(status) || fs::is_character_file(status)) {
+        throw BadInput(what + " is a pipe or a device, and inputs are read more than once: write it to a file first");
+    }
+}
+
 std::string read_text(std::string const& path, std::int64_t max_bytes) {
     std::string const what = "io.read_text: " + path;
+    refuse_pipe(path, what);
     std::error_code error;
     if (!fs::exists(path, error)) {
         throw BadInput(what + " does not exist");

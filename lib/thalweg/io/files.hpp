@@ -16,8 +16,9 @@ enum class Existing {
 };
 
 /// An output folder that appears whole or not at all: files are written into staging() and moved by commit(); without
-/// it nothing is left. Only files that thalweg wrote before are ever replaced or removed. Takes: folder, which need not
-/// exist; old_files: every file an earlier run left in it, report.json included, by its name relative to it
+/// it nothing is left, and what killed processes left in the same place goes. Only files that thalweg wrote before are
+/// ever replaced or removed. Takes: folder, which need not exist; old_files: every file an earlier run left in it,
+/// report.json included, by its name relative to it
 /// ("inputs/rivers.gpkg"); an empty list when it holds no report. Throws: BadParameter when folder is ""; BadInput when
 /// it is no folder, holds something and existing is refuse, holds something and old_files is empty under replace, or
 /// when an old name is absolute, climbs out with "..", is no plain file, or passes through a link; IoError with the
@@ -31,7 +32,8 @@ public:
     OutputFolder(OutputFolder const&) = delete;
     OutputFolder& operator=(OutputFolder const&) = delete;
 
-    /// Where to write: beside a new folder (FOLDER.thalweg-tmp-PID), or in an existing one (.thalweg-tmp-PID).
+    /// Where to write: beside a new folder (FOLDER.thalweg-tmp-HOST-PID), or in an existing one
+    /// (.thalweg-tmp-HOST-PID).
     std::string const& staging() const { return staging_; }
     /// The path of a file to be written, "dem.tif" or "inputs/rivers.gpkg"; makes the folders it is in.
     std::string path(std::string const& name) const;
@@ -39,7 +41,8 @@ public:
     /// Every file written so far, relative names, sorted.
     std::vector<std::string> files() const;
 
-    /// Puts the files in place, the old ones removed. When it fails everything is as it was before.
+    /// Puts the files in place, the old ones removed, when all of them are on the disk. When it fails everything is as
+    /// it was before.
     /// Throws: BadInput when a file would replace one that is not among old_files; IoError.
     void commit();
 
@@ -53,7 +56,10 @@ private:
     bool committed_ = false;
 };
 
-/// The bytes of a file. Throws: BadInput when there is none, it is a folder or larger than max_bytes; IoError.
+/// Throws: BadInput where a path is a pipe, a socket or a terminal, of which opening or reading may wait for ever.
+void refuse_pipe(std::string const& path, std::string const& what);
+
+/// The bytes of a file. Throws: BadInput when there is none, it is a folder, a pipe or larger than max_bytes; IoError.
 std::string read_text(std::string const& path, std::int64_t max_bytes);
 
 /// Writes a new file. Throws: IoError with the path and the system's reason, also when the file exists.

@@ -6,9 +6,10 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/durable.hpp>
+#include <thalweg/io/leftovers.hpp>
 
 namespace thalweg::io {
 
@@ -24,7 +25,8 @@ OutputFile::OutputFile(std::string const& path, Existing existing) : path_(path)
         throw BadInput(fmt::format("io.output_file: there is no folder {} for {}", folder.string(), path));
     }
     require_place();
-    staging_ = (folder / fmt::format(".thalweg-tmp-{}-{}", getpid(), fs::path(path).filename().string())).string();
+    sweep_leftovers(folder);
+    staging_ = (folder / fmt::format(".{}-{}", temporary_mark(), fs::path(path).filename().string())).string();
     fs::remove(staging_, ignored); // of an earlier process of the same number
 }
 
@@ -49,11 +51,13 @@ void OutputFile::require_place() const {
 
 void OutputFile::commit() {
     require_place(); // something may have come since
+    make_durable(staging_, "io.output_file");
     std::error_code error;
     fs::rename(staging_, path_, error);
     if (error) {
         throw IoError(fmt::format("io.output_file: {}: {}", path_, error.message()));
     }
+    make_durable(fs::path(path_).parent_path(), "io.output_file");
 }
 
 } // namespace thalweg::io

@@ -21,7 +21,7 @@ public:
 
     /// Where to write: a new file in the same folder, with the same ending.
     std::string const& staging() const { return staging_; }
-    /// Puts the file in place.
+    /// Puts the file in place when it is on the disk.
     void commit();
 
 private:

@@ -89,6 +89,7 @@ std::vector<std::vector<Polygon>> polygonise(Raster<std::int32_t> const& numbers
         auto const number = feature->GetFieldAsInteger64(0);
         polygons[static_cast<std::size_t>(number)].push_back(taken(*feature->GetGeometryRef()->toPolygon(), number));
     }
+    driver.check(what); // an allocation that fails ends the loop, too
     return polygons;
 }
 

@@ -141,6 +141,11 @@ Warped warp(GDALDataset& source, OGRSpatialReference const* target, std::int64_t
     Watch watch(run, "warp");
     std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> const warp_options(
         GDALWarpAppOptionsNew(arguments.List(), nullptr), &GDALWarpAppOptionsFree);
+    if (warp_options == nullptr) { // what GDAL reads in the arguments is not what was meant
+        throw BadInput(
+            fmt::format("{} cannot be warped to be drawn: its cells of {} are too small for its position: {}", what,
+                        cell, driver.take()));
+    }
     GDALWarpAppOptionsSetProgress(warp_options.get(), &Watch::step, &watch);
     GDALDatasetH from = GDALDataset::ToHandle(band_one.get());
     Dataset warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &from, warp_options.get(), nullptr)));

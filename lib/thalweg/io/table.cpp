@@ -36,6 +36,22 @@ void require_code(OGRSpatialReference const* reference, std::string const& what)
     }
 }
 
+/// A CRS that could not be written leaves only a file without one.
+void require_crs(std::string const& path, OGRSpatialReference const& wanted, std::string const& what) {
+    Dataset const written(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+    if (written == nullptr) {
+        throw IoError(what + " could not be read back");
+    }
+    for (OGRLayer* const layer : written->GetLayers()) {
+        OGRSpatialReference const* const found = layer->GetSpatialRef();
+        bool const has_shape = layer->GetGeomType() != wkbNone;
+        if (has_shape && (found == nullptr || found->IsProjected() != wanted.IsProjected() ||
+                          found->IsGeographic() != wanted.IsGeographic())) {
+            throw IoError(what + ": the CRS could not be written");
+        }
+    }
+}
+
 void write_file(std::vector<Table const*> const& tables, std::string const& crs, std::string const& path,
                 LayerFormat format, Run const& run) {
     FileFormat const& file_format = file_formats.at(static_cast<std::size_t>(format));
@@ -72,6 +88,10 @@ void write_file(std::vector<Table const*> const& tables, std::string const& crs,
     }
     dataset.reset();
     driver.check(what);
+    if (used != nullptr && format == LayerFormat::geopackage) {
+        require_crs(path, *used, what);
+        driver.check(what);
+    }
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/leftovers.hpp>
 
 namespace thalweg::io {
 
@@ -24,7 +25,8 @@ TemporaryFolder::TemporaryFolder(std::string const& name) {
                                   "folder: set TMPDIR to one that does",
                                   set.empty() ? "" : fmt::format(", TMPDIR={},", set)));
     }
-    std::string folder = (above / (name + "-XXXXXX")).string();
+    sweep_leftovers(above);
+    std::string folder = (above / fmt::format("{}-{}-XXXXXX", name, temporary_mark())).string();
     if (mkdtemp(folder.data()) == nullptr) {
         throw IoError(
             fmt::format("io.temporary_folder: no folder for temporary files can be made in {}: {}; set TMPDIR "

@@ -7,7 +7,8 @@
 
 namespace thalweg::io {
 
-/// A new folder in the system's temporary one (TMPDIR, else the usual place), removed with its content at the end.
+/// A new folder in the system's temporary one (TMPDIR, else the usual place), removed with its content at the end;
+/// those of processes that were killed go, too.
 class TemporaryFolder {
 public:
     /// Takes: the beginning of its name. Throws: IoError with the reason, naming TMPDIR where that is to blame.

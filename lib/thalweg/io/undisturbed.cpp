@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/files.hpp>
 
 namespace thalweg::io {
 
@@ -51,6 +52,7 @@ bool copied(fs::path const& file, fs::path const& copy) {
 } // namespace
 
 Undisturbed::Undisturbed(fs::path const& file) : path_(file) {
+    refuse_pipe(file.string(), fmt::format("io.Undisturbed: {}", file.string()));
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored) || !is_write_ahead(file)) {
         return;

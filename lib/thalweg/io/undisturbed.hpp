@@ -16,7 +16,8 @@ namespace thalweg::io {
 /// which goes with this object. Any other file is opened as it is. Private to this room.
 class Undisturbed {
 public:
-    /// Throws: IoError when a copy is needed and cannot be made, or the file is being written meanwhile.
+    /// Throws: BadInput like refuse_pipe; IoError when a copy is needed and cannot be made, or the file is being
+    /// written meanwhile.
     explicit Undisturbed(std::filesystem::path const& file);
     /// What to open.
     std::string path() const { return path_.string(); }

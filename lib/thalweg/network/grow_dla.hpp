@@ -36,11 +36,18 @@ struct Cluster {
     GrowthStop stop = GrowthStop::particles;
 };
 
+/// About the least number of arrivals (a walker beside the cluster, of which each takes a stick test) that a cluster
+/// needs. A compact cluster is least: each of its rows begins at a site with one neighbour, which holds with S².
+double least_arrivals(DlaParams const& params);
+
+/// Throws: BadParameter where a value lies outside its range, or more than 1e12 arrivals are needed: about a day.
+void require_growth(DlaParams const& params);
+
 /// Grows a diffusion-limited aggregate from one seed.
 /// Takes: sticking S and visit count M.
 /// Gives: a 4-connected cluster; the walk is the simple random walk of the lattice released from afar, every walker
 /// with its own chance (seed, walker): the same cells for any number of threads.
-/// Throws: BadParameter; Cancelled.
+/// Throws: like require_growth; Cancelled.
 /// Source: paper 000, equation 1 and section 2 (Chiu, Lee and Tu 1992).
 Cluster grow_dla(DlaParams const& params = {}, Run const& run = {});
 

@@ -77,6 +77,13 @@ GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, Fore
     double const in_a_full_one = static_cast<double>(growth.cells()) / static_cast<double>(params.step_cells) /
                                  static_cast<double>(2 * params.step_cells);
     double const goal = params.particles > 0 ? static_cast<double>(params.particles) : in_a_full_one;
+    constexpr double most_arrivals = 1e12; // about a day
+    if (goal > most_arrivals * params.sticking) {
+        throw BadParameter(
+            fmt::format("network.grow_forest: about {:.0f} particles with sticking {} need more than {:.0e} "
+                        "arrivals of walkers and would not end in a day: set sticking nearer to 1",
+                        goal, params.sticking, most_arrivals));
+    }
     std::int64_t turns = 0;
     auto const look_up = [&] {
         if (++turns % 4096 == 0) {

@@ -8,6 +8,7 @@
 #include <thalweg/io/projection.hpp>
 #include <thalweg/io/read_polygons.hpp>
 #include <thalweg/io/read_rivers.hpp>
+#include <thalweg/network/grow_dla.hpp>
 #include <thalweg/network/grow_tokunaga.hpp>
 #include <thalweg/pipeline/frame.hpp>
 #include <thalweg/pipeline/land.hpp>
@@ -115,6 +116,7 @@ KnownBefore known_of_rivers(Recipe const& recipe, Run const& run) {
     case Source::dla: break;
     }
     check_memory_of_cluster(rivers.dla.particles);
+    network::require_growth(rivers.dla);
     if (recipe.grid.width > 0) {
         return known_of_tree(recipe, 1);
     }
@@ -263,7 +265,8 @@ double seconds_of(Recipe const& recipe, Forecast const& found) {
         seconds += millions * seconds_a_million(stage, method);
     }
     if (recipe.network && recipe.network->source == Source::dla) {
-        seconds += 2.5e-6 * static_cast<double>(recipe.network->dla.particles);
+        seconds += 2.5e-6 * static_cast<double>(recipe.network->dla.particles) +
+                   8e-8 * network::least_arrivals(recipe.network->dla);
     }
     return seconds;
 }

@@ -4,6 +4,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/memory.hpp>
+#include <thalweg/pipeline/stray_vertex.hpp>
 #include <thalweg/pipeline/terrain.hpp>
 
 #include <fmt/format.h>
@@ -170,6 +171,9 @@ FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wante
 Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted) {
     GridRecipe here = wanted;
     here.crs = lines.crs;
+    if (wanted.width == 0) {
+        require_no_stray_vertex(lines);
+    }
     Grid const grid = frame_box(box_of(lines), here, "the rivers of " + lines.name);
     if (!wanted.clip) {
         for (RiverLine const& line : lines.lines) {

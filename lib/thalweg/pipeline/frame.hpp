@@ -33,7 +33,8 @@ struct FramedBranch {
 FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wanted);
 
 /// The grid asked for, or the lines' box and 5 % around it on multiples of the cell.
-/// Throws: BadInput naming the first line outside an asked grid, unless clip is set.
+/// Throws: BadInput naming the first line outside an asked grid, unless clip is set; like require_no_stray_vertex where
+/// no size is asked for.
 Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted);
 
 /// The grid asked for, or a square one in which so many links of a tree lie some twelve cells apart.

@@ -18,6 +18,7 @@
 #include <thalweg/pipeline/frame.hpp>
 #include <thalweg/pipeline/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
+#include <thalweg/pipeline/stray_vertex.hpp>
 
 #include <fmt/format.h>
 
@@ -189,6 +190,9 @@ std::string settle_on_lines(Recipe& recipe, RiverLines const& lines, Run const& 
     if (recipe.grid.cell_m > 0.0) {
         settle_slope(recipe);
         return "";
+    }
+    if (recipe.grid.width == 0) {
+        require_no_stray_vertex(lines);
     }
     network::ChosenCell const chosen =
         network::choose_cell(lines, {.width = recipe.grid.width, .height = recipe.grid.height}, run);

@@ -7,6 +7,7 @@
 #include <thalweg/core/suggest.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/pipeline/recipe_keys.hpp>
+#include <thalweg/pipeline/toml_depth.hpp>
 #include <thalweg/pipeline/unused_keys.hpp>
 
 #include <fmt/format.h>
@@ -198,7 +199,8 @@ std::vector<KeyHelp> recipe_keys() {
 }
 
 Recipe read_recipe(std::string const& toml, std::string const& name) {
-    // toml++ 3.3 recurses once a dotted part and level: sizes are measured before it sees the text.
+    // toml++ 3.3 recurses once a dotted part and level, also when it gives the memory back: sizes and depth are
+    // measured before it sees the text.
     constexpr std::size_t most_bytes = 1 << 20;
     constexpr std::size_t longest_line = 8192;
     if (toml.size() > most_bytes) {
@@ -212,6 +214,13 @@ Recipe read_recipe(std::string const& toml, std::string const& name) {
                 fmt::format("pipeline.read_recipe: {}: line {} is longer than {} bytes", name, line, longest_line));
         }
         begin = end + 1;
+    }
+    constexpr std::size_t most_levels = 32;
+    if (auto const line = line_deeper_than(toml, most_levels)) {
+        throw BadParameter(
+            fmt::format("pipeline.read_recipe: {}: line {}: keys, tables and arrays are nested more than {} "
+                        "levels deep; no key of a recipe is",
+                        name, *line, most_levels));
     }
     toml::table table;
     try {

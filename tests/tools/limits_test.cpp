@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command.hpp"
+#include "spawned.hpp"
+
+#include <gtest/gtest.h>
+
+#include <grp.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool has_sanitizer() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    return true;
+#else
+    return false;
+#endif
+}
+
+void limit(__rlimit_resource resource, rlim_t most) {
+    rlimit const both{most, most};
+    setrlimit(resource, &both);
+}
+
+/// What a shortage may lead to: the whole result, or exit 1 in words; and nothing beside it.
+void expect_whole_or_refused(Ended const& ended, fs::path const& folder, fs::path const& reference,
+                             std::string const& about) {
+    EXPECT_FALSE(ended.hung) << about;
+    if (ended.code == 0) {
+        EXPECT_EQ(difference(folder / "out", reference), "") << about;
+    } else {
+        EXPECT_EQ(ended.code, 1) << about << ended.err;
+        EXPECT_NE(ended.err.find("error: "), std::string::npos) << about << ended.err;
+        EXPECT_FALSE(fs::exists(folder / "out")) << about;
+    }
+}
+
+/// Threads and processes of the user that runs the tests.
+rlim_t tasks_of_user() {
+    rlim_t count = 0;
+    for (auto const& process : fs::directory_iterator("/proc")) {
+        struct stat about {};
+        std::error_code ignored;
+        if (stat(process.path().c_str(), &about) == 0 && about.st_uid == getuid()) {
+            fs::directory_iterator task(process.path() / "task", ignored);
+            for (; !ignored && task != fs::directory_iterator(); task.increment(ignored)) {
+                ++count;
+            }
+        }
+    }
+    return count;
+}
+
+/// A limit on processes does not bind root: as root the program runs, copied to where everyone may read, as a user that
+/// nobody is.
+struct LimitedUser {
+    bool is_other = geteuid() == 0;
+    std::string program = THALWEG_EXE;
+    Workplace copy;
+
+    LimitedUser() {
+        if (!is_other) {
+            return;
+        }
+        fs::path const bin = fs::path(THALWEG_EXE).parent_path();
+        for (char const* const name : {"bin/thalweg", "libexec/thalweg/thalweg"}) {
+            fs::path const from = bin.parent_path() / name;
+            if (fs::exists(from)) {
+                fs::create_directories((copy / name).parent_path());
+                fs::copy_file(from, copy / name);
+            }
+        }
+        open_to_all(copy.path());
+        program = copy / "bin/thalweg";
+    }
+    static void open_to_all(fs::path const& folder) { fs::permissions(folder, fs::perms(0777)); }
+    void become_with(rlim_t processes) const {
+        constexpr uid_t nobodys = 61187;
+        rlim_t const others = is_other ? 0 : tasks_of_user();
+        bool const changed = !is_other || (setgroups(0, nullptr) == 0 && setgid(nobodys) == 0 && setuid(nobodys) == 0);
+        if (!changed) {
+            _exit(98);
+        }
+        limit(RLIMIT_NPROC, others + processes);
+    }
+};
+
+class Limits : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        place_ = new Workplace;
+        ASSERT_EQ(spawn(small_make("base"), place_->path()).code, 0);
+    }
+    static void TearDownTestSuite() {
+        delete place_;
+        place_ = nullptr;
+    }
+    static fs::path base() { return *place_ / "base"; }
+    static Workplace* place_;
+};
+
+Workplace* Limits::place_ = nullptr;
+
+/// The least address space [MB] in which the program is loaded at all; below it speaks the linker.
+rlim_t least_megabytes(fs::path const& folder) {
+    rlim_t low = 8;
+    rlim_t high = 4096;
+    while (high - low > 1) {
+        rlim_t const middle = (low + high) / 2;
+        Ended const ended = spawn({"--version"}, folder, [middle] { limit(RLIMIT_AS, middle << 20U); });
+        (ended.code == 0 ? high : low) = middle;
+    }
+    return high;
+}
+
+void walk_memory(fs::path const& base, rlim_t step_kb, int steps) {
+    Workplace const place;
+    rlim_t const least = least_megabytes(place.path()) << 10U;
+    int refused = 0;
+    for (int i = 0; i < steps; ++i) {
+        rlim_t const most = least + static_cast<rlim_t>(i) * step_kb;
+        Ended const ended = spawn(small_make(), place.path(), [most] { limit(RLIMIT_AS, most << 10U); });
+        expect_whole_or_refused(ended, place.path(), base, std::to_string(most) + " KB: ");
+        refused += ended.code == 0 ? 0 : 1;
+        fs::remove_all(place / "out");
+    }
+    EXPECT_GT(refused, 0) << "no step was short of memory";
+    EXPECT_EQ(spawn(small_make(), place.path()).code, 0);
+    EXPECT_EQ(names_in(place.path()), std::vector<std::string>{"out"}) << "what was left is swept";
+}
+
+void exhaust_memory(fs::path const& base, int trials) {
+    Workplace const place;
+    setenv("SPY_COUNT", (place / "count").c_str(), 1);
+    auto const preload = [] { setenv("LD_PRELOAD", SPY, 1); };
+    ASSERT_EQ(spawn(small_make(), place.path(), preload).code, 0);
+    unsetenv("SPY_COUNT");
+    long const all = std::atol(file_bytes(place / "count").c_str());
+    ASSERT_GT(all, 10000);
+    fs::remove(place / "count");
+    fs::remove_all(place / "out");
+    for (int i = 0; i < trials; ++i) {
+        std::string const from = std::to_string(all * i / trials + i);
+        Ended const ended = spawn(small_make(), place.path(), [&] {
+            setenv("SPY_MEMORY", from.c_str(), 1);
+            setenv("LD_PRELOAD", SPY, 1);
+        });
+        expect_whole_or_refused(ended, place.path(), base, "from allocation " + from + " on: ");
+        fs::remove_all(place / "out");
+    }
+}
+
+} // namespace
+
+TEST_F(Limits, OneToEightProcesses) {
+    LimitedUser const user;
+    for (rlim_t processes = 1; processes <= 8; ++processes) {
+        Workplace const place;
+        LimitedUser::open_to_all(place.path());
+        Ended const ended = Spawned(
+                                small_make(), place.path(), [&] { user.become_with(processes); }, user.program)
+                                .wait(60.0);
+        EXPECT_EQ(ended.code, 0) << processes << ended.err;
+        expect_whole_or_refused(ended, place.path(), base(), std::to_string(processes) + " processes: ");
+    }
+}
+
+TEST_F(Limits, AddressSpaceInTwentySteps) {
+    if (has_sanitizer()) {
+        GTEST_SKIP() << "a sanitizer takes address space without bound";
+    }
+    walk_memory(base(), 2500, 20);
+}
+
+TEST_F(Limits, MemoryExhaustedForGood) {
+    if (has_sanitizer()) {
+        GTEST_SKIP() << "a sanitizer has allocations of its own";
+    }
+    exhaust_memory(base(), 12);
+}
+
+TEST(Durable, FilesAreOnTheDiskBeforeTheyGetTheirName) {
+    Workplace const place;
+    Workplace const aside;
+    auto const spied = [&] {
+        setenv("SPY_LOG", (aside / "log").c_str(), 1);
+        setenv("LD_PRELOAD", SPY, 1);
+    };
+    fs::path const folder = fs::canonical(place.path());
+    auto const lines = [&] {
+        std::istringstream text(file_bytes(aside / "log"));
+        std::vector<std::string> all;
+        for (std::string line; std::getline(text, line);) {
+            all.push_back(line);
+        }
+        fs::remove(aside / "log");
+        return all;
+    };
+    auto const find = [](std::vector<std::string> const& all, std::string const& begin, std::string const& end) {
+        return std::find_if(all.begin(), all.end(),
+                            [&](std::string const& l) { return l.starts_with(begin) && l.ends_with(end); });
+    };
+    ASSERT_EQ(spawn(small_make(), place.path(), spied).code, 0);
+    std::vector<std::string> const made = lines();
+    auto const named = find(made, "rename out.thalweg-tmp-", " out");
+    ASSERT_NE(named, made.end());
+    for (std::string const& name : names_in(place / "out")) {
+        EXPECT_LT(find(made, "fsync " + (folder / "out.thalweg-tmp-").string(), "/" + name), named) << name;
+    }
+    EXPECT_NE(std::find(named, made.end(), "fsync " + folder.string()), made.end()) << "the folder's list of names";
+
+    ASSERT_EQ(spawn({"points", "out/dem.tif", "-o", "p.las"}, place.path(), spied).code, 0);
+    std::vector<std::string> const one = lines();
+    auto const placed = find(one, "rename ", " p.las");
+    ASSERT_NE(placed, one.end());
+    EXPECT_LT(find(one, "fsync ", "-p.las"), placed);
+    EXPECT_NE(std::find(placed, one.end(), "fsync " + folder.string()), one.end());
+}
+
+class LongLimits : public Limits {};
+
+TEST_F(LongLimits, AddressSpaceInHundredSteps) {
+    if (has_sanitizer()) {
+        GTEST_SKIP() << "a sanitizer takes address space without bound";
+    }
+    walk_memory(base(), 500, 100);
+}
+
+TEST_F(LongLimits, MemoryExhaustedForGoodInManyPlaces) {
+    if (has_sanitizer()) {
+        GTEST_SKIP() << "a sanitizer has allocations of its own";
+    }
+    exhaust_memory(base(), 115);
+}
