@@ -52,7 +52,7 @@ Land valley() {
 }
 
 Certificate certificate_of(Land const& land, std::vector<double> const& areas = {}) {
-    return certify(land.dem, drain(land.dem), land.reaches, areas);
+    return certify(land.dem, drain(land.dem), land.reaches, {.ds_area_m2 = areas});
 }
 
 std::vector<Finding> of_kind(Certificate const& c, std::string const& kind) {
@@ -174,12 +174,97 @@ TEST(Certify, FindsReachesOutsideTheData) {
     EXPECT_EQ(c.river_cells, 28 + 7 - 2);
 }
 
-TEST(Certify, NothingIsTracedOnALake) {
+TEST(Certify, NothingIsTracedWhereRiversStand) {
     Raster<float> const flat(frame(9, 9), 3.0F);
     Grid const& grid = flat.grid();
-    Certificate const c = certify(flat, drain(flat), {{{{grid.centre({4, 2}), grid.centre({4, 8})}}, -1, 1}});
-    EXPECT_EQ(c.lake_cells, 7);
+    std::vector<Reach> const river = {{{{grid.centre({4, 2}), grid.centre({4, 8})}}, -1, 1}};
+    Mask still(grid);
+    still[{4, 5}] = 1;
+    Certificate const lake = certify(flat, drain(flat), river, {.still = still});
+    EXPECT_EQ(lake.lake_cells, 7);
+    EXPECT_EQ(lake.traced[0].f(), 1.0);
+    EXPECT_EQ(certify(flat, drain(flat), river).lake_cells, 0) << "level cells alone are no lake";
+}
+
+TEST(Certify, ALakeEndsWhereTheLevelDoes) {
+    Land land = valley();
+    for (std::int64_t row = 15; row < 20; ++row) {
+        land.dem[{10, row}] = land.dem[{10, 19}];
+    }
+    Mask still(land.dem.grid());
+    still[{10, 17}] = 1;
+    Certificate const c = certify(land.dem, drain(land.dem), land.reaches, {.still = still});
+    EXPECT_EQ(c.lake_cells, 5);
+    EXPECT_TRUE(passes(c));
+}
+
+TEST(Certify, WaterEndsInASink) {
+    Land land = valley();
+    for (std::int64_t row = 20; row < 30; ++row) { // a bar across the mouth
+        for (std::int64_t col = 0; col < 21; ++col) {
+            land.dem[{col, row}] += 2.0F * static_cast<float>(row - 19);
+        }
+    }
+    Grid const& grid = land.dem.grid();
+    land.reaches[2].lines = {{grid.centre({10, 12}), grid.centre({10, 19})}};
+    EXPECT_FALSE(passes(certificate_of(land)));
+    measure::Drainage const drainage = drain(land.dem, std::vector<std::int64_t>{grid.index({10, 19})});
+    EXPECT_TRUE(drainage.depressions.empty());
+    EXPECT_EQ(drainage.direction[(Cell{10, 19})], measure::d8_leaves);
+    EXPECT_TRUE(passes(certify(land.dem, drainage, land.reaches)));
+    EXPECT_THROW(drain(land.dem, std::vector<std::int64_t>{grid.cells()}), BadInput);
+    EXPECT_THROW(drain(land.dem, std::vector<std::int64_t>{-1}), BadInput);
+}
+
+TEST(Certify, WhatIsNotHonouredIsNotAsked) {
+    Land land = valley();
+    for (std::int64_t col = 2; col < 8; ++col) { // a hill across the side river
+        land.dem[{col, 12}] += 30.0F;
+    }
+    EXPECT_FALSE(passes(certificate_of(land)));
+    Mask honoured(land.dem.grid(), 1);
+    for (std::int64_t col = 3; col < 8; ++col) {
+        honoured[{col, 12}] = 0;
+    }
+    Certificate const c = certify(land.dem, drain(land.dem), land.reaches, {.honoured = honoured});
+    EXPECT_TRUE(passes(c));
+    EXPECT_EQ(c.waived_cells, 5);
+    EXPECT_EQ(c.sources, 2) << "the side river begins anew at column 8";
+    honoured[{8, 12}] = honoured[{9, 12}] = 0;
+    Certificate const none = certify(land.dem, drain(land.dem), land.reaches, {.honoured = honoured});
+    EXPECT_EQ(none.sources, 1);
+    EXPECT_EQ(none.waived_cells, 7);
+    EXPECT_TRUE(passes(none));
+}
+
+TEST(Certify, WaterMayCutACorner) {
+    Raster<float> dem(frame(20, 20));
+    for (std::int64_t i = 0; i < dem.cells(); ++i) { // falls to the south-east
+        Cell const c = dem.grid().at(i);
+        dem[i] = static_cast<float>(100 - c.col - c.row + 2 * std::abs(c.col - c.row));
+    }
+    Grid const& grid = dem.grid();
+    std::vector<Vec2> stairs;
+    for (std::int64_t k = 2; k < 20; ++k) {
+        stairs.push_back(grid.centre({k, k}));
+        if (k + 1 < 20) {
+            stairs.push_back(grid.centre({k + 1, k}));
+        }
+    }
+    Certificate const c = certify(dem, drain(dem), {{{stairs}, -1, 1}});
+    EXPECT_EQ(c.river_cells, 18);
     EXPECT_EQ(c.traced[0].f(), 1.0);
+}
+
+TEST(Certify, ATraceBesideTheRiverFails) {
+    Land land = valley();
+    Grid const& grid = land.dem.grid();
+    land.reaches = {{{{grid.centre({11, 2}), grid.centre({11, 29})}}, -1, 7}}; // one cell beside the valley's line
+    Certificate const c = certificate_of(land);
+    EXPECT_EQ(c.arriving_sources, 1);
+    EXPECT_GE(c.traced[1].recall, 0.95);
+    EXPECT_LT(c.traced[0].f(), 0.98);
+    EXPECT_FALSE(passes(c));
 }
 
 TEST(Certify, ComparesAreasWithThoseOfTheFile) {

@@ -69,6 +69,7 @@ char const* name_of(NodeKind kind) {
     case NodeKind::source: return "source";
     case NodeKind::confluence: return "confluence";
     case NodeKind::outlet: return "outlet";
+    case NodeKind::sink: return "sink";
     case NodeKind::pseudo: break;
     }
     return "pseudo";

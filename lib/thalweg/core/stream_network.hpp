@@ -53,7 +53,8 @@ struct NetworkIndex {
     std::vector<double> length_m;              ///< by arc number: length of its line
 };
 
-enum class NodeKind : std::uint8_t { source, confluence, outlet, pseudo };
+/// Kinds of node by the arcs there; a sink is an outlet where the water does not go on, which arcs do not tell.
+enum class NodeKind : std::uint8_t { source, confluence, outlet, pseudo, sink };
 NodeKind kind_of(StreamNetwork const& net, NodeId node);
 char const* name_of(NodeKind kind);
 

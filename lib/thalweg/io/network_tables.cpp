@@ -129,7 +129,11 @@ Table nodes_table(NetworkTables const& tables, NetworkIndex const& index) {
     };
     table.columns = {
         integer("node_id", [](auto row) { return row + 1; }),
-        text("kind", [&plan](auto row) { return name_of(kind_of(plan, as_index(row))); }),
+        text("kind",
+             [&plan, &sinks = tables.sinks](auto row) {
+                 bool const is_sink = std::binary_search(sinks.begin(), sinks.end(), as_index(row));
+                 return name_of(is_sink ? NodeKind::sink : kind_of(plan, as_index(row)));
+             }),
         integer("deg_in", [&index](auto row) { return index.in[as_index(row)].size(); }),
         integer("deg_out", [&index](auto row) { return index.out[as_index(row)] < 0 ? 0 : 1; }),
         integer("basin_id", [&orders](auto row) { return orders.node_basin[as_index(row)]; }),

@@ -40,6 +40,7 @@ struct NetworkTables {
     UserData const* user = nullptr;                        ///< none when null
     HeightUnit unit = HeightUnit::metre; ///< of heights in the native schema; feet add the column z_unit
     bool heights = true;                 ///< else nobody knows them, and 0 stands for each
+    std::vector<NodeId> sinks = {};      ///< outlets where water ends inland, ascending: nodes of the kind sink
 };
 
 /// Writes PATH (.gpkg is added where it is missing): layers arcs (LineStringZ) and nodes (PointZ), table run, with the

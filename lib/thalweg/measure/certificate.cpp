@@ -22,34 +22,49 @@ namespace {
 
 constexpr std::int32_t no_reach = -1;
 constexpr std::int64_t listed = 1000; ///< findings of a kind
-constexpr std::size_t least_lake = 4; ///< [cells]
+
+bool are_neighbours(Cell a, Cell b) {
+    return std::max(std::abs(a.col - b.col), std::abs(a.row - b.row)) <= 1;
+}
+
+/// Adds the cells of a line to a mask, without corners: those between two that are neighbours.
+void mark_without_corners(std::vector<Vec2> const& line, Mask& marked) {
+    std::vector<Cell> const cells = cells_along(line, marked.grid());
+    Cell last{};
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (i == 0 || i + 1 == cells.size() || !are_neighbours(last, cells[i + 1])) {
+            marked[cells[i]] = 1;
+            last = cells[i];
+        }
+    }
+}
 
 class Certifier {
 public:
-    Certifier(Raster<float> const& dem, Drainage const& drainage, std::vector<Reach> const& reaches, Run const& run)
-        : dem_(dem), drainage_(drainage), reaches_(reaches), run_(run), grid_(dem.grid()), owner_(grid_, no_reach),
-          fed_(reaches.size(), 0) {
+    Certifier(Raster<float> const& dem, Drainage const& drainage, std::vector<Reach> const& reaches,
+              Claims const& claims, Run const& run)
+        : dem_(dem), drainage_(drainage), reaches_(reaches), claims_(claims), run_(run), grid_(dem.grid()),
+          owner_(grid_, no_reach), corner_(grid_), fed_(reaches.size(), 0) {
         for (RiverCell const& c : river_cells(reaches, grid_, run)) {
-            owner_[c.cell] = static_cast<std::int32_t>(c.reach);
-            rivers_.push_back(c);
+            if (is_honoured(c.cell)) {
+                owner_[c.cell] = static_cast<std::int32_t>(c.reach);
+                rivers_.push_back(c);
+            } else {
+                ++out_.waived_cells;
+            }
         }
+        find_corners();
         for (Reach const& reach : reaches) {
-            if (reach.ds >= 0) {
-                fed_[static_cast<std::size_t>(reach.ds)] = 1;
+            ends_.push_back(ends_of(reach));
+        }
+        for (std::size_t r = 0; r < reaches.size(); ++r) {
+            if (reaches[r].ds >= 0 && brings_water(ends_[r])) {
+                fed_[static_cast<std::size_t>(reaches[r].ds)] = 1;
             }
-            Ends ends;
-            for (auto const& line : reach.lines) {
-                if (!line.empty()) {
-                    Cell const first = cells_of_vertices({line.front()}, grid_).front();
-                    ends.first = ends.last < 0 ? grid_.index(first) : ends.first;
-                    ends.last = grid_.index(cells_of_vertices({line.back()}, grid_).front());
-                }
-            }
-            ends_.push_back(ends);
         }
     }
 
-    Certificate certify(std::vector<double> const& ds_area_m2) {
+    Certificate certify() {
         tell_depressions();
         find_lakes();
         follow_rivers();
@@ -57,16 +72,52 @@ public:
         auto const [cells, agreement] = best_threshold(drainage_.area_cells, with_data(), run_);
         out_.threshold_cells = cells;
         out_.extracted = agreement;
-        compare_areas(ds_area_m2);
+        compare_areas();
         return std::move(out_);
     }
 
 private:
-    /// Cells where a reach begins and ends, -1 when no part of it lies in the grid.
+    /// Cells where a reach begins to be honoured and ends, -1 when no part of it lies in the grid.
     struct Ends {
         std::int64_t first = -1;
         std::int64_t last = -1;
+        bool waived = false; ///< it begins lower than it is drawn
     };
+
+    bool is_honoured(std::int64_t cell) const { return claims_.honoured.cells() == 0 || claims_.honoured[cell] != 0; }
+
+    Ends ends_of(Reach const& reach) const {
+        Ends ends;
+        for (auto const& line : reach.lines) {
+            for (Cell const cell : claims_.honoured.cells() == 0 ? cells_of_ends(line) : cells_along(line, grid_)) {
+                std::int64_t const i = grid_.index(cell);
+                ends.last = i;
+                ends.waived = ends.waived || (ends.first < 0 && !is_honoured(i));
+                ends.first = ends.first < 0 && is_honoured(i) ? i : ends.first;
+            }
+        }
+        return ends;
+    }
+
+    std::vector<Cell> cells_of_ends(std::vector<Vec2> const& line) const {
+        return line.empty() ? std::vector<Cell>{} : cells_of_vertices({line.front(), line.back()}, grid_);
+    }
+
+    /// Not of what a reach has waived down to its last cell, which is the next one's first.
+    static bool brings_water(Ends const& ends) { return !ends.waived || (ends.first >= 0 && ends.first != ends.last); }
+
+    void find_corners() {
+        Mask kept(grid_);
+        for (Reach const& reach : reaches_) {
+            for (auto const& line : reach.lines) {
+                mark_without_corners(line, kept);
+            }
+        }
+        for (RiverCell const& c : rivers_) {
+            corner_[c.cell] = kept[c.cell] == 0 ? 1 : 0;
+        }
+        std::erase_if(rivers_, [this](RiverCell const& c) { return corner_[c.cell] != 0; });
+    }
 
     void find(char const* kind, std::int64_t feature, Cell at, double amount, std::string text) {
         if (++told_[kind] <= listed) {
@@ -99,28 +150,28 @@ private:
         return cells;
     }
 
-    /// Marks the level cells around river cells, where there are enough of them.
+    /// Marks the level cells around rivers that stand.
     void find_lakes() {
         lake_ = Mask(grid_);
-        Mask seen(grid_);
-        for (RiverCell const& c : rivers_) {
-            if (seen[c.cell] != 0 || std::isnan(dem_[c.cell])) {
-                continue;
+        if (claims_.still.cells() == 0) {
+            return;
+        }
+        std::vector<std::int64_t> level;
+        for (std::int64_t i = 0; i < grid_.cells(); ++i) {
+            if (claims_.still[i] != 0 && !std::isnan(dem_[i])) {
+                lake_[i] = 1;
+                level.push_back(i);
             }
-            std::vector<std::int64_t> level{c.cell};
-            seen[c.cell] = 1;
-            for (std::size_t n = 0; n < level.size(); ++n) {
-                Cell const at = grid_.at(level[n]);
-                for (Cell const step : d8_steps) {
-                    Cell const to{at.col + step.col, at.row + step.row};
-                    if (grid_.contains(to) && seen[to] == 0 && dem_[to] == dem_[at]) {
-                        seen[to] = 1;
-                        level.push_back(grid_.index(to));
-                    }
+        }
+        while (!level.empty()) {
+            Cell const at = grid_.at(level.back());
+            level.pop_back();
+            for (Cell const step : d8_steps) {
+                Cell const to{at.col + step.col, at.row + step.row};
+                if (grid_.contains(to) && lake_[to] == 0 && dem_[to] == dem_[at]) {
+                    lake_[to] = 1;
+                    level.push_back(grid_.index(to));
                 }
-            }
-            for (std::int64_t const cell : level.size() >= least_lake ? level : std::vector<std::int64_t>{}) {
-                lake_[cell] = 1;
             }
         }
         for (RiverCell const& c : rivers_) {
@@ -128,8 +179,9 @@ private:
         }
     }
 
-    std::vector<std::int64_t> out_of_lakes(std::vector<std::int64_t> cells) const {
-        std::erase_if(cells, [this](std::int64_t cell) { return lake_[cell] != 0; });
+    /// Without cells of which it is open whether water passes them.
+    std::vector<std::int64_t> plain(std::vector<std::int64_t> cells) const {
+        std::erase_if(cells, [this](std::int64_t cell) { return lake_[cell] != 0 || corner_[cell] != 0; });
         return cells;
     }
 
@@ -212,7 +264,7 @@ private:
         std::vector<std::int64_t> traced;
         for (std::size_t r = 0; r < reaches_.size(); ++r) {
             std::int64_t const source = ends_[r].first;
-            if (fed_[r] != 0 || source < 0 || std::isnan(dem_[source])) {
+            if (fed_[r] != 0 || source < 0 || !brings_water(ends_[r]) || std::isnan(dem_[source])) {
                 continue;
             }
             run_.check();
@@ -244,15 +296,16 @@ private:
             }
         }
         std::vector<std::int64_t> const rivers = with_data();
-        std::vector<std::int64_t> const running = out_of_lakes(rivers);
+        std::vector<std::int64_t> const running = plain(rivers);
         if (running.empty() && !rivers.empty()) {
             out_.traced.fill({1.0, 1.0}); // they are all lake: there is nothing to follow
         } else {
-            out_.traced = agreement(out_of_lakes(traced), running, grid_);
+            out_.traced = agreement(plain(traced), running, grid_);
         }
     }
 
-    void compare_areas(std::vector<double> const& ds_area_m2) {
+    void compare_areas() {
+        std::vector<double> const& ds_area_m2 = claims_.ds_area_m2;
         if (ds_area_m2.empty()) {
             return;
         }
@@ -275,10 +328,12 @@ private:
     Raster<float> const& dem_;
     Drainage const& drainage_;
     std::vector<Reach> const& reaches_;
+    Claims const& claims_;
     Run const& run_;
     Grid const& grid_;
     Raster<std::int32_t> owner_;
     Mask lake_;
+    Mask corner_; ///< 1: only corners of reaches
     std::vector<RiverCell> rivers_;
     std::vector<Ends> ends_;
     std::vector<std::uint8_t> fed_; ///< by reach: another runs into it
@@ -302,22 +357,29 @@ std::vector<Check> Certificate::checks() const {
     if (sources > 0) {
         all.push_back(at_least("trace_precision", traced[1].precision, 0.99));
         all.push_back(at_least("trace_recall", traced[1].recall, 0.95));
+        all.push_back(at_least("trace_f_same_cell", traced[0].f(), 0.98));
     }
     return all;
 }
 
 Certificate certify(Raster<float> const& dem, Drainage const& drainage, std::vector<Reach> const& reaches,
-                    std::vector<double> const& ds_area_m2, Run const& run) {
+                    Claims const& claims, Run const& run) {
     if (drainage.direction.grid() != dem.grid()) {
         throw BadInput("measure.certify: the drainage is not that of this DEM; drain it first");
     }
-    if (!ds_area_m2.empty() && ds_area_m2.size() != reaches.size()) {
-        throw BadInput(fmt::format("measure.certify: {} areas for {} reaches", ds_area_m2.size(), reaches.size()));
+    if (!claims.ds_area_m2.empty() && claims.ds_area_m2.size() != reaches.size()) {
+        throw BadInput(
+            fmt::format("measure.certify: {} areas for {} reaches", claims.ds_area_m2.size(), reaches.size()));
+    }
+    for (Mask const* const mask : {&claims.still, &claims.honoured}) {
+        if (mask->cells() > 0 && mask->grid() != dem.grid()) {
+            throw BadInput("measure.certify: what stands or is honoured is not on the DEM's grid");
+        }
     }
     if (reaches.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
         throw BadInput("measure.certify: more than 2^31 reaches");
     }
-    return Certifier(dem, drainage, reaches, run).certify(ds_area_m2);
+    return Certifier(dem, drainage, reaches, claims, run).certify();
 }
 
 } // namespace thalweg::measure

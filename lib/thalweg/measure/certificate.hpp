@@ -34,8 +34,8 @@ struct Certificate {
     std::int64_t river_cells = 0;     ///< cells under the network, where the DEM has heights
     std::int64_t following_cells = 0; ///< of these, whose water goes on in the network, downstream, or leaves with it
     std::int64_t border_cells = 0;    ///< of these, on the DEM's border though no river ends or begins there
-    std::int64_t lake_cells = 0; ///< of these, in lakes: four level cells or more, side by side or by their corners;
-                                 ///< what water does there is not traced
+    std::int64_t lake_cells = 0;      ///< of these, in lakes; what water does there is not traced
+    std::int64_t waived_cells = 0;    ///< under the network, but not to be honoured; the rest is said of the others
     std::int64_t sources = 0;
     std::int64_t arriving_sources = 0; ///< whose water comes within a cell of where the network lets it out
     Agreements traced;                 ///< the ways of the sources' water, each to its outlet
@@ -51,14 +51,23 @@ struct Certificate {
     std::vector<Check> checks() const;
 };
 
+/// What is said of rivers besides their lines.
+struct Claims {
+    std::vector<double> ds_area_m2 = {}; ///< by reach the contributing area at its lower end, NaN where none is given;
+                                         ///< empty: of none
+    Mask still = {};    ///< 1: rivers stand here, as in lakes, and so does the level water around, side by side or by
+                        ///< corners; without cells: nowhere
+    Mask honoured = {}; ///< 1: the DEM honours the river here, and from here to its end; without cells: everywhere
+};
+
 /// Kinds of finding (amount): depression (depth [m]), water_leaves: a river cell whose water leaves its river (drop to
 /// where it goes [m]), source_astray (straight distance from its water's end to its outlet [m]), border_cell (0),
 /// outside_dem: a reach that leaves the DEM's data (its cells without). Lists of each kind end with the thousandth.
-/// Takes: reaches with their parts in the DEM's grid; drainage of that DEM; ds_area_m2, by reach the contributing area
-/// that the file claims for its lower end, NaN or left out where it does not.
-/// Gives: the certificate, of the DEM's own steepest descent (drain) and the reaches' own cells (cells_along).
-/// Throws: BadInput: drainage or areas are not of this DEM or these reaches; as river_cells; Cancelled.
+/// Takes: reaches with their parts in the DEM's grid; drainage of that DEM, to its sinks where there are any.
+/// Gives: the certificate, of the DEM's own steepest descent (drain) and the reaches' own cells (cells_along), without
+/// corners, which a diagonal step of the reach passes.
+/// Throws: BadInput: drainage or claims are not of this DEM or these reaches; as river_cells; Cancelled.
 Certificate certify(Raster<float> const& dem, Drainage const& drainage, std::vector<Reach> const& reaches,
-                    std::vector<double> const& ds_area_m2 = {}, Run const& run = {});
+                    Claims const& claims = {}, Run const& run = {});
 
 } // namespace thalweg::measure

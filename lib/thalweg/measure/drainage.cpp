@@ -19,16 +19,22 @@ namespace {
 
 constexpr std::int8_t unreached = -3;
 
+using Sinks = std::vector<std::int64_t>; ///< cells, ascending
+
+bool contains(Sinks const& sinks, std::int64_t cell) {
+    return std::binary_search(sinks.begin(), sinks.end(), cell);
+}
+
 /// Raises depressions to the level at which they spill. Gives: the way back to where the flood came from.
-Raster<std::int8_t> flood(Raster<float>& level, Run const& run) {
+Raster<std::int8_t> flood(Raster<float>& level, Sinks const& sinks, Run const& run) {
     Raster<std::int8_t> direction(level.grid(), unreached);
     auto const offsets = d8_offsets(level.grid());
     FloodQueue queue;
     for (std::int64_t i = 0; i < level.cells(); ++i) {
         if (std::isnan(level[i])) {
             direction[i] = d8_no_data;
-        } else if (std::any_of(offsets.begin(), offsets.end(),
-                               [&](std::int64_t step) { return std::isnan(level[i + step]); })) {
+        } else if (contains(sinks, i) || std::any_of(offsets.begin(), offsets.end(),
+                                                     [&](std::int64_t step) { return std::isnan(level[i + step]); })) {
             direction[i] = d8_leaves;
             queue.push(level[i], i);
         }
@@ -52,11 +58,11 @@ Raster<std::int8_t> flood(Raster<float>& level, Run const& run) {
 
 /// Turns cells that have a lower neighbour towards the one down the steepest slope. With the flood's way for the others
 /// there is no cycle: each step leads lower, or level to a cell that the flood reached earlier.
-void descend(Raster<float> const& level, Raster<std::int8_t>& direction, Run const& run) {
+void descend(Raster<float> const& level, Sinks const& sinks, Raster<std::int8_t>& direction, Run const& run) {
     auto const offsets = d8_offsets(level.grid());
     parallel_ranges(run, level.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            if (std::isnan(level[i])) {
+            if (std::isnan(level[i]) || contains(sinks, i)) {
                 continue;
             }
             double steepest = 0.0;
@@ -155,9 +161,28 @@ std::vector<Depression> take_depressions(Raster<float> const& dem, Raster<float>
     return found;
 }
 
+/// In the framed DEM, ascending.
+Sinks framed_sinks(Raster<float> const& dem, Grid const& framed, std::vector<std::int64_t> const& sinks) {
+    Sinks cells;
+    for (std::int64_t const sink : sinks) {
+        if (sink < 0 || sink >= dem.cells() || std::isnan(dem[sink])) {
+            throw BadInput(
+                fmt::format("measure.drain: the sink in cell {} has no height; give cells of the DEM", sink));
+        }
+        Cell const c = dem.grid().at(sink);
+        cells.push_back(framed.index({c.col + 1, c.row + 1}));
+    }
+    std::sort(cells.begin(), cells.end());
+    return cells;
+}
+
 } // namespace
 
 Drainage drain(Raster<float> const& dem, Run const& run) {
+    return drain(dem, {}, run);
+}
+
+Drainage drain(Raster<float> const& dem, std::vector<std::int64_t> const& sinks, Run const& run) {
     Grid const& grid = dem.grid();
     if (grid.cells() == 0) {
         throw BadInput("measure.drain: the DEM has no cells");
@@ -173,8 +198,9 @@ Drainage drain(Raster<float> const& dem, Run const& run) {
     Drainage result{Raster<std::int8_t>(grid), Raster<std::int64_t>(grid)};
     {
         Raster<float> level = framed(dem);
-        Raster<std::int8_t> direction = flood(level, run);
-        descend(level, direction, run);
+        Sinks const ends = framed_sinks(dem, level.grid(), sinks);
+        Raster<std::int8_t> direction = flood(level, ends, run);
+        descend(level, ends, direction, run);
         CompensatedSum raised_m;
         for (std::int64_t r = 0; r < grid.height; ++r) {
             auto const before = dem.row(r);

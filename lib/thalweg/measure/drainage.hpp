@@ -14,7 +14,7 @@ namespace thalweg::measure {
 
 using thalweg::d8_steps;
 
-inline constexpr std::int8_t d8_leaves = -1;  ///< water leaves the grid, or enters no data, from this cell
+inline constexpr std::int8_t d8_leaves = -1;  ///< water leaves the grid, enters no data or ends in a sink, in this cell
 inline constexpr std::int8_t d8_no_data = -2; ///< the cell has no height
 
 /// Cells, side by side or by their corners, that lie below the level at which their water spills.
@@ -42,6 +42,10 @@ struct Drainage {
 /// cells or an infinite height; Cancelled. Source: O'Callaghan and Mark 1984; Barnes, Lehman and Mulla 2014; queue:
 /// radix heap of Ahuja, Mehlhorn, Orlin and Tarjan 1990.
 Drainage drain(Raster<float> const& dem, Run const& run = {});
+
+/// The same of a DEM with closed basins: water also leaves from sinks, which are cells with data, and what drains to
+/// them is no depression. Throws: BadInput for a sink off the grid or without data, too.
+Drainage drain(Raster<float> const& dem, std::vector<std::int64_t> const& sinks, Run const& run = {});
 
 /// Contributing areas [m2] of a network's arcs and nodes.
 struct ContributingAreas {

@@ -275,7 +275,8 @@ private:
                                : in == 0 ? NodeKind::source
                                : in == 1 ? NodeKind::pseudo
                                          : NodeKind::confluence;
-        if (!node.columns.kind.empty() && node.columns.kind != name_of(right)) {
+        bool const is_sink = out == 0 && node.columns.kind == name_of(NodeKind::sink);
+        if (!node.columns.kind.empty() && node.columns.kind != name_of(right) && !is_sink) {
             findings_.push_back(
                 {"node_column_mismatch", node.id, plan_of(node.at), 0.0,
                  fmt::format("node {}: its kind is {} and should be {}", node.id, node.columns.kind, name_of(right))});

@@ -134,16 +134,20 @@ private:
 
     /// Outlets first: what is not known lies between the heights above and below it.
     void look_down() {
-        std::vector<Known> known(index_.out.size()); // below each node, itself included
-        std::vector<double> node_z(index_.out.size(), unknown);
+        struct Node {
+            Known below; ///< itself included
+            double z = unknown;
+        };
+        std::vector<Node> nodes(index_.out.size());
         for (NodeId const n : index_.upstream_order) {
             if (index_.out[n] < 0) {
                 continue;
             }
             auto const a = static_cast<std::size_t>(index_.out[n]);
-            Known at = std::isnan(z_[a].back()) ? known[index_.to[a]] : Known{z_[a].back(), 0.0, cells_[a].back()};
+            Known at =
+                std::isnan(z_[a].back()) ? nodes[index_.to[a]].below : Known{z_[a].back(), 0.0, cells_[a].back()};
             if (std::isnan(z_[a].back())) {
-                z_[a].back() = node_z[index_.to[a]];
+                z_[a].back() = nodes[index_.to[a]].z;
             }
             for (std::size_t i = z_[a].size() - 1; i-- > 0;) {
                 at = farther(at, distance(line(a)[i], line(a)[i + 1]));
@@ -154,8 +158,7 @@ private:
                     at = {z_[a][i], 0.0, cells_[a][i]};
                 }
             }
-            known[n] = at;
-            node_z[n] = z_[a].front();
+            nodes[n] = {at, z_[a].front()};
         }
     }
 

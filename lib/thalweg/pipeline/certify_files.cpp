@@ -14,6 +14,7 @@
 #include <thalweg/io/same_frame.hpp>
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/pipeline/reaches_of_file.hpp>
+#include <thalweg/pipeline/river_claims.hpp>
 
 namespace thalweg::pipeline {
 
@@ -33,9 +34,24 @@ std::vector<double> areas_of(NetworkFile const& file, std::vector<measure::Reach
     return areas;
 }
 
+Mask honoured_in(std::string const& raster, Grid const& grid, std::string const& dem) {
+    Raster<float> const cells = io::read_stored_dem(raster);
+    if (cells.grid() != grid) {
+        throw BadInput(fmt::format("pipeline.certify_files: {} is not on the grid of {}; check the DEM that make wrote "
+                                   "beside it",
+                                   raster, dem));
+    }
+    Mask honoured(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        honoured[i] = cells[i] > 0.0F ? 1 : 0;
+    }
+    return honoured;
+}
+
 } // namespace
 
-measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, Run const& run) {
+measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, std::string const& honoured,
+                                   Run const& run) {
     Raster<float> const land = io::read_stored_dem(dem); // in feet or metres its water runs alike
     if (!io::same_crs(network.crs, land.grid().crs, "the network", dem)) {
         throw BadInput(fmt::format("pipeline.certify_files: the network is in {}, {} in {}; reproject one of them "
@@ -43,8 +59,12 @@ measure::Certificate certify_files(NetworkFile const& network, std::string const
                                    network.crs.substr(0, 60), dem, land.grid().crs.substr(0, 60)));
     }
     FileReaches const found = reaches_of_file(network, land.grid());
-    measure::Certificate certificate =
-        measure::certify(land, measure::drain(land, run), found.reaches, areas_of(network, found.reaches), run);
+    measure::Claims claims{areas_of(network, found.reaches), still_cells(network, land.grid())};
+    if (!honoured.empty()) {
+        claims.honoured = honoured_in(honoured, land.grid(), dem);
+    }
+    measure::Drainage const drainage = measure::drain(land, sinks_of(network, land), run);
+    measure::Certificate certificate = measure::certify(land, drainage, found.reaches, claims, run);
     for (measure::Reach const& reach : found.reaches) {
         if (reach.lines.empty()) {
             certificate.findings.push_back(

@@ -11,9 +11,11 @@
 namespace thalweg::pipeline {
 
 /// The drainage certificate of a DEM file and a network, anyone's. Parts of the network beside the DEM are findings
-/// (outside_dem), and do not count otherwise.
-/// Throws: BadInput when the DEM cannot be read, the two have different CRS or only one has any, or no arc lies on the
-/// DEM; what reaches_of_file throws for a network without direction; IoError; Cancelled.
-measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, Run const& run = {});
+/// (outside_dem), and do not count otherwise. Parts of rivers that are drawn level stand as lakes do; nodes of the kind
+/// "sink" end their rivers. honoured: a raster of the cells in which the DEM honours the rivers, above 0; "": in all.
+/// Throws: BadInput when a raster cannot be read or they have different grids, the two have different CRS or only one
+/// has any, or no arc lies on the DEM; what reaches_of_file throws for a network without direction; IoError; Cancelled.
+measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, std::string const& honoured,
+                                   Run const& run = {});
 
 } // namespace thalweg::pipeline

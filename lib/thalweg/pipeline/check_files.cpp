@@ -18,6 +18,7 @@
 #include <thalweg/pipeline/certify_files.hpp>
 #include <thalweg/pipeline/mend_network.hpp>
 #include <thalweg/pipeline/report.hpp>
+#include <thalweg/pipeline/river_claims.hpp>
 
 namespace thalweg::pipeline {
 
@@ -105,19 +106,22 @@ private:
     std::vector<std::string> present_ = {};
 };
 
-void write_copy(MendedNetwork const& mended, std::string const& crs, CheckOutput const& output, CheckedFiles& checked,
+void write_copy(MendedNetwork const& mended, NetworkFile const& file, CheckOutput const& output, CheckedFiles& checked,
                 Run const& run) {
     io::NetworkTables const tables{mended.network,
                                    mended.orders,
                                    mended.us_area_m2,
                                    mended.ds_area_m2,
                                    mended.node_area_m2,
-                                   crs,
+                                   file.crs,
                                    {{"version", version()}, {"mended", std::to_string(mended.mended.size())}},
                                    &mended.braided,
                                    nullptr,
                                    &mended.secondary,
-                                   &mended.user};
+                                   &mended.user,
+                                   HeightUnit::metre,
+                                   true,
+                                   sinks_in(mended.network.plan, file)};
     if (output.is_shapefile()) {
         for (io::ShortenedName const& one : io::shortened_names(tables)) {
             checked.notes.push_back({"shortened_field",
@@ -130,6 +134,21 @@ void write_copy(MendedNetwork const& mended, std::string const& crs, CheckOutput
     append(checked.written, output.put([&](std::string const& path) {
         output.is_shapefile() ? io::write_shapefiles(tables, path, run) : io::write_geopackage(tables, path, run);
     }));
+}
+
+/// The raster of river cells that a folder's DEM honours, where its recipe lets patches replace rivers; else "".
+std::string honoured_cells_of(std::string const& network) {
+    std::string const recipe = (fs::path(network) / "recipe.toml").string();
+    std::string const cells = (fs::path(network) / "network.tif").string();
+    std::error_code ignored;
+    if (!fs::is_regular_file(recipe, ignored) || !fs::is_regular_file(cells, ignored)) {
+        return "";
+    }
+    try {
+        return replaces_rivers(read_recipe(io::read_text(recipe, 2 << 20), recipe)) ? cells : "";
+    } catch (Error const&) { // not a recipe of ours: every cell counts
+        return "";
+    }
 }
 
 /// Whether it is plain where each arc runs and what it runs into.
@@ -168,7 +187,17 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
     append(checked.findings, topology.findings);
 
     if (!job.dem.empty() && has_direction(topology)) {
-        checked.certificate = certify_files(network, job.dem, run);
+        std::string const honoured = honoured_cells_of(job.network);
+        checked.certificate = certify_files(network, job.dem, honoured, run);
+        if (checked.certificate->waived_cells > 0) {
+            checked.notes.push_back({"not_honoured",
+                                     0,
+                                     {},
+                                     static_cast<double>(checked.certificate->waived_cells),
+                                     fmt::format("{} river cells are not checked against the DEM: a patch with rivers "
+                                                 "= \"replace\" took their place, or that of rivers below ({})",
+                                                 checked.certificate->waived_cells, honoured)});
+        }
         append(checked.checks, checked.certificate->checks());
         append(checked.findings, checked.certificate->findings);
     } else if (!job.dem.empty()) {
@@ -184,7 +213,7 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
         MendedNetwork const mended = mend_network(network, topology, {job.near_m}, run);
         checked.mended = mended.mended;
         if (mended.done) {
-            write_copy(mended, network.crs, output, checked, run);
+            write_copy(mended, network, output, checked, run);
         }
     }
     for (CheckOutput const& output : layer) {

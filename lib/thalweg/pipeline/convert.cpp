@@ -26,6 +26,7 @@
 #include <thalweg/pipeline/frame.hpp>
 #include <thalweg/pipeline/line_sources.hpp>
 #include <thalweg/pipeline/report.hpp>
+#include <thalweg/pipeline/river_claims.hpp>
 #include <thalweg/pipeline/split_areas.hpp>
 
 namespace thalweg::pipeline {
@@ -271,6 +272,7 @@ Converted convert(ConvertParams const& params, std::string const& output, io::Ex
                   {"area_from", converted.areas}};
     tables.braided = &ready.source.braided;
     tables.heights = std::string(converted.heights) != "none";
+    tables.sinks = sinks_in(plan, file);
     io::UserData const user{std::move(file.attributes), ready.source.records, ready.source.stretches};
     tables.user = &user;
     out.say_shortened(tables, converted.findings);

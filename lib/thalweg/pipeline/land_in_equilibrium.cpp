@@ -3,6 +3,7 @@
 #include <thalweg/pipeline/land_in_equilibrium.hpp>
 
 #include <thalweg/blend/mask_polygons.hpp>
+#include <thalweg/core/elementary.hpp>
 #include <thalweg/io/read_polygons.hpp>
 #include <thalweg/network/channel_heights.hpp>
 #include <thalweg/network/channels.hpp>
@@ -20,6 +21,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -50,18 +52,24 @@ surface::EquilibriumParams params_of(Recipe& recipe, surface::Edge edge) {
     double const relief_m = recipe.surface->dilate.relief_m;
     surface::EquilibriumParams params;
     params.theta = recipe.network->concavity;
+    params.heights = use_of(recipe.network->heights);
+    params.bring_to_target = wanted.mean_slope_deg || relief_m > 0.0;
     if (relief_m > 0.0) {
         params.relief_m = relief_m;
-    } else {
-        wanted.mean_slope_deg = wanted.mean_slope_deg.value_or(params.mean_slope_deg);
+    } else if (params.bring_to_target) {
         params.mean_slope_deg = *wanted.mean_slope_deg;
+    } else {
+        bool const drawn = recipe.network->source == Source::lines;
+        params.mean_slope_deg = drawn ? usual_slope_deg(recipe.grid.cell_m) : params.mean_slope_deg;
+        if (params.heights == surface::RiverHeights::graded) { // given ones have a slope of their own
+            wanted.mean_slope_deg = params.mean_slope_deg;
+        }
     }
     params.hillslope_cells =
         wanted.hillslope_m > 0.0 ? wanted.hillslope_m / recipe.grid.cell_m : params.hillslope_cells;
     params.floor_width = wanted.floor_width;
     params.roughness = wanted.roughness;
     params.edge = *wanted.edge;
-    params.heights = use_of(recipe.network->heights);
     params.seed = recipe.seed;
     return params;
 }
@@ -109,6 +117,55 @@ surface::EquilibriumFields fields_of(Terrain const& terrain, Channels const& cha
     fields.uplift = read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run);
     fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
     return fields;
+}
+
+/// What was asked of the land, and what came out.
+void check_target(Terrain& terrain, surface::EquilibriumLand const& land, surface::EquilibriumParams const& params,
+                  Run const& run) {
+    constexpr double allowed = 0.05;
+    if (params.heights != surface::RiverHeights::graded && !params.bring_to_target) {
+        return; // nothing was
+    }
+    double const error = std::fabs(land.target_share - 1.0);
+    terrain.checks.push_back({params.relief_m ? "relief_error" : "mean_slope_error", error, allowed, error <= allowed});
+    if (error > allowed) {
+        double const asked = params.relief_m ? *params.relief_m : params.mean_slope_deg;
+        char const* const unit = params.relief_m ? "m" : "degrees";
+        std::string const text =
+            fmt::format("surface.{} = {:.6g} {} cannot be reached with the heights of the rivers: it is {:.4g} {}",
+                        params.relief_m ? "relief" : "mean_slope", asked, unit, land.target_share * asked, unit);
+        run.say("warning: " + text);
+        terrain.findings.push_back({"target_missed", 0, {}, land.target_share * asked, text});
+    }
+}
+
+double most_walled(Channels const& channels) {
+    return 0.01 * static_cast<double>(channels.cell.size());
+}
+
+bool too_walled(surface::EquilibriumLand const& land, Channels const& channels) {
+    return static_cast<double>(land.walled.size()) > most_walled(channels);
+}
+
+/// River cells that only walls hold up.
+void check_walls(Terrain& terrain, surface::EquilibriumLand const& land, Channels const& channels, Run const& run) {
+    constexpr std::size_t listed = 1000;
+    bool const ok = !too_walled(land, channels);
+    terrain.checks.push_back(
+        {"walled_cells", static_cast<double>(land.walled.size()), std::floor(most_walled(channels)), ok});
+    if (!ok) {
+        run.say(fmt::format("warning: {} of {} river cells stand on walls above the terrain. network.heights = "
+                            "\"graded\" or \"soft\" lets rivers follow it.",
+                            land.walled.size(), channels.cell.size()));
+    }
+    for (std::size_t i = 0; i < std::min(listed, land.walled.size()); ++i) {
+        std::int64_t const cell = channels.cell[static_cast<std::size_t>(land.walled[i])];
+        Vec2 const at = terrain.grid.centre(terrain.grid.at(cell));
+        terrain.findings.push_back({"walled_cell", 0, at, static_cast<double>(land.dem[cell]),
+                                    fmt::format("the river at ({:.1f}, {:.1f}) stands {:.5g} m high, on a wall: the "
+                                                "land around is lower",
+                                                at.x, at.y, land.dem[cell])});
+    }
 }
 
 void take_notes(Terrain& terrain, std::vector<Finding> const& notes) {
@@ -197,6 +254,20 @@ Valley valley_of(Channels const& channels, Raster<float> const& dem) {
 
 } // namespace
 
+double usual_slope_deg(double cell_m) {
+    constexpr double finest_m = 30.0;
+    constexpr double half_m = 400.0;
+    double const fine_deg = surface::EquilibriumParams{}.mean_slope_deg;
+    if (cell_m <= finest_m) {
+        return fine_deg;
+    }
+    auto const share = [](double m) { return 1.0 / (1.0 + exact::pow(m / half_m, 0.9)); };
+    double const fine = fine_deg / 180.0 * exact::pi;
+    double const tangent = exact::sin(fine) / exact::cos(fine) * share(cell_m) / share(finest_m);
+    double const degrees = exact::atan2(tangent, 1.0) / exact::pi * 180.0;
+    return std::max(0.5, std::round(2.0 * degrees) / 2.0);
+}
+
 bool in_equilibrium(Recipe const& recipe) {
     return recipe.network && recipe.surface && recipe.surface->method == Method::equilibrium;
 }
@@ -212,11 +283,25 @@ void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run) {
     flood(terrain, rivers, run);
     surface::EquilibriumFields const fields = fields_of(terrain, rivers.channels, run);
     run.at(0.0, fmt::format("fill {} cells", terrain.grid.cells()).c_str());
-    surface::EquilibriumLand land = diary.stage("fill", [&] {
-        return surface::equilibrium(rivers.channels, fields, params_of(recipe, edge_of(recipe, terrain, fields.land)),
-                                    run);
-    });
+    surface::Edge const edge = edge_of(recipe, terrain, fields.land);
+    surface::EquilibriumParams params = params_of(recipe, edge);
+    auto const solve = [&] {
+        return diary.stage("fill", [&] { return surface::equilibrium(rivers.channels, fields, params, run); });
+    };
+    surface::EquilibriumLand land = solve();
+    if (terrain.story.heights_of_file && too_walled(land, rivers.channels)) {
+        run.say(fmt::format("warning: the heights in {} would put {} of {} river cells on walls above the terrain. "
+                            "Rivers are lowered there: network.heights = \"soft\"; \"file\" keeps their heights.",
+                            recipe.network->lines.path, land.walled.size(), rivers.channels.cell.size()));
+        recipe.network->heights = Heights::soft;
+        params = params_of(recipe, edge);
+        land = solve();
+    }
     tell(terrain, land, rivers.channels);
+    check_target(terrain, land, params, run);
+    if (params.heights != surface::RiverHeights::graded) {
+        check_walls(terrain, land, rivers.channels, run);
+    }
     warn_of_heights(land.dem, run);
     if (!land.shortened.empty()) {
         network::Shortened shortened = network::shorten(terrain.network.plan, rivers, land.shortened);

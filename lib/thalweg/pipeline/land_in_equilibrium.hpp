@@ -12,6 +12,10 @@ namespace thalweg::pipeline {
 /// Whether the recipe draws its land in equilibrium with rivers.
 bool in_equilibrium(Recipe const& recipe);
 
+/// The usual mean slope [degrees] of land in cells of this size: the coarser, the gentler. Within 6 % of the mean
+/// slopes of Big Tujunga averaged to cells of 75 to 1200 m.
+double usual_slope_deg(double cell_m);
+
 /// Draws the land around the planned rivers, takes tips off these that would stand perched, and gives them and their
 /// cells the land's heights. Takes: a terrain with a network in plan; its heights too, where they are asked for.
 void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run);

@@ -4,10 +4,10 @@
 
 #include <thalweg/pipeline/make_blend.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
+#include <thalweg/pipeline/river_claims.hpp>
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <utility>
 
 namespace thalweg::pipeline {
@@ -33,21 +33,13 @@ MakeBlendParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
     return params;
 }
 
-Mask river_cells(Terrain const& terrain) {
-    Mask cells(terrain.grid);
-    for (std::int64_t i = 0; i < cells.cells(); ++i) {
-        cells[i] = std::isnan(terrain.valley.z[i]) ? 0 : 1;
-    }
-    return cells;
-}
-
 } // namespace
 
 void paste_patches(Terrain& terrain, Diary& diary, Run const& run) {
     for (PatchRecipe const& patch : terrain.recipe.patches) {
         bool const keeps = patch.rivers == PatchRivers::keep && terrain.recipe.network.has_value();
         MadeBlend made = diary.stage("blend", [&] {
-            return blend_into(terrain.surface->dem, keeps ? river_cells(terrain) : Mask{},
+            return blend_into(terrain.surface->dem, keeps ? river_mask(terrain.valley) : Mask{},
                               params_of(terrain.recipe, patch), run);
         });
         terrain.surface->dem = std::move(made.pasted.dem);
@@ -55,6 +47,9 @@ void paste_patches(Terrain& terrain, Diary& diary, Run const& run) {
             {made.pasted.cells, made.pasted.kept, made.pasted.seam_max_m, made.pasted.seam_rms_m});
         diary.say(
             fmt::format("{} cells of {}, seam {:.2g} m", made.pasted.cells, patch.source, made.pasted.seam_rms_m));
+    }
+    if (terrain.recipe.network && replaces_rivers(terrain.recipe)) {
+        terrain.valley = honoured_valley(std::move(terrain.valley), terrain.network.plan, terrain.surface->dem);
     }
 }
 

@@ -84,21 +84,19 @@ void warn_of_crowding(network::ChosenCell const& chosen, Run const& run) {
                                               : "Take a part of the rivers, or set a smaller grid.cell."));
 }
 
-/// The mean slope, where the recipe has neither it nor a relief: the coarser the cells, the gentler they make the same
-/// land. Within 6 % of the mean slopes of Big Tujunga averaged to cells of 75 to 1200 m.
-void settle_slope(Recipe& recipe) {
-    constexpr double finest_m = 30.0;
-    constexpr double half_m = 400.0;
-    double const cell_m = recipe.grid.cell_m;
-    if (!in_equilibrium(recipe) || recipe.surface->equilibrium.mean_slope_deg ||
-        recipe.surface->dilate.relief_m > 0.0 || cell_m <= finest_m) {
+/// The mean slope, where the recipe has neither it nor a relief, nor the rivers heights.
+void settle_slope(Recipe& recipe, bool has_z) {
+    if (!in_equilibrium(recipe)) {
         return;
     }
-    auto const share = [](double m) { return 1.0 / (1.0 + exact::pow(m / half_m, 0.9)); };
-    double const steepest = surface::EquilibriumParams{}.mean_slope_deg / 180.0 * exact::pi;
-    double const tangent = exact::sin(steepest) / exact::cos(steepest) * share(cell_m) / share(finest_m);
-    double const degrees = exact::atan2(tangent, 1.0) / exact::pi * 180.0;
-    recipe.surface->equilibrium.mean_slope_deg = std::max(0.5, std::round(2.0 * degrees) / 2.0);
+    Heights const heights = recipe.network->heights;
+    bool const graded = heights == Heights::graded || (heights == Heights::automatic && !has_z);
+    EquilibriumRecipe& wanted = recipe.surface->equilibrium;
+    double const usual = usual_slope_deg(recipe.grid.cell_m);
+    if (graded && !wanted.mean_slope_deg && !(recipe.surface->dilate.relief_m > 0.0) &&
+        usual != surface::EquilibriumParams{}.mean_slope_deg) {
+        wanted.mean_slope_deg = usual;
+    }
 }
 
 /// What the file holds that is not a river.
@@ -188,7 +186,7 @@ RiverLines read_lines(Recipe const& recipe, Run const& run) {
 std::string settle_on_lines(Recipe& recipe, RiverLines const& lines, Run const& run) {
     recipe.grid.crs = lines.crs;
     if (recipe.grid.cell_m > 0.0) {
-        settle_slope(recipe);
+        settle_slope(recipe, lines.has_z);
         return "";
     }
     if (recipe.grid.width == 0) {
@@ -197,7 +195,7 @@ std::string settle_on_lines(Recipe& recipe, RiverLines const& lines, Run const& 
     network::ChosenCell const chosen =
         network::choose_cell(lines, {.width = recipe.grid.width, .height = recipe.grid.height}, run);
     recipe.grid.cell_m = chosen.cell_m;
-    settle_slope(recipe);
+    settle_slope(recipe, lines.has_z);
     warn_of_crowding(chosen, run);
     return reason(chosen);
 }
@@ -275,6 +273,7 @@ Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& ru
     }
     Heights& heights = recipe.network->heights;
     if (heights == Heights::automatic) {
+        terrain.story.heights_of_file = lines.has_z;
         heights = lines.has_z ? Heights::file : in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;
     }
     bool const or_straight = heights == Heights::soft || heights == Heights::fixed || heights == Heights::ends;

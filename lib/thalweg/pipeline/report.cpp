@@ -200,6 +200,7 @@ ordered_json certificate_object(measure::Certificate const& c) {
             {"following_share", static_cast<double>(c.following_cells) / cells},
             {"border_cells", c.border_cells},
             {"lake_cells", c.lake_cells},
+            {"waived_cells", c.waived_cells},
             {"sources", c.sources},
             {"sources_arriving", c.arriving_sources},
             {"traced", agreements_object(c.traced)},

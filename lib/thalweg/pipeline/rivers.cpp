@@ -6,6 +6,7 @@
 #include <thalweg/measure/drainage.hpp>
 #include <thalweg/network/carry_outlets.hpp>
 #include <thalweg/network/count_streams.hpp>
+#include <thalweg/network/cut_corners.hpp>
 #include <thalweg/network/keep_heights.hpp>
 #include <thalweg/network/land_and_sea.hpp>
 #include <thalweg/network/meander.hpp>
@@ -134,6 +135,30 @@ void carry_outlets(StreamNetwork& plan, Terrain& terrain, Run const& run) {
     terrain.land = network::land_along_rivers(std::move(terrain.land), plan);
 }
 
+std::size_t vertices_of(StreamNetwork const& plan) {
+    std::size_t count = 0;
+    for (auto const arc : boost::make_iterator_range(boost::edges(plan))) {
+        count += plan[arc].line.size();
+    }
+    return count;
+}
+
+/// Rivers that run from cell to cell keep no corner where a branch was; what that shortens is measured again.
+network::Pruned prune(StreamNetwork const& plan, NetworkRecipe const& rivers, double length_cells, double cell_m,
+                      Run const& run) {
+    network::Pruned pruned = network::prune(plan, {length_cells, cell_m}, run);
+    if (rivers.source != Source::dla && rivers.source != Source::forest) {
+        return pruned;
+    }
+    for (std::size_t before = 0, now = vertices_of(pruned.network); now != before;) {
+        StreamNetwork cut = network::cut_corners(std::move(pruned.network), cell_m, run);
+        before = now;
+        now = vertices_of(cut);
+        pruned.network = network::prune(cut, {length_cells, cell_m}, run).network;
+    }
+    return pruned;
+}
+
 Planned plan(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
     switch (recipe.network->source) {
     case Source::dla: return plan_dla(recipe, terrain, diary, run);
@@ -177,9 +202,8 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
         rivers.prune_cells = all_over ? 20.0 : 0.0;
     }
 
-    network::Pruned pruned = diary.stage("prune", [&] {
-        return network::prune(planned.plan, {*rivers.prune_cells, grid.cell_m}, run);
-    });
+    network::Pruned pruned =
+        diary.stage("prune", [&] { return prune(planned.plan, rivers, *rivers.prune_cells, grid.cell_m, run); });
     terrain.story.arcs_traced = pruned.arcs_before;
     terrain.story.arcs_kept = static_cast<std::int64_t>(boost::num_edges(pruned.network));
     diary.say(

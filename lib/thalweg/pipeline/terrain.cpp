@@ -13,6 +13,7 @@
 #include <thalweg/pipeline/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/paste_patches.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
+#include <thalweg/pipeline/river_claims.hpp>
 #include <thalweg/pipeline/rivers.hpp>
 #include <thalweg/pipeline/unused_keys.hpp>
 
@@ -27,11 +28,10 @@ namespace thalweg::pipeline {
 
 namespace {
 
-/// Arcs that rise somewhere, or do not fall; only lakes may make them level.
-std::int64_t uphill_arcs(RaisedNetwork const& network, std::int64_t lakes) {
-    return std::count_if(network.arc_z.begin(), network.arc_z.end(), [lakes](std::vector<double> const& z) {
-        bool const falls = z.front() > z.back() || (lakes > 0 && z.front() == z.back());
-        return !falls || std::adjacent_find(z.begin(), z.end(), std::less<>()) != z.end();
+/// Arcs that rise somewhere. Level ones are what the schema allows: lakes, tidal reaches.
+std::int64_t uphill_arcs(RaisedNetwork const& network) {
+    return std::count_if(network.arc_z.begin(), network.arc_z.end(), [](std::vector<double> const& z) {
+        return std::adjacent_find(z.begin(), z.end(), std::less<>()) != z.end();
     });
 }
 
@@ -41,12 +41,6 @@ std::int64_t valley_cells_moved(Valley const& valley, Raster<float> const& dem) 
         moved += !std::isnan(valley.z[i]) && !(valley.z[i] == dem[i]);
     }
     return moved;
-}
-
-/// Whether rivers keep their heights under every patch.
-bool honours_rivers(Recipe const& recipe) {
-    return recipe.network && std::none_of(recipe.patches.begin(), recipe.patches.end(),
-                                          [](PatchRecipe const& p) { return p.rivers == PatchRivers::replace; });
 }
 
 /// Makes the land drain, as the recipe wants it.
@@ -61,7 +55,7 @@ void drain_land(Terrain& terrain, Diary& diary, Run const& run) {
     }
     Valley const none{Raster<float>(terrain.grid, std::numeric_limits<float>::quiet_NaN())};
     surface::DrainedLand land = diary.stage("carve", [&] {
-        return surface::drain(std::move(terrain.surface->dem), honours_rivers(terrain.recipe) ? terrain.valley : none,
+        return surface::drain(std::move(terrain.surface->dem), terrain.recipe.network ? terrain.valley : none,
                               {*method}, run);
     });
     terrain.surface->dem = std::move(land.dem);
@@ -76,7 +70,7 @@ Check none_of(char const* name, std::int64_t count) {
 
 /// Of a land that was made to drain: whether it does, by its rivers where it honours them.
 void check_drainage(Terrain& terrain, std::int64_t depressions) {
-    if (!terrain.certificate || !honours_rivers(terrain.recipe)) {
+    if (!terrain.certificate) {
         terrain.checks.push_back(none_of("depressions", depressions));
         return;
     }
@@ -94,7 +88,12 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.statistics = diary.stage("measure", [&] { return measure::statistics(dem, run); });
     terrain.hypsometry = measure::hypsometry(dem, run);
     run.at(0.0, fmt::format("drain {} cells", terrain.grid.cells()).c_str());
-    measure::Drainage const drainage = diary.stage("drain", [&] { return measure::drain(dem, run); });
+    bool const sinks = terrain.recipe.network && terrain.recipe.network->inland == InlandEnds::sink;
+    measure::Drainage const drainage = diary.stage("drain", [&] {
+        StreamNetwork const& plan = terrain.network.plan;
+        return measure::drain(
+            dem, sinks ? cells_of(inland_ends(plan, dem), plan, terrain.grid) : std::vector<std::int64_t>{}, run);
+    });
     terrain.pits = drainage.pits;
     terrain.pit_volume_m3 = drainage.pit_volume_m3;
     if (terrain.recipe.network) {
@@ -105,12 +104,15 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
                 return measure::catchments(measure::reaches_of(terrain.network.plan), drainage, run);
             });
         }
-        if (honours_rivers(terrain.recipe)) { // else they were asked to move
-            terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
-        }
+        terrain.sinks = sinks ? inland_ends(terrain.network.plan, dem) : std::vector<NodeId>{};
+        terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
         terrain.certificate = diary.stage("certify", [&] {
-            return measure::certify(dem, drainage, measure::reaches_of(terrain.network.plan), terrain.areas.ds_area_m2,
-                                    run);
+            measure::Claims claims{terrain.areas.ds_area_m2,
+                                   still_cells(measure::as_file(terrain.network, terrain.orders), terrain.grid)};
+            if (replaces_rivers(terrain.recipe)) {
+                claims.honoured = river_mask(terrain.valley);
+            }
+            return measure::certify(dem, drainage, measure::reaches_of(terrain.network.plan), claims, run);
         });
     }
     if (terrain.recipe.skeleton && terrain.recipe.skeleton->ridges != Ridges::none) {
@@ -136,10 +138,10 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
 void check_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     measure::TopologyReport topology = diary.stage(
         "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run); });
-    terrain.checks.insert(terrain.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network, terrain.lakes)));
+    terrain.checks.insert(terrain.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
     terrain.checks.insert(terrain.checks.end(), topology.checks.begin(), topology.checks.end());
-    terrain.findings = std::move(topology.findings);
-    if (terrain.drained && terrain.certificate && honours_rivers(terrain.recipe)) {
+    terrain.findings.insert(terrain.findings.end(), topology.findings.begin(), topology.findings.end());
+    if (terrain.drained && terrain.certificate) {
         std::vector<Check> const checks = terrain.certificate->checks();
         if (!std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; })) { // else nobody looks
             std::vector<Finding> const& more = terrain.certificate->findings;

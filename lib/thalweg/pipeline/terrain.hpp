@@ -52,6 +52,7 @@ struct NetworkStory {
     std::int64_t arcs_traced = 0;   ///< before pruning
     std::int64_t arcs_kept = 0;     ///< by pruning; merged ones count once
     network::HeightReport heights;  ///< under modes that set heights
+    bool heights_of_file = false;   ///< taken because the lines have them, not because they were asked for
     std::int64_t lowered_cells = 0; ///< shared valley cells lowered to keep every path falling
     double max_lowered_m = 0.0;
     std::vector<Finding> repairs; ///< of adopted lines, and outlets carried to the border
@@ -116,6 +117,7 @@ struct Terrain {
     std::optional<surface::Dilated> surface;
     Channels channels;                            ///< of rivers with which the land is in equilibrium
     std::int64_t lakes = 0;                       ///< laid into them
+    std::vector<NodeId> sinks;                    ///< where rivers end inland, as they were asked to
     std::optional<EquilibriumStory> equilibrium;  ///< of a land that is
     std::optional<SolverStory> diffusion;         ///< how the surface was solved for, where it was diffused
     std::vector<PatchStory> patches;              ///< in the recipe's order

@@ -22,6 +22,7 @@
 #include <thalweg/pipeline/pictures.hpp>
 #include <thalweg/pipeline/recipe_keys.hpp>
 #include <thalweg/pipeline/report.hpp>
+#include <thalweg/pipeline/river_claims.hpp>
 #include <thalweg/pipeline/split_areas.hpp>
 #include <thalweg/pipeline/user_data.hpp>
 
@@ -160,17 +161,15 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
                                    &t.ridges,
                                    &secondary,
                                    user ? &*user : nullptr,
-                                   t.recipe.output.units};
+                                   t.recipe.output.units,
+                                   true,
+                                   t.sinks};
     io::write_geopackage(tables, out.path("network"), run);
     io::write_shapefiles(tables, out.path("network"), run);
     if (t.recipe.output.schema != io::Schema::native) {
         write_in_schema(t, out, run);
     }
-    Mask cells(t.grid);
-    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
-        cells[i] = !std::isnan(t.valley.z[i]);
-    }
-    io::write_mask(cells, out.path("network.tif"), run);
+    io::write_mask(river_mask(t.valley), out.path("network.tif"), run);
 }
 
 void write_water(Terrain const& t, io::OutputFolder const& out, Run const& run) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/equilibrium.hpp>
 
+#include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/surface/check_equilibrium.hpp>
 #include <thalweg/surface/cover_cells.hpp>
@@ -17,6 +18,7 @@
 #include <thalweg/surface/relax_given_rivers.hpp>
 #include <thalweg/surface/relax_land.hpp>
 #include <thalweg/surface/relax_rivers.hpp>
+#include <thalweg/surface/rise_of.hpp>
 #include <thalweg/surface/rock.hpp>
 #include <thalweg/surface/slide_land.hpp>
 #include <thalweg/surface/start_land.hpp>
@@ -233,6 +235,58 @@ float base_of(Channels const& rivers, Edge edge) {
     return edge == Edge::coast || edge == Edge::mainland ? 0.0F : low;
 }
 
+/// A land around given heights and the metres of the solver's unit.
+struct Held {
+    Solved land;
+    double metres = 0.0;
+};
+
+Held held_land(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params, double metres,
+               Run const& run) {
+    Channels drawn = rivers;
+    double const base_m = base_of(rivers, params.edge);
+    for (float& z : drawn.z) {
+        z = static_cast<float>((static_cast<double>(z) - base_m) / metres);
+    }
+    return {solved(drawn, fields, params, run), metres};
+}
+
+/// The same, solved again with other metres until the land has what is asked of it; the nearest that was found.
+Held land_at_target(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+                    double metres, Run const& run) {
+    constexpr int most_solves = 6;
+    constexpr double near_enough = 0.01;
+    constexpr double widest = 2.0;              // [log] of one step
+    auto const off_by = [&](Held const& held) { // [log]
+        Window const window{rivers.grid, fields.land, held.land.margin};
+        double const share = share_of_target(held.land.level, window, held.metres, params);
+        return exact::log(std::max(share, 1e-6));
+    };
+    Held best = held_land(rivers, fields, params, metres, run);
+    double best_off = off_by(best);
+    double at = exact::log(metres);
+    double off = best_off;
+    double step = -1.5 * off;
+    for (int solve = 1; solve < most_solves && std::fabs(best_off) > near_enough; ++solve) {
+        step = std::clamp(step, -widest, widest);
+        Held next = held_land(rivers, fields, params, exact::exp(at + step), run);
+        double const next_off = off_by(next);
+        double const per_step = (next_off - off) / step;
+        at += step;
+        off = next_off;
+        if (std::fabs(off) < std::fabs(best_off)) {
+            best = std::move(next);
+            best_off = off;
+        }
+        constexpr double flat = 0.05; // the rivers alone decide what comes out
+        if (!(per_step > flat)) {
+            break;
+        }
+        step = -off / per_step;
+    }
+    return best;
+}
+
 } // namespace
 
 EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
@@ -245,17 +299,19 @@ EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fie
     Window const window{rivers.grid, fields.land, graded.margin};
     Raise const raise = raise_for(graded.level, rivers, window, params);
     if (!asks_heights(rivers, params)) {
-        return written_land(std::move(graded.level), rivers, window, raise, std::move(graded.shortened), run);
+        EquilibriumLand land =
+            written_land(std::move(graded.level), rivers, window, raise, std::move(graded.shortened), run);
+        land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
+        return land;
     }
     // How high the land stands in all is known only now: what is given in metres can be put into it.
     graded = {};
-    Raise const given{raise.metres, static_cast<double>(base_of(rivers, params.edge)), raise.mean_tangent};
-    drawn.z = rivers.z;
-    for (float& z : drawn.z) {
-        z = static_cast<float>((static_cast<double>(z) - given.base_m) / given.metres);
-    }
-    Solved held = solved(drawn, fields, params, run);
-    return written_given_land(std::move(held.level), rivers, window, given, params.heights, run);
+    Held held = params.bring_to_target ? land_at_target(rivers, fields, params, raise.metres, run)
+                                       : held_land(rivers, fields, params, raise.metres, run);
+    Raise const given{held.metres, static_cast<double>(base_of(rivers, params.edge)), raise.mean_tangent};
+    EquilibriumLand land = written_given_land(std::move(held.land.level), rivers, window, given, params.heights, run);
+    land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
+    return land;
 }
 
 } // namespace thalweg::surface

@@ -44,6 +44,8 @@ struct EquilibriumParams {
     double longest_wave_cells = 360.0; ///< [4, ...] of that noise
     Edge edge = Edge::open;
     RiverHeights heights = RiverHeights::graded;
+    bool bring_to_target = true; ///< given heights: solve again until the land around them has the mean slope or the
+                                 ///< relief; else it stands as high as around graded rivers
     std::uint64_t seed = 7;
 };
 
@@ -54,6 +56,7 @@ struct EquilibriumLand {
     std::vector<std::int64_t> walled;    ///< numbers of channel cells that stand on walls (fixed, soft)
     double max_lowered_m = 0.0;          ///< soft: greatest depth below the given heights
     double p95_lowered_m = 0.0;          ///< soft: 95th percentile of it over the channel cells with heights
+    double target_share = 1.0;           ///< mean slope or relief that came out, over what was asked
     double rise = 0.0;                   ///< factor from the solver's heights (in cells) to metres, over the cell size
 };
 
@@ -63,7 +66,8 @@ struct EquilibriumLand {
 /// Takes: rivers, at least one, whose water leaves on the border, the coast or in a sink; fields on their grid.
 /// Gives: water of a river cell goes to its receiver, by the steepest descent of the floats that are written, and
 /// land beside rivers stands above every river cell it touches; all land has a strictly lower neighbour, so there is no
-/// depression but a sink; lakes are level. The lowest river end stands at 0 (given heights: where they
+/// depression but a sink; lakes are level. Given heights may keep the land from a mean slope or relief: then it has the
+/// nearest that was found. The lowest river end stands at 0 (given heights: where they
 /// say). The same bytes for any number of threads. Throws: BadParameter; BadInput: channels that break their law,
 /// fields on another grid, not above 0 or with holes on land, no land, a river at sea, given heights that rise;
 /// Cancelled. Source: Perron et al. 2009 (hillslope length); Braun and Willett 2013 (order); Barnes 2014 (flood);

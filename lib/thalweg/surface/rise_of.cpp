@@ -4,6 +4,9 @@
 
 #include <thalweg/core/d8.hpp>
 #include <thalweg/core/elementary.hpp>
+#include <thalweg/core/error.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
@@ -84,9 +87,15 @@ Tangents descents(Raster<float> const& land) {
 }
 
 double rise_for_slope(Tangents const& tangents, double mean_slope_deg) {
-    constexpr double widest = 0x1p40;
-    if (tangents.empty() || tangents.mean_slope(widest) <= mean_slope_deg) {
+    constexpr double widest = 0x1p20; // slopes of a million to one
+    if (tangents.empty()) {
         return 1.0;
+    }
+    if (tangents.mean_slope(widest) <= mean_slope_deg) {
+        throw BadParameter(
+            fmt::format("surface.equilibrium: surface.mean_slope = {} degrees cannot be reached: so much "
+                        "of the land is level that walls would give it {:.3g}; ask for less",
+                        mean_slope_deg, tangents.mean_slope(widest)));
     }
     double low = 0.0;
     double high = 1.0;
@@ -101,24 +110,31 @@ double rise_for_slope(Tangents const& tangents, double mean_slope_deg) {
     return 0.5 * (low + high);
 }
 
-double rise_for_relief(Raster<float> const& land, double relief_m) {
+/// [m] from the lowest to the highest cell, of heights in cells.
+double range_of(Raster<float> const& land) {
     float low = std::numeric_limits<float>::infinity();
     float high = -low;
     for (float const z : land.values()) {
         low = z < low ? z : low;
         high = z > high ? z : high;
     }
-    double const range = (static_cast<double>(high) - static_cast<double>(low)) * land.grid().cell_m;
+    return (static_cast<double>(high) - static_cast<double>(low)) * land.grid().cell_m;
+}
+
+double rise_for_relief(Raster<float> const& land, double relief_m) {
+    double const range = range_of(land);
     return range > 0.0 ? relief_m / range : 1.0;
+}
+
+Tangents tangents_of(Raster<float> const& land) {
+    Tangents tangents = horn_tangents(land);
+    return tangents.empty() ? descents(land) : tangents;
 }
 
 } // namespace
 
 Rise rise_of(Raster<float> const& land, EquilibriumParams const& params) {
-    Tangents tangents = horn_tangents(land);
-    if (tangents.empty()) {
-        tangents = descents(land);
-    }
+    Tangents const tangents = tangents_of(land);
     double const factor =
         params.relief_m ? rise_for_relief(land, *params.relief_m) : rise_for_slope(tangents, params.mean_slope_deg);
     if (tangents.empty()) {
@@ -126,6 +142,14 @@ Rise rise_of(Raster<float> const& land, EquilibriumParams const& params) {
     }
     double const slope = tangents.mean_slope(factor) * (exact::pi / 180.0);
     return {factor, exact::sin(slope) / exact::cos(slope)};
+}
+
+double share_of_target(Raster<float> const& land, double factor, EquilibriumParams const& params) {
+    if (params.relief_m) {
+        return range_of(land) * factor / *params.relief_m;
+    }
+    Tangents const tangents = tangents_of(land);
+    return tangents.empty() ? 0.0 : tangents.mean_slope(factor) / params.mean_slope_deg;
 }
 
 } // namespace thalweg::surface

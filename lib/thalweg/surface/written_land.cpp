@@ -135,6 +135,10 @@ Raise raise_for(LandLevel const& level, Channels const& rivers, Window const& wi
     return {metres, -static_cast<double>(lowest_end(dem, rivers)) * metres, rise.mean_tangent};
 }
 
+double share_of_target(LandLevel const& level, Window const& window, double metres, EquilibriumParams const& params) {
+    return share_of_target(cropped(level, window), metres / window.grid.cell_m, params);
+}
+
 EquilibriumLand written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
                              std::vector<std::int64_t> shortened, Run const& run) {
     EquilibriumLand out;
@@ -166,6 +170,10 @@ EquilibriumLand written_given_land(LandLevel level, Channels const& rivers, Wind
             float& z = level.z[level.rivers.cell[n]];
             z = heights == RiverHeights::fixed ? asked : std::min(z, asked);
         }
+    }
+    if (heights == RiverHeights::soft) { // as graded rivers are
+        lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
+        raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     }
     settle_land(level, settled_step(raise), heights);
     out.dem = cropped(level, window);

@@ -29,6 +29,9 @@ struct Raise {
 /// What gives the land in a window the relief or the mean slope that is asked, the lowest river end at 0.
 Raise raise_for(LandLevel const& level, Channels const& rivers, Window const& window, EquilibriumParams const& params);
 
+/// What the land in a window has of the relief or the mean slope that is asked, with heights of so many metres.
+double share_of_target(LandLevel const& level, Window const& window, double metres, EquilibriumParams const& params);
+
 /// The caller's grid out of a solved finest level, in metres, with the ways of its water. Tips that are still perched
 /// are given up besides those that are shortened already.
 EquilibriumLand written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
