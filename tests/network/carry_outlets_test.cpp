@@ -216,6 +216,9 @@ std::vector<std::vector<Vec2>> ways_of(StreamNetwork const& before, network::Car
     return ways;
 }
 
+/// Ways beside rivers cost no more than elsewhere, and none is joined.
+network::CarryParams const alone{.join = false, .beside_cells = 0.0};
+
 } // namespace
 
 TEST(CarryOutlets, NothingToCarry) {
@@ -230,7 +233,7 @@ TEST(CarryOutlets, NothingToCarry) {
 
 TEST(CarryOutlets, OneArcIsDrawnOn) {
     Grid const grid = test::grid_of(15, 7);
-    auto const carried = carry_outlets(test::network_of({{7.25, 2.75}, {7.5, 6.5}}, {{1, 0, {}, 42}}), grid);
+    auto const carried = carry_outlets(test::network_of({{7.25, 2.75}, {7.5, 6.5}}, {{1, 0, {}, 42}}), grid, alone);
     NetworkIndex const index(carried.network);
     ASSERT_EQ(index.arcs.size(), 1U);
     // Aside first, away from its own river, then straight; of the two sides the west.
@@ -267,10 +270,16 @@ TEST(CarryOutlets, AClosedBasinStays) {
     StreamNetwork const net =
         test::network_of({{5.5, 5.5}, {5.5, 6.5}, {0.5, 2.5}, {2.5, 2.5}},
                          {{1, 0}, {3, 2, {{2.5, 8.5}, {8.5, 8.5}, {8.5, 2.5}, {3.5, 2.5}, {3.5, 0.5}, {0.5, 0.5}}}});
-    auto const carried = carry_outlets(net, grid);
+    auto const carried = carry_outlets(net, grid, alone);
     ASSERT_EQ(carried.notes.size(), 1U);
     EXPECT_EQ(carried.notes[0].kind, "closed_basin");
     EXPECT_EQ(carried.network[0].at, (Vec2{5.5, 5.5}));
+
+    auto const joined = carry_outlets(net, grid);
+    EXPECT_EQ(joined.notes[0].kind, "joined_outlet");
+    NetworkIndex const index(joined.network);
+    EXPECT_EQ(index.outlets.size(), 1U);
+    EXPECT_EQ(index.arcs.size(), 3U);
 }
 
 TEST(CarryOutlets, NotThroughADiagonalRiver) {
@@ -279,7 +288,7 @@ TEST(CarryOutlets, NotThroughADiagonalRiver) {
     StreamNetwork const net =
         test::network_of({{5.5, 5.5}, {5.5, 6.5}, {0.5, 5.5}, {2.5, 5.5}},
                          {{1, 0}, {3, 2, {{5.5, 8.5}, {8.5, 5.5}, {5.5, 2.5}, {3.5, 4.5}, {2.5, 4.5}}}});
-    auto const carried = carry_outlets(net, grid);
+    auto const carried = carry_outlets(net, grid, alone);
     ASSERT_EQ(carried.notes.size(), 1U);
     EXPECT_EQ(carried.notes[0].kind, "closed_basin");
 }
@@ -294,7 +303,7 @@ TEST(CarryOutlets, TheCheapestWay) {
             ground.add(net[arc].line);
         }
         Vec2 const outlet = net[index.outlets[0]].at;
-        auto const carried = carry_outlets(net, ground.grid);
+        auto const carried = carry_outlets(net, ground.grid, alone);
         auto const ways = ways_of(net, carried);
         if (ground.grid.on_border(cells_along({outlet}, ground.grid)[0])) {
             RC_ASSERT(carried.notes.empty());
@@ -322,7 +331,7 @@ TEST(CarryOutlets, AddsNoCrossing) {
         for (ArcId const arc : index.arcs) {
             ground.add(net[arc].line);
         }
-        auto const carried = carry_outlets(net, ground.grid);
+        auto const carried = carry_outlets(net, ground.grid, alone);
         auto const ways = ways_of(net, carried);
         std::size_t inside = 0;
         for (NodeId const outlet : index.outlets) {
@@ -355,4 +364,55 @@ TEST(CarryOutlets, AddsNoCrossing) {
             ground.add(way); // the next one heeds this one
         }
     }));
+}
+
+TEST(CarryOutlets, RefusesCostsBelowNothing) {
+    EXPECT_THROW(carry_outlets({}, test::grid_of(5, 5), {.join_cells = -1.0}), BadParameter);
+    EXPECT_THROW(carry_outlets({}, test::grid_of(5, 5), {.beside_cells = std::nan("")}), BadParameter);
+}
+
+TEST(CarryOutlets, RiversThatAreJoinedAreTreesWithoutCrossings) {
+    rc::check("many strokes", [] {
+        Grid const grid = test::grid_of(64, 64);
+        ChanceStream words(*rc::gen::arbitrary<std::uint64_t>(), 4, 0);
+        std::vector<Vec2> nodes;
+        std::vector<test::Reach> reaches;
+        Mask taken(grid);
+        for (int k = 0; k < 40; ++k) { // short level lines, three cells from one another
+            std::int64_t const col = 3 + static_cast<std::int64_t>(words.word() % 52);
+            std::int64_t const row = 3 + static_cast<std::int64_t>(words.word() % 58);
+            bool free = true;
+            for (std::int64_t c = col - 3; c <= col + 8; ++c) {
+                for (std::int64_t r = row - 3; r <= row + 3; ++r) {
+                    free = free && (!grid.contains({c, r}) || taken[Cell{c, r}] == 0);
+                }
+            }
+            if (!free) {
+                continue;
+            }
+            std::vector<Vec2> line;
+            for (std::int64_t c = col; c <= col + 5; ++c) {
+                taken[Cell{c, row}] = 1;
+                line.push_back(grid.centre({c, row}));
+            }
+            nodes.push_back(line.front());
+            nodes.push_back(line.back());
+            reaches.push_back({nodes.size() - 2, nodes.size() - 1, {line.begin() + 1, line.end() - 1}});
+        }
+        auto const carried = carry_outlets(test::network_of(nodes, reaches), grid);
+        NetworkIndex const index(carried.network);
+        for (NodeId const outlet : index.outlets) {
+            RC_ASSERT(grid.on_border(cells_along({carried.network[outlet].at}, grid)[0]));
+        }
+        RC_ASSERT(index.upstream_order.size() == index.out.size());
+        std::vector<Piece> pieces;
+        for (ArcId const arc : index.arcs) {
+            for (Piece const& piece : pieces_of(carried.network[arc].line)) {
+                for (Piece const& other : pieces) {
+                    RC_ASSERT(!conflict(piece, other));
+                }
+                pieces.push_back(piece);
+            }
+        }
+    });
 }

@@ -88,7 +88,7 @@ void warn_of_long_ways(std::vector<Finding> const& notes, StreamNetwork const& p
     double carried_m = 0.0;
     std::int64_t outlets = 0;
     for (Finding const& note : notes) {
-        if (note.kind == "carried_outlet") {
+        if (note.kind == "carried_outlet" || note.kind == "joined_outlet") {
             carried_m += note.amount;
             ++outlets;
         }
@@ -106,7 +106,7 @@ void warn_of_long_ways(std::vector<Finding> const& notes, StreamNetwork const& p
 
 /// Outlets inside the grid: carried to where rivers may end, where the recipe wants it. Those at the sea reach it in
 /// any case; what lies beside a river is land.
-void carry_outlets(StreamNetwork& plan, Terrain& terrain, Run const& run) {
+void carry_outlets(StreamNetwork& plan, bool join, Terrain& terrain, Run const& run) {
     constexpr std::int64_t at_sea_cells = 4;
     bool const all = terrain.recipe.network->inland != InlandEnds::sink;
     auto const take = [&](network::Carried carried) {
@@ -119,7 +119,7 @@ void carry_outlets(StreamNetwork& plan, Terrain& terrain, Run const& run) {
     }
     if (terrain.land.cells() == 0) {
         if (all) {
-            take(network::carry_outlets(plan, terrain.grid));
+            take(network::carry_outlets(plan, terrain.grid, {.join = join}));
         }
         return;
     }
@@ -127,9 +127,11 @@ void carry_outlets(StreamNetwork& plan, Terrain& terrain, Run const& run) {
     for (std::size_t moved = 1, rounds = 0; moved > 0 && rounds < 4; ++rounds) {
         terrain.land = network::land_along_rivers(std::move(terrain.land), plan);
         network::Carried carried =
-            network::carry_outlets(plan, terrain.land, all ? terrain.grid.cells() : at_sea_cells);
-        moved = static_cast<std::size_t>(std::count_if(carried.notes.begin(), carried.notes.end(),
-                                                       [](Finding const& f) { return f.kind == "carried_outlet"; }));
+            network::carry_outlets(plan, terrain.land, all ? terrain.grid.cells() : at_sea_cells, {.join = join});
+        moved =
+            static_cast<std::size_t>(std::count_if(carried.notes.begin(), carried.notes.end(), [](Finding const& f) {
+                return f.kind == "carried_outlet" || f.kind == "joined_outlet";
+            }));
         take(std::move(carried));
     }
     terrain.land = network::land_along_rivers(std::move(terrain.land), plan);
@@ -216,7 +218,7 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.land = std::move(planned.land);
     planned.plan = std::move(pruned.network);
     if (rivers.source != Source::forest) {
-        carry_outlets(planned.plan, terrain, run);
+        carry_outlets(planned.plan, !planned.file_heights, terrain, run); // given heights may not fall into another's
     }
 
     let_wander(planned, terrain, diary, run);
