@@ -53,6 +53,11 @@ public:
         write("rivers.geojson",
               layer(line(trunk) + "," + line(other) + "," + line("[502000,5001500],[502100,5000010]")));
         write("inland.geojson", layer(line("[501000,5003000],[502000,5001500]")));
+        // Beside a deep valley another river runs six hundred metres higher.
+        write("high.geojson", layer(line("[501000,5003000,60],[502100,5000010,0]") + "," +
+                                    line("[501500,5003000,900],[502600,5000010,600]")));
+        write("falling.geojson", layer(line("[501000,5003000,90],[502000,5001500,40],[502100,5000010,0]") + "," +
+                                       line("[503200,5002800,110],[502500,5002000,70],[502000,5001500,40]")));
         write("border.geojson", layer(line("[500010,5003000],[500010,5000010]")));
         write("double.geojson", layer(line(trunk + ",[502100,5000010]") + "," +
                                       line("[501010,5003000],[501710,5002200],[502010,5001500],[502110,5000010]")));
@@ -118,6 +123,14 @@ void expect_lawful(Terrain const& t) {
     for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
         EXPECT_TRUE(std::isnan(t.valley.z[i]) || t.valley.z[i] == t.surface->dem[i]);
     }
+}
+
+Check const& check_of(Terrain const& t, std::string const& name) {
+    auto const found = std::ranges::find(t.checks, name, &Check::name);
+    if (found == t.checks.end()) {
+        throw BadInput("no check " + name);
+    }
+    return *found;
 }
 
 double mean_of(Terrain const& t, std::int64_t from_column, std::int64_t to_column) {
@@ -236,6 +249,53 @@ TEST(LandInEquilibrium, RiversThatEndInsideAreCarriedOrSinks) {
     EXPECT_EQ(count(sink, "carried_outlet"), 0);
     measure::Drainage const drainage = measure::drain(sink.surface->dem);
     EXPECT_EQ(drainage.depressions.size(), 1U);
+    Terrain const drained = made(lines + "inland = \"sink\"\n" + inland + "[surface]\n", files);
+    for (Check const& c : drained.checks) {
+        EXPECT_TRUE(c.ok) << c.name << " " << c.value;
+    }
+    ASSERT_EQ(drained.sinks.size(), 1U);
+    EXPECT_EQ(drained.network.plan[drained.sinks.front()].at, (Vec2{502000.0, 5001500.0}));
+}
+
+TEST(LandInEquilibrium, GivenHeightsGetTheSlopeThatIsAsked) {
+    Files const files;
+    for (std::string const heights : {"fixed", "soft"}) {
+        for (double const slope : {8.0, 15.0, 30.0}) {
+            Terrain const t = made(lines + "heights = \"" + heights + "\"\nslope = 0.03\n" + path + "[surface]\n" +
+                                       "mean_slope = " + std::to_string(slope) + "\n",
+                                   files);
+            Check const& error = check_of(t, "mean_slope_error");
+            EXPECT_TRUE(error.ok) << heights << " " << slope << ": " << error.value;
+            EXPECT_NEAR(t.statistics->slope_true_deg, slope, 0.06 * slope) << heights;
+        }
+    }
+}
+
+TEST(LandInEquilibrium, ATargetThatRiversRuleOutFailsItsCheck) {
+    Files const files;
+    Terrain const t = made(lines + "heights = \"fixed\"\nslope = 0.2\n" + path + "[surface]\nrelief = 100\n", files);
+    Check const& error = check_of(t, "relief_error");
+    EXPECT_FALSE(error.ok);
+    EXPECT_GT(error.value, 3.0); // rivers alone span more than 600 m
+    EXPECT_TRUE(std::ranges::any_of(t.findings, [](Finding const& f) { return f.kind == "target_missed"; }));
+    Terrain const met = made(lines + path + "[surface]\nrelief = 700\n", files);
+    EXPECT_TRUE(check_of(met, "relief_error").ok);
+}
+
+TEST(LandInEquilibrium, HeightsOfAFileThatNeedWallsBecomeSoftUnlessTheyAreAskedFor) {
+    Files const files;
+    std::string const high = "[network.lines]\npath = \"high.geojson\"\n";
+    Terrain const kept = made(lines + "heights = \"file\"\n" + high + "[surface]\nmean_slope = 8\n", files);
+    EXPECT_FALSE(check_of(kept, "walled_cells").ok);
+    EXPECT_TRUE(std::ranges::any_of(kept.findings, [](Finding const& f) { return f.kind == "walled_cell"; }));
+    Terrain const free = made(lines + high + "[surface]\nmean_slope = 8\n", files);
+    EXPECT_EQ(free.recipe.network->heights, Heights::soft);
+    EXPECT_TRUE(check_of(free, "walled_cells").ok) << check_of(free, "walled_cells").value;
+    EXPECT_GT(free.equilibrium->max_lowered_m, 100.0);
+    Terrain const gentle = made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\n", files);
+    EXPECT_EQ(gentle.recipe.network->heights, Heights::file);
+    EXPECT_TRUE(check_of(gentle, "walled_cells").ok) << check_of(gentle, "walled_cells").value;
+    EXPECT_FALSE(gentle.recipe.surface->equilibrium.mean_slope_deg) << "nobody asked for one";
 }
 
 TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {

@@ -229,6 +229,15 @@ TEST(Rivers, PatchesLieOneOverTheOther) {
     place.write("replace.toml", land + patch + "at = [502400, 4997600]\nrivers = \"replace\"\n");
     json const replaced = made(place, "replace.toml", "replaced");
     EXPECT_EQ(replaced["patches"][0]["kept"], 0);
+    EXPECT_GT(replaced["certificate"]["waived_cells"], 0); // under the patch, and of rivers that came through it
+    for (json const& check : replaced["checks"]) {
+        EXPECT_TRUE(check["ok"]) << check;
+    }
+    Outcome const checked = thalweg_run("check replaced --dem replaced/dem.tif", place.path());
+    EXPECT_EQ(checked.code, 0) << checked.out;
+    EXPECT_NE(checked.out.find("are not checked against the DEM"), std::string::npos) << checked.out;
+    Outcome const alone = thalweg_run("check replaced/network.gpkg --dem replaced/dem.tif", place.path());
+    EXPECT_EQ(alone.code, 3) << alone.out; // without the folder's recipe every cell counts
     place.write("keep.toml", land + patch + "at = [502400, 4997600]\n");
     json const kept = made(place, "keep.toml", "kept");
     EXPECT_GT(kept["patches"][0]["kept"], 0);

@@ -11,8 +11,10 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -245,6 +247,25 @@ FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name
     return read;
 }
 
+/// One place has one height.
+void refuse_two_heights(std::vector<Vec3> const& points, std::string const& name) {
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::tie(points[a].x, points[a].y, a) < std::tie(points[b].x, points[b].y, b);
+    });
+    for (std::size_t k = 1; k < order.size(); ++k) {
+        Vec3 const& p = points[order[k - 1]];
+        Vec3 const& q = points[order[k]];
+        if (plan(p) == plan(q) && p.z != q.z) {
+            refuse_points(
+                fmt::format("points {} and {} of {} lie both at ({:.10g}, {:.10g}), at heights of {:.10g} and "
+                            "{:.10g} m; keep one of them",
+                            order[k - 1] + 1, order[k] + 1, name, p.x, p.y, p.z, q.z));
+        }
+    }
+}
+
 } // namespace
 
 bool is_text_of_points(std::string const& path) {
@@ -272,6 +293,7 @@ FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
             p.z = 0.0;
         }
     }
+    refuse_two_heights(read.points, name);
     return read;
 }
 

@@ -54,7 +54,7 @@ void make_ridges(Terrain& terrain, Diary& diary, Run const& run) {
 }
 
 /// Random points between the rivers, where the recipe asks for them.
-FeaturePoints scattered(Terrain const& terrain, Mask const& inside, Diary& diary, Run const& run) {
+FeaturePoints scattered(Terrain& terrain, Mask const& inside, Diary& diary, Run const& run) {
     SkeletonRecipe const& wanted = *terrain.recipe.skeleton;
     skeleton::ScatterBetweenParams params;
     params.seed = terrain.recipe.seed;
@@ -66,9 +66,7 @@ FeaturePoints scattered(Terrain const& terrain, Mask const& inside, Diary& diary
     skeleton::Scattered points =
         diary.stage("scatter", [&] { return skeleton::scatter_between(terrain.valley, inside, params, run); });
     diary.say(fmt::format("{} points", points.points.points.size()));
-    if (points.missing > 0) {
-        run.say(fmt::format("warning: {} of {} points found no room", points.missing, params.count));
-    }
+    check_scattered(terrain, points.missing, params.count, run);
     return std::move(points.points);
 }
 
@@ -193,6 +191,16 @@ surface::Dilated draw(Terrain& terrain, FeaturePoints const& points, Mask const&
     return wanted.method == Method::diffuse ? diffused(terrain, points, inside, run) : dilated(terrain, inside, run);
 }
 
+/// Whether the slopes rise as high above their rivers as it was asked.
+void check_relief(Terrain& terrain) {
+    constexpr double allowed = 0.01;
+    double const asked = terrain.recipe.surface->dilate.relief_m;
+    if (asked > 0.0) {
+        double const error = std::fabs(terrain.surface->rise_m / asked - 1.0);
+        terrain.checks.push_back({"relief_error", error, allowed, error <= allowed});
+    }
+}
+
 std::string about(Terrain const& terrain) {
     SurfaceRecipe const& wanted = *terrain.recipe.surface;
     switch (wanted.method) {
@@ -232,6 +240,7 @@ void draw_around_rivers(Terrain& terrain, FeaturePoints const& given, Diary& dia
         terrain.surface = diary.stage("fill", [&] { return draw(terrain, points, inside, run); });
         diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height, about(terrain)));
         if (wanted.method == Method::dilate) {
+            check_relief(terrain);
             warn_of_jumps(*terrain.surface, wanted.dilate.increment, run);
         }
     }

@@ -120,7 +120,9 @@ Raster<float> random_land(Recipe const& recipe, Grid const& coarse, int levels, 
 }
 
 /// The points that the land goes through: those of the file, or drawn at random with the extremes among them.
-FeaturePoints points_of(Recipe const& recipe, FeaturePoints const& given, Grid const& grid, Run const& run) {
+FeaturePoints points_of(Terrain& terrain, FeaturePoints const& given, Run const& run) {
+    Recipe const& recipe = terrain.recipe;
+    Grid const& grid = terrain.grid;
     if (!recipe.skeleton || recipe.skeleton->scatter == 0) {
         return given;
     }
@@ -145,9 +147,7 @@ FeaturePoints points_of(Recipe const& recipe, FeaturePoints const& given, Grid c
     params.highest = place(s.max);
     params.lowest = place(s.min);
     skeleton::Scattered scattered = skeleton::scatter(grid, params, run);
-    if (scattered.missing > 0) {
-        run.say(fmt::format("warning: {} of {} points found no room", scattered.missing, params.count));
-    }
+    check_scattered(terrain, scattered.missing, params.count, run);
     return std::move(scattered.points);
 }
 
@@ -371,6 +371,27 @@ FeaturePoints given_points(Recipe& recipe, Run const& run) {
     return points;
 }
 
+void check_scattered(Terrain& terrain, std::int64_t missing, std::int64_t wanted, Run const& run) {
+    terrain.checks.push_back({"points_missing", static_cast<double>(missing), 0.0, missing == 0});
+    if (missing > 0) {
+        run.say(fmt::format("warning: {} of {} points found no room; a smaller skeleton.spacing or skeleton.scatter "
+                            "leaves them some",
+                            missing, wanted));
+    }
+}
+
+void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string const& name) {
+    for (std::size_t i = 0; i < points.points.size(); ++i) {
+        Vec3 const& p = points.points[i];
+        if (p.x < grid.west || p.x > grid.east() || p.y < grid.south() || p.y > grid.north) {
+            throw BadInput(
+                fmt::format("skeleton.points = \"{}\": point {} at ({:.3f}, {:.3f}) lies off the grid, which "
+                            "reaches from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f}); widen the grid or remove it",
+                            name, i + 1, p.x, p.y, grid.west, grid.south(), grid.east(), grid.north));
+        }
+    }
+}
+
 Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted) {
     double const cell = wanted.cell_m;
     Grid grid{wanted.width, wanted.height, cell, default_west, default_north, wanted.crs};
@@ -418,7 +439,7 @@ void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run c
         warn_of_lengths(*recipe.statistics, grid, run);
     }
     bool const from_points = !recipe.statistics || recipe.statistics->skeleton == Prior::points;
-    FeaturePoints const points = from_points ? points_of(recipe, given, grid, run) : FeaturePoints{};
+    FeaturePoints const points = from_points ? points_of(terrain, given, run) : FeaturePoints{};
     Raster<float> land = diary.stage("land", [&] {
         return from_points ? land_of_points(terrain, points, coarse, run) : random_land(recipe, coarse, levels, run);
     });

@@ -15,6 +15,12 @@ FeaturePoints given_points(Recipe& recipe, Run const& run);
 /// The grid asked for, or the points' box and 5 % around it on multiples of the cell.
 Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted);
 
+/// Throws BadInput naming the first point off the grid. name: the file, as the recipe has it.
+void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string const& name);
+
+/// The check points_missing: random points that found no room, with a warning.
+void check_scattered(Terrain& terrain, std::int64_t missing, std::int64_t wanted, Run const& run);
+
 /// Land without rivers: a random one or that of points, with fractal detail, brought to the statistics.
 /// Fills in what of the terrain tells about it: surface, tin, projection, checks.
 void make_land(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run);

@@ -10,6 +10,7 @@
 #include <thalweg/io/read_rivers.hpp>
 #include <thalweg/network/choose_cell.hpp>
 #include <thalweg/network/clip_lines.hpp>
+#include <thalweg/network/fill_heights.hpp>
 #include <thalweg/network/keep_heights.hpp>
 #include <thalweg/network/land_and_sea.hpp>
 #include <thalweg/network/rotate.hpp>
@@ -174,13 +175,21 @@ Mask land_of_coastlines(RiverLines const& lines, Grid const& grid, Diary& diary,
 RiverLines read_lines(Recipe const& recipe, Run const& run) {
     LinesRecipe const& wanted = recipe.network->lines;
     std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
-    return io::read_rivers({.path = file_in(recipe, wanted.path),
-                            .layer = wanted.layer,
-                            .type_field = wanted.type_field,
-                            .rank_field = wanted.rank_field,
-                            .crs = crs,
-                            .filter = wanted.filter},
-                           run);
+    RiverLines lines = io::read_rivers({.path = file_in(recipe, wanted.path),
+                                        .layer = wanted.layer,
+                                        .type_field = wanted.type_field,
+                                        .rank_field = wanted.rank_field,
+                                        .crs = crs,
+                                        .filter = wanted.filter},
+                                       run);
+    auto const count = lines.lines.size();
+    network::FilledHeights filled = network::fill_heights(std::move(lines), recipe.network->slope);
+    if (filled.filled > 0) {
+        run.say(fmt::format("warning: {} of {} lines in {} have no heights, the first is feature {}. They get heights "
+                            "from the lines they meet, with network.slope where they meet only one.",
+                            filled.filled, count, filled.lines.name, filled.first));
+    }
+    return std::move(filled.lines);
 }
 
 std::string settle_on_lines(Recipe& recipe, RiverLines const& lines, Run const& run) {

@@ -168,10 +168,14 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
         refuse_unused_keys(terrain.recipe); // now that the rivers' heights are known
         if (wanted.skeleton) {
             points = given_points(terrain.recipe, run);
+            require_on_grid(points, terrain.grid, terrain.recipe.skeleton->points);
         }
     } else {
         points = given_points(terrain.recipe, run);
         take_frame(terrain, frame_land(points, terrain.recipe.grid));
+        if (terrain.recipe.skeleton) {
+            require_on_grid(points, terrain.grid, terrain.recipe.skeleton->points);
+        }
         report_conversions(terrain, run);
     }
     if (keep && wanted.network) {
