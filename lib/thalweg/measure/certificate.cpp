@@ -150,6 +150,14 @@ private:
         return cells;
     }
 
+    /// Whether a cell has a neighbour at its height.
+    bool is_level(Cell at) const {
+        return std::any_of(d8_steps.begin(), d8_steps.end(), [&](Cell step) {
+            Cell const n{at.col + step.col, at.row + step.row};
+            return grid_.contains(n) && dem_[n] == dem_[at]; // never NaN
+        });
+    }
+
     /// Marks the level cells around rivers that stand.
     void find_lakes() {
         lake_ = Mask(grid_);
@@ -158,7 +166,7 @@ private:
         }
         std::vector<std::int64_t> level;
         for (std::int64_t i = 0; i < grid_.cells(); ++i) {
-            if (claims_.still[i] != 0 && !std::isnan(dem_[i])) {
+            if (claims_.still[i] != 0 && is_level(grid_.at(i))) {
                 lake_[i] = 1;
                 level.push_back(i);
             }
@@ -301,6 +309,15 @@ private:
             out_.traced.fill({1.0, 1.0}); // they are all lake: there is nothing to follow
         } else {
             out_.traced = agreement(plain(traced), running, grid_);
+            if (claims_.drawn.cells() > 0) {
+                std::vector<std::int64_t> drawn;
+                for (std::int64_t i = 0; i < grid_.cells(); ++i) {
+                    if (claims_.drawn[i] != 0 && !std::isnan(dem_[i])) {
+                        drawn.push_back(i);
+                    }
+                }
+                out_.traced[0] = agreement(plain(traced), plain(std::move(drawn)), grid_)[0];
+            }
         }
     }
 
@@ -371,9 +388,9 @@ Certificate certify(Raster<float> const& dem, Drainage const& drainage, std::vec
         throw BadInput(
             fmt::format("measure.certify: {} areas for {} reaches", claims.ds_area_m2.size(), reaches.size()));
     }
-    for (Mask const* const mask : {&claims.still, &claims.honoured}) {
+    for (Mask const* const mask : {&claims.still, &claims.drawn, &claims.honoured}) {
         if (mask->cells() > 0 && mask->grid() != dem.grid()) {
-            throw BadInput("measure.certify: what stands or is honoured is not on the DEM's grid");
+            throw BadInput("measure.certify: what stands, is drawn or honoured is not on the DEM's grid");
         }
     }
     if (reaches.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {

@@ -55,8 +55,10 @@ struct Certificate {
 struct Claims {
     std::vector<double> ds_area_m2 = {}; ///< by reach the contributing area at its lower end, NaN where none is given;
                                          ///< empty: of none
-    Mask still = {};    ///< 1: rivers stand here, as in lakes, and so does the level water around, side by side or by
-                        ///< corners; without cells: nowhere
+    Mask still = {}; ///< 1: rivers stand here where the DEM is level, as in lakes, and so does the level water around,
+                     ///< side by side or by corners; without cells: nowhere
+    Mask drawn = {}; ///< 1: the cells into which rivers were drawn; without cells: those the reaches pass. Agreement
+                     ///< in the same cell is that with them
     Mask honoured = {}; ///< 1: the DEM honours the river here, and from here to its end; without cells: everywhere
 };
 

@@ -34,23 +34,25 @@ std::vector<double> areas_of(NetworkFile const& file, std::vector<measure::Reach
     return areas;
 }
 
-Mask honoured_in(std::string const& raster, Grid const& grid, std::string const& dem) {
-    Raster<float> const cells = io::read_stored_dem(raster);
-    if (cells.grid() != grid) {
-        throw BadInput(fmt::format("pipeline.certify_files: {} is not on the grid of {}; check the DEM that make wrote "
-                                   "beside it",
-                                   raster, dem));
+/// The cells of a raster above 0; without cells where there is none on this grid.
+Mask cells_in(std::string const& raster, Grid const& grid) {
+    if (raster.empty()) {
+        return {};
     }
-    Mask honoured(grid);
+    Raster<float> const values = io::read_stored_dem(raster);
+    if (values.grid() != grid) {
+        return {};
+    }
+    Mask cells(grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        honoured[i] = cells[i] > 0.0F ? 1 : 0;
+        cells[i] = values[i] > 0.0F ? 1 : 0;
     }
-    return honoured;
+    return cells;
 }
 
 } // namespace
 
-measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, std::string const& honoured,
+measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, RiverRasters const& rasters,
                                    Run const& run) {
     Raster<float> const land = io::read_stored_dem(dem); // in feet or metres its water runs alike
     if (!io::same_crs(network.crs, land.grid().crs, "the network", dem)) {
@@ -59,10 +61,11 @@ measure::Certificate certify_files(NetworkFile const& network, std::string const
                                    network.crs.substr(0, 60), dem, land.grid().crs.substr(0, 60)));
     }
     FileReaches const found = reaches_of_file(network, land.grid());
-    measure::Claims claims{areas_of(network, found.reaches), still_cells(network, land.grid())};
-    if (!honoured.empty()) {
-        claims.honoured = honoured_in(honoured, land.grid(), dem);
-    }
+    measure::Claims claims;
+    claims.ds_area_m2 = areas_of(network, found.reaches);
+    claims.still = either(still_cells(network, land.grid()), cells_in(rasters.lakes, land.grid()));
+    claims.drawn = cells_in(rasters.drawn, land.grid());
+    claims.honoured = rasters.waive ? claims.drawn : Mask{};
     measure::Drainage const drainage = measure::drain(land, sinks_of(network, land), run);
     measure::Certificate certificate = measure::certify(land, drainage, found.reaches, claims, run);
     for (measure::Reach const& reach : found.reaches) {

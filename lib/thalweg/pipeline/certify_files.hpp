@@ -10,12 +10,20 @@
 
 namespace thalweg::pipeline {
 
+/// Rasters beside a network, of which cells above 0 count; "" for none. Those on another grid than the DEM's are passed
+/// over.
+struct RiverRasters {
+    std::string drawn = {}; ///< cells into which rivers were drawn
+    std::string lakes = {}; ///< cells of lakes
+    bool waive = false;     ///< only drawn cells are to be honoured: patches took the place of others
+};
+
 /// The drainage certificate of a DEM file and a network, anyone's. Parts of the network beside the DEM are findings
 /// (outside_dem), and do not count otherwise. Parts of rivers that are drawn level stand as lakes do; nodes of the kind
-/// "sink" end their rivers. honoured: a raster of the cells in which the DEM honours the rivers, above 0; "": in all.
+/// "sink" end their rivers.
 /// Throws: BadInput when a raster cannot be read or they have different grids, the two have different CRS or only one
 /// has any, or no arc lies on the DEM; what reaches_of_file throws for a network without direction; IoError; Cancelled.
-measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, std::string const& honoured,
+measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, RiverRasters const& rasters = {},
                                    Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -136,19 +136,24 @@ void write_copy(MendedNetwork const& mended, NetworkFile const& file, CheckOutpu
     }));
 }
 
-/// The raster of river cells that a folder's DEM honours, where its recipe lets patches replace rivers; else "".
-std::string honoured_cells_of(std::string const& network) {
-    std::string const recipe = (fs::path(network) / "recipe.toml").string();
-    std::string const cells = (fs::path(network) / "network.tif").string();
-    std::error_code ignored;
-    if (!fs::is_regular_file(recipe, ignored) || !fs::is_regular_file(cells, ignored)) {
-        return "";
+/// What a folder that make wrote tells about its rivers in rasters; nothing of other networks.
+RiverRasters rasters_beside(std::string const& network) {
+    auto const beside = [&](char const* name) {
+        std::string const path = (fs::path(network) / name).string();
+        std::error_code ignored;
+        return fs::is_regular_file(path, ignored) ? path : std::string();
+    };
+    std::string const recipe = beside("recipe.toml");
+    if (recipe.empty()) {
+        return {};
     }
+    RiverRasters rasters{beside("network.tif"), beside("lakes.tif"), false};
     try {
-        return replaces_rivers(read_recipe(io::read_text(recipe, 2 << 20), recipe)) ? cells : "";
+        rasters.waive = replaces_rivers(read_recipe(io::read_text(recipe, 2 << 20), recipe));
     } catch (Error const&) { // not a recipe of ours: every cell counts
-        return "";
+        return {};
     }
+    return rasters;
 }
 
 /// Whether it is plain where each arc runs and what it runs into.
@@ -187,8 +192,8 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
     append(checked.findings, topology.findings);
 
     if (!job.dem.empty() && has_direction(topology)) {
-        std::string const honoured = honoured_cells_of(job.network);
-        checked.certificate = certify_files(network, job.dem, honoured, run);
+        RiverRasters const rasters = rasters_beside(job.network);
+        checked.certificate = certify_files(network, job.dem, rasters, run);
         if (checked.certificate->waived_cells > 0) {
             checked.notes.push_back({"not_honoured",
                                      0,
@@ -196,7 +201,7 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
                                      static_cast<double>(checked.certificate->waived_cells),
                                      fmt::format("{} river cells are not checked against the DEM: a patch with rivers "
                                                  "= \"replace\" took their place, or that of rivers below ({})",
-                                                 checked.certificate->waived_cells, honoured)});
+                                                 checked.certificate->waived_cells, rasters.drawn)});
         }
         append(checked.checks, checked.certificate->checks());
         append(checked.findings, checked.certificate->findings);

@@ -42,6 +42,28 @@ Mask still_cells(NetworkFile const& network, Grid const& grid) {
     return still;
 }
 
+Mask lake_cells(Channels const& channels) {
+    Mask lakes;
+    for (std::size_t n = 0; n < channels.level.size(); ++n) {
+        if (channels.level[n] != 0) {
+            lakes = lakes.cells() == 0 ? Mask(channels.grid) : std::move(lakes);
+            lakes[channels.cell[n]] = 1;
+            lakes[channels.cell[static_cast<std::size_t>(channels.receiver[n])]] = 1;
+        }
+    }
+    return lakes;
+}
+
+Mask either(Mask one, Mask const& other) {
+    if (one.cells() == 0) {
+        return other;
+    }
+    for (std::int64_t i = 0; i < other.cells(); ++i) {
+        one[i] = one[i] != 0 || other[i] != 0 ? 1 : 0;
+    }
+    return one;
+}
+
 std::vector<std::int64_t> sinks_of(NetworkFile const& network, Raster<float> const& dem) {
     Grid const& grid = dem.grid();
     std::vector<std::int64_t> sinks;

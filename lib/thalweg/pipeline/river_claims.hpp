@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/channels.hpp>
 #include <thalweg/core/network_file.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
@@ -16,6 +17,12 @@ namespace thalweg::pipeline {
 
 /// Cells in which rivers stand: those under parts of arcs that are drawn level. Without cells where there are none.
 Mask still_cells(NetworkFile const& network, Grid const& grid);
+
+/// The cells of lakes that lie in channels, and of their outlets. Without cells where there are none.
+Mask lake_cells(Channels const& channels);
+
+/// 1 where either mask has 1, of which any may be without cells.
+Mask either(Mask one, Mask const& other);
 
 /// Cells in which rivers end inland: those of nodes of the kind "sink", where the DEM has heights.
 std::vector<std::int64_t> sinks_of(NetworkFile const& network, Raster<float> const& dem);

@@ -107,10 +107,13 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
         terrain.sinks = sinks ? inland_ends(terrain.network.plan, dem) : std::vector<NodeId>{};
         terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
         terrain.certificate = diary.stage("certify", [&] {
-            measure::Claims claims{terrain.areas.ds_area_m2,
-                                   still_cells(measure::as_file(terrain.network, terrain.orders), terrain.grid)};
+            measure::Claims claims;
+            claims.ds_area_m2 = terrain.areas.ds_area_m2;
+            claims.still = either(still_cells(measure::as_file(terrain.network, terrain.orders), terrain.grid),
+                                  lake_cells(terrain.channels));
+            claims.drawn = river_mask(terrain.valley);
             if (replaces_rivers(terrain.recipe)) {
-                claims.honoured = river_mask(terrain.valley);
+                claims.honoured = claims.drawn;
             }
             return measure::certify(dem, drainage, measure::reaches_of(terrain.network.plan), claims, run);
         });

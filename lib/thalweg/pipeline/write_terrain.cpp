@@ -170,6 +170,9 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
         write_in_schema(t, out, run);
     }
     io::write_mask(river_mask(t.valley), out.path("network.tif"), run);
+    if (t.lakes > 0) {
+        io::write_mask(lake_cells(t.channels), out.path("lakes.tif"), run);
+    }
 }
 
 void write_water(Terrain const& t, io::OutputFolder const& out, Run const& run) {
