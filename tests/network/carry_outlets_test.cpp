@@ -372,7 +372,7 @@ TEST(CarryOutlets, RefusesCostsBelowNothing) {
 }
 
 TEST(CarryOutlets, RiversThatAreJoinedAreTreesWithoutCrossings) {
-    rc::check("many strokes", [] {
+    ASSERT_TRUE(rc::check("many strokes", [] {
         Grid const grid = test::grid_of(64, 64);
         ChanceStream words(*rc::gen::arbitrary<std::uint64_t>(), 4, 0);
         std::vector<Vec2> nodes;
@@ -414,5 +414,5 @@ TEST(CarryOutlets, RiversThatAreJoinedAreTreesWithoutCrossings) {
                 pieces.push_back(piece);
             }
         }
-    });
+    }));
 }

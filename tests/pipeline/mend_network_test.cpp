@@ -93,21 +93,21 @@ TEST(MendNetwork, NumbersAloneChangeNoLine) {
 TEST(MendNetwork, AreasStayWhereTheEndDoes) {
     NetworkFile file = faults::clean(5);
     for (std::size_t a = 0; a < file.arcs.size(); ++a) {
-        file.arcs[a].us_area_m2 = static_cast<double>(a) + 0.5;
-        file.arcs[a].ds_area_m2 = static_cast<double>(a) + 0.75;
+        file.arcs[a].us_area_m2 = 10.0 * static_cast<double>(file.arcs[a].shreve);
+        file.arcs[a].ds_area_m2 = file.arcs[a].us_area_m2;
         file.arcs[a].feature = static_cast<std::int64_t>(1000 + a);
         file.arcs[a].braided = a == 7;
     }
     std::reverse(file.arcs[7].line.begin(), file.arcs[7].line.end());
     MendedNetwork const mended = mend(file);
     ASSERT_TRUE(mended.done);
-    EXPECT_EQ(kinds_of(mended), (std::vector<std::string>{"turned", "mended", "mended"})); // no such areas can be
+    EXPECT_EQ(kinds_of(mended), (std::vector<std::string>{"turned", "mended"}));
     NetworkIndex const index(mended.network.plan);
     ASSERT_EQ(index.arcs.size(), file.arcs.size());
     for (std::size_t a = 0; a < index.arcs.size(); ++a) {
         auto const was = static_cast<std::size_t>(mended.network.plan[index.arcs[a]].feature - 1000);
-        EXPECT_EQ(mended.us_area_m2[a], static_cast<double>(was) + 0.5);
-        EXPECT_EQ(mended.ds_area_m2[a], static_cast<double>(was) + 0.75);
+        EXPECT_EQ(mended.us_area_m2[a], file.arcs[was].us_area_m2);
+        EXPECT_EQ(mended.ds_area_m2[a], file.arcs[was].ds_area_m2);
         EXPECT_EQ(mended.braided[a], was == 7 ? 1 : 0);
     }
 }

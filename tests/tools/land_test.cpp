@@ -55,13 +55,13 @@ TEST(Land, EverySampleIsMadeAgainWithAnyNumberOfThreads) {
 
 TEST(Land, RealReliefGivesARecipeThatHasItsStatistics) {
     Workplace const place;
-    Outcome const recipe = thalweg_run("stats " + samples + "jacksboro_srtm3.tif --recipe", place.path());
+    Outcome const recipe = thalweg_run("stats " + samples + "jacksboro_utm16.tif --recipe", place.path());
     ASSERT_EQ(recipe.code, 0) << recipe.err;
     place.write("real.toml", recipe.out);
     Outcome const o = thalweg_run("make real.toml -o out -q --json", place.path());
     ASSERT_EQ(o.code, 0) << o.err;
     auto const report = nlohmann::json::parse(o.out);
-    Outcome const real = thalweg_run("stats " + samples + "jacksboro_srtm3.tif --json", place.path());
+    Outcome const real = thalweg_run("stats " + samples + "jacksboro_utm16.tif --json", place.path());
     auto const wanted = nlohmann::json::parse(real.out);
     EXPECT_EQ(report["statistics"]["residuals"].size(), 8U);
     for (char const* name : {"mean", "std", "slope_rad", "lx_cells", "ly_cells"}) {
@@ -71,7 +71,7 @@ TEST(Land, RealReliefGivesARecipeThatHasItsStatistics) {
     EXPECT_NEAR(report["dem"]["dimension"].get<double>(), wanted["dimension"].get<double>(), 0.02);
     EXPECT_EQ(report["dem"]["max"], wanted["max"]);
     EXPECT_EQ(report["dem"]["min"], wanted["min"]);
-    EXPECT_EQ(thalweg_run("stats " + samples + "jacksboro_srtm3.tif --recipe --json", place.path()).code, 2);
+    EXPECT_EQ(thalweg_run("stats " + samples + "jacksboro_utm16.tif --recipe --json", place.path()).code, 2);
 }
 
 TEST(Land, StatsTellsTheLawsOfADemsRiversBesideNature) {

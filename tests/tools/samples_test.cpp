@@ -183,12 +183,25 @@ TEST(Samples, EveryBranchAndHeight) {
     for (char const* branch : {"largest", "north", "east", "south", "west", "all"}) {
         for (char const* heights : {"straight_repaired", "along_stream"}) {
             Outcome const o = thalweg_run(std::string("make --set network.dla.particles=3000 --set network.prune=8 "
-                                                      "--set network.dla.branch=") +
+                                                      "--set surface.method=dilate --set network.dla.branch=") +
                                               branch + " --set network.heights=" + heights + " --overwrite -o out -q",
                                           place.path());
             EXPECT_EQ(o.code, 0) << branch << o.err;
             hold_to_contract(place / "out");
         }
+    }
+}
+
+TEST(Samples, EvenSlopesInEquilibriumTerrainStandOnWalls) {
+    Workplace const place;
+    Outcome const o = thalweg_run("make --set network.dla.particles=3000 --set network.prune=8 "
+                                  "--set network.heights=along_stream -o out -q",
+                                  place.path());
+    EXPECT_EQ(o.code, 3) << o.err;
+    EXPECT_NE(o.err.find("river cells stand on walls"), std::string::npos) << o.err;
+    auto const report = nlohmann::json::parse(file_bytes(place / "out/report.json"));
+    for (auto const& check : report["checks"]) {
+        EXPECT_EQ(check["ok"].get<bool>(), check["name"] != "walled_cells") << check;
     }
 }
 

@@ -58,7 +58,7 @@ private:
     std::vector<std::pair<std::int64_t, std::size_t>> by_feature_;
 };
 
-/// An arc has the area its file gives at an end that is still where it was; else what flows in.
+/// An arc has the area its file gives at an end that is still where it was; else what flows in, which is the least.
 void take_areas(Known const& known, double near_m, MendedNetwork& mended) {
     StreamNetwork const& plan = mended.network.plan;
     NetworkIndex const index(plan);
@@ -79,8 +79,9 @@ void take_areas(Known const& known, double near_m, MendedNetwork& mended) {
         auto const& line = known.line(arc.feature).vertices;
         bool const keeps_up = is_at(arc.line.front(), line.front()) && std::isfinite(given.us_area_m2);
         bool const keeps_down = is_at(arc.line.back(), line.back()) && std::isfinite(given.ds_area_m2);
-        mended.us_area_m2[a] = keeps_up ? given.us_area_m2 : mended.node_area_m2[*node];
-        mended.ds_area_m2[a] = keeps_down ? given.ds_area_m2 : mended.us_area_m2[a];
+        double const arriving = mended.node_area_m2[*node];
+        mended.us_area_m2[a] = keeps_up ? std::max(given.us_area_m2, arriving) : arriving;
+        mended.ds_area_m2[a] = keeps_down ? std::max(given.ds_area_m2, mended.us_area_m2[a]) : mended.us_area_m2[a];
         mended.node_area_m2[*node] = mended.us_area_m2[a];
     }
 }

@@ -79,7 +79,7 @@ Tangents descents(Raster<float> const& land) {
                 steepest = slope > steepest ? slope : steepest;
             }
         }
-        if (!std::isnan(land[i])) {
+        if (steepest > 0.0) { // what has nowhere to go says nothing
             tangents.add(static_cast<float>(steepest));
         }
     }
