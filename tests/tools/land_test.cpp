@@ -157,7 +157,7 @@ TEST(Land, WhatCannotBeIsRefusedWithItsNumbers) {
     refused("make nan.toml -o out", "nan.csv, line 3: z is 'nan'");
     refused("make two.toml -o out", "2 points in 2 different places");
     refused("make line.toml -o out", "3 points lie on one line");
-    refused("make same.toml -o out", "3 points in 1 different places");
+    refused("make same.toml -o out", "points 1 and 2 of same.csv lie both at (5, 5), at heights of 1 and 2 m");
     refused("make none.toml -o out", "none.csv");
     refused("make -o out --set skeleton.scatter=9", "skeleton.scatter = 9 (--set) has no effect in this recipe");
     refused("make -o out --set detail.levels=2", "detail.sigma is missing");
