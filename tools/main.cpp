@@ -20,6 +20,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -219,8 +220,18 @@ int run(int argc, char** argv) {
 
 } // namespace
 
+/// GDAL ends the process where memory for an error message is short. What it says of that is on standard error already.
+extern "C" {
+static void end_of_abort(int /*number*/) {
+    constexpr char text[] = "error: a library could not go on, which happens when memory is short\n";
+    [[maybe_unused]] auto const written = write(STDERR_FILENO, text, sizeof text - 1);
+    _exit(thalweg::tools::Exit::failed);
+}
+}
+
 int main(int argc, char** argv) {
     std::set_terminate(end_without_handler);
+    std::signal(SIGABRT, end_of_abort);
     try {
         return end_of_results(run(argc, argv));
     } catch (...) {
