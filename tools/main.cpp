@@ -22,6 +22,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <map>
 #include <new>
@@ -227,11 +228,24 @@ static void end_of_abort(int /*number*/) {
     [[maybe_unused]] auto const written = write(STDERR_FILENO, text, sizeof text - 1);
     _exit(thalweg::tools::Exit::failed);
 }
+
+/// A library that writes where memory was refused; any other fault keeps its signal.
+[[maybe_unused]] static void end_of_fault(int number) {
+    alarm(2); // the fault may lie within malloc
+    if (std::malloc(std::size_t{1} << 16) == nullptr) {
+        [[maybe_unused]] auto const written = write(STDERR_FILENO, out_of_memory.data(), out_of_memory.size());
+        _exit(thalweg::tools::Exit::failed);
+    }
+    std::signal(number, SIG_DFL); // the instruction runs again
+}
 }
 
 int main(int argc, char** argv) {
     std::set_terminate(end_without_handler);
     std::signal(SIGABRT, end_of_abort);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // they report faults themselves
+    std::signal(SIGSEGV, end_of_fault);
+#endif
     try {
         return end_of_results(run(argc, argv));
     } catch (...) {
