@@ -3,13 +3,23 @@
 // `thalweg make RIVERS`: terrain around a file of lines, without a recipe.
 #include "command.hpp"
 
+#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <random>
 #include <string>
+#include <vector>
+
+#include <thalweg/core/vec.hpp>
+
+using thalweg::cross;
+using thalweg::Vec2;
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -283,9 +293,62 @@ TEST(GivenRivers, ATributaryThatDoesNotQuiteMeetItsRiverIsSaid) {
             line("[505000,5009000],[505000,5004070]") + "]}");
     Outcome const o = thalweg_run("make gap.geojson --set grid.cell=50 -o out", place.path());
     EXPECT_NE(o.err.find("warning: 1 river ends within 2 cells"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("--set network.lines.snap=150"), std::string::npos) << o.err;
     Outcome const joined =
         thalweg_run("make gap.geojson --set grid.cell=50 --set network.lines.snap=100 -o joined", place.path());
     EXPECT_EQ(joined.code, 0) << joined.err;
     EXPECT_EQ(joined.err.find("within 2 cells"), std::string::npos) << joined.err;
     EXPECT_EQ(report_of(place / "joined")["network"]["outlets"], 1);
+}
+
+struct Stroke {
+    Vec2 a, b;
+};
+
+/// Strokes at random over 12 km, none of which crosses another.
+std::string scattered_strokes(int count, std::uint64_t seed) {
+    std::mt19937_64 chance(seed);
+    auto const within = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(chance() >> 11U) / 9007199254740992.0;
+    };
+    std::vector<Stroke> strokes;
+    while (strokes.size() < static_cast<std::size_t>(count)) {
+        Vec2 const from{within(600.0, 11400.0), within(600.0, 11400.0)};
+        double const length = within(300.0, 1200.0);
+        double const along = within(-1.0, 1.0);
+        double const side = chance() % 2 == 0 ? 1.0 : -1.0;
+        Vec2 const to{from.x + length * along, from.y + side * length * std::sqrt(1.0 - along * along)};
+        bool const free = std::none_of(strokes.begin(), strokes.end(), [&](Stroke const& s) {
+            return cross(from, to, s.a) * cross(from, to, s.b) <= 0.0 &&
+                   cross(s.a, s.b, from) * cross(s.a, s.b, to) <= 0.0;
+        });
+        if (free && std::min({to.x, to.y}) > 400.0 && std::max({to.x, to.y}) < 11600.0) {
+            strokes.push_back({from, to});
+        }
+    }
+    std::string features;
+    for (Stroke const& s : strokes) {
+        features += fmt::format(R"({}{{"type":"Feature","properties":{{}},"geometry":{{"type":"LineString",)"
+                                R"("coordinates":[[{},{}],[{},{}]]}}}})",
+                                features.empty() ? "" : ",", 500000.0 + s.a.x, 4988000.0 + s.a.y, 500000.0 + s.b.x,
+                                4988000.0 + s.b.y);
+    }
+    return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32631"}},)"
+           R"("features":[)" +
+           features + "]}";
+}
+
+TEST(GivenRivers, StrokesThatNearlyTouchPassAllChecksOnceTheAdviceIsTaken) {
+    Workplace const place;
+    place.write("strokes.geojson", scattered_strokes(200, 1));
+    for (std::string const method : {"equilibrium", "dilate"}) {
+        std::string const words = "make strokes.geojson --set grid.cell=30 --set grid.width=400 --set grid.height=400 "
+                                  "--set 'grid.origin=[500000,5000000]' --set surface.method=" +
+                                  method + " --overwrite -o out";
+        Outcome const raw = thalweg_run(words, place.path());
+        EXPECT_NE(raw.err.find("network.lines.snap=90"), std::string::npos) << raw.err;
+        Outcome const o = thalweg_run(words + " --set network.lines.snap=90", place.path());
+        EXPECT_EQ(o.code, 0) << method << '\n' << o.err;
+        EXPECT_EQ(o.err.find("network.lines.snap"), std::string::npos) << "it is taken\n" << o.err;
+    }
 }

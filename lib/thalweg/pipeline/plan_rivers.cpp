@@ -115,7 +115,7 @@ std::vector<Finding> left_out(RiverLines const& lines) {
 }
 
 /// A word where rivers end so near to the course of others, not to their mouths, that they were meant to meet them.
-void warn_of_gaps(StreamNetwork const& network, Grid const& grid, Run const& run) {
+void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped_m, Run const& run) {
     constexpr std::int64_t near_cells = 2;
     constexpr std::int64_t mouth_cells = 5;
     NetworkIndex const index(network);
@@ -138,10 +138,13 @@ void warn_of_gaps(StreamNetwork const& network, Grid const& grid, Run const& run
         gaps += is_near ? 1 : 0;
     }
     if (gaps > 0) {
-        run.say(fmt::format("warning: {} within {} cells of another river without meeting it. If they should meet: "
-                            "--set network.lines.snap={}.",
+        // Centres two cells apart along a diagonal are nearly three sides apart.
+        double const reach_m = static_cast<double>(near_cells + 1) * grid.cell_m;
+        run.say(fmt::format("warning: {} within {} cells of another river without meeting it. {}",
                             gaps == 1 ? "1 river ends" : fmt::format("{} rivers end", gaps), near_cells,
-                            static_cast<double>(near_cells) * grid.cell_m));
+                            snapped_m < reach_m
+                                ? fmt::format("If they should meet: --set network.lines.snap={}.", reach_m)
+                                : fmt::format("Finer cells keep them apart: --set grid.cell={}.", grid.cell_m / 2.0)));
     }
 }
 
@@ -275,7 +278,7 @@ Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& ru
     diary.say(fmt::format("{} arcs, {} repairs{}", boost::num_edges(adopted.network), terrain.story.repairs.size(),
                           terrain.secondary.empty() ? "" : fmt::format(", {} secondary", terrain.secondary.size())));
 
-    warn_of_gaps(adopted.network, grid, run);
+    warn_of_gaps(adopted.network, grid, wanted.snap_m, run);
     Planned planned{std::move(adopted.network), grid, {}};
     if (wanted.coastlines == Coastlines::sea) {
         planned.land = land_of_coastlines(lines, grid, diary, run);
