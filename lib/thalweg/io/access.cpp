@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/files.hpp>
 
 namespace thalweg::io {
 
@@ -59,6 +60,7 @@ void require_allowed(std::string const& path) {
                                    "command line, or convert it to a file (ogr2ogr)",
                                    path));
     }
+    refuse_pipe(path, "io.require_allowed: " + path);
     std::error_code ignored;
     auto const status = std::filesystem::status(path, ignored);
     if (!std::filesystem::exists(status)) {

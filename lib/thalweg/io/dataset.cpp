@@ -49,14 +49,10 @@ struct Held {
 Dataset opened(std::string const& path, unsigned kinds, char const* const* drivers, std::shared_ptr<Held const> held,
                std::string const& shown) {
     char const* const* const options = held->file ? held->file->options() : nullptr;
-    take_refused_address();
+    take_refusal();
     Dataset data(GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers, options),
                  {std::move(held)});
-    if (std::string const address = take_refused_address(); !address.empty()) {
-        throw BadInput(fmt::format("io.open_undisturbed: {} makes a connection ({}), and thalweg connects only to what "
-                                   "the command line names; take the address out of the file",
-                                   shown, address));
-    }
+    throw_refusal(take_refusal(), "io.open_undisturbed: " + shown);
     return data;
 }
 

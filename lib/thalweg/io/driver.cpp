@@ -91,8 +91,8 @@ std::string Driver::take() const {
 
 void Driver::check(std::string const& what) const {
     if (auto const words = take(); !words.empty()) {
-        bool const by_guard = !take_refused_address().empty();
-        if (by_guard || words.find("ALLOW_NETWORK_ACCESS=NO") != std::string::npos) {
+        throw_refusal(take_refusal(), what);
+        if (words.find("ALLOW_NETWORK_ACCESS=NO") != std::string::npos) {
             throw BadInput(fmt::format("{}: thalweg connects only to what the command line names; take the address out "
                                        "of the file ({})",
                                        what, words));

@@ -257,10 +257,14 @@ void OutputFolder::commit() {
     }
 }
 
-void refuse_pipe(std::string const& path, std::string const& what) {
+bool is_pipe_or_device(std::string const& path) {
     std::error_code ignored;
     fs::file_status const status = fs::status(path, ignored);
-    if (fs::is_fifo(status) || fs::is_socket(status) || fs::is_character_file(status)) {
+    return fs::is_fifo(status) || fs::is_socket(status) || fs::is_character_file(status);
+}
+
+void refuse_pipe(std::string const& path, std::string const& what) {
+    if (is_pipe_or_device(path)) {
         throw BadInput(what + " is a pipe or a device, and inputs are read more than once: write it to a file first");
     }
 }

@@ -56,7 +56,10 @@ private:
     bool committed_ = false;
 };
 
-/// Throws: BadInput where a path is a pipe, a socket or a terminal, of which opening or reading may wait for ever.
+/// Whether a path is a pipe, a socket or a terminal, of which opening or reading may wait for ever.
+bool is_pipe_or_device(std::string const& path);
+
+/// Throws: BadInput where is_pipe_or_device.
 void refuse_pipe(std::string const& path, std::string const& what);
 
 /// The bytes of a file. Throws: BadInput when there is none, it is a folder, a pipe or larger than max_bytes; IoError.

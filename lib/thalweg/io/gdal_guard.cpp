@@ -21,6 +21,9 @@
 #include <fmt/format.h>
 #include <gdal_priv.h>
 
+#include <thalweg/core/error.hpp>
+#include <thalweg/io/files.hpp>
+
 namespace thalweg::io {
 
 namespace fs = std::filesystem;
@@ -42,7 +45,7 @@ constexpr std::array local_systems{"/vsimem/",   "/vsizip/",     "/vsigzip/",
                                    "/vsicached?"};
 
 std::atomic<int> connections{0};
-thread_local std::string refused_address;
+thread_local Refusal refused;
 
 struct Roots {
     std::mutex mutex;
@@ -89,8 +92,17 @@ bool is_near(char const* path) {
            std::ranges::any_of(all.folders, [&](std::string const& folder) { return lies_in(real, folder); });
 }
 
+bool is_no_pipe(char const* path) {
+    if (!is_pipe_or_device(path)) {
+        return true;
+    }
+    refused.pipe = path;
+    CPLError(CE_Failure, CPLE_OpenFailed, "%s is a pipe or a device", path);
+    return false;
+}
+
 void refuse_address(std::string const& address) {
-    refused_address = address;
+    refused.address = address;
     CPLError(CE_Failure, CPLE_AppDefined, "no connection to %s: only what the command line names is reached",
              address.c_str());
 }
@@ -103,17 +115,30 @@ bool is_reachable(char const* path) {
     return false;
 }
 
+bool is_any(char const* /*path*/) {
+    return true;
+}
+
 /// A file system of GDAL's that some names do not reach.
 class Guarded : public VSIFilesystemHandler {
 public:
     using Allows = bool (*)(char const*);
-    Guarded(VSIFilesystemHandler* inner, Allows allows) : inner_(inner), allows_(allows) {}
+    /// Takes: what may be touched at all, and what of that may be opened.
+    Guarded(VSIFilesystemHandler* inner, Allows allows, Allows opens = is_any)
+        : inner_(inner), allows_(allows), opens_(opens) {}
     ~Guarded() override { delete inner_; }
     Guarded(Guarded const&) = delete;
     Guarded& operator=(Guarded const&) = delete;
 
     VSIVirtualHandle* Open(char const* path, char const* access, bool set_error, CSLConstList options) override {
-        return may(path) ? inner_->Open(path, access, set_error, options) : nullptr;
+        if (!may(path)) {
+            return nullptr;
+        }
+        if (!opens_(path)) {
+            errno = EACCES;
+            return nullptr;
+        }
+        return inner_->Open(path, access, set_error, options);
     }
     int Stat(char const* path, VSIStatBufL* status, int flags) override {
         return may(path) ? inner_->Stat(path, status, flags) : -1;
@@ -176,6 +201,7 @@ private:
 
     VSIFilesystemHandler* inner_; // deleted here: GDAL deletes what it holds, and it holds this
     Allows allows_;
+    Allows opens_;
 };
 
 CPLHTTPResult* refuse_fetch(char const* url, CSLConstList options, GDALProgressFunc /*progress*/, void* /*data*/,
@@ -206,7 +232,7 @@ void guard_file_systems() {
                                            new Guarded(VSIFileManager::GetHandler(prefixes[i]), is_reachable));
         }
     }
-    VSIFileManager::InstallHandler("", new Guarded(VSIFileManager::GetHandler(""), is_near));
+    VSIFileManager::InstallHandler("", new Guarded(VSIFileManager::GetHandler(""), is_near, is_no_pipe));
 }
 
 void set_unless_set(char const* option, char const* value) {
@@ -292,8 +318,22 @@ WithNetcdf::~WithNetcdf() {
     }
 }
 
-std::string take_refused_address() {
-    return std::exchange(refused_address, {});
+Refusal take_refusal() {
+    return std::exchange(refused, {});
+}
+
+void throw_refusal(Refusal const& refusal, std::string const& what) {
+    if (!refusal.address.empty()) {
+        throw BadInput(fmt::format("{} makes a connection ({}), and thalweg connects only to what the command line "
+                                   "names; take the address out of the file",
+                                   what, refusal.address));
+    }
+    if (!refusal.pipe.empty()) {
+        throw BadInput(
+            fmt::format("{} needs {}, which is a pipe or a device, and inputs are read more than once: write "
+                        "it to a file first",
+                        what, refusal.pipe));
+    }
 }
 
 } // namespace thalweg::io

@@ -7,8 +7,8 @@
 /// What GDAL may reach. Private to this module.
 namespace thalweg::io {
 
-/// Takes GDAL's doors to the network away: drivers that connect, addresses as file names, fetches by HTTP. To be called
-/// once, when the drivers are registered.
+/// Takes GDAL's doors to the network away: drivers that connect, addresses as file names, fetches by HTTP. Pipes and
+/// devices are not opened either, wherever a name comes from. To be called once, when the drivers are registered.
 void guard_gdal();
 
 /// While one lives, a server may be reached: one that the user names. A server that does not answer within 10 s is
@@ -46,7 +46,16 @@ private:
     bool added_ = false;
 };
 
-/// The address that a source named and that was refused since the last call, "" for none.
-std::string take_refused_address();
+/// What a source named and the guard refused; "" for nothing.
+struct Refusal {
+    std::string address = {};
+    std::string pipe = {}; ///< or a device
+};
+
+/// What was refused in this thread since the last call.
+Refusal take_refusal();
+
+/// Throws: BadInput that begins with what, where something was refused.
+void throw_refusal(Refusal const& refusal, std::string const& what);
 
 } // namespace thalweg::io

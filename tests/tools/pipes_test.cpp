@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Opening a pipe waits until someone writes to it: as an input it is refused, by its own name or another file's.
+#include "command.hpp"
+#include "spawned.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sys/stat.h>
+
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+constexpr double most_s = 20.0;
+
+class Pipes : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        place_ = new Workplace;
+        ASSERT_EQ(spawn(small_make("base"), place_->path()).code, 0);
+        place_->write("region.geojson",
+                      R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":)"
+                      R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,0]]]}}]})");
+        place_->write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        place_->write("points.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n");
+        fs::create_directory(*place_ / "folder");
+        for (std::string const name : {"p.toml", "p.gpkg", "p.tif", "p.csv", "p.obj", "p.geojson", "p.shp", "p.zip",
+                                       "folder/dem.tif", "folder/network.gpkg", "folder/recipe.toml"}) {
+            ASSERT_EQ(mkfifo((*place_ / name).c_str(), 0600), 0);
+        }
+    }
+    static void TearDownTestSuite() {
+        delete place_;
+        place_ = nullptr;
+    }
+
+    static void expect_refused(Words const& words) {
+        std::string line;
+        for (std::string const& word : words) {
+            line += word + " ";
+        }
+        Ended const ended = Spawned(words, place_->path(), [] {}).wait(most_s);
+        EXPECT_FALSE(ended.hung) << line;
+        EXPECT_EQ(ended.code, 2) << line << ended.err;
+        EXPECT_NE(ended.err.find("a pipe or a device"), std::string::npos) << line << ended.err;
+        EXPECT_FALSE(fs::exists(*place_ / "out")) << line;
+    }
+
+    static Workplace* place_;
+};
+
+Workplace* Pipes::place_ = nullptr;
+
+Words make_with(std::string const& key, std::string const& file, Words const& more = {}) {
+    Words words = small_make();
+    words.insert(words.end(), {"--set", key + "=" + file});
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+} // namespace
+
+TEST_F(Pipes, AreRefusedAsTheInputOfEveryCommand) {
+    for (Words const& words :
+         std::vector<Words>{{"make", "p.toml", "-o", "out"},
+                            {"make", "p.gpkg", "-o", "out"},
+                            {"make", "p.zip", "-o", "out"},
+                            {"make", "folder", "-o", "out"},
+                            {"check", "p.gpkg"},
+                            {"check", "p.shp"},
+                            {"check", "p.zip"},
+                            {"check", "folder"},
+                            {"check", "base", "--dem", "p.tif"},
+                            {"convert", "p.gpkg", "-o", "out.gpkg"},
+                            {"convert", "base", "--dem", "p.tif", "-o", "out.gpkg"},
+                            {"stats", "p.tif"},
+                            {"stats", "p.zip"},
+                            {"measure", "p.tif", "-o", "out"},
+                            {"measure", "base/dem.tif", "p.gpkg", "-o", "out"},
+                            {"measure", "folder", "-o", "out"},
+                            {"draw", "p.tif", "-o", "out"},
+                            {"draw", "folder", "-o", "out"},
+                            {"draw", "base/dem.tif", "--network", "p.gpkg", "-o", "out"},
+                            {"tin", "p.tif", "-o", "out.ply"},
+                            {"tin", "p.csv", "-o", "out.ply"},
+                            {"tin", "folder", "-o", "out.ply"},
+                            {"tin", "points.csv", "--breaklines", "p.gpkg", "-o", "out.ply"},
+                            {"points", "p.tif", "-o", "out.las"},
+                            {"points", "folder", "-o", "out.las"},
+                            {"blend", "p.tif", "base/dem.tif", "-o", "out.tif"},
+                            {"blend", "base/dem.tif", "p.tif", "-o", "out.tif"},
+                            {"blend", "base/dem.tif", "base/dem.tif", "--mask", "p.tif", "-o", "out.tif"},
+                            {"blend", "base/dem.tif", "base/dem.tif", "--keep", "p.gpkg", "-o", "out.tif"},
+                            {"blend", "p.obj", "mesh.obj", "-o", "out.obj"},
+                            {"deform", "p.tif", "--mask", "region.geojson", "--scale", "2", "-o", "out.tif"},
+                            {"deform", "base/dem.tif", "--mask", "p.tif", "--scale", "2", "-o", "out.tif"},
+                            {"deform", "base/dem.tif", "--mask", "p.geojson", "--scale", "2", "-o", "out.tif"},
+                            {"deform", "p.obj", "--mask", "region.geojson", "--scale", "2", "-o", "out.obj"},
+                            {"grow", "--lsystem", "--rules", "p.toml"},
+                            {"replay", "folder"},
+                            {"recipe", "--for", "p.gpkg"}}) {
+        expect_refused(words);
+    }
+}
+
+TEST_F(Pipes, AreRefusedAsTheFilesOfARecipe) {
+    expect_refused(make_with("surface.mask", "p.tif", {"--set", "surface.method=dilate"}));
+    expect_refused(make_with("surface.uplift", "p.tif"));
+    expect_refused(make_with("surface.lakes", "p.geojson"));
+    expect_refused(make_with("skeleton.points", "p.csv", {"--set", "surface.method=diffuse"}));
+    expect_refused({"make", "-o", "out", "--set", "network.source=lines", "--set", "network.lines.path=p.gpkg"});
+    place_->write("lines.toml", "[network]\nsource = \"lines\"\n[network.lines]\npath = \"p.gpkg\"\n[surface]\n");
+    expect_refused({"make", "lines.toml", "-o", "out"});
+    expect_refused(
+        {"make", "-o", "out", "--set", "network.source=tokunaga", "--set", "network.tokunaga.strokes=p.geojson"});
+    expect_refused({"make", "-o", "out", "--set", "network.source=forest", "--set", "network.forest.region=p.geojson"});
+    expect_refused(make_with("patch.1.source", "p.tif"));
+}
+
+TEST_F(Pipes, AreRefusedBesideAFileAndWhereAnotherNamesThem) {
+    for (std::string const ending : {"shp", "shx", "dbf", "prj"}) {
+        fs::copy_file(*place_ / ("base/network_arcs." + ending), *place_ / ("lines." + ending));
+    }
+    place_->write("lines.toml", "[network]\nsource = \"lines\"\n[network.lines]\npath = \"lines.shp\"\n[surface]\n");
+    for (std::string const ending : {"dbf", "prj"}) {
+        fs::path const part = *place_ / ("lines." + ending);
+        fs::rename(part, *place_ / "aside");
+        ASSERT_EQ(mkfifo(part.c_str(), 0600), 0);
+        expect_refused({"check", "lines.shp"});
+        expect_refused({"make", "lines.shp", "-o", "out"});
+        expect_refused({"make", "lines.toml", "-o", "out"});
+        fs::remove(part);
+        fs::rename(*place_ / "aside", part);
+    }
+    place_->write("land.vrt",
+                  "<VRTDataset rasterXSize='9' rasterYSize='9'><GeoTransform>0,9,0,0,0,-9</GeoTransform><VRTRasterBand "
+                  "dataType='Float32' band='1'><SimpleSource><SourceFilename relativeToVRT='1'>p.tif</SourceFilename>"
+                  "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>");
+    expect_refused({"stats", "land.vrt"});
+    expect_refused({"draw", "land.vrt", "-o", "out"});
+}
