@@ -436,6 +436,10 @@ void print_detail(Run const& run) {
     params.stencil = detail::Stencil::twelve;
     params.adaptation = detail::Adaptation::local;
     print("midpoint 12, local", hash_of(detail::midpoint(coarse, params, run).dem));
+    params.stencil = detail::Stencil::exact;
+    params.adaptation = detail::Adaptation::global;
+    params.hurst = 0.8;
+    print("midpoint exact", hash_of(detail::midpoint(coarse, params, run).dem));
 }
 
 /// Types of rivers, and the heights that follow from them or from areas.

@@ -108,6 +108,7 @@ std::vector<BaseRecipe> const bases = {
      grid + statistics + "skeleton = \"markov3\"\n" + "[surface]\n",
      {"statistics.falloff", "surface.drain"}},
     {"DetailOfPoints", points + "[detail]\n", {"detail."}},
+    {"ExactDetail", points + "[detail]\nstencil = \"exact\"\n", {"detail.", "-detail.method"}},
 };
 
 /// Values away from the default. Those of keys with a list of words are all words.

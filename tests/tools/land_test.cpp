@@ -162,6 +162,11 @@ TEST(Land, WhatCannotBeIsRefusedWithItsNumbers) {
     refused("make -o out --set skeleton.scatter=9", "skeleton.scatter = 9 (--set) has no effect in this recipe");
     refused("make -o out --set detail.levels=2", "detail.sigma is missing");
     refused("make -o out --set detail.stencil=5", "not one of 4, 12, 16");
+    refused("make -o out --set detail.stencil=exakt", "Did you mean 'exact'");
+    std::string const exact = table4 + " --set detail.stencil=exact ";
+    refused(exact + "--set detail.levels=1 --set grid.width=260 --set grid.height=80",
+            "takes up to 2000 coarse cells, and 260 x 80 cells at detail.levels = 1 have 5371; set detail.levels = 2");
+    refused(exact + "--set detail.noise=uniform", "detail.noise = 'uniform' (--set) has no effect in this recipe");
 }
 
 TEST(Land, LengthsTheGridCannotShowAreWarnedOf) {

@@ -4,6 +4,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/parallel.hpp>
+#include <thalweg/detail/condition_surface.hpp>
 #include <thalweg/detail/estimate_fractal.hpp>
 #include <thalweg/detail/refine.hpp>
 
@@ -37,6 +38,14 @@ void check_params(MidpointParams const& params) {
     if (params.sigma && !(*params.sigma >= 0.0 && *params.sigma <= greatest_height_m)) {
         throw BadParameter(
             fmt::format("detail.midpoint: sigma is {} m; choose from 0 to {} m", *params.sigma, greatest_height_m));
+    }
+    if (params.stencil == Stencil::exact && params.noise != Noise::normal) {
+        throw BadParameter("detail.midpoint: the exact surface has normal increments only; choose normal noise, or a "
+                           "stencil of 16");
+    }
+    if (params.stencil == Stencil::exact && params.adaptation != Adaptation::global) {
+        throw BadParameter("detail.midpoint: the exact surface has one H and one sigma; choose global adaptation, or a "
+                           "stencil of 16");
     }
 }
 
@@ -164,6 +173,8 @@ Displaced midpoint(Raster<float> const& coarse, MidpointParams const& params, Ru
         for (std::int64_t row = 0; row < grid.height; ++row) {
             std::copy_n(coarse.row(row).begin(), grid.width, displaced.dem.row(row).begin());
         }
+    } else if (params.stencil == Stencil::exact) {
+        condition_surface({&coarse, params.levels, displaced.hurst, displaced.sigma, params.seed}, displaced.dem, run);
     } else {
         Floors floors;
         refine(refinement, displaced.dem, floors, run);

@@ -12,6 +12,9 @@
 
 namespace thalweg::detail {
 
+/// Most coarse cells with heights for Stencil::exact, which solves a dense system of them.
+inline constexpr std::int64_t most_conditioning_cells = 2000;
+
 enum class Adaptation : std::uint8_t {
     global, ///< one H and one sigma
     local   ///< those of 7 x 7 coarse cells where they are others: |H - global| > 0.1 or sigma / global outside
@@ -46,9 +49,14 @@ struct Displaced {
 /// part of a larger one, and one of fewer levels every second cell of one with more, bit for bit (global). Land that
 /// is level stays so with sigma 0. With Adaptation::local, H and sigma are bilinear between coarse cells, H in steps of
 /// 1/256. The same bytes for any number of threads.
+/// Stencil::exact: instead of level by level, all heights are those of a fractional Brownian surface under the
+/// condition that it passes through the coarse cells (with their mean unknown), on all the lattice that the coarse
+/// raster covers: any differences of heights have its variogram, without creases. Fewer levels give another surface.
 /// Throws: BadInput: no cell, a height beyond 1e30 m; BadParameter: a value out of its range, a coarse raster that does
-/// not cover the result (the message says how many columns and rows would); Cancelled.
-/// Source: paper 001, equation 14 (Stencil::four); Fournier, Fussell and Carpenter 1982; specification 1.6.
+/// not cover the result (the message says how many columns and rows would); with Stencil::exact more than 2000 coarse
+/// cells with heights, a lattice whose torus has more than 2^31 cells, Noise::uniform or Adaptation::local; Cancelled.
+/// Source: paper 001, equation 14 (Stencil::four); Fournier, Fussell and Carpenter 1982; Stein 2002 (Stencil::exact);
+/// specification 1.6.
 Displaced midpoint(Raster<float> const& coarse, MidpointParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::detail

@@ -13,7 +13,8 @@ enum class Stencil : std::uint8_t {
     four,       ///< mean of the nearest; the printed factor sqrt(1 - 2^(2H-2)), which is that of a line
     four_exact, ///< the same mean; the conditional deviation of a fractional Brownian surface
     twelve,     ///< ordinary kriging, without the four farthest
-    sixteen     ///< ordinary kriging
+    sixteen,    ///< ordinary kriging
+    exact       ///< no stencil: every height at once, from all coarse cells; for midpoint alone
 };
 
 struct Offset {
@@ -60,7 +61,7 @@ struct StencilWeights {
 };
 
 /// Weights of the known neighbours in the mean of a new point, and the deviation of its noise.
-/// Takes: known: some of used_neighbours(stencil), at least one. hurst: in (0, 1).
+/// Takes: stencil: any but exact. known: some of used_neighbours(stencil), at least one. hurst: in (0, 1).
 /// Gives: for the kriged stencils the weights of least variance under the variogram d^(2H), and that variance; equal
 /// weights of neighbours that lie alike when all are known.
 /// Source: paper 001, equation 14 (four); specification 1.6; ordinary kriging as in any textbook of geostatistics.

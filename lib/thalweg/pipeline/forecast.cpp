@@ -254,7 +254,10 @@ std::int64_t memory_of(Recipe const& recipe, std::int64_t cells) {
     constexpr std::int64_t program = 80'000'000; // with its libraries
     constexpr std::int64_t a_particle = 60;
     bool const has_cluster = recipe.network && recipe.network->source == Source::dla;
-    return program + bytes_needed(cells) * 5 / 4 + (has_cluster ? recipe.network->dla.particles * a_particle : 0);
+    constexpr std::int64_t a_cell_of_exact_detail = 120; // transforms on a torus of up to seven cells a cell
+    bool const exact = levels_of(recipe) > 0 && recipe.detail->midpoint.stencil == detail::Stencil::exact;
+    return program + bytes_needed(cells) * 5 / 4 + (exact ? cells * a_cell_of_exact_detail : 0) +
+           (has_cluster ? recipe.network->dla.particles * a_particle : 0);
 }
 
 double seconds_of(Recipe const& recipe, Forecast const& found) {
@@ -286,6 +289,7 @@ Forecast forecast(Recipe const& recipe, Run const& run) {
     found.seconds = seconds_of(recipe, found);
     if (known.grid) {
         check_memory(known.grid->width, known.grid->height);
+        check_detail(recipe, known.grid->width, known.grid->height);
     }
     return found;
 }

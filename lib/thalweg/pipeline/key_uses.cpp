@@ -112,6 +112,9 @@ std::vector<Row> make_rows() {
     Use const scatters_beside = skeleton_beside_rivers() && above("skeleton.scatter", 0.0);
     Use const scatter = (from_points() || skeleton_beside_rivers()) && above("skeleton.scatter", 0.0);
     Use const midpoint = is("detail.method", {"midpoint"});
+    Use const stencils = when("detail.stencil = 4, 12 or 16", [](Recipe const& r) {
+        return r.detail && r.detail->midpoint.stencil != detail::Stencil::exact;
+    });
     Use const prior = is("statistics.skeleton", {"separable", "markov3"});
     Use const relief_left_out =
         when("surface.relief = 0", [](Recipe const& r) { return r.surface && r.surface->dilate.relief_m <= 0.0; });
@@ -195,7 +198,8 @@ std::vector<Row> make_rows() {
         {"statistics.", without("network")},
 
         {"detail.method", surface()},
-        {"detail.adaptation", midpoint && without("network")},
+        {"detail.adaptation", midpoint && stencils && without("network")},
+        {"detail.noise", surface() && midpoint && stencils},
         {"detail.", surface() && midpoint},
 
         {"patch.rivers", with("network") && with("surface")},

@@ -464,6 +464,30 @@ void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run c
     terrain.surface->dem = std::move(land);
 }
 
+void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height) {
+    int const levels = levels_of(recipe);
+    if (levels == 0 || recipe.detail->midpoint.stencil != detail::Stencil::exact) {
+        return;
+    }
+    auto const coarse_cells = [&](int halved) {
+        Grid const coarse = coarse_grid({width, height, 1.0, 0.0, 0.0, ""}, halved);
+        return coarse.cells();
+    };
+    if (coarse_cells(levels) <= detail::most_conditioning_cells) {
+        return;
+    }
+    constexpr int most_levels = 12;
+    int enough = levels;
+    while (enough <= most_levels && coarse_cells(enough) > detail::most_conditioning_cells) {
+        ++enough;
+    }
+    throw BadParameter(fmt::format(
+        "pipeline.check_detail: detail.stencil = \"exact\" takes up to {} coarse cells, and {} x {} cells at "
+        "detail.levels = {} have {}; set {}detail.stencil = 16",
+        detail::most_conditioning_cells, width, height, levels, coarse_cells(levels),
+        enough <= most_levels ? fmt::format("detail.levels = {}, or ", enough) : ""));
+}
+
 Raster<float> detail_alone(Recipe& recipe, Grid const& grid, Run const& run) {
     recipe.detail->midpoint.hurst = recipe.detail->midpoint.hurst.value_or(3.0 - default_dimension);
     return with_detail(recipe, Raster<float>(coarse_grid(grid, levels_of(recipe)), 0.0F), grid, run);

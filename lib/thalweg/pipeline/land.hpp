@@ -28,6 +28,10 @@ void make_land(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run 
 /// How many times detail halves the cells; 0 without it.
 int levels_of(Recipe const& recipe);
 
+/// Throws BadParameter where the recipe's detail cannot be made on a grid of this size: exact detail is made from few
+/// coarse cells.
+void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height);
+
 /// Relief of this fractal detail alone, on ground that is flat. The recipe gets H where it leaves it out.
 Raster<float> detail_alone(Recipe& recipe, Grid const& grid, Run const& run);
 

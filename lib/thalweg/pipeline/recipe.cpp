@@ -5,6 +5,7 @@
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/printable.hpp>
 #include <thalweg/core/suggest.hpp>
+#include <thalweg/pipeline/land.hpp>
 #include <thalweg/pipeline/recipe_files.hpp>
 #include <thalweg/pipeline/recipe_keys.hpp>
 #include <thalweg/pipeline/toml_depth.hpp>
@@ -521,6 +522,13 @@ void check_recipe(Recipe const& recipe) {
         });
         if (!is_told) {
             faults.push_back(key.words);
+        }
+    }
+    if (recipe.grid.width > 0 && recipe.grid.height > 0) {
+        try {
+            check_detail(recipe, recipe.grid.width, recipe.grid.height);
+        } catch (BadParameter const& fault) {
+            faults.emplace_back(fault.what());
         }
     }
     if (!faults.empty()) {

@@ -244,6 +244,27 @@ void add_statistics_keys(std::vector<Key>& keys) {
                                    in_statistics<Falloff>([](StatisticsRecipe& s) -> Falloff& { return s.falloff; })));
 }
 
+namespace {
+
+/// The value of detail.stencil: a number of neighbours, or a word.
+detail::Stencil stencil_of(Value const& v) {
+    using detail::Stencil;
+    if (auto const* word = std::get_if<std::string>(&v)) {
+        if (*word != "exact") {
+            refuse_word(*word, {"4", "12", "16", "exact"});
+        }
+        return Stencil::exact;
+    }
+    switch (std::int64_t const n = as_integer(v)) {
+    case 4: return Stencil::four;
+    case 12: return Stencil::twelve;
+    case 16: return Stencil::sixteen;
+    default: throw BadParameter(fmt::format("{} is not one of 4, 12, 16, exact", n));
+    }
+}
+
+} // namespace
+
 void add_detail_keys(std::vector<Key>& keys) {
     using detail::Adaptation;
     using detail::Noise;
@@ -265,27 +286,28 @@ void add_detail_keys(std::vector<Key>& keys) {
     {
         Key key;
         key.help = {"detail.stencil",
-                    "integer",
-                    "4 | 12 | 16",
+                    "integer or text",
+                    "4 | 12 | 16 | exact",
                     "",
                     "",
-                    "number of neighbours that a height is interpolated from; 4 with the published variance",
-                    {"4", "12", "16"}};
+                    "number of neighbours that a height is interpolated from; 4 with the published variance; exact: a "
+                    "fractional Brownian surface through all coarse cells, of which there are up to 2000",
+                    {"4", "12", "16", "exact"}};
         key.put = [](Recipe& r, Value const& v) {
-            std::int64_t const n = as_integer(v);
-            if (n != 4 && n != 12 && n != 16) {
-                throw BadParameter(fmt::format("{} is not one of 4, 12, 16", n));
-            }
+            Stencil const stencil = stencil_of(v);
             if (!r.detail) {
                 r.detail.emplace();
             }
-            r.detail->midpoint.stencil = n == 4 ? Stencil::four : n == 12 ? Stencil::twelve : Stencil::sixteen;
+            r.detail->midpoint.stencil = stencil;
         };
         key.take = [](Recipe const& r) -> std::optional<Value> {
             if (!r.detail) {
                 return std::nullopt;
             }
             Stencil const s = r.detail->midpoint.stencil;
+            if (s == Stencil::exact) {
+                return std::string("exact");
+            }
             return std::int64_t{s == Stencil::four ? 4 : s == Stencil::twelve ? 12 : 16};
         };
         keys.push_back(std::move(key));

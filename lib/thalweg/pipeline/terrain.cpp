@@ -181,6 +181,7 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
         }
         report_conversions(terrain, run);
     }
+    check_detail(terrain.recipe, terrain.grid.width, terrain.grid.height);
     if (keep && wanted.network) {
         keep("valley", terrain.valley.z);
     }

@@ -111,6 +111,10 @@ struct SignedSums {
 } // namespace
 
 Circulant circulant(StableCovariance const& covariance, std::int64_t width, std::int64_t height, Run const& run) {
+    return circulant(TorusCovariance(covariance), width, height, run);
+}
+
+Circulant circulant(TorusCovariance const& covariance, std::int64_t width, std::int64_t height, Run const& run) {
     std::size_t const columns = size(width / 2 + 1);
     std::int64_t const rows = height / 2 + 1;
     Circulant torus{width, height, Quarter(columns * size(rows)), 0.0};

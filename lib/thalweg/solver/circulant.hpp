@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <thalweg/core/large_pages.hpp>
@@ -28,6 +29,11 @@ struct Circulant {
 /// Gives: those of the covariance at the shorter way round; negative ones are set to 0. Holds 2 bytes a cell of the
 /// torus. Throws: Cancelled. Source: Dietrich and Newsam 1997; Wood and Chan 1994.
 Circulant circulant(StableCovariance const& covariance, std::int64_t width, std::int64_t height, Run const& run = {});
+
+/// The same for any covariance at the distances [cells] (0..width/2, 0..height/2) of the torus; several threads call
+/// it.
+using TorusCovariance = std::function<double(double dx_cells, double dy_cells)>;
+Circulant circulant(TorusCovariance const& covariance, std::int64_t width, std::int64_t height, Run const& run = {});
 
 /// The covariances that belong to the eigenvalues.
 Quarter covariances(Circulant const& torus, Run const& run = {});
