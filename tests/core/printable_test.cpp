@@ -26,6 +26,14 @@ TEST(Printable, ControlCharactersAndWhatIsNotUtf8AreEscaped) {
     EXPECT_EQ(printable("a\xff\xc0\xaf\xed\xa0\x80\xe2\x82"), "a\\xff\\xc0\\xaf\\xed\\xa0\\x80\\xe2\\x82");
 }
 
+TEST(Printable, WhatAFileMayHoldKeepsAllThatIsUtf8) {
+    for (std::string const text : {"", "\n\033 a", "río Ñandú → 長江 🏞"}) {
+        EXPECT_EQ(as_utf8(text), text);
+    }
+    EXPECT_EQ(as_utf8("M\xfcller\xff\xe2\x82"), "M\\xfcller\\xff\\xe2\\x82");
+    EXPECT_TRUE(is_utf8(as_utf8("\xc0\xaf\xed\xa0\x80\xf5")));
+}
+
 TEST(Printable, LongTextIsCutAndSaysHowMuch) {
     std::string const cut = printable("begin " + std::string(10'000'000, 'x') + " end");
     EXPECT_LT(cut.size(), 700U);

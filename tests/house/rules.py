@@ -21,14 +21,14 @@ FOREIGN = {
     "skeleton": ["noise/", "libnoise/"],
     "surface": ["muParser"],
     "draw": ["cairo", "fontconfig/"],
-    "io": ["gdal", "ogr", "cpl_"],
+    "io": ["gdal", "ogr", "cpl_", "proj.h"],
     "pipeline": ["toml++/", "nlohmann/"],
     "tools": ["CLI/", "nlohmann/", "spdlog/"],
 }
 FOREIGN_ANYWHERE = ["fmt/", "boost/graph/", "boost/property_map/"]
 # A StreamNetwork is a Boost graph: the one foreign header in one of ours.
 FOREIGN_IN_HEADERS = {"lib/thalweg/core/stream_network.hpp": ["boost/graph/"]}
-SYSTEM = re.compile(r"[a-z_0-9]+$|(sys/[a-z]+|unistd|fcntl|signal)\.h$")  # C++ headers have no suffix
+SYSTEM = re.compile(r"[a-z_0-9]+$|(sys/[a-z]+|unistd|fcntl|signal|dlfcn)\.h$")  # C++ headers have no suffix
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SPDX = ("SPDX-FileCopyrightText: the thalweg authors", "SPDX-License-Identifier: GPL-3.0-or-later")

@@ -129,6 +129,15 @@ TEST(BringInto, WhatWouldNotFitInMemoryIsRefused) {
     EXPECT_TRUE(contains(refused([&] { io::bring_into(plane(utm, 0, 0), tiny, "a"); }), "more than memory holds"));
 }
 
+TEST(BringInto, CellsTooSmallForTheirPositionAreRefused) {
+    Grid tiny = utm;
+    for (double const cell : {1e-16, 1e-300}) {
+        tiny.cell_m = cell;
+        EXPECT_THROW(io::bring_into(plane(utm, 0.1, 0.2), tiny, "test"), BadInput) << cell;
+        EXPECT_THROW(io::bring_into(plane(tiny, 0.1, 0.2), utm, "test"), BadInput) << cell;
+    }
+}
+
 TEST(SameFrame, ComparesCrsAndCells) {
     Raster<float> const dem = plane(utm, 0, 0);
     EXPECT_TRUE(io::same_crs("EPSG:32631", "EPSG:32631", "a", "b"));

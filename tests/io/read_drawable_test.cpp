@@ -151,6 +151,29 @@ TEST(ReadDrawable, OddFramesBecomeNorthUpSquares) {
     EXPECT_EQ(south_up.dem.width(), 20);
 }
 
+TEST(ReadDrawable, CellsTooSmallForTheirPositionAreRefused) {
+    ScratchFolder const folder;
+    for (double const cell : {1e-16, 1e-300}) {
+        for (int const epsg : {32631, 4326, 2154, 0}) { // 2154: another zone; 4326 and unequal sides are warped
+            for (double const high : {cell, 2.0 * cell}) {
+                Made made;
+                made.epsg = epsg;
+                made.frame = {epsg == 4326 ? 3.0 : 500000.0, cell, 0.0, epsg == 4326 ? 45.0 : 5000000.0, 0.0, -high};
+                std::string const path = make(folder, "tiny.tif", made);
+                try {
+                    Drawable const drawn = read_drawable(path);
+                    EXPECT_GT(drawn.dem.cells(), 0) << epsg;
+                } catch (BadInput const& refusal) {
+                    EXPECT_NE(std::string(refusal.what()).find("tiny.tif"), std::string::npos) << refusal.what();
+                }
+            }
+        }
+    }
+    Made made;
+    made.frame = {500000.0, 1e-16, 0.0, 5000000.0, 0.0, -2e-16};
+    EXPECT_THROW(read_drawable(make(folder, "tiny.tif", made)), BadInput);
+}
+
 TEST(ReadDrawable, SaysWhatItHadToAssume) {
     ScratchFolder const folder;
     Made made;

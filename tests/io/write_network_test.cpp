@@ -164,6 +164,14 @@ TEST(WriteNetwork, NothingIsOverwritten) {
     EXPECT_EQ(bytes_of(folder / "net_nodes.shp"), "mine");
 }
 
+TEST(WriteNetwork, ACrsThatIsLostIsAnError) {
+    ScratchFolder const folder;
+    std::filesystem::create_directory(folder / "net_arcs.prj"); // GDAL then writes none and says nothing
+    EXPECT_NE(
+        message_of([&] { io::write_shapefiles(y_shape().tables(), folder / "net"); }).find("the CRS could not be"),
+        std::string::npos);
+}
+
 TEST(WriteNetwork, MissingFolderIsAnIoErrorThatNamesThePath) {
     ScratchFolder const folder;
     SampleNetwork const sample = y_shape();

@@ -3,6 +3,7 @@
 #include <thalweg/measure/topology.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -11,6 +12,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/measure/topology_steps.hpp>
 
 #include "dems.hpp"
 #include "faults.hpp"
@@ -314,4 +316,36 @@ TEST(AsFile, NumbersFromOne) {
     net.arc_z[1].push_back(0.0);
     EXPECT_THROW(as_file(net, orders), BadInput);
     EXPECT_THROW(as_file(net, {}), BadInput);
+}
+
+// At a node any number of arcs may end: what is asked of each does not ask all others.
+TEST(CheckTopology, ColumnsOfAHundredThousandArcsThatEndInOneNode) {
+    constexpr int arcs = 100'000;
+    NetworkFile file;
+    file.nodes = {{1, {0.0, 0.0, 0.0}}, {2, {0.0, -1.0, -1.0}}};
+    file.arcs.push_back({1, 1, 2, 0, 1, arcs, 1, {{0.0, 0.0, 0.0}, {0.0, -1.0, -1.0}}});
+    file.arcs[0].columns.hack = 1.0;
+    for (int i = 0; i < arcs; ++i) {
+        Vec3 const at{static_cast<double>(i), 2.0 * arcs, 1.0};
+        file.nodes.push_back({i + 3, at});
+        file.arcs.push_back({i + 2, i + 3, 1, 1, 1, 1, 1, {at, {0.0, 0.0, 0.0}}});
+        file.arcs.back().columns.hack = i == arcs - 1 ? 1.0 : 2.0;
+    }
+    using namespace measure::topology_steps;
+    Findings findings;
+    auto const ambiguous = check_ids(file, findings);
+    Plans const plans = check_shapes(file, findings);
+    std::vector<char> const left_out(file.arcs.size(), 0);
+    Joints const joints = check_ends(file, plans, left_out, ambiguous, findings);
+    Graph const graph(joints.meant, left_out, joints.junctions.ids.size());
+    ASSERT_TRUE(findings.empty());
+    auto const begin = std::chrono::steady_clock::now();
+    check_columns(file, joints, graph, findings);
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 2.0);
+    auto const of_arcs = [](Finding const& f) { return f.kind == "column_mismatch"; };
+    EXPECT_EQ(std::ranges::count_if(findings, of_arcs), 0) << findings.front().text;
+    file.arcs[7].columns.hack = 1.0;
+    findings.clear();
+    check_columns(file, joints, graph, findings);
+    EXPECT_GT(std::ranges::count_if(findings, of_arcs), 0);
 }

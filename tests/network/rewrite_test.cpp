@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace thalweg;
 using namespace thalweg::network;
@@ -24,25 +26,24 @@ std::string refusal_of(std::string const& text) {
     return "";
 }
 
-bool names(std::string const& text, std::string const& words) {
-    return refusal_of(text).find(words) != std::string::npos;
-}
-
 } // namespace
 
 TEST(Rewrite, RefusesWhatIsNoSystem) {
-    EXPECT_TRUE(names("", "no axiom"));
-    EXPECT_TRUE(names("axiom\n", "no axiom"));
-    EXPECT_TRUE(names("axiom F\nFF -> F", "r.txt, line 2"));
-    EXPECT_TRUE(names("axiom F\n[ -> F", "other than [ and ]"));
-    EXPECT_TRUE(names("axiom F\nF -> F]F[", "brackets"));
-    EXPECT_TRUE(names("axiom F\nF -> F[", "brackets"));
-    EXPECT_TRUE(names("axiom F\niterations 2.5", "whole number from 0 to 60"));
-    EXPECT_TRUE(names("axiom F\niterations -1", "whole number"));
-    EXPECT_TRUE(names("axiom F\nangle 200", "0 to 180"));
-    EXPECT_TRUE(names("axiom F\nangle nan", "0 to 180"));
-    EXPECT_TRUE(names("axiom F\nangel 20", "'angel 20' is not one of"));
-    EXPECT_TRUE(names("axiom F\xff", "ASCII"));
+    for (auto const& [text, words] :
+         std::vector<std::pair<std::string, std::string>>{{"", "no axiom"},
+                                                          {"axiom\n", "no axiom"},
+                                                          {"axiom F\nFF -> F", "r.txt, line 2"},
+                                                          {"axiom F\n[ -> F", "other than [ and ]"},
+                                                          {"axiom F\nF -> F]F[", "brackets"},
+                                                          {"axiom F\nF -> F[", "brackets"},
+                                                          {"axiom F\niterations 2.5", "whole number from 0 to 60"},
+                                                          {"axiom F\niterations -1", "whole number"},
+                                                          {"axiom F\nangle 200", "0 to 180"},
+                                                          {"axiom F\nangle nan", "0 to 180"},
+                                                          {"axiom F\nangel 20", "'angel 20' is not one of"},
+                                                          {"axiom F\xff", "ASCII"}}) {
+        EXPECT_NE(refusal_of(text).find(words), std::string::npos) << text;
+    }
     EXPECT_THROW(rewrite({"F]", 1, 30.0, {}}), BadParameter);
     EXPECT_THROW(rewrite({"[F", 1, 30.0, {}}), BadParameter);
     EXPECT_THROW(rewrite({"F", 40, 30.0, {{'F', {"FF"}}}}), BadParameter);

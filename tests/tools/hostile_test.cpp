@@ -129,6 +129,14 @@ std::string points(std::string const& file) {
     return "[grid]\nwidth = 64\nheight = 64\n[skeleton]\npoints = '" + file + "'\n[surface]\nmethod = \"diffuse\"\n";
 }
 
+std::string in_crs(std::string const& crs) {
+    return "[grid]\nwidth = 64\nheight = 64\ncrs = '" + crs + "'\n[network]\n[network.dla]\nparticles = 400\n";
+}
+
+std::string const projected =
+    R"(PROJCS["x",GEOGCS["y",DATUM["z",SPHEROID["c",6378137,298]],PRIMEM["G",0],UNIT["degree",0.0174532925199433]],)"
+    R"(PROJECTION["Transverse_Mercator"],PARAMETER["central_meridian",3],UNIT["metre",1],)";
+
 std::string geojson(std::string const& crs) {
     return R"({"type":"FeatureCollection","crs":)" + crs +
            R"(,"features":[{"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":)"
@@ -269,6 +277,22 @@ std::vector<Trial> trials() {
         {valley + "crs = 'x'\n[surface]\n"},
         {"[grid]\nwidth = 64\nheight = 64\ncrs = '@URL@/crs'\n[network]\n[network.dla]\nparticles = 400\n"},
         {"[grid]\nwidth = 64\nheight = 64\ncrs = '@OUT@/secret.prj'\n[network]\n[network.dla]\nparticles = 400\n"},
+        // Grids of datums: PROJ opens them.
+        {in_crs("+proj=utm +zone=31 +ellps=clrk66 +nadgrids=@OUT@/secret.gsb +units=m +no_defs")},
+        {in_crs("+proj=utm +zone=31 +ellps=clrk66 +nadgrids=@@OUT@/secret.gsb,null +units=m")},
+        {in_crs("+proj=utm +zone=31 +ellps=clrk66 +nadgrids=../elsewhere/secret.gsb +units=m")},
+        {in_crs("+proj=utm +zone=31 +geoidgrids=@OUT@/secret.gtx +units=m +vunits=m")},
+        {in_crs("+init=@OUT@/secret.txt:1")},
+        {in_crs("+proj=pipeline +step +proj=tinshift +file=@OUT@/secret.txt")},
+        {in_crs("+proj=pipeline +step +proj=xyzgridshift +grids=@OUT@/secret.tif")},
+        {in_crs(projected + "EXTENSION[\"PROJ4\",\"+proj=utm +zone=31 +nadgrids=@OUT@/secret.gsb\"]]")},
+        {lines("grid.gpkg")},
+        {lines("grid.shp")},
+        {lines("geoid.gpkg")},
+        {lines("grid.geojson")},
+        {patch("grid.tif")},
+        {points("grid.shp")},
+        {forest("region", "grid.gpkg")},
     };
 }
 
@@ -279,20 +303,33 @@ from osgeo import gdal, ogr, osr
 gdal.UseExceptions()
 out = sys.argv[1]
 srs = osr.SpatialReference(); srs.ImportFromEPSG(32631)
-def rivers(path, driver='GPKG', name='secret'):
+def rivers(path, driver='GPKG', name='secret', srs=srs):
     data = ogr.GetDriverByName(driver).CreateDataSource(path)
     layer = data.CreateLayer(name, srs, ogr.wkbLineString)
     layer.CreateField(ogr.FieldDefn('id', ogr.OFTInteger))
     feature = ogr.Feature(layer.GetLayerDefn())
     feature.SetGeometry(ogr.CreateGeometryFromWkt('LINESTRING(500000 5000000,500300 4999900,500600 5000000)'))
     layer.CreateFeature(feature)
-def dem(path, metadata={}):
+def dem(path, metadata={}, srs=srs):
     data = gdal.GetDriverByName('GTiff').Create(path, 64, 64, 1, gdal.GDT_Float32)
     data.SetGeoTransform((499000, 60, 0, 5001000, 0, -60)); data.SetProjection(srs.ExportToWkt())
     data.GetRasterBand(1).Fill(100)
     if metadata: data.SetMetadata(metadata, 'OVERVIEWS')
 rivers(out + '/secret.gpkg'); rivers(out + '/secret.shp', 'ESRI Shapefile'); rivers(out + '/secret.geojson', 'GeoJSON')
 dem(out + '/secret.tif')
+def bound(grids):
+    srs = osr.SpatialReference()
+    srs.ImportFromProj4('+proj=utm +zone=31 +ellps=clrk66 +units=m +no_defs ' + grids)
+    return srs
+gdal.DontUseExceptions(); gdal.PushErrorHandler('CPLQuietErrorHandler') # the grid is not there
+of_datum = bound('+nadgrids=' + out + '/secret.gsb')
+for name, driver in (('gpkg', 'GPKG'), ('shp', 'ESRI Shapefile')): rivers('grid.' + name, driver, srs=of_datum)
+rivers('geoid.gpkg', srs=bound('+geoidgrids=' + out + '/secret.gtx +vunits=m'))
+dem('grid.tif', srs=of_datum)
+open('grid.geojson', 'w').write(open(out + '/secret.geojson').read().replace('"name": "urn:ogc:def:crs:EPSG::32631"',
+                                '"name": "+proj=utm +zone=31 +ellps=clrk66 +nadgrids=' + out + '/secret.gsb +units=m"'))
+gdal.PopErrorHandler(); gdal.UseExceptions()
+open(out + '/secret.gsb', 'w').write('secret'); open(out + '/secret.gtx', 'w').write('secret')
 open(out + '/secret.txt', 'w').write('secret\n'); open(out + '/secret.csv', 'w').write('a,b\n1,2\n')
 open(out + '/secret.prj', 'w').write(srs.ExportToWkt())
 with zipfile.ZipFile(out + '/secret.zip', 'w') as z: z.write(out + '/secret.geojson', 'secret.geojson')
@@ -378,6 +415,56 @@ TEST_F(Hostile, ARecipeConnectsToNothingAndOpensNothingElsewhere) {
     RecordProperty("opened", opened);
     RecordProperty("refused", refused);
     EXPECT_GE(refused, 40);
+}
+
+TEST_F(Hostile, GridsOfDatumsOutsideTheFoldersOfProjAreNamed) {
+    Eye eye(elsewhere());
+    Files const files{
+        {"crs.toml", in_crs("+proj=utm +zone=31 +ellps=clrk66 +nadgrids=@OUT@/secret.gsb +units=m +no_defs")},
+        {"lines.toml", lines("grid.gpkg")}};
+    for (std::string const arguments :
+         {"make crs.toml -o out", "make lines.toml -o out", "make grid.gpkg -o out", "make grid.shp -o out",
+          "recipe --for grid.gpkg", "tin grid.gpkg -o a.ply --crs '+proj=utm +zone=31 +nadgrids=@OUT@/secret.gsb'",
+          "make -o out --set network.dla.particles=400 --crs '+proj=utm +zone=31 +nadgrids=@OUT@/secret.gsb'"}) {
+        Outcome const o = run(arguments, files);
+        EXPECT_EQ(eye.take_opened(), "") << arguments << "\n" << o.err;
+        EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
+        EXPECT_NE(o.err.find("a CRS names grids of PROJ's own folders"), std::string::npos) << arguments << "\n"
+                                                                                            << o.err;
+    }
+}
+
+TEST_F(Hostile, ReplayRefusesWhatMakeRefuses) {
+    Eye eye(elsewhere());
+    int refused = 0;
+    for (Trial const& trial : trials()) {
+        Files files = trial.files;
+        files.emplace_back("recipe.toml", trial.recipe);
+        Outcome const o = run("replay . --verify", files);
+        std::string const what = filled(trial.recipe) + o.err;
+        EXPECT_EQ(door_.take_guests(), 0) << what;
+        EXPECT_EQ(eye.take_opened(), "") << what;
+        EXPECT_TRUE(o.code == 0 || o.code == 2 || o.code == 3) << o.code << " " << what;
+        refused += o.code == 2 && o.err.find("error: ") != std::string::npos ? 1 : 0;
+    }
+    EXPECT_GE(refused, 60);
+}
+
+TEST_F(Hostile, OfAFileThatIsNoDataNothingIsTold) {
+    fs::create_directory(place_ / "etc");
+    place_.write("etc/passwd", "root:x:0:0:the root::/bin/sh\n");
+    place_.write("etc/shadow", "root:secret\n");
+    std::string const passwd = (place_ / "etc/passwd").string();
+    Eye eye(place_ / "etc");
+    for (std::string const& recipe :
+         {lines(passwd), strokes(passwd), points(passwd), patch(passwd), forest("region", passwd),
+          forest("outlets", passwd), surface("lakes", passwd), surface("uplift", passwd), surface("mask", passwd),
+          surface("erodibility", passwd), surface("like", passwd)}) {
+        Outcome const o = run("make r.toml -o out", {{"r.toml", recipe}});
+        EXPECT_EQ(o.code, 2) << recipe << o.err;
+        EXPECT_EQ((o.out + o.err).find("root"), std::string::npos) << recipe << o.err;
+        EXPECT_EQ(eye.take_opened().find("shadow"), std::string::npos) << recipe;
+    }
 }
 
 TEST_F(Hostile, FilesOnTheCommandLineAreReadWithoutAConnection) {

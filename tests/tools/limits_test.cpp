@@ -96,21 +96,7 @@ struct LimitedUser {
     }
 };
 
-class Limits : public testing::Test {
-protected:
-    static void SetUpTestSuite() {
-        place_ = new Workplace;
-        ASSERT_EQ(spawn(small_make("base"), place_->path()).code, 0);
-    }
-    static void TearDownTestSuite() {
-        delete place_;
-        place_ = nullptr;
-    }
-    static fs::path base() { return *place_ / "base"; }
-    static Workplace* place_;
-};
-
-Workplace* Limits::place_ = nullptr;
+class Limits : public MadeOnce {};
 
 /// The least address space [MB] in which the program is loaded at all; below it speaks the linker.
 rlim_t least_megabytes(fs::path const& folder) {
@@ -125,6 +111,9 @@ rlim_t least_megabytes(fs::path const& folder) {
 }
 
 void walk_memory(fs::path const& base, rlim_t step_kb, int steps) {
+    if (has_sanitizer()) {
+        GTEST_SKIP() << "a sanitizer takes address space without bound";
+    }
     Workplace const place;
     rlim_t const least = least_megabytes(place.path()) << 10U;
     int refused = 0;
@@ -141,6 +130,9 @@ void walk_memory(fs::path const& base, rlim_t step_kb, int steps) {
 }
 
 void exhaust_memory(fs::path const& base, int trials) {
+    if (has_sanitizer()) {
+        GTEST_SKIP() << "a sanitizer has allocations of its own";
+    }
     Workplace const place;
     setenv("SPY_COUNT", (place / "count").c_str(), 1);
     auto const preload = [] { setenv("LD_PRELOAD", SPY, 1); };
@@ -172,22 +164,17 @@ TEST_F(Limits, OneToEightProcesses) {
                                 small_make(), place.path(), [&] { user.become_with(processes); }, user.program)
                                 .wait(60.0);
         EXPECT_EQ(ended.code, 0) << processes << ended.err;
-        expect_whole_or_refused(ended, place.path(), base(), std::to_string(processes) + " processes: ");
+        expect_whole_or_refused(ended, place.path(), MadeOnce::place() / "base",
+                                std::to_string(processes) + " processes: ");
     }
 }
 
 TEST_F(Limits, AddressSpaceInTwentySteps) {
-    if (has_sanitizer()) {
-        GTEST_SKIP() << "a sanitizer takes address space without bound";
-    }
-    walk_memory(base(), 2500, 20);
+    walk_memory(place() / "base", 2500, 20);
 }
 
 TEST_F(Limits, MemoryExhaustedForGood) {
-    if (has_sanitizer()) {
-        GTEST_SKIP() << "a sanitizer has allocations of its own";
-    }
-    exhaust_memory(base(), 12);
+    exhaust_memory(place() / "base", 12);
 }
 
 TEST(Durable, FilesAreOnTheDiskBeforeTheyGetTheirName) {
@@ -231,15 +218,9 @@ TEST(Durable, FilesAreOnTheDiskBeforeTheyGetTheirName) {
 class LongLimits : public Limits {};
 
 TEST_F(LongLimits, AddressSpaceInHundredSteps) {
-    if (has_sanitizer()) {
-        GTEST_SKIP() << "a sanitizer takes address space without bound";
-    }
-    walk_memory(base(), 500, 100);
+    walk_memory(place() / "base", 500, 100);
 }
 
 TEST_F(LongLimits, MemoryExhaustedForGoodInManyPlaces) {
-    if (has_sanitizer()) {
-        GTEST_SKIP() << "a sanitizer has allocations of its own";
-    }
-    exhaust_memory(base(), 115);
+    exhaust_memory(place() / "base", 115);
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdlib>
+#include <regex>
 #include <string>
 
 namespace fs = std::filesystem;
@@ -55,6 +56,19 @@ TEST(Manners, RecipeListsKeysAndItsDumpCanBeMade) {
     Outcome const made = thalweg_run("make r.toml " + small.substr(5) + "-o out -q", place.path());
     EXPECT_EQ(made.code, 0) << made.err;
     EXPECT_EQ(made.err, "");
+}
+
+TEST(Manners, NumbersAreWrittenAsTheyWereGiven) {
+    Workplace const place;
+    std::regex const drawn_out("[0-9]*\\.[0-9]{12,}");
+    EXPECT_FALSE(std::regex_search(thalweg_run("recipe --dump", place.path()).out, drawn_out));
+    Outcome const made = thalweg_run(
+        small + "-q -o out --set network.slope=0.087 --set grid.cell=0.1 --set network.heights=straight_repaired",
+        place.path());
+    ASSERT_EQ(made.code, 0) << made.err;
+    std::string const recipe = file_bytes(place / "out/recipe.toml");
+    EXPECT_NE(recipe.find("\nslope = 0.087\n"), std::string::npos) << recipe;
+    EXPECT_NE(recipe.find("\ncell = 0.1\n"), std::string::npos) << recipe;
 }
 
 TEST(Manners, NoEscapeCodesInAPipe) {

@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <thalweg/core/printable.hpp>
+
 #include <algorithm>
 #include <sys/wait.h>
 
@@ -15,6 +17,7 @@
 #include <string>
 
 namespace fs = std::filesystem;
+using thalweg::is_utf8;
 
 namespace {
 
@@ -173,6 +176,65 @@ TEST(Messages, TextThatIsNotUtf8IsRefused) {
     EXPECT_EQ(o.code, 2);
     EXPECT_NE(o.err.find("not UTF-8"), std::string::npos) << o.err;
     EXPECT_FALSE(fs::exists(place / "out"));
+}
+
+TEST(Messages, NamesThatAreNotUtf8AreEscaped) {
+    Workplace const place;
+    place.write("name.toml",
+                "[network]\nsource = \"lines\"\n[network.lines]\npath = \"a\xff\xfe\033.gpkg\"\n[surface]\n");
+    place.write("escaped.toml",
+                "[network]\nsource = \"lines\"\n[network.lines]\npath = \"\\u009b31m.gpkg\"\n[surface]\n");
+    place.write("\xff\x9b.gpkg", "no data");
+    std::string const name = "\"$(printf '\\377\\233.gpkg')\"";
+    for (std::string const& arguments :
+         {std::string("make name.toml -o out"), std::string("make escaped.toml -o out"), "make " + name + " -o out",
+          "check " + name, "stats " + name, "draw " + name + " -o out", "tin " + name + " -o a.ply",
+          "recipe --for " + name, "convert " + name + " -o b.gpkg",
+          "make -o out --set network.source=lines --set network.lines.path=" + name}) {
+        Outcome const o = thalweg_run(arguments, place.path());
+        EXPECT_EQ(o.code, 2) << arguments << o.err;
+        EXPECT_TRUE(is_utf8(o.err) && is_utf8(o.out)) << arguments << o.err;
+        EXPECT_FALSE(acts(o.err)) << arguments << o.err;
+        EXPECT_EQ(o.err.find("\xc2\x9b"), std::string::npos) << arguments << o.err;
+    }
+}
+
+TEST(Messages, AttributesThatAreNotUtf8AreWrittenEscaped) {
+    Workplace const place;
+    place.write("make.py", R"py(
+from osgeo import ogr, osr
+s = osr.SpatialReference(); s.ImportFromEPSG(32631)
+d = ogr.GetDriverByName('ESRI Shapefile').CreateDataSource('r.shp')
+l = d.CreateLayer('r', s, ogr.wkbLineString, ['ENCODING='])
+for name in ('rosgen', 'nXYZ'): l.CreateField(ogr.FieldDefn(name, ogr.OFTString))
+f = ogr.Feature(l.GetLayerDefn()); f.SetField(1, 'MARK1')
+f.SetGeometry(ogr.CreateGeometryFromWkt('LINESTRING(500000 5000000,500300 4999900,500600 5000000)'))
+l.CreateFeature(f); d = None
+b = open('r.dbf', 'rb').read()
+open('r.dbf', 'wb').write(b.replace(b'nXYZ', b'n\xe4\xff\x1b').replace(b'MARK1', b'M\xfcl\xff\xc3'))
+)py");
+    place.write("read.py", R"py(
+import sys
+from osgeo import ogr
+for name in sys.argv[1:]:
+    d = ogr.Open(name); l = d.GetLayerByName('arcs') or d.GetLayer(0)
+    fields = [l.GetLayerDefn().GetFieldDefn(i).GetName() for i in range(l.GetLayerDefn().GetFieldCount())]
+    print([n for n in fields if n.startswith('n\\')], l.GetNextFeature().GetField(fields[-1]))
+)py");
+    std::string const into = "cd '" + place.path().string() + "' && /usr/bin/python3 ";
+    ASSERT_EQ(std::system((into + "make.py && rm -f r.cpg").c_str()), 0);
+    Outcome const made = thalweg_run("make r.shp --set grid.cell=10 -o out", place.path());
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_NE(file_bytes(place / "out/report.json").find("not_utf8"), std::string::npos);
+    ASSERT_EQ(std::system((into + "read.py out/network.gpkg out/network_arcs.shp >seen").c_str()), 0);
+    std::string const seen = file_bytes(place / "seen");
+    EXPECT_EQ(seen.substr(0, seen.find('\n')), "['n\\\\xe4\\\\xff\\\\x1b'] M\\xfcl\\xff\\xc3") << seen;
+    for (auto const& entry : fs::directory_iterator(place / "out")) {
+        bool const is_text = entry.is_regular_file() &&
+                             std::string(".json .html .toml .svg").find(entry.path().extension()) != std::string::npos;
+        EXPECT_TRUE(!is_text || is_utf8(file_bytes(entry.path()))) << entry.path();
+    }
+    EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
 }
 
 TEST(Messages, GrowAdvisesOptionsThatExist) {

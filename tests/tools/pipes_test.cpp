@@ -19,43 +19,33 @@ using Words = std::vector<std::string>;
 
 constexpr double most_s = 20.0;
 
-class Pipes : public testing::Test {
+class Pipes : public MadeOnce {
 protected:
     static void SetUpTestSuite() {
-        place_ = new Workplace;
-        ASSERT_EQ(spawn(small_make("base"), place_->path()).code, 0);
-        place_->write("region.geojson",
+        MadeOnce::SetUpTestSuite();
+        place().write("region.geojson",
                       R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":)"
                       R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,0]]]}}]})");
-        place_->write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-        place_->write("points.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n");
-        fs::create_directory(*place_ / "folder");
+        place().write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        place().write("points.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n");
+        fs::create_directory(place() / "folder");
         for (std::string const name : {"p.toml", "p.gpkg", "p.tif", "p.csv", "p.obj", "p.geojson", "p.shp", "p.zip",
                                        "folder/dem.tif", "folder/network.gpkg", "folder/recipe.toml"}) {
-            ASSERT_EQ(mkfifo((*place_ / name).c_str(), 0600), 0);
+            ASSERT_EQ(mkfifo((place() / name).c_str(), 0600), 0);
         }
     }
-    static void TearDownTestSuite() {
-        delete place_;
-        place_ = nullptr;
-    }
-
     static void expect_refused(Words const& words) {
         std::string line;
         for (std::string const& word : words) {
             line += word + " ";
         }
-        Ended const ended = Spawned(words, place_->path(), [] {}).wait(most_s);
+        Ended const ended = Spawned(words, place().path(), [] {}).wait(most_s);
         EXPECT_FALSE(ended.hung) << line;
         EXPECT_EQ(ended.code, 2) << line << ended.err;
         EXPECT_NE(ended.err.find("a pipe or a device"), std::string::npos) << line << ended.err;
-        EXPECT_FALSE(fs::exists(*place_ / "out")) << line;
+        EXPECT_FALSE(fs::exists(place() / "out")) << line;
     }
-
-    static Workplace* place_;
 };
-
-Workplace* Pipes::place_ = nullptr;
 
 Words make_with(std::string const& key, std::string const& file, Words const& more = {}) {
     Words words = small_make();
@@ -115,7 +105,7 @@ TEST_F(Pipes, AreRefusedAsTheFilesOfARecipe) {
     expect_refused(make_with("surface.lakes", "p.geojson"));
     expect_refused(make_with("skeleton.points", "p.csv", {"--set", "surface.method=diffuse"}));
     expect_refused({"make", "-o", "out", "--set", "network.source=lines", "--set", "network.lines.path=p.gpkg"});
-    place_->write("lines.toml", "[network]\nsource = \"lines\"\n[network.lines]\npath = \"p.gpkg\"\n[surface]\n");
+    place().write("lines.toml", "[network]\nsource = \"lines\"\n[network.lines]\npath = \"p.gpkg\"\n[surface]\n");
     expect_refused({"make", "lines.toml", "-o", "out"});
     expect_refused(
         {"make", "-o", "out", "--set", "network.source=tokunaga", "--set", "network.tokunaga.strokes=p.geojson"});
@@ -125,20 +115,20 @@ TEST_F(Pipes, AreRefusedAsTheFilesOfARecipe) {
 
 TEST_F(Pipes, AreRefusedBesideAFileAndWhereAnotherNamesThem) {
     for (std::string const ending : {"shp", "shx", "dbf", "prj"}) {
-        fs::copy_file(*place_ / ("base/network_arcs." + ending), *place_ / ("lines." + ending));
+        fs::copy_file(place() / ("base/network_arcs." + ending), place() / ("lines." + ending));
     }
-    place_->write("lines.toml", "[network]\nsource = \"lines\"\n[network.lines]\npath = \"lines.shp\"\n[surface]\n");
+    place().write("lines.toml", "[network]\nsource = \"lines\"\n[network.lines]\npath = \"lines.shp\"\n[surface]\n");
     for (std::string const ending : {"dbf", "prj"}) {
-        fs::path const part = *place_ / ("lines." + ending);
-        fs::rename(part, *place_ / "aside");
+        fs::path const part = place() / ("lines." + ending);
+        fs::rename(part, place() / "aside");
         ASSERT_EQ(mkfifo(part.c_str(), 0600), 0);
         expect_refused({"check", "lines.shp"});
         expect_refused({"make", "lines.shp", "-o", "out"});
         expect_refused({"make", "lines.toml", "-o", "out"});
         fs::remove(part);
-        fs::rename(*place_ / "aside", part);
+        fs::rename(place() / "aside", part);
     }
-    place_->write("land.vrt",
+    place().write("land.vrt",
                   "<VRTDataset rasterXSize='9' rasterYSize='9'><GeoTransform>0,9,0,0,0,-9</GeoTransform><VRTRasterBand "
                   "dataType='Float32' band='1'><SimpleSource><SourceFilename relativeToVRT='1'>p.tif</SourceFilename>"
                   "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>");

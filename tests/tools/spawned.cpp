@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "spawned.hpp"
 
-#include "command.hpp"
-
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -84,6 +82,18 @@ std::vector<std::string> small_make(std::string const& folder) {
             "--set", "grid.height=96",
             "--set", "network.dla.particles=1500",
             "--set", "network.prune=6"};
+}
+
+Workplace* MadeOnce::place_ = nullptr;
+
+void MadeOnce::SetUpTestSuite() {
+    place_ = new Workplace;
+    ASSERT_EQ(spawn(small_make("base"), place_->path()).code, 0);
+}
+
+void MadeOnce::TearDownTestSuite() {
+    delete place_;
+    place_ = nullptr;
 }
 
 std::vector<std::string> names_in(fs::path const& folder) {

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "command.hpp"
+
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -44,6 +48,17 @@ inline Ended spawn(
 
 /// A make of a second, as words.
 std::vector<std::string> small_make(std::string const& folder = "out");
+
+/// Tests that share a folder in which "base" is what small_make wrote.
+class MadeOnce : public testing::Test {
+protected:
+    static void SetUpTestSuite();
+    static void TearDownTestSuite();
+    static Workplace& place() { return *place_; }
+
+private:
+    static Workplace* place_;
+};
 
 /// Names in a folder, sorted.
 std::vector<std::string> names_in(std::filesystem::path const& folder);

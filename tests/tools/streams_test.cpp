@@ -63,29 +63,16 @@ std::string joined(Words const& words) {
     return text;
 }
 
-class Streams : public testing::Test {
-protected:
-    static void SetUpTestSuite() {
-        place_ = new Workplace;
-        ASSERT_EQ(spawn(small_make("base"), place_->path()).code, 0);
-    }
-    static void TearDownTestSuite() {
-        delete place_;
-        place_ = nullptr;
-    }
-    static Workplace* place_;
-};
-
-Workplace* Streams::place_ = nullptr;
+class Streams : public MadeOnce {};
 
 } // namespace
 
 TEST_F(Streams, ResultsThatDoNotArriveAreAFailure) {
     for (Words const& words : every_command()) {
-        Ended const usual = spawn(words, place_->path());
+        Ended const usual = spawn(words, place().path());
         for (auto const& [how, prepare] :
              {std::pair<char const*, std::function<void()>>{"full", [] { fill(1); }}, {"closed", [] { close(1); }}}) {
-            Ended const ended = spawn(words, place_->path(), prepare);
+            Ended const ended = spawn(words, place().path(), prepare);
             EXPECT_EQ(ended.code, usual.out.empty() ? usual.code : 1) << joined(words) << how << ended.err;
             if (!usual.out.empty()) {
                 EXPECT_NE(ended.err.find("error: cannot write to "), std::string::npos) << joined(words) << ended.err;
@@ -96,10 +83,10 @@ TEST_F(Streams, ResultsThatDoNotArriveAreAFailure) {
 
 TEST_F(Streams, MessagesThatDoNotArriveChangeNothing) {
     for (Words const& words : every_command()) {
-        Ended const usual = spawn(words, place_->path());
+        Ended const usual = spawn(words, place().path());
         for (auto const& [how, prepare] :
              {std::pair<char const*, std::function<void()>>{"full", [] { fill(2); }}, {"closed", [] { close(2); }}}) {
-            Ended const ended = spawn(words, place_->path(), prepare);
+            Ended const ended = spawn(words, place().path(), prepare);
             EXPECT_EQ(ended.code, usual.code) << joined(words) << how;
             EXPECT_EQ(ended.out.size() > 0, usual.out.size() > 0) << joined(words) << how;
         }
@@ -114,7 +101,7 @@ TEST_F(Streams, NoFileTakesTheNumberOfAClosedStream) {
         close(2);
     });
     EXPECT_EQ(ended.code, 1) << "the name of the folder cannot be printed";
-    EXPECT_EQ(difference(here / "out", *place_ / "base"), "");
+    EXPECT_EQ(difference(here / "out", place() / "base"), "");
 }
 
 TEST_F(Streams, AReaderThatLeavesLeavesNothingHalfDone) {
@@ -129,5 +116,5 @@ TEST_F(Streams, AReaderThatLeavesLeavesNothingHalfDone) {
         }
     });
     EXPECT_EQ(ended.code, 1);
-    EXPECT_EQ(difference(here / "out", *place_ / "base"), "");
+    EXPECT_EQ(difference(here / "out", place() / "base"), "");
 }

@@ -13,6 +13,9 @@ std::string without_passwords(std::string_view text);
 /// Whether a text is UTF-8.
 bool is_utf8(std::string_view text);
 
+/// A text with \xNN for each byte that is not UTF-8: what a file may hold.
+std::string as_utf8(std::string_view text);
+
 /// A text as one may show it on a terminal, whatever its words came from.
 /// Gives: control characters but line feeds and tabs, marks of writing direction, and bytes that are not UTF-8 as \xNN
 /// or \u{NNNN}; no passwords; of lines above 600 bytes the first 400 and the last 150, of more than 60 lines the first

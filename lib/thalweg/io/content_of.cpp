@@ -51,6 +51,7 @@ FileContent content_of(std::string const& path) {
     bool has_lines = false;
     for (auto* const layer : data->GetLayers()) {
         auto const type = shape_of(*layer);
+        driver.check(fmt::format("{}, layer {}", what, layer->GetName()));
         bool const is_line = OGR_GT_IsSubClassOf(type, wkbCurve) != 0 || OGR_GT_IsSubClassOf(type, wkbMultiCurve) != 0;
         has_lines = has_lines || is_line;
         has_points = has_points || type == wkbPoint || type == wkbMultiPoint;

@@ -23,6 +23,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/files.hpp>
+#include <thalweg/io/proj_guard.hpp>
 
 namespace thalweg::io {
 
@@ -256,6 +257,7 @@ void guard_gdal() {
     }
     CPLSetConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
     CPLHTTPSetFetchCallback(refuse_fetch, nullptr);
+    guard_proj();
     guard_file_systems();
 }
 
@@ -318,6 +320,10 @@ WithNetcdf::~WithNetcdf() {
     }
 }
 
+void refuse_grid(std::string const& path) {
+    refused.grid = path;
+}
+
 Refusal take_refusal() {
     return std::exchange(refused, {});
 }
@@ -333,6 +339,11 @@ void throw_refusal(Refusal const& refusal, std::string const& what) {
             fmt::format("{} needs {}, which is a pipe or a device, and inputs are read more than once: write "
                         "it to a file first",
                         what, refusal.pipe));
+    }
+    if (!refusal.grid.empty()) {
+        throw BadInput(fmt::format("{} names {}, and a CRS names grids of PROJ's own folders (projinfo --searchpaths): "
+                                   "copy it there and leave its folder out",
+                                   what, refusal.grid));
     }
 }
 

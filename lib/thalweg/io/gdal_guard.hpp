@@ -50,7 +50,11 @@ private:
 struct Refusal {
     std::string address = {};
     std::string pipe = {}; ///< or a device
+    std::string grid = {}; ///< of a datum, outside PROJ's folders
 };
+
+/// Notes a grid for this thread. Throws: bad_alloc.
+void refuse_grid(std::string const& path);
 
 /// What was refused in this thread since the last call.
 Refusal take_refusal();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <thalweg/core/index.hpp>
+#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/io/decimals.hpp>
 #include <thalweg/io/user_columns.hpp>
 
@@ -34,14 +35,6 @@ void add_unit(Table& table, HeightUnit unit) {
     if (unit != HeightUnit::metre) {
         table.columns.push_back(text("z_unit", [unit](auto) { return name_of(unit); }));
     }
-}
-
-double length_in_plan(std::vector<Vec3> const& line) {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        sum += distance({line[i - 1].x, line[i - 1].y}, {line[i].x, line[i].y});
-    }
-    return sum;
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
+#include <thalweg/core/printable.hpp>
 #include <thalweg/io/schema.hpp>
 
 namespace thalweg::io {
@@ -49,7 +50,7 @@ AttributeTable::Value attribute_value(OGRFeature const& feature, int field, Attr
         double const value = feature.GetFieldAsDouble(field);
         return std::isfinite(value) ? AttributeTable::Value(value) : AttributeTable::Value();
     }
-    default: return std::string(feature.GetFieldAsString(field));
+    default: return as_utf8(feature.GetFieldAsString(field));
     }
 }
 
@@ -67,7 +68,7 @@ AttributeReader::AttributeReader(OGRLayer& layer) {
     OGRFeatureDefn& schema = *layer.GetLayerDefn();
     for (int i = 0; i < schema.GetFieldCount(); ++i) {
         OGRFieldDefn const& field = *schema.GetFieldDefn(i);
-        std::string const name = field.GetNameRef();
+        std::string const name = printable(field.GetNameRef());
         if (is_ours && is_of_schema(name)) {
             continue;
         }
@@ -90,7 +91,23 @@ void AttributeReader::read(OGRFeature const& feature) {
     row.reserve(fields_.size());
     for (std::size_t c = 0; c < fields_.size(); ++c) {
         row.push_back(attribute_value(feature, fields_[c], table_.columns[c].type));
+        bool const is_text = std::holds_alternative<std::string>(row.back());
+        escaped_ += is_text && !is_utf8(feature.GetFieldAsString(fields_[c])) ? 1 : 0;
     }
+}
+
+std::vector<Finding> AttributeReader::findings() const {
+    std::vector<Finding> all = findings_;
+    if (escaped_ > 0) {
+        all.push_back({"not_utf8",
+                       0,
+                       {},
+                       static_cast<double>(escaped_),
+                       fmt::format("{} values are not UTF-8: their bytes are kept as \\xNN; name their encoding (of a "
+                                   "shapefile, in a file .cpg beside it)",
+                                   escaped_)});
+    }
+    return all;
 }
 
 } // namespace thalweg::io

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,13 +25,15 @@ public:
     void read(OGRFeature const& feature);
     /// All rows, in the order of reading.
     AttributeTable take() { return std::move(table_); }
-    /// as_text (columns): fields of a type that no table here has, kept as texts.
-    std::vector<Finding> const& findings() const { return findings_; }
+    /// as_text (columns): fields of a type that no table here has, kept as texts. not_utf8 (values): texts read so far
+    /// of which bytes are kept as \xNN.
+    std::vector<Finding> findings() const;
 
 private:
     std::vector<int> fields_; ///< by column
     AttributeTable table_;
     std::vector<Finding> findings_;
+    std::int64_t escaped_ = 0;
 };
 
 /// Whether a layer has the fields of the network schema.

@@ -94,6 +94,7 @@ Warped warp(GDALDataset& source, OGRSpatialReference const* target, std::int64_t
         wkt = text == nullptr ? "" : text;
         CPLFree(text);
     }
+    double const own_cell = frame_of(source).value_or(Frame{})[1];
     CPLStringList options;
     if (target != nullptr) {
         options.SetNameValue("DST_SRS", wkt.c_str());
@@ -144,7 +145,7 @@ Warped warp(GDALDataset& source, OGRSpatialReference const* target, std::int64_t
     if (warp_options == nullptr) { // what GDAL reads in the arguments is not what was meant
         throw BadInput(
             fmt::format("{} cannot be warped to be drawn: its cells of {} are too small for its position: {}", what,
-                        cell, driver.take()));
+                        own_cell, driver.take()));
     }
     GDALWarpAppOptionsSetProgress(warp_options.get(), &Watch::step, &watch);
     GDALDatasetH from = GDALDataset::ToHandle(band_one.get());

@@ -43,7 +43,8 @@ struct ReadNetworkParams {
 /// each is an arc of the same id), curve (arc; vertices of its line), measures (none; arcs whose M is left out),
 /// no_heights (none; arcs), no_crs (none; 0), reprojected (none; 0), heights_converted (none; metres of a unit), turned
 /// (none; arcs), by_feature (none; arcs of a file taken so under any_lines), as_text (none; columns of a type that is
-/// kept as texts), cut_below (arc; the number of the arc downstream, which the file does not hold: an outlet).
+/// kept as texts), not_utf8 (none; texts of which bytes are kept as \xNN), cut_below (arc; the number of the arc
+/// downstream, which the file does not hold: an outlet).
 ///
 /// Throws: BadInput: no such file or layer, several layers, a schema that is not recognised (lists what was looked
 /// for), no field of arc ids, a field without numbers, arcs and nodes in different CRS; IoError: the file is damaged,

@@ -99,14 +99,9 @@ public:
     ArcReader(Layer const& arcs, std::optional<Schema> schema, Wish const& wish, Notes& notes)
         : arcs_(arcs), schema_(schema), table_(table_of(schema.value_or(Schema::native))), notes_(notes),
           columns_(*arcs.layer, schema, wish.fields, arcs.what, notes), fields_(*arcs.layer), attributes_(*arcs.layer),
-          by_feature_(!schema && takes_any_lines(wish)) {
+          by_feature_(!schema && takes_any_lines(wish)), whole_(wish.whole) {
         if (!by_feature_) {
             require_fields(arcs, columns_, schema, notes);
-        }
-        if (!wish.whole) {
-            for (Finding const& finding : attributes_.findings()) {
-                notes.add(arcs.what, finding);
-            }
         }
     }
 
@@ -131,6 +126,11 @@ public:
             link_by_features(file);
         }
         file.attributes = attributes_.take();
+        if (!whole_) {
+            for (Finding const& finding : attributes_.findings()) {
+                notes_.add(arcs_.what, finding);
+            }
+        }
         say_what_was_drawn(file);
     }
 
@@ -318,6 +318,7 @@ private:
     RiverFields fields_;
     AttributeReader attributes_;
     bool by_feature_ = false; // arcs have the numbers of their features
+    bool whole_ = false;      // findings are refused
     std::int64_t number_ = 0; // of the feature in hand, in the order of the layer, from 1
     Drawn drawn_;
     std::int64_t key_ = 0; // of the feature in hand

@@ -15,6 +15,7 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/printable.hpp>
 #include <thalweg/core/suggest.hpp>
 
 namespace thalweg::io {
@@ -113,7 +114,7 @@ std::string FileColumn::text(OGRFeature const& feature) const {
     if (field_ == feature_id) {
         return fmt::format("{}", feature.GetFID());
     }
-    return is_null(feature) ? "" : feature.GetFieldAsString(field_);
+    return is_null(feature) ? "" : as_utf8(feature.GetFieldAsString(field_));
 }
 
 void FileColumn::require_numbers(OGRLayer& layer, std::string const& what, Notes& notes) const {

@@ -18,6 +18,7 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/printable.hpp>
 #include <thalweg/core/suggest.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/dataset.hpp>
@@ -189,7 +190,6 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
     RiverFields fields(layer);
     AttributeReader attributes(layer);
     Read read;
-    read.findings = attributes.findings();
     std::int64_t number = 0;
     for (auto const& feature : layer) {
         run.check();
@@ -197,7 +197,7 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
         line.feature = ++number;
         line.rank = rank_of(*feature, rank_field, number, name);
         if (type_field >= 0 && feature->IsFieldSetAndNotNull(type_field) != 0) {
-            line.type = feature->GetFieldAsString(type_field);
+            line.type = as_utf8(feature->GetFieldAsString(type_field));
         }
         fields.read(*feature, line);
         attributes.read(*feature);
@@ -219,6 +219,8 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
         read.coasts.resize(read.unnatural.size(), !reason.empty() && fields.is_coast(*feature));
     }
     fields.link(read.lines);
+    std::vector<Finding> const of_fields = attributes.findings();
+    read.findings.insert(read.findings.begin(), of_fields.begin(), of_fields.end());
     read.attributes = attributes.take();
     return read;
 }

@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
+#include <thalweg/core/printable.hpp>
+
 namespace thalweg::io {
 
 namespace {
@@ -124,7 +126,7 @@ RiverFields::RiverFields(OGRLayer& layer) {
 }
 
 std::string RiverFields::text(OGRFeature const& feature, int field) const {
-    return field >= 0 && feature.IsFieldSetAndNotNull(field) != 0 ? feature.GetFieldAsString(field) : "";
+    return field >= 0 && feature.IsFieldSetAndNotNull(field) != 0 ? as_utf8(feature.GetFieldAsString(field)) : "";
 }
 
 double RiverFields::number(OGRFeature const& feature, int field) const {

@@ -14,6 +14,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/core/suggest.hpp>
+#include <thalweg/io/driver.hpp>
 #include <thalweg/io/simple_name.hpp>
 
 namespace thalweg::io {
@@ -28,12 +29,13 @@ bool is_line(OGRwkbGeometryType type) {
 }
 
 // A layer of any shapes holds lines when one of its first features is one.
-Holds content_of(OGRLayer& layer) {
+Holds content_of(OGRLayer& layer, std::string const& what) {
     constexpr int most_features = 10000;
     auto const type = wkbFlatten(layer.GetGeomType());
     if (type != wkbUnknown && !is_line(type)) {
         return type == wkbGeometryCollection ? Holds::lines : Holds::other;
     }
+    Driver const driver;
     Holds holds = Holds::nothing;
     layer.ResetReading();
     for (int i = 0; i < most_features && holds != Holds::lines; ++i) {
@@ -46,6 +48,7 @@ Holds content_of(OGRLayer& layer) {
         holds = is_line(drawn) || drawn == wkbGeometryCollection ? Holds::lines : Holds::other;
     }
     layer.ResetReading();
+    driver.check(fmt::format("{}, layer {}", what, layer.GetName()));
     return holds;
 }
 
@@ -103,7 +106,7 @@ LineLayers line_layers(GDALDataset& data, std::string const& what) {
     std::vector<OGRLayer*> all;
     for (OGRLayer* const layer : data.GetLayers()) {
         all.push_back(layer);
-        Holds const holds = content_of(*layer);
+        Holds const holds = content_of(*layer, what);
         if (holds != Holds::other) {
             (holds == Holds::lines ? found.lines : found.empty).push_back(layer);
         }

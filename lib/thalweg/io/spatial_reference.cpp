@@ -11,6 +11,7 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/driver.hpp>
+#include <thalweg/io/gdal_guard.hpp>
 
 namespace thalweg::io {
 
@@ -29,14 +30,17 @@ OGRSpatialReference read_reference(std::string const& text) {
     options.SetNameValue("ALLOW_NETWORK_ACCESS", "NO");
     options.SetNameValue("ALLOW_FILE_ACCESS", "NO");
     OGRSpatialReference reference;
+    take_refusal();
     if (text.empty() || is_mistyped_code(text) ||
         reference.SetFromUserInput(text.c_str(), options.List()) != OGRERR_NONE) {
+        throw_refusal(take_refusal(), "io.read_reference: the CRS");
         auto const words = driver.take();
         throw BadInput(
             fmt::format("io.read_reference: '{}' is not a coordinate system{}; give a code such as EPSG:32633, "
                         "or WKT",
                         text.substr(0, 60), words.empty() ? "" : " (" + words + ")"));
     }
+    throw_refusal(take_refusal(), "io.read_reference: the CRS");
     reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     return reference;
 }

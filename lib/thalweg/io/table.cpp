@@ -36,7 +36,7 @@ void require_code(OGRSpatialReference const* reference, std::string const& what)
     }
 }
 
-/// A CRS that could not be written leaves only a file without one.
+/// A CRS that could not be written, such as the .prj of a shapefile, leaves only a file without one, and no error.
 void require_crs(std::string const& path, OGRSpatialReference const& wanted, std::string const& what) {
     Dataset const written(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
     if (written == nullptr) {
@@ -88,7 +88,7 @@ void write_file(std::vector<Table const*> const& tables, std::string const& crs,
     }
     dataset.reset();
     driver.check(what);
-    if (used != nullptr && format == LayerFormat::geopackage) {
+    if (used != nullptr) {
         require_crs(path, *used, what);
         driver.check(what);
     }

@@ -11,6 +11,7 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/io/driver.hpp>
 #include <thalweg/io/simple_name.hpp>
 
 namespace thalweg::io {
@@ -97,14 +98,17 @@ double height_unit_of(OGRLayer& layer) {
     if (field < 0 || layer.GetLayerDefn()->GetFieldDefn(field)->GetType() != OFTString) {
         return vertical_unit(layer.GetSpatialRef());
     }
+    Driver const driver;
     layer.ResetReading();
     OGRFeatureUniquePtr const first(layer.GetNextFeature());
     layer.ResetReading();
+    driver.check(fmt::format("io.height_unit_of: layer {}", layer.GetName()));
     std::string const name = first && first->IsFieldSetAndNotNull(field) != 0 ? first->GetFieldAsString(field) : "m";
     auto const unit = unit_named(name);
     if (!unit) {
-        throw BadInput(fmt::format("layer {}: the field z_unit holds '{}', which is not a unit of length (m, ft)",
-                                   layer.GetName(), name));
+        throw BadInput(fmt::format(
+            "io.height_unit_of: layer {}: the field z_unit holds '{}', which is not a unit of length (m, ft)",
+            layer.GetName(), name));
     }
     return *unit;
 }

@@ -27,7 +27,8 @@ std::string words_for_unit(double metres);
 double height_unit_of(GDALDataset& dataset);
 
 /// What 1 of the heights of a layer's lines or points is in metres: by the field z_unit of a network that thalweg
-/// wrote, else by the vertical part of its CRS, else 1. Throws: BadInput at a z_unit that is not known.
+/// wrote, else by the vertical part of its CRS, else 1. Throws: BadInput at a z_unit that is not known; IoError when
+/// the first feature cannot be read.
 double height_unit_of(OGRLayer& layer);
 
 /// Whether a CRS says in what unit heights are.

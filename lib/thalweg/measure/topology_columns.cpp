@@ -62,6 +62,7 @@ public:
     void check() {
         walk_trees();
         find_longest();
+        note_hack();
         for (std::size_t a = 0; a < file_.arcs.size(); ++a) {
             if (g_.left_out[a] == 0) {
                 check_line(a);
@@ -170,19 +171,32 @@ private:
         check_hack(a);
     }
 
+    /// What the Hack orders of a node's arcs are held against.
+    struct AtNode {
+        double below = 1.0;    ///< the order of the arc that leaves
+        double longest = 0.0;  ///< [m] of the ways that end here
+        std::size_t mains = 0; ///< arcs that end here with the order below
+    };
+
+    /// By node; once for all arcs of one, since a node may have any number of them.
+    void note_hack() {
+        at_node_.resize(joints_.junctions.ids.size());
+        for (std::size_t j = 0; j < at_node_.size(); ++j) {
+            AtNode& at = at_node_[j];
+            auto const out = g_.out.at(j);
+            at.below = out.empty() ? 1.0 : file_.arcs[out.front()].columns.hack;
+            for (std::size_t const a : g_.in.at(j)) {
+                at.longest = std::max(at.longest, longest_[a]);
+                at.mains += file_.arcs[a].columns.hack == at.below ? 1 : 0;
+            }
+        }
+    }
+
     /// Of the arcs that end in one node one on the longest way goes on with the order below; the others have one more.
     void check_hack(std::size_t a) {
-        auto const beside = g_.in.at(g_.ends[a][1]);
-        auto const out = g_.out.at(g_.ends[a][1]);
-        double const below = out.empty() ? 1.0 : file_.arcs[out.front()].columns.hack;
-        double most = 0.0;
-        for (std::size_t const b : beside) {
-            most = std::max(most, longest_[b]);
-        }
+        auto const [below, most, mains] = at_node_[g_.ends[a][1]];
         bool const may_be_main = longest_[a] >= most - tolerance(most, 2.0 * tree_[a].vertices + 1000.0);
         double const told = file_.arcs[a].columns.hack;
-        auto const mains = std::count_if(beside.begin(), beside.end(),
-                                         [&](std::size_t b) { return file_.arcs[b].columns.hack == below; });
         bool const is_main = told == below;
         if (std::isnan(below) || (is_main ? may_be_main && mains == 1 : told == below + 1.0 && mains == 1)) {
             return;
@@ -291,6 +305,7 @@ private:
     std::vector<InTree> tree_;       ///< likewise
     std::vector<double> longest_;    ///< likewise
     std::vector<double> strahler_;   ///< likewise
+    std::vector<AtNode> at_node_;    ///< by node
     std::vector<std::size_t> order_; ///< arcs of trees, each after the one downstream
 };
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/segments_near.hpp>
@@ -19,14 +20,6 @@ std::vector<Vec2> plan_of(std::vector<Vec3> const& line) {
         result.push_back(plan(p));
     }
     return result;
-}
-
-double length_of_plan(std::vector<Vec3> const& line) {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        sum += distance(plan(line[i - 1]), plan(line[i]));
-    }
-    return sum;
 }
 
 bool is_spike(Vec3 before, Vec3 tip, Vec3 after, double near_m) {
@@ -103,7 +96,7 @@ CutLine cut_loops(std::vector<Vec3> const& line, double near_m) {
             break;
         }
     }
-    cut.cut_m = std::max(0.0, length_of_plan(line) - length_of_plan(cut.line));
+    cut.cut_m = std::max(0.0, length_in_plan(line) - length_in_plan(cut.line));
     return cut;
 }
 

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/error.hpp>
+#include <thalweg/core/length_in_plan.hpp>
 
 namespace thalweg::network {
 
@@ -20,14 +21,6 @@ namespace {
 
 bool has_heights(RiverLine const& line) {
     return std::all_of(line.vertices.begin(), line.vertices.end(), [](Vec3 const& v) { return std::isfinite(v.z); });
-}
-
-double length_in_plan(std::vector<Vec3> const& line) {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        sum += distance(plan(line[i - 1]), plan(line[i]));
-    }
-    return sum;
 }
 
 /// Lines whose heights are found one after another.

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 
+#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 
@@ -103,14 +104,6 @@ bool is_free(std::array<std::vector<Vec2>, 3> const& drawn, std::vector<Line con
 }
 
 } // namespace
-
-double length_in_plan(Line const& line) {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        sum += distance(plan(line[i - 1]), plan(line[i]));
-    }
-    return sum;
-}
 
 bool shift_tributary(Neighbours const& at, double distance_m, bool round_a_corner, Shifted& shifted) {
     double const leaving_m = std::min(distance_m, length_in_plan(at.tributary) / 2.0);

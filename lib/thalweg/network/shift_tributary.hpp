@@ -11,8 +11,6 @@ namespace thalweg::network {
 
 using Line = std::vector<Vec3>;
 
-double length_in_plan(Line const& line);
-
 /// Two lines that begin in one point and are neighbours there, and what lies near them.
 struct Neighbours {
     Line trunk;                      ///< drawn away from the point

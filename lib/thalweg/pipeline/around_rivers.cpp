@@ -220,15 +220,17 @@ void draw_around_rivers(Terrain& terrain, FeaturePoints const& given, Diary& dia
     Recipe const& recipe = terrain.recipe;
     SurfaceRecipe const& wanted = *recipe.surface;
     Mask inside;
-    FeaturePoints points = given;
+    FeaturePoints own;
     if (in_equilibrium(recipe)) { // whose rivers have their heights from it
         draw_in_equilibrium(terrain, diary, run);
     } else {
         inside = inside_of(recipe, terrain.land, terrain.valley);
     }
-    if (recipe.skeleton && recipe.skeleton->scatter > 0) {
-        points = scattered(terrain, inside, diary, run);
+    bool const scatters = recipe.skeleton && recipe.skeleton->scatter > 0;
+    if (scatters) {
+        own = scattered(terrain, inside, diary, run);
     }
+    FeaturePoints const& points = scatters ? own : given;
     if (recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
         make_ridges(terrain, diary, run);
     }

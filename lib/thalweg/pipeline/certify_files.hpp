@@ -21,8 +21,8 @@ struct RiverRasters {
 /// The drainage certificate of a DEM file and a network, anyone's. Parts of the network beside the DEM are findings
 /// (outside_dem), and do not count otherwise. Parts of rivers that are drawn level stand as lakes do; nodes of the kind
 /// "sink" end their rivers.
-/// Throws: BadInput when a raster cannot be read or they have different grids, the two have different CRS or only one
-/// has any, or no arc lies on the DEM; what reaches_of_file throws for a network without direction; IoError; Cancelled.
+/// Throws: BadInput when a raster cannot be read, the network and the DEM have different CRS or only one has any, or no
+/// arc lies on the DEM; what reaches_of_file throws for a network without direction; IoError; Cancelled.
 measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, RiverRasters const& rasters = {},
                                    Run const& run = {});
 

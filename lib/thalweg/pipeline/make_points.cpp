@@ -14,6 +14,7 @@
 #include <thalweg/core/skeleton.hpp>
 #include <thalweg/io/has_layer.hpp>
 #include <thalweg/io/raster_files.hpp>
+#include <thalweg/io/read_mask.hpp>
 #include <thalweg/io/read_rivers.hpp>
 #include <thalweg/pipeline/read_cells.hpp>
 #include <thalweg/pipeline/require_metres.hpp>
@@ -30,20 +31,6 @@ struct SkeletonOfLand {
     Mask rivers;
 };
 
-Mask mask_of(std::string const& path, Grid const& grid, Run const& run) {
-    Raster<float> const drawn = io::read_dem(path, run);
-    if (drawn.grid() != grid) {
-        throw BadInput(fmt::format("pipeline.make_points: {} has {} x {} cells, the DEM beside it {} x {}, or lies "
-                                   "elsewhere: they belong to different terrains",
-                                   path, drawn.width(), drawn.height(), grid.width, grid.height));
-    }
-    Mask cells(grid);
-    for (std::int64_t i = 0; i < drawn.cells(); ++i) {
-        cells[i] = drawn[i] > 0.0F ? 1 : 0;
-    }
-    return cells;
-}
-
 /// Cells under the ridges of a network file; none where it has no such layer.
 Mask ridges_of(std::string const& path, Grid const& grid, Run const& run) {
     if (!io::has_layer(path, "ridges")) {
@@ -56,7 +43,7 @@ Mask ridges_of(std::string const& path, Grid const& grid, Run const& run) {
 SkeletonOfLand skeleton_of(Raster<float> land, fs::path const& folder, Run const& run) {
     Mask const ridges = ridges_of((folder / "network.gpkg").string(), land.grid(), run);
     SkeletonOfLand drawn{{std::move(land)}, {}};
-    drawn.rivers = mask_of((folder / "network.tif").string(), drawn.skeleton.z.grid(), run);
+    drawn.rivers = io::read_mask((folder / "network.tif").string(), drawn.skeleton.z.grid(), run);
     for (std::int64_t i = 0; i < ridges.cells(); ++i) {
         if (drawn.rivers[i] == 0 && ridges[i] == 0) {
             drawn.skeleton.z[i] = std::numeric_limits<float>::quiet_NaN();

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/cut_loops.hpp>
 
@@ -21,14 +22,6 @@ constexpr double greatest_coordinate = 1e18; // beyond, measure::check_topology 
 bool is_number(double c) {
     return std::fabs(c) < greatest_coordinate;
 }
-double length_of_plan(std::vector<Vec3> const& line) {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        sum += distance(plan(line[i - 1]), plan(line[i]));
-    }
-    return sum;
-}
-
 /// The nodes with a place, by id and by place.
 class Nodes {
 public:
@@ -104,14 +97,14 @@ public:
         if (named_back) {
             std::swap(from, to);
         }
-        if (length_of_plan(line) <= 0.0) {
+        if (length_in_plan(line) <= 0.0) {
             if (from == nullptr || to == nullptr || plan(*from) == plan(*to)) {
                 say("left_out", arc.id, line.empty() ? Vec2{} : plan(line.front()), 0.0,
                     fmt::format("arc {}: has no length and joins no two nodes; it is left out", arc.id));
                 return;
             }
             line = {*from, *to};
-            say("drawn", arc.id, plan(*from), length_of_plan(line),
+            say("drawn", arc.id, plan(*from), length_in_plan(line),
                 fmt::format("arc {}: has no line; it is drawn straight from node {} to node {}", arc.id, arc.from_node,
                             arc.to_node));
         } else {
@@ -125,12 +118,12 @@ public:
         }
         if (found_.upstream[a] != 0) {
             std::reverse(line.begin(), line.end());
-            say("turned", arc.id, plan(line.front()), length_of_plan(line),
+            say("turned", arc.id, plan(line.front()), length_in_plan(line),
                 fmt::format("arc {}: is reversed to run downstream", arc.id));
         }
         if (looped_.count(arc.id) > 0) {
             network::CutLine cut = network::cut_loops(line, near_m_);
-            if (length_of_plan(cut.line) <= 0.0) {
+            if (length_in_plan(cut.line) <= 0.0) {
                 put_aside(arc, std::move(line), "closed ring");
                 return;
             }
@@ -157,7 +150,7 @@ private:
     }
 
     void put_aside(NetworkFile::FileArc const& arc, std::vector<Vec3> line, std::string const& reason) {
-        say("secondary", arc.id, plan(line.front()), length_of_plan(line),
+        say("secondary", arc.id, plan(line.front()), length_in_plan(line),
             fmt::format("arc {}: is not a river: {}", arc.id, reason));
         result_.secondary.push_back({arc.id, std::move(line), reason});
     }
