@@ -231,8 +231,9 @@ static void end_of_abort(int /*number*/) {
 
 /// A library that writes where memory was refused; any other fault keeps its signal.
 [[maybe_unused]] static void end_of_fault(int number) {
-    alarm(2); // the fault may lie within malloc
-    if (std::malloc(std::size_t{1} << 16) == nullptr) {
+    alarm(2);                                   // the fault may lie within malloc
+    constexpr std::size_t most_asked = 1 << 20; // at once, as by libgeotiff, which does not look at the answer
+    if (std::malloc(most_asked) == nullptr) {
         [[maybe_unused]] auto const written = write(STDERR_FILENO, out_of_memory.data(), out_of_memory.size());
         _exit(thalweg::tools::Exit::failed);
     }
