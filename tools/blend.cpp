@@ -4,8 +4,11 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/output_file.hpp>
+#include <thalweg/io/read_tin.hpp>
 #include <thalweg/io/write_dem.hpp>
+#include <thalweg/io/write_tin.hpp>
 #include <thalweg/pipeline/make_blend.hpp>
+#include <thalweg/pipeline/make_blend_tin.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,6 +17,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace thalweg::tools {
@@ -93,8 +97,68 @@ void take_numbers(BlendOptions& options) {
     options.params.holes = options.fills ? blend::Holes::fill : blend::Holes::leave;
 }
 
+/// Options that count cells or name them mean nothing for a mesh.
+void refuse_options_of_dems(BlendOptions const& options) {
+    for (auto const& [name, given] :
+         {std::pair{"--window", !options.window.empty()}, std::pair{"--mask", !options.params.mask.empty()},
+          std::pair{"--keep", !options.params.keep.empty()},
+          std::pair{"--feather", options.params.feather_cells != 0.0}, std::pair{"--mixed", options.mixed},
+          std::pair{"--fill-holes", options.fills}}) {
+        if (given) {
+            throw BadParameter(fmt::format("{} is for DEMs: a mesh is pasted whole, inside its outline", name));
+        }
+    }
+}
+
+std::string as_json(pipeline::MadeBlendTin const& made, std::string const& file) {
+    nlohmann::ordered_json const json{{"file", file},
+                                      {"place", name_of(made.place)},
+                                      {"at", {made.at.x, made.at.y}},
+                                      {"vertices", made.fused.tin.vertices.size()},
+                                      {"triangles", made.fused.tin.triangles.size()},
+                                      {"removed", made.fused.removed},
+                                      {"inner", made.fused.inner},
+                                      {"added", made.fused.added},
+                                      {"lift_max_m", made.fused.lift_max_m},
+                                      {"residual", made.fused.residual}};
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+int blend_meshes(BlendOptions const& options, Session const& session) {
+    for (std::string const& path : {options.params.target, options.params.source}) {
+        if (!io::holds_tin(path)) {
+            throw BadParameter(
+                fmt::format("{} is not a mesh (.2dm, .obj, .off), the other file is; `thalweg tin` makes "
+                            "a mesh of a DEM",
+                            path));
+        }
+    }
+    refuse_options_of_dems(options);
+    auto const format = io::tin_format("", options.file);
+    io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
+    pipeline::MadeBlendTin const made =
+        pipeline::make_blend_tin({options.params.target, options.params.source, options.params.at,
+                                  options.params.rotate_deg, options.params.scale, options.params.gain},
+                                 session.run);
+    io::write_tin(made.fused.tin, made.crs, file.staging(), format, HeightUnit::metre, session.run);
+    file.commit();
+    session.run.tell("blend",
+                     fmt::format("{} vertices inside the outline replaced by {}, {} added on it, around ({:.3f}, "
+                                 "{:.3f}){}; the patch's edge moved by {:.3f} m at most",
+                                 made.fused.removed, made.fused.inner, made.fused.added, made.at.x, made.at.y,
+                                 made.place == pipeline::PatchPlace::middle
+                                     ? ", the centre of the target, because the source lies outside it"
+                                     : "",
+                                 made.fused.lift_max_m));
+    fmt::print("{}", session.json ? as_json(made, options.file) : options.file + "\n");
+    return Exit::done;
+}
+
 int blend_files(BlendOptions& options, Session const& session) {
     take_numbers(options);
+    if (io::holds_tin(options.params.target) || io::holds_tin(options.params.source)) {
+        return blend_meshes(options, session);
+    }
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     pipeline::MadeBlend const made = pipeline::make_blend(options.params, session.run);
     io::write_dem(made.pasted.dem, file.staging(), session.run);
@@ -109,12 +173,17 @@ int blend_files(BlendOptions& options, Session const& session) {
 Command add_blend(CLI::App& app, Session& session) {
     auto const options = std::make_shared<BlendOptions>();
     pipeline::MakeBlendParams& params = options->params;
-    app.add_option("TARGET", params.target, "The DEM to paste into.")->type_name("FILE")->required();
-    app.add_option("SOURCE", params.source,
-                   "The DEM to take the patch from. It is warped (bilinear) if its CRS or cells differ.")
+    app.add_option("TARGET", params.target, "The DEM to paste into, or a mesh: .2dm, .obj or .off.")
         ->type_name("FILE")
         ->required();
-    app.add_option("-o,--output", options->file, "Write this GeoTIFF.")->type_name("FILE")->required();
+    app.add_option("SOURCE", params.source,
+                   "The DEM to take the patch from. It is warped (bilinear) if its CRS or cells differ. Into a mesh, "
+                   "a mesh with one boundary.")
+        ->type_name("FILE")
+        ->required();
+    app.add_option("-o,--output", options->file, "Write this GeoTIFF; of meshes any format of `thalweg tin`.")
+        ->type_name("FILE")
+        ->required();
     app.add_option("--at", options->at,
                    "Place the centre of the patch here, in the target's coordinates. Default: at the patch's own "
                    "coordinates, or in the centre of the target if they lie outside it.")
@@ -150,11 +219,13 @@ Command add_blend(CLI::App& app, Session& session) {
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
     app.footer("Keeps the relief of the patch and matches the target's heights along its edge (Poisson blending), so "
-               "that there is no step. Outside the patch the target's heights do not change by a single bit.\n\n"
+               "that there is no step. Outside the patch the target's heights do not change by a single bit. Of meshes "
+               "the target is cut along the patch's outline and takes the patch's triangles inside.\n\n"
                "Examples:\n"
                "  thalweg blend valley/dem.tif peaks.tif -o blended.tif --feather 8\n"
                "  thalweg blend valley/dem.tif peaks.tif -o blended.tif --mask where.gpkg --rotate 30 --gain 0.5\n"
-               "  thalweg blend valley/dem.tif peaks.tif -o blended.tif --window 100,80,256,256 --keep valley\n");
+               "  thalweg blend valley/dem.tif peaks.tif -o blended.tif --window 100,80,256,256 --keep valley\n"
+               "  thalweg blend land.obj hill.obj -o both.obj --at 512000,4990000 --rotate 30 --gain 1.5\n");
     return [options, &session] { return blend_files(*options, session); };
 }
 

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""check_tin.py THALWEG DEM NETWORK: TINs of a DEM and of a network in every format others read, judged by meshio and OGR.
+"""check_tin.py THALWEG DEM NETWORK: TINs of a DEM, of a network and of two meshes blended, in every format others read,
+judged by meshio and OGR.
 
 Every format must hold the same vertices and triangles; no vertex unused or twice in plan, every triangle
 counterclockwise, no edge of more than two triangles and none run through twice the same way."""
@@ -72,11 +73,14 @@ def judge(name, points, triangles):
 
 
 with tempfile.TemporaryDirectory() as place:
-    for kind, words in (("dem", [dem, "--error", "5"]), ("network", [network])):
+    land = pathlib.Path(place) / "land.off"
+    subprocess.run([thalweg, "tin", dem, "--error", "5", "-o", land, "-q"], check=True, stdout=subprocess.DEVNULL)
+    for kind, words in (("dem", ["tin", dem, "--error", "5"]), ("network", ["tin", network]),
+                        ("blended", ["blend", land, land, "--scale", "0.3", "--rotate", "25", "--gain", "0.5"])):
         seen = {}
         for ending, read in (("ply", by_meshio), ("obj", by_meshio), ("off", by_meshio), ("2dm", by_2dm), ("gpkg", by_ogr)):
             path = pathlib.Path(place) / f"{kind}.{ending}"
-            subprocess.run([thalweg, "tin", *words, "-o", path, "-q"], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([thalweg, *words, "-o", path, "-q"], check=True, stdout=subprocess.DEVNULL)
             seen[ending] = judge(path.name, *read(path))
         if len(set(seen.values())) != 1:
             fault(f"{kind}: the formats differ: {seen}")

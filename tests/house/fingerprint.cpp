@@ -5,6 +5,7 @@
 #include "fnv.hpp"
 
 #include <thalweg/blend/deform.hpp>
+#include <thalweg/blend/fuse_tin.hpp>
 #include <thalweg/blend/paste.hpp>
 #include <thalweg/blend/paste_tin.hpp>
 #include <thalweg/blend/place_patch.hpp>
@@ -83,6 +84,7 @@
 #include <thalweg/surface/rasterise_tin.hpp>
 #include <thalweg/surface/separable.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -455,6 +457,24 @@ void print_rivers(StreamNetwork const& network, Grid const& grid, Run const& run
     print("set_heights_graded", hash_of(graded.network));
 }
 
+/// Squares turned by 20 degrees around a place, with waves.
+Tin small_mesh(Vec2 middle, double side_m) {
+    constexpr std::uint32_t across = 7;
+    blend::LinearMap const turn = blend::rotation({0.0, 0.0, 1.0}, 20.0, side_m);
+    Tin tin;
+    for (std::uint32_t i = 0; i < across * across; ++i) {
+        double const x = static_cast<double>(i % across) - 3.0;
+        double const y = static_cast<double>(i / across) - 3.0;
+        tin.vertices.push_back({middle.x + turn[0].x * x + turn[0].y * y, middle.y + turn[1].x * x + turn[1].y * y,
+                                x * y + static_cast<double>(i * i % 11)});
+        if (i % across + 1 < across && i / across + 1 < across) {
+            tin.triangles.push_back({i, i + 1, i + across});
+            tin.triangles.push_back({i + 1, i + across + 1, i + across});
+        }
+    }
+    return tin;
+}
+
 /// A piece of one land set into another, on the grid and over triangles; a region bent.
 void print_blend(Raster<float> const& target, Tin const& tin, Run const& run) {
     blend::PlacePatchParams placing;
@@ -479,6 +499,10 @@ void print_blend(Raster<float> const& target, Tin const& tin, Run const& run) {
     }
     print("paste_tin",
           hash_of(blend::paste_tin(tin, guidance, {{0, tin.vertices[0]}}, geometry::Measured::on_surface, run).tin));
+    auto const [west, east] = std::ranges::minmax_element(tin.vertices, {}, [](Vec3 const& v) { return v.x; });
+    auto const [south, north] = std::ranges::minmax_element(tin.vertices, {}, [](Vec3 const& v) { return v.y; });
+    Vec2 const middle_of_tin{0.5 * (west->x + east->x), 0.5 * (south->y + north->y)};
+    print("fuse_tin", hash_of(blend::fuse_tin(tin, small_mesh(middle_of_tin, 0.05 * (east->x - west->x)), run).tin));
 }
 
 /// solve_poisson with the loops of any processor of the architecture.
