@@ -3,6 +3,8 @@
 #include "commands.hpp"
 #include "print_keys.hpp"
 
+#include <thalweg/core/error.hpp>
+#include <thalweg/core/printable.hpp>
 #include <thalweg/pipeline/make_input.hpp>
 #include <thalweg/pipeline/recipe.hpp>
 
@@ -10,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +30,9 @@ int print_keys(std::string const& word, Session const& session) {
 }
 
 int print_for(std::string const& rivers, Session const& session) {
+    if (!is_utf8(std::filesystem::absolute(rivers).string())) {
+        throw BadInput(fmt::format("the path of {} is not UTF-8, and recipes are: rename it", rivers));
+    }
     pipeline::Recipe const recipe = pipeline::settled_recipe(pipeline::rivers_recipe(rivers), session.run);
     fmt::print("{}", pipeline::write_recipe(recipe));
     return Exit::done;

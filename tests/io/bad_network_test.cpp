@@ -371,6 +371,15 @@ TEST(BadNetwork, AGeoPackageInWriteAheadModeIsNotWritten) {
     EXPECT_EQ(state_of(folder), open);
 }
 
+TEST(BadNetwork, WhatIsNamedLikeChangesOfAGeoPackageStays) {
+    ScratchFolder const folder;
+    std::string const path = written(folder, "r.gpkg", "GPKG", {rivers()});
+    std::ofstream(path + "-wal") << "of a copy that was open elsewhere"; // SQLite would delete it
+    auto const before = state_of(folder);
+    EXPECT_EQ(io::read_network(path, io::ReadNetworkParams{}).arcs.size(), 3U);
+    EXPECT_EQ(state_of(folder), before);
+}
+
 TEST(BadNetwork, ALockedGeoPackageIsSaidWithinSeconds) {
     ScratchFolder const folder;
     std::string const path = written(folder, "r.gpkg", "GPKG", {rivers()});

@@ -199,6 +199,20 @@ TEST(Messages, NamesThatAreNotUtf8AreEscaped) {
     }
 }
 
+TEST(Messages, ARecipeHoldsNoNameThatIsNotUtf8) {
+    Workplace const place;
+    place.write("\xff.geojson", geojson("", line));
+    std::string const name = "\"$(printf '\\377.geojson')\"";
+    Outcome const printed = thalweg_run("recipe --for " + name, place.path());
+    EXPECT_EQ(printed.code, 2);
+    EXPECT_EQ(printed.out, "");
+    EXPECT_NE(printed.err.find("\\xff.geojson is not UTF-8, and recipes are: rename it"), std::string::npos)
+        << printed.err;
+    ASSERT_EQ(thalweg_run("make " + name + " -q -o out --set grid.cell=10", place.path()).code, 0);
+    EXPECT_TRUE(is_utf8(file_bytes(place / "out/recipe.toml"))) << "the copy in inputs has another name";
+    EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
+}
+
 TEST(Messages, AttributesThatAreNotUtf8AreWrittenEscaped) {
     Workplace const place;
     place.write("make.py", R"py(

@@ -128,6 +128,12 @@ TEST_F(Pipes, AreRefusedBesideAFileAndWhereAnotherNamesThem) {
         fs::remove(part);
         fs::rename(place() / "aside", part);
     }
+    for (std::string const ending : {"-journal", "-wal"}) {
+        fs::path const beside = place() / ("base/network.gpkg" + ending);
+        ASSERT_EQ(mkfifo(beside.c_str(), 0600), 0);
+        expect_refused({"check", "base/network.gpkg"});
+        EXPECT_TRUE(fs::remove(beside)) << "it is not ours";
+    }
     place().write("land.vrt",
                   "<VRTDataset rasterXSize='9' rasterYSize='9'><GeoTransform>0,9,0,0,0,-9</GeoTransform><VRTRasterBand "
                   "dataType='Float32' band='1'><SimpleSource><SourceFilename relativeToVRT='1'>p.tif</SourceFilename>"

@@ -118,7 +118,8 @@ Dataset open_file(std::string const& path, unsigned kinds, std::string const& wh
     CPLErrorReset();
     Dataset dataset = open_undisturbed(path, kinds);
     if (dataset == nullptr) {
-        throw BadInput(fmt::format("{} cannot be read: {}", what, CPLGetLastErrorMsg()));
+        std::string const words = CPLGetLastErrorMsg();
+        throw BadInput(fmt::format("{} cannot be read: {}", what, words.empty() ? "its format is not known" : words));
     }
     return dataset;
 }

@@ -18,12 +18,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
+struct Sqlite {
+    bool is_one = false;
+    bool is_write_ahead = false;
+};
+
 // The header of an SQLite file: its name, and 2 for write-ahead mode where versions to write and read stand.
-bool is_write_ahead(fs::path const& file) {
+Sqlite sqlite_in(fs::path const& file) {
     std::array<char, 20> header{};
     std::ifstream stream(file, std::ios::binary);
-    return stream.read(header.data(), header.size()) && std::string(header.data(), 15) == "SQLite format 3" &&
-           (header[18] == 2 || header[19] == 2);
+    bool const is_one =
+        stream.read(header.data(), header.size()) && std::string(header.data(), 15) == "SQLite format 3";
+    return {is_one, is_one && (header[18] == 2 || header[19] == 2)};
 }
 
 struct State {
@@ -52,13 +58,17 @@ bool copied(fs::path const& file, fs::path const& copy) {
 } // namespace
 
 Undisturbed::Undisturbed(fs::path const& file) : path_(file) {
-    refuse_pipe(file.string(), fmt::format("io.Undisturbed: {}", file.string()));
+    for (char const* const beside : {"", "-journal", "-wal"}) { // SQLite opens these by itself
+        std::string const path = file.string() + beside;
+        refuse_pipe(path, "io.Undisturbed: " + path);
+    }
     std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored) || !is_write_ahead(file)) {
+    if (!fs::is_regular_file(file, ignored)) {
         return;
     }
-    if (auto const changes = fs::file_size(wal_of(file), ignored); ignored || changes == 0) {
-        immutable_ = true;
+    Sqlite const base = sqlite_in(file);
+    if (auto const changes = fs::file_size(wal_of(file), ignored); !base.is_one || ignored || changes == 0) {
+        immutable_ = base.is_write_ahead;
         return;
     }
     try {

@@ -12,8 +12,9 @@ namespace thalweg::io {
 
 /// How a file is opened so that reading changes neither it nor its folder. SQLite writes to a GeoPackage in write-ahead
 /// mode even when it is opened to be read: it makes NAME-wal and NAME-shm, and on closing moves what stands in NAME-wal
-/// into the file. One without changes in NAME-wal is therefore opened as immutable; of one with changes a copy is read,
-/// which goes with this object. Any other file is opened as it is. Private to this room.
+/// into the file; a NAME-wal beside one in another mode it deletes. One without changes in NAME-wal is therefore opened
+/// as immutable; of one with changes a copy is read, which goes with this object. Any other file is opened as it is.
+/// Private to this room.
 class Undisturbed {
 public:
     /// Throws: BadInput like refuse_pipe; IoError when a copy is needed and cannot be made, or the file is being
