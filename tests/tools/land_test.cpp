@@ -166,6 +166,8 @@ TEST(Land, WhatCannotBeIsRefusedWithItsNumbers) {
     std::string const exact = table4 + " --set detail.stencil=exact ";
     refused(exact + "--set detail.levels=1 --set grid.width=260 --set grid.height=80",
             "takes up to 2000 coarse cells, and 260 x 80 cells at detail.levels = 1 have 5371; set detail.levels = 2");
+    refused(exact + "--set detail.levels=6 --set grid.width=40000 --set grid.height=30",
+            "40001 x 65 cells are too many for an exact fractional Brownian surface");
     refused(exact + "--set detail.noise=uniform", "detail.noise = 'uniform' (--set) has no effect in this recipe");
 }
 

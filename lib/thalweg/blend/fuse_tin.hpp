@@ -26,9 +26,10 @@ struct FusedTin {
 /// Gives: a TIN: the target's vertices outside with their bits; around the outline the target's triangles, cut along
 /// it; inside the patch's triangles, cut where target edges cross its outline, and its vertices in their order. Heights
 /// inside are those of paste_tin with the patch's gradients as guidance and the outline fixed. A patch cut out of the
-/// target, in its own place, gives the target's heights back, to rounding. Throws: BadInput as facing_up, outline_of,
-/// cut_tin do, also where vertices of both meshes lie too close to be told apart; NotConverged; Cancelled. Source:
-/// paper 003, algorithm 1 and equations 14 to 16; Yu et al. 2004 (merging).
+/// target, in its own place, gives the target's heights back, to rounding.
+/// Throws: BadInput as facing_up, outline_of and cut_tin do, also where vertices of the two meshes lie too close to one
+/// another; NotConverged; Cancelled.
+/// Source: paper 003, algorithm 1 and equations 14 to 16; Yu et al. 2004 (merging).
 FusedTin fuse_tin(Tin const& target, Tin const& patch, Run const& run = {});
 
 } // namespace thalweg::blend

@@ -5,6 +5,7 @@
 #include <thalweg/core/elementary.hpp>
 #include <thalweg/core/error.hpp>
 #include <thalweg/detail/check_targets.hpp>
+#include <thalweg/detail/estimate_fractal.hpp>
 #include <thalweg/detail/fine_forms.hpp>
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/triangulate.hpp>
@@ -19,6 +20,7 @@
 #include <thalweg/skeleton/separable_ar.hpp>
 #include <thalweg/skeleton/shift_mean.hpp>
 #include <thalweg/solver/expected_slope.hpp>
+#include <thalweg/solver/fractional_surface.hpp>
 #include <thalweg/surface/diffuse.hpp>
 #include <thalweg/surface/rasterise_tin.hpp>
 
@@ -469,11 +471,12 @@ void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height)
     if (levels == 0 || recipe.detail->midpoint.stencil != detail::Stencil::exact) {
         return;
     }
-    auto const coarse_cells = [&](int halved) {
-        Grid const coarse = coarse_grid({width, height, 1.0, 0.0, 0.0, ""}, halved);
-        return coarse.cells();
-    };
+    auto const coarse_at = [&](int halved) { return coarse_grid({width, height, 1.0, 0.0, 0.0, ""}, halved); };
+    auto const coarse_cells = [&](int halved) { return coarse_at(halved).cells(); };
     if (coarse_cells(levels) <= detail::most_conditioning_cells) {
+        Grid const coarse = coarse_at(levels);
+        solver::check_fractional_surface(((coarse.width - 1) << levels) + 1, ((coarse.height - 1) << levels) + 1,
+                                         recipe.detail->midpoint.hurst.value_or(detail::least_hurst));
         return;
     }
     constexpr int most_levels = 12;

@@ -29,7 +29,7 @@ void make_land(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run 
 int levels_of(Recipe const& recipe);
 
 /// Throws BadParameter where the recipe's detail cannot be made on a grid of this size: exact detail is made from few
-/// coarse cells.
+/// coarse cells, on a lattice whose torus is not too large (where H is estimated, the smallest that may come of it).
 void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height);
 
 /// Relief of this fractal detail alone, on ground that is flat. The recipe gets H where it leaves it out.

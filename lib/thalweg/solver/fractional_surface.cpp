@@ -78,6 +78,31 @@ void check(std::int64_t width, std::int64_t height, double hurst) {
                                    width, height));
 }
 
+struct TorusFrame {
+    std::int64_t width = 0;  ///< [cells]
+    std::int64_t height = 0; ///< [cells]
+    double diagonal_cells = 1.0;
+};
+
+TorusFrame torus_around(std::int64_t width, std::int64_t height, double hurst) {
+    check(width, height, hurst);
+    constexpr std::int64_t longest = std::int64_t{1} << 16; // the torus of a longer side is too large in any case
+    if (width > longest || height > longest) {
+        refuse_size(width, height);
+    }
+    auto const extent_x = static_cast<double>(width - 1);
+    auto const extent_y = static_cast<double>(height - 1);
+    TorusFrame frame;
+    frame.diagonal_cells = std::max(1.0, std::sqrt(extent_x * extent_x + extent_y * extent_y));
+    double const reach_cells = SteinCovariance(hurst).reach * frame.diagonal_cells;
+    frame.width = around(width, reach_cells);
+    frame.height = around(height, reach_cells);
+    if (frame.width > most_torus_cells / frame.height) {
+        refuse_size(width, height);
+    }
+    return frame;
+}
+
 struct Moments {
     double sum = 0.0;
     double east = 0.0;
@@ -114,35 +139,27 @@ Grid lattice_of(FractionalSurface const& surface) {
 
 } // namespace
 
+void check_fractional_surface(std::int64_t width, std::int64_t height, double hurst) {
+    torus_around(width, height, hurst);
+}
+
 FractionalSurface fractional_surface(std::int64_t width, std::int64_t height, double hurst, Run const& run) {
-    check(width, height, hurst);
-    constexpr std::int64_t longest = std::int64_t{1} << 16; // the torus of a longer side is too large in any case
-    if (width > longest || height > longest) {
-        refuse_size(width, height);
-    }
+    TorusFrame const frame = torus_around(width, height, hurst);
     SteinCovariance const covariance(hurst);
-    auto const extent_x = static_cast<double>(width - 1);
-    auto const extent_y = static_cast<double>(height - 1);
-    double const diagonal = std::max(1.0, std::sqrt(extent_x * extent_x + extent_y * extent_y));
-    std::int64_t const torus_width = around(width, covariance.reach * diagonal);
-    std::int64_t const torus_height = around(height, covariance.reach * diagonal);
-    if (torus_width > most_torus_cells / torus_height) {
-        refuse_size(width, height);
-    }
-    double const scale = 1.0 / diagonal;
+    double const scale = 1.0 / frame.diagonal_cells;
     auto const both_ways_round = [&](double dx, double dy) {
-        double const far_x = static_cast<double>(torus_width) - dx;
-        double const far_y = static_cast<double>(torus_height) - dy;
+        double const far_x = static_cast<double>(frame.width) - dx;
+        double const far_y = static_cast<double>(frame.height) - dy;
         auto const at = [&](double x, double y) { return covariance(x * scale * x * scale + y * scale * y * scale); };
         return at(dx, dy) + at(far_x, dy) + at(dx, far_y) + at(far_x, far_y);
     };
     return {width,
             height,
             hurst,
-            diagonal,
+            frame.diagonal_cells,
             covariance.constant,
             covariance.square,
-            circulant(TorusCovariance(both_ways_round), torus_width, torus_height, run)};
+            circulant(TorusCovariance(both_ways_round), frame.width, frame.height, run)};
 }
 
 Raster<double> sample(FractionalSurface const& surface, std::uint64_t seed, std::uint64_t stage, Run const& run) {

@@ -34,6 +34,9 @@ struct FractionalSurface {
 /// wrap around.
 FractionalSurface fractional_surface(std::int64_t width, std::int64_t height, double hurst, Run const& run = {});
 
+/// Throws what fractional_surface throws for its parameters, without the work.
+void check_fractional_surface(std::int64_t width, std::int64_t height, double hurst);
+
 /// One surface, 0 in the north-western cell.
 /// Takes: seed and stage, which name the chance.
 /// Gives: jointly normal numbers on the lattice, exact at all pairs of cells; the same bits for any number of threads.
