@@ -46,7 +46,7 @@ std::string_view trimmed(std::string_view text) {
     return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
-std::vector<std::string_view> fields_of(std::string_view line) {
+std::vector<std::string_view> split_fields(std::string_view line) {
     char const mark = line.find(';') != std::string_view::npos   ? ';'
                       : line.find(',') != std::string_view::npos ? ','
                                                                  : ' ';
@@ -106,7 +106,7 @@ std::vector<Vec3> parse(std::string const& text, PointHeights heights, std::stri
         if (words.empty() || words.front() == '#') {
             continue;
         }
-        auto const fields = fields_of(words);
+        auto const fields = split_fields(words);
         if (is_first) {
             is_first = false;
             if (auto const named = columns_of(fields, wanted, name)) {
