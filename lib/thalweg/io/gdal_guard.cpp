@@ -23,7 +23,6 @@
 
 #include <thalweg/core/error.hpp>
 #include <thalweg/io/files.hpp>
-#include <thalweg/io/proj_guard.hpp>
 
 namespace thalweg::io {
 
@@ -257,7 +256,6 @@ void guard_gdal() {
     }
     CPLSetConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
     CPLHTTPSetFetchCallback(refuse_fetch, nullptr);
-    guard_proj();
     guard_file_systems();
 }
 

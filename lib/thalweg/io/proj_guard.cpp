@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include <dlfcn.h>
 #include <proj.h>
 
 #include <thalweg/io/gdal_guard.hpp>
@@ -102,20 +101,8 @@ constexpr PROJ_FILE_API own_files{1,
 
 } // namespace
 
-void guard_proj() {
-    proj_folders(); // and the linker keeps this file
+void confine_proj(pj_ctx* context) {
+    proj_context_set_fileapi(context, &own_files, nullptr);
 }
 
 } // namespace thalweg::io
-
-// GDAL makes a context a thread, keeps it to itself and has no setting for the files it may open. The name of this
-// function is found before that of PROJ's own.
-extern "C" [[gnu::visibility("default")]] PJ_CONTEXT* proj_context_create() {
-    using Create = PJ_CONTEXT* (*)();
-    static auto const create = reinterpret_cast<Create>(dlsym(RTLD_NEXT, "proj_context_create"));
-    PJ_CONTEXT* const context = create();
-    if (context != nullptr) {
-        proj_context_set_fileapi(context, &thalweg::io::own_files, nullptr);
-    }
-    return context;
-}

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// What PROJ may open. Private to this module.
+struct pj_ctx; // PROJ's PJ_CONTEXT
+
+/// What PROJ may open.
 namespace thalweg::io {
 
-/// In a program that calls this PROJ reads files in its own folders only (projinfo --searchpaths) and writes none,
-/// wherever the name of a grid comes from; see take_refusal. In a module that another program loads it does not obey.
-void guard_proj();
+/// From now on a context of PROJ reads files in PROJ's own folders only (projinfo --searchpaths) and writes none,
+/// wherever the name of a grid comes from.
+void confine_proj(pj_ctx* context);
 
 } // namespace thalweg::io
