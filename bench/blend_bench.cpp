@@ -6,8 +6,8 @@
 // BM_blend_paste: the whole stage, opening and target's copy included. BM_blend_paste_feathered: the same with a
 // guidance field.
 #include <thalweg/blend/paste.hpp>
-#include <thalweg/core/chance.hpp>
-#include <thalweg/solver/poisson.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/solver/grid/poisson.hpp>
 
 #include <benchmark/benchmark.h>
 

@@ -7,14 +7,14 @@
 
 #include <benchmark/benchmark.h>
 
-#include <thalweg/core/chance.hpp>
+#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/measure/certificate.hpp>
-#include <thalweg/measure/drain_dinf.hpp>
-#include <thalweg/measure/drainage.hpp>
-#include <thalweg/measure/statistics.hpp>
-#include <thalweg/surface/drain.hpp>
+#include <thalweg/measure/drainage/certificate.hpp>
+#include <thalweg/measure/drainage/drain_dinf.hpp>
+#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/surface/drainage/drain.hpp>
 
 namespace {
 

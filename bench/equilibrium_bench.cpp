@@ -7,9 +7,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include <thalweg/core/memory.hpp>
-#include <thalweg/measure/drainage.hpp>
-#include <thalweg/surface/equilibrium.hpp>
+#include <thalweg/core/run/memory.hpp>
+#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 #include "../tests/surface/channel_trees.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <benchmark/benchmark.h>
 
-#include <thalweg/network/grow_dla.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
 
 #include <network/unit_step_dla.hpp>
 

@@ -4,8 +4,8 @@
 // read from one run. BM_midpoint_reused/STENCIL/NOISE/threads: 33 x 33 coarse cells to 8192 x 8192, into a DEM and
 // lattices that have been touched before. BM_midpoint: the whole stage, with the memory it allocates, first touch
 // included. One and two threads.
-#include <thalweg/core/chance.hpp>
-#include <thalweg/core/parallel.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/parallel.hpp>
 #include <thalweg/detail/midpoint.hpp>
 #include <thalweg/detail/refine.hpp>
 

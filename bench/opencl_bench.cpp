@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <benchmark/benchmark.h>
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/solver/devices.hpp>
-#include <thalweg/solver/poisson.hpp>
-#include <thalweg/solver/relax_explicit.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/solver/grid/poisson.hpp>
+#include <thalweg/solver/grid/relax_explicit.hpp>
+#include <thalweg/solver/opencl/devices.hpp>
 
 // Paper 003's diffusion and the equation that it tends to, on the OpenCL device beside the processor; items = cells,
 // for the sweeps times sweeps. One cell in a hundred is fixed, at heights to 1000 m. Copies to and from the device

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lands from numbers: the transform, the random field, the statistics and the projection, on every core.
 // Arguments are sides of square grids but for BM_project_table_4, the land of table 4 of paper 001.
-#include <thalweg/core/chance.hpp>
+#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/detail/project.hpp>
-#include <thalweg/measure/statistics.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/skeleton/grf.hpp>
-#include <thalweg/solver/fft.hpp>
+#include <thalweg/solver/spectral/fft.hpp>
 
 #include <benchmark/benchmark.h>
 

@@ -4,12 +4,12 @@
 
 #include "../tests/network/masks.hpp"
 #include "../tests/network/plain_thinning.hpp"
-#include <thalweg/network/order.hpp>
-#include <thalweg/network/prune.hpp>
-#include <thalweg/network/rasterise.hpp>
-#include <thalweg/network/set_heights.hpp>
-#include <thalweg/network/thin.hpp>
-#include <thalweg/network/trace.hpp>
+#include <thalweg/network/elevation/set_heights.hpp>
+#include <thalweg/network/order/order.hpp>
+#include <thalweg/network/vectorise/prune.hpp>
+#include <thalweg/network/vectorise/rasterise.hpp>
+#include <thalweg/network/vectorise/thin.hpp>
+#include <thalweg/network/vectorise/trace.hpp>
 
 // Thinning beside its yardsticks, items = cells of the grid; allocation counts. Then what follows it.
 namespace {

@@ -5,7 +5,7 @@
 #include <tins.hpp>
 
 #include <thalweg/geometry/triangulate.hpp>
-#include <thalweg/surface/rasterise_tin.hpp>
+#include <thalweg/surface/tin/rasterise_tin.hpp>
 
 // Triangulation, and beside it the raster of 4096² cells of the same TIN: goal 0.5 of its time. Allocation counts.
 namespace {

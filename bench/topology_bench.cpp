@@ -6,7 +6,7 @@
 
 #include <thalweg/geometry/meetings.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
-#include <thalweg/measure/topology.hpp>
+#include <thalweg/measure/topology/topology.hpp>
 
 // The whole check of a network's topology (goal: 100 000 arcs in a second), the part of it that is geometry, and beside
 // that its yardstick: every pair of segments by the same exact predicate.

@@ -29,7 +29,7 @@ endif()
 # thalweg_room(NAME [foreign libraries its .cpp files may use]): one folder of lib/thalweg, compiled apart, without the
 # files that THALWEG_LEFT_OUT names (regular expression).
 function(thalweg_room NAME)
-  file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/thalweg/${NAME}/*.cpp)
+  file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/thalweg/${NAME}/*.cpp)
   if(THALWEG_LEFT_OUT)
     list(FILTER SOURCES EXCLUDE REGEX "${THALWEG_LEFT_OUT}")
   endif()
@@ -62,12 +62,13 @@ endfunction()
 
 # thalweg_tests(ROOM): one executable test_ROOM of tests/ROOM/*.cpp, ctest label ROOM.
 function(thalweg_tests NAME)
-  file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp)
+  file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp)
+  list(FILTER SOURCES EXCLUDE REGEX "/spy/") # a library of its own
   if(NOT SOURCES)
     return()
   endif()
   add_executable(test_${NAME} ${SOURCES})
-  target_include_directories(test_${NAME} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_include_directories(test_${NAME} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${NAME})
   target_compile_definitions(test_${NAME} PRIVATE
     THALWEG_SOURCE_DIR="${PROJECT_SOURCE_DIR}" THALWEG_EXE="$<TARGET_FILE:thalweg_cli>" THALWEG_VERSION="${PROJECT_VERSION}")
   target_compile_options(test_${NAME} PRIVATE -O1) # what is tested keeps its own level; -O3 doubles the wait here

@@ -5,13 +5,13 @@
 // Grows a cluster, draws its skeleton, and counts its streams by order (Horton 1945): each order has several times
 // fewer streams than the one below.
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/network/grow_dla.hpp>
-#include <thalweg/network/order.hpp>
-#include <thalweg/network/pick_branch.hpp>
-#include <thalweg/network/prune.hpp>
-#include <thalweg/network/thin.hpp>
-#include <thalweg/network/trace.hpp>
-#include <thalweg/pipeline/frame.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/network/growth/dla/pick_branch.hpp>
+#include <thalweg/network/order/order.hpp>
+#include <thalweg/network/vectorise/prune.hpp>
+#include <thalweg/network/vectorise/thin.hpp>
+#include <thalweg/network/vectorise/trace.hpp>
+#include <thalweg/pipeline/make/frame.hpp>
 
 #include <cstdio>
 #include <map>

@@ -4,14 +4,14 @@
 // Sample 2: land around rivers that somebody drew.
 // Three lines become a network with heights, the network cells, the cells a surface, and the surface a file.
 //   build/release/bin/sample_terrain [dem.tif]
-#include <thalweg/core/error.hpp>
 #include <thalweg/core/river_lines.hpp>
-#include <thalweg/io/raster_files.hpp>
-#include <thalweg/measure/statistics.hpp>
-#include <thalweg/network/adopt.hpp>
-#include <thalweg/network/rasterise.hpp>
-#include <thalweg/network/set_heights.hpp>
-#include <thalweg/surface/dilate.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/network/elevation/set_heights.hpp>
+#include <thalweg/network/import/adopt.hpp>
+#include <thalweg/network/vectorise/rasterise.hpp>
+#include <thalweg/surface/dilation/dilate.hpp>
 
 #include <cmath>
 #include <cstdio>

@@ -5,8 +5,8 @@
 #include "terminal.hpp"
 #include "verdict.hpp"
 
-#include <thalweg/core/printable.hpp>
-#include <thalweg/pipeline/check_files.hpp>
+#include <thalweg/core/run/printable.hpp>
+#include <thalweg/pipeline/commands/check_files.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/run.hpp>
 
 namespace CLI {
 class App;

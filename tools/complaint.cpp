@@ -4,7 +4,7 @@
 
 #include "describe.hpp"
 
-#include <thalweg/core/suggest.hpp>
+#include <thalweg/core/run/suggest.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "complete.hpp"
 
-#include <thalweg/pipeline/recipe.hpp>
-#include <thalweg/pipeline/report.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/report/report.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

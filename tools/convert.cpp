@@ -3,10 +3,10 @@
 #include "commands.hpp"
 #include "network_options.hpp"
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/io/schema.hpp>
-#include <thalweg/io/write_network.hpp>
-#include <thalweg/pipeline/convert.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/network/schema.hpp>
+#include <thalweg/io/network/write_network.hpp>
+#include <thalweg/pipeline/commands/convert.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

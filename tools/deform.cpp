@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/io/output_file.hpp>
-#include <thalweg/io/read_tin.hpp>
-#include <thalweg/io/write_dem.hpp>
-#include <thalweg/io/write_tin.hpp>
-#include <thalweg/pipeline/make_deform.hpp>
-#include <thalweg/pipeline/make_deform_tin.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/files/output_file.hpp>
+#include <thalweg/io/mesh/read_tin.hpp>
+#include <thalweg/io/mesh/write_tin.hpp>
+#include <thalweg/io/raster/write_dem.hpp>
+#include <thalweg/pipeline/commands/make_deform.hpp>
+#include <thalweg/pipeline/commands/make_deform_tin.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
 
-#include <thalweg/pipeline/draw_files.hpp>
+#include <thalweg/pipeline/commands/draw_files.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

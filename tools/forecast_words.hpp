@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <thalweg/pipeline/forecast.hpp>
+#include <thalweg/pipeline/recipe/forecast.hpp>
 
 namespace thalweg::tools {
 

@@ -3,15 +3,15 @@
 #include "commands.hpp"
 #include "seed.hpp"
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/draw/lines.hpp>
-#include <thalweg/io/files.hpp>
-#include <thalweg/io/output_file.hpp>
-#include <thalweg/network/count_streams.hpp>
-#include <thalweg/network/grow_tokunaga.hpp>
-#include <thalweg/network/lsystem.hpp>
-#include <thalweg/network/rewrite.hpp>
-#include <thalweg/network/tokunaga_laws.hpp>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/io/files/output_file.hpp>
+#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
+#include <thalweg/network/growth/tokunaga/lsystem.hpp>
+#include <thalweg/network/growth/tokunaga/rewrite.hpp>
+#include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
+#include <thalweg/network/order/count_streams.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -7,12 +7,12 @@
 #include "terminal.hpp"
 #include "threads.hpp"
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/memory.hpp>
-#include <thalweg/core/printable.hpp>
-#include <thalweg/io/driver.hpp>
-#include <thalweg/pipeline/report.hpp>
-#include <thalweg/solver/devices.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/memory.hpp>
+#include <thalweg/core/run/printable.hpp>
+#include <thalweg/io/gdal/driver.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/solver/opencl/devices.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

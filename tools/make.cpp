@@ -7,14 +7,14 @@
 #include "terminal.hpp"
 #include "verdict.hpp"
 
-#include <thalweg/io/files.hpp>
-#include <thalweg/pipeline/forecast.hpp>
-#include <thalweg/pipeline/make_input.hpp>
-#include <thalweg/pipeline/recipe.hpp>
-#include <thalweg/pipeline/report.hpp>
-#include <thalweg/pipeline/terrain.hpp>
-#include <thalweg/pipeline/user_files.hpp>
-#include <thalweg/pipeline/write_terrain.hpp>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/write_terrain.hpp>
+#include <thalweg/pipeline/recipe/forecast.hpp>
+#include <thalweg/pipeline/recipe/make_input.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/recipe/user_files.hpp>
+#include <thalweg/pipeline/report/report.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "commands.hpp"
 #include "man_pages.hpp"
 
-#include <thalweg/io/files.hpp>
+#include <thalweg/io/files/files.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

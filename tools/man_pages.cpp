@@ -4,8 +4,8 @@
 
 #include "roff.hpp"
 
-#include <thalweg/pipeline/recipe.hpp>
-#include <thalweg/pipeline/report.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/report/report.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

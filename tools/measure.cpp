@@ -3,7 +3,7 @@
 #include "commands.hpp"
 #include "network_options.hpp"
 
-#include <thalweg/pipeline/make_measures.hpp>
+#include <thalweg/pipeline/commands/make_measures.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

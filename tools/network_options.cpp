@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "network_options.hpp"
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/io/schema.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/network/schema.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

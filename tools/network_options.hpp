@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/io/read_network.hpp>
+#include <thalweg/io/network/read_network.hpp>
 
 namespace CLI {
 class App;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "print_keys.hpp"
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/suggest.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/suggest.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/pipeline/recipe.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::tools {
 

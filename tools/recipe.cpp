@@ -3,10 +3,10 @@
 #include "commands.hpp"
 #include "print_keys.hpp"
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/printable.hpp>
-#include <thalweg/pipeline/make_input.hpp>
-#include <thalweg/pipeline/recipe.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/printable.hpp>
+#include <thalweg/pipeline/recipe/make_input.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 #include "commands.hpp"
 #include "terminal.hpp"
 
-#include <thalweg/core/printable.hpp>
-#include <thalweg/pipeline/replay.hpp>
+#include <thalweg/core/run/printable.hpp>
+#include <thalweg/pipeline/recipe/replay.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/printable.hpp>
-#include <thalweg/io/conversions.hpp>
-#include <thalweg/io/raster_files.hpp>
-#include <thalweg/measure/statistics.hpp>
-#include <thalweg/pipeline/dem_in_metres.hpp>
-#include <thalweg/pipeline/law_rows.hpp>
-#include <thalweg/pipeline/laws.hpp>
-#include <thalweg/pipeline/recipe_of_dem.hpp>
-#include <thalweg/pipeline/relief.hpp>
-#include <thalweg/pipeline/report.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/printable.hpp>
+#include <thalweg/io/gdal/conversions.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/pipeline/commands/dem_in_metres.hpp>
+#include <thalweg/pipeline/make/laws.hpp>
+#include <thalweg/pipeline/make/relief.hpp>
+#include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
+#include <thalweg/pipeline/report/law_rows.hpp>
+#include <thalweg/pipeline/report/report.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
 
-#include <thalweg/io/output_file.hpp>
-#include <thalweg/io/write_tin.hpp>
-#include <thalweg/pipeline/make_tin.hpp>
+#include <thalweg/io/files/output_file.hpp>
+#include <thalweg/io/mesh/write_tin.hpp>
+#include <thalweg/pipeline/commands/make_tin.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -10,7 +10,7 @@
 
 #include <thalweg/blend/paste.hpp>
 #include <thalweg/blend/place_patch.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 
 #include "lands.hpp"
 #include "oracle.hpp"

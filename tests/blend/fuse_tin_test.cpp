@@ -16,10 +16,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/blend/cut_tin.hpp>
-#include <thalweg/blend/mesh_outline.hpp>
-#include <thalweg/core/chance.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/blend/internal/cut_tin.hpp>
+#include <thalweg/blend/internal/mesh_outline.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/error.hpp>
 
 #include "lands.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include <thalweg/blend/patch.hpp>
-#include <thalweg/core/chance.hpp>
+#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/raster.hpp>
 
 namespace lands {

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/blend/follow.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/blend/internal/follow.hpp>
+#include <thalweg/core/run/error.hpp>
 
 #include "lands.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "land.hpp"
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

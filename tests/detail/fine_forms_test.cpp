@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/detail/fine_forms.hpp>
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "land.hpp"
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/detail/estimate_fractal.hpp>
 #include <thalweg/detail/refine.hpp>
 

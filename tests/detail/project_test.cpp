@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/detail/limiter.hpp>
-#include <thalweg/measure/statistics.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/detail/internal/limiter.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/skeleton/grf.hpp>
-#include <thalweg/solver/expected_slope.hpp>
+#include <thalweg/solver/statistics/expected_slope.hpp>
 
 using namespace thalweg;
 using detail::FixedHeight;

@@ -3,7 +3,7 @@
 #include <thalweg/draw/curve.hpp>
 #include <thalweg/draw/profile.hpp>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <thalweg/draw/hypsometry.hpp>
 #include <thalweg/draw/sections.hpp>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/network/order.hpp>
+#include <thalweg/network/order/order.hpp>
 
 namespace test {
 

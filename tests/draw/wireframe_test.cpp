@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/draw/fishnet.hpp>
+#include <thalweg/draw/internal/fishnet.hpp>
 #include <thalweg/draw/wireframe.hpp>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
 

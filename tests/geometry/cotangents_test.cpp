@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/error.hpp>
 
 using namespace thalweg;
 using namespace thalweg::geometry;

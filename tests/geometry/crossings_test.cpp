@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 
 using thalweg::BadInput;
 using thalweg::Vec2;

@@ -14,10 +14,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
-#include <thalweg/geometry/equidistant.hpp>
+#include <thalweg/geometry/internal/equidistant.hpp>
 #include <thalweg/geometry/segments_near.hpp>
 
 using namespace thalweg;

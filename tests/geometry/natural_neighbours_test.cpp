@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <tins.hpp>
 
 using namespace thalweg;

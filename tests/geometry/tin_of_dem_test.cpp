@@ -15,9 +15,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/elementary.hpp>
-#include <thalweg/core/error.hpp>
-#include <thalweg/surface/rasterise_tin.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/surface/tin/rasterise_tin.hpp>
 #include <tins.hpp>
 
 using namespace thalweg;

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/height_on_plane.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 #include <tins.hpp>

@@ -8,7 +8,7 @@ import language
 import rules
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MESSAGE = "lib/thalweg/io/read_dem.cpp"
+MESSAGE = "lib/thalweg/io/raster/read_dem.cpp"
 
 # file, its text, line and beginning of what must be said of it
 PLANTED = [

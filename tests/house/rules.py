@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rules of the house that no compiler keeps. Prints one line a violation; exit status 1 when there is one.
 Usage: rules.py [ROOT]"""
+import collections
 import pathlib
 import re
 import subprocess
@@ -39,7 +40,7 @@ LIBM = ("pow|exp|exp2|expm1|log2|log10|log1p|sin|cos|tan|asin|acos|atan|atan2|si
 LIBM_CALL = re.compile(r"\bstd::(?:%s|log)[fl]?\b|(?<![\w:.>])(?:::)?(?:%s)[fl]?\(" % (LIBM, LIBM))
 LIBM_LOG = re.compile(r"(?<![\w:.>])(?:::)?log[fl]?\(")
 # Pictures promise no bytes; elementary is what replaces libm.
-LIBM_FREE_OF = ("lib/thalweg/draw/", "lib/thalweg/core/elementary.")
+LIBM_FREE_OF = ("lib/thalweg/draw/", "lib/thalweg/core/numbers/elementary.")
 
 # In the library: what gives other results with another standard library, processor or number of threads.
 UNREPEATABLE = re.compile(r"\bstd::(?:shuffle|sample|random_device|reduce|transform_reduce|execution|hash)\b|"
@@ -55,6 +56,8 @@ UNASKED = re.compile(r"^\s*rc::check\(")
 NAMESPACE = re.compile(r"(?:inline )?namespace(?: ([\w:]+))? \{|\} // namespace")
 TYPE = re.compile(r"(?:struct|class|union|enum class|enum) (\w+)(?![\w:])[^;]*\{")
 FLAGS = re.compile(r"-march=|-mtune=|-mfma|-mavx|-ffast-math|-Ofast|-funsafe-math|-ffp-contract=fast")
+
+MOST_FILES = 40  # in a folder of lib or tests
 
 MACHINE_PATH = re.compile(r"(?<![\w.}$)*-])/(?:work|home|root|tmp|Users)(?![\w.-])")
 FETCHED = re.compile(r"FetchContent|ExternalProject|CPMAddPackage|\b(?:pip3?|conan|vcpkg|cargo|gem) install\b|"
@@ -85,8 +88,8 @@ def files_of(root):
 def place(name):
     """The room of a source file: a folder of lib/thalweg, "tools", or None."""
     parts = name.split("/")
-    if parts[:2] == ["lib", "thalweg"] and len(parts) > 3:
-        return parts[2]
+    if parts[:2] == ["lib", "thalweg"] and len(parts) > 2:
+        return parts[2].removesuffix(".hpp")
     return "tools" if parts[0] == "tools" else None
 
 
@@ -100,6 +103,8 @@ def check_include(name, room, quoted, header):
         return None if room == "tools" and "/" not in header else f'"{header}": write <thalweg/...>'
     if header.startswith("thalweg/"):
         target = header.split("/")[1]
+        if "/internal/" in header and (room != target or (name.endswith(".hpp") and "/internal/" not in name)):
+            return f"<{header}> is for the .cpp files of {target} alone"
         if room == "tools" or target == room or target in ROOMS[room]:
             return None
         what = "stage rooms meet in pipeline only" if target in STAGES and room in STAGES else "dependencies point one way"
@@ -171,6 +176,21 @@ def check_types(sources):
             seen[full] = name
 
 
+def check_umbrellas(sources):
+    """Headers lib/thalweg/ROOM.hpp that do not include just the public headers of their room."""
+    public = collections.defaultdict(set)
+    included = {}
+    for name, lines in sources:
+        path = pathlib.PurePath(name)
+        if name.endswith(".hpp") and len(path.parts) == 3:
+            included[place(name)] = {INCLUDE.match(line)[2] for line in lines if INCLUDE.match(line)}
+        elif name.endswith(".hpp") and "internal" not in path.parts:
+            public[place(name)].add(name.removeprefix("lib/"))
+    for room, headers in sorted(included.items()):
+        for header in sorted(headers ^ public[room]):
+            yield f"lib/thalweg/{room}.hpp:1: {header}: this header includes the public headers of {room}, all and no others"
+
+
 def check_text(name, lines):
     """Violations of any text file as (line number, text)."""
     path = pathlib.PurePath(name)
@@ -191,12 +211,21 @@ def check_text(name, lines):
             yield number, f"{found[0]}: changes bits from machine to machine"
 
 
+def check_folders(names):
+    """Folders of lib and tests in which nobody finds a file."""
+    count = collections.Counter(str(pathlib.PurePath(name).parent) for name in names if name.startswith(("lib/", "tests/")))
+    for folder, files in sorted(count.items()):
+        if files > MOST_FILES:
+            yield f"{folder}:1: {files} files in one folder; take it apart by families, {MOST_FILES} each at most"
+
+
 def violations(root):
     """Every violation under a folder, as printable lines."""
     root = pathlib.Path(root)
-    found = []
     sources = []
-    for name in files_of(root):
+    names = files_of(root)
+    found = list(check_folders(names))
+    for name in names:
         data = (root / name).read_bytes()
         if pathlib.PurePath(name).suffix in PICTURES or b"\0" in data:
             continue
@@ -207,7 +236,7 @@ def violations(root):
         if name.endswith(CPP) and name.startswith("lib/"):
             sources.append((name, lines))
         found += [f"{name}:{number}: {text}" for number, text in sorted(faults)]
-    return found + list(check_types(sources))
+    return found + list(check_types(sources)) + list(check_umbrellas(sources))
 
 
 if __name__ == "__main__":

@@ -9,18 +9,20 @@ import rules
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SPDX = "// " + rules.SPDX[0] + "\n// " + rules.SPDX[1] + "\n"
-NETWORK = "lib/thalweg/network/trace.cpp"
+NETWORK = "lib/thalweg/network/vectorise/trace.cpp"
 
 # file, its text below the SPDX lines, what must be said of it
 PLANTED = [
     ("lib/thalweg/core/grid.hpp", "#include <gdal.h>", "foreign <gdal.h> in a header"),
     ("lib/thalweg/core/raster.hpp", "#include <boost/graph/adjacency_list.hpp>", "in a header"),
-    ("lib/thalweg/core/run.cpp", "#include <thalweg/network/thin.hpp>", "dependencies point one way"),
-    ("lib/thalweg/io/read_dem.cpp", "#include <thalweg/pipeline/recipe.hpp>", "dependencies point one way"),
+    ("lib/thalweg/core/run/run.cpp", "#include <thalweg/network/vectorise/thin.hpp>", "dependencies point one way"),
+    ("lib/thalweg/io/raster/read_dem.cpp", "#include <thalweg/pipeline/recipe/recipe.hpp>", "dependencies point one way"),
     ("lib/thalweg/geometry/crossings.cpp", "#include <gdal.h>", "does not belong to geometry"),
+    ("tools/make.cpp", "#include <thalweg/network/order/internal/require_trees.hpp>", "is for the .cpp files of network alone"),
+    ("lib/thalweg/network/order/order.hpp", "#include <thalweg/network/order/internal/require_trees.hpp>", "of network alone"),
     (NETWORK, "#include <CGAL/Arrangement_2.h>", "does not belong to network"),
-    (NETWORK, "#include <thalweg/surface/dilate.hpp>", "stage rooms meet in pipeline only"),
-    (NETWORK, "  #  include <thalweg/measure/drainage.hpp>", "stage rooms meet in pipeline only"),
+    (NETWORK, "#include <thalweg/surface/dilation/dilate.hpp>", "stage rooms meet in pipeline only"),
+    (NETWORK, "  #  include <thalweg/measure/drainage/drainage.hpp>", "stage rooms meet in pipeline only"),
     ("lib/thalweg/detail/project.cpp", "#include <Eigen/Dense>", "does not belong to detail"),
     (NETWORK, "#include <strange/library.hpp>", "foreign <strange/library.hpp>"),
     (NETWORK, '#include "thin.hpp"', "write <thalweg/...>"),
@@ -37,7 +39,7 @@ PLANTED = [
     ("tests/core/b_test.cpp", '    rc::check("a law", [] {', "its verdict is not looked at"),
     (NETWORK, "namespace a {\n\nstruct B {\n};\n\n} // namespace a\nnamespace a {\nstruct B : C {",
      "a::B is also defined in " + NETWORK),
-    ("lib/thalweg/pipeline/rivers.cpp", 'throw BadInput("network.prune: too long");', "names its own module first"),
+    ("lib/thalweg/pipeline/make/rivers.cpp", 'throw BadInput("network.prune: too long");', "names its own module first"),
     ("tools/make.cpp", 'say("io.read_dem: x");', "names its own module first"),
     ("tests/core/a_test.cpp", "#include <thalweg/core/grid.cpp>", "a .cpp file is included"),
     ("samples/1.cpp", 'auto where = "/' + 'home/somebody/a.tif";', "a path of one machine"),
@@ -54,8 +56,9 @@ PLANTED = [
 # What looks like a violation and is none.
 INNOCENT = [
     ("lib/thalweg/core/stream_network.hpp", "#include <boost/graph/adjacency_list.hpp>"),
-    ("lib/thalweg/core/run.hpp", "if (log) {\n    log(line);\n}"),
+    ("lib/thalweg/core/run/run.hpp", "if (log) {\n    log(line);\n}"),
     (NETWORK, "double a = exact::pow(b, 2) + thalweg::exact::sin(c); // sin(x) of old"),
+    (NETWORK, "#include <thalweg/network/order/internal/require_trees.hpp>"),
     (NETWORK, "#include <boost/graph/depth_first_search.hpp>\n#include <fmt/format.h>\n#include <cmath>\n#include <sys/stat.h>"),
     (NETWORK, "#include <thalweg/geometry/crossings.hpp>\n#include <thalweg/core/grid.hpp>"),
     (NETWORK, "double lesin(double); double a = lesin(1) + o.log(2) + std::sqrt(2);"),
@@ -63,11 +66,11 @@ INNOCENT = [
               "namespace c {\nstruct B {"),
     ("tests/core/b_test.cpp", '    ASSERT_TRUE(rc::check("a law", [] {'),
     ("lib/thalweg/geometry/crossings.cpp", "#include <CGAL/Arrangement_2.h>"),
-    ("lib/thalweg/solver/fft.cpp", "#include <unsupported/Eigen/FFT>"),
-    ("lib/thalweg/pipeline/terrain.cpp", "#include <thalweg/surface/dilate.hpp>\n#include <thalweg/network/thin.hpp>"),
+    ("lib/thalweg/solver/spectral/fft.cpp", "#include <unsupported/Eigen/FFT>"),
+    ("lib/thalweg/pipeline/make/terrain.cpp", "#include <thalweg/surface/dilation/dilate.hpp>\n#include <thalweg/network/vectorise/thin.hpp>"),
     ("lib/thalweg/draw/map.cpp", "#include <cairo.h>\ndouble a = std::cos(b);"),
     (NETWORK, 'throw BadInput("network.prune: too long"); // "io.read: x"'),
-    ("lib/thalweg/pipeline/rivers.cpp", 'text("network.heights = file"); throw BadInput("[network.dla]: none");'),
+    ("lib/thalweg/pipeline/make/rivers.cpp", 'text("network.heights = file"); throw BadInput("[network.dla]: none");'),
     ("tests/network/a_test.cpp", "#include <random>\n#include <gdal.h>\nstd::mt19937_64 g; double p = std::pow(2, 3);"),
     ("tools/make.cpp", '#include <CLI/CLI.hpp>\n#include "commands.hpp"\n#include <unistd.h>'),
     ("docs/a.md", "${ROOT}/work and file/home and https://x.example/tmp.html"),
@@ -97,6 +100,29 @@ class Rules(unittest.TestCase):
         for name, text in INNOCENT:
             with self.subTest(name=name, text=text):
                 self.assertEqual(self.said_of(name, text), [])
+
+    def test_a_folder_with_too_many_files_is_found(self):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder, "tests/core")
+            place.mkdir(parents=True)
+            for number in range(rules.MOST_FILES + 1):
+                (place / f"a{number}_test.cpp").write_text(SPDX)
+            said = rules.violations(folder)
+            self.assertEqual(len(said), 1, said)
+            self.assertIn("tests/core:1: 41 files in one folder", said[0])
+
+    def test_an_umbrella_with_a_gap_is_found(self):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder, "lib/thalweg")
+            (place / "core/internal").mkdir(parents=True)
+            for name in ("core/grid.hpp", "core/internal/own.hpp"):
+                (place / name).write_text(SPDX)
+            (place / "core.hpp").write_text(SPDX)
+            said = rules.violations(folder)
+            self.assertEqual(len(said), 1, said)
+            self.assertIn("lib/thalweg/core.hpp:1: thalweg/core/grid.hpp", said[0])
+            (place / "core.hpp").write_text(SPDX + "#include <thalweg/core/grid.hpp>\n")
+            self.assertEqual(rules.violations(folder), [])
 
     def test_missing_spdx_lines_are_found(self):
         for name, text in [("a.cpp", "int main() {}"), ("scripts/x", "#!/bin/sh"), ("b.hpp", SPDX.splitlines()[0]), ("c.py", "")]:

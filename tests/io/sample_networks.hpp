@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/io/write_network.hpp>
+#include <thalweg/io/network/write_network.hpp>
 
 /// A small network with everything its tables hold, numbers that do not end in binary among them.
 struct SampleNetwork {

@@ -9,7 +9,7 @@
 
 #include <rapidcheck.h>
 
-#include <thalweg/core/chance.hpp>
+#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/raster.hpp>
 
 inline constexpr float hole = std::numeric_limits<float>::quiet_NaN();

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/measure/topology.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/measure/topology/topology.hpp>
 
 #include "trees.hpp"
 

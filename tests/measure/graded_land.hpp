@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include <thalweg/measure/drainage.hpp>
+#include <thalweg/measure/drainage/drainage.hpp>
 
 #include "dems.hpp"
 

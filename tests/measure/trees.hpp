@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/chance.hpp>
+#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 /// Boost's add_vertex with properties makes GCC's sanitizer builds warn.

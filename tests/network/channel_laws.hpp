@@ -11,8 +11,8 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
+#include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/channels.hpp>
-#include <thalweg/core/d8.hpp>
 
 /// What holds of channels.
 namespace thalweg::test {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include <thalweg/network/grow_forest.hpp>
+#include <thalweg/network/growth/forest/grow_forest.hpp>
 
 namespace thalweg::test {
 

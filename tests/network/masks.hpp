@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/chance.hpp>
+#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/raster.hpp>
 
 /// Masks to thin and trace, drawn by hand or by chance.

@@ -9,8 +9,8 @@
 
 #include <network/masks.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/network/thin.hpp>
-#include <thalweg/network/trace.hpp>
+#include <thalweg/network/vectorise/thin.hpp>
+#include <thalweg/network/vectorise/trace.hpp>
 
 /// Networks to prune, order and raise, drawn by hand or by chance.
 namespace thalweg::test {

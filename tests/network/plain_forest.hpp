@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/chance.hpp>
+#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/network/forest_growth.hpp>
-#include <thalweg/network/grow_forest.hpp>
+#include <thalweg/network/growth/forest/grow_forest.hpp>
+#include <thalweg/network/growth/forest/internal/forest_growth.hpp>
 
 /// The rules of grow_forest written out: every step of a walker is a unit step, every question is asked of all
 /// particles.

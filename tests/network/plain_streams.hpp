@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/network/grow_tokunaga.hpp>
+#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 
 /// Strahler orders and side branches counted junction by junction from who flows into whom alone: the slow, obvious
 /// way.

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/network/birth_circle.hpp>
-#include <thalweg/network/grow_dla.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/network/growth/dla/internal/birth_circle.hpp>
 
 /// The oracle and yardstick of the growth: the same birth circle, return from afar and occupancy test, but every step
 /// of a walker is a unit step.

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/skeleton/shift_mean.hpp>
 
 #include "fields.hpp"

@@ -14,9 +14,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/cells_along.hpp>
-#include <thalweg/core/chance.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/error.hpp>
 
 #include "fields.hpp"
 

@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/skeleton/grf.hpp>
+#include <thalweg/skeleton/internal/normal_row.hpp>
 #include <thalweg/skeleton/markov3.hpp>
-#include <thalweg/skeleton/normal_row.hpp>
 #include <thalweg/skeleton/separable_ar.hpp>
 
 #include "fields.hpp"

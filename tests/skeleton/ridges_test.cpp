@@ -12,19 +12,19 @@
 
 #include <gtest/gtest.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/segments_near.hpp>
-#include <thalweg/network/embed_tree.hpp>
-#include <thalweg/network/grow_dla.hpp>
-#include <thalweg/network/order.hpp>
-#include <thalweg/network/pick_branch.hpp>
-#include <thalweg/network/prune.hpp>
-#include <thalweg/network/set_heights.hpp>
-#include <thalweg/network/streams.hpp>
-#include <thalweg/network/thin.hpp>
-#include <thalweg/network/trace.hpp>
-#include <thalweg/pipeline/frame.hpp>
+#include <thalweg/network/elevation/set_heights.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/network/growth/dla/pick_branch.hpp>
+#include <thalweg/network/growth/tokunaga/embed_tree.hpp>
+#include <thalweg/network/order/order.hpp>
+#include <thalweg/network/order/streams.hpp>
+#include <thalweg/network/vectorise/prune.hpp>
+#include <thalweg/network/vectorise/thin.hpp>
+#include <thalweg/network/vectorise/trace.hpp>
+#include <thalweg/pipeline/make/frame.hpp>
 
 using namespace thalweg;
 using skeleton::ridges;

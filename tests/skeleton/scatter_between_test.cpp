@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/scatter_between.hpp>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
 

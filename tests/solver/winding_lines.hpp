@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/solver/poisson.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/solver/grid/poisson.hpp>
 
 /// Problems to solve, for tests and bench.
 namespace thalweg::test {

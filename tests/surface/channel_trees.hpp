@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/core/chance.hpp>
+#include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/channels.hpp>
-#include <thalweg/core/d8.hpp>
+#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/raster.hpp>
 
 #include <algorithm>

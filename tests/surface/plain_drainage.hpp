@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/core/d8.hpp>
+#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/valley.hpp>
-#include <thalweg/surface/small_step.hpp>
+#include <thalweg/surface/drainage/internal/small_step.hpp>
 
 #include <algorithm>
 #include <cmath>

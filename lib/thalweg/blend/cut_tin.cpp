@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/blend/cut_tin.hpp>
+#include <thalweg/blend/internal/cut_tin.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/height_on_plane.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 #include <thalweg/geometry/triangulate.hpp>

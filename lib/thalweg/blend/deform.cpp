@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/blend/follow.hpp>
-#include <thalweg/blend/opening.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/blend/internal/follow.hpp>
+#include <thalweg/blend/internal/opening.hpp>
+#include <thalweg/core/run/error.hpp>
 
 namespace thalweg::blend {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/blend/distance_within.hpp>
+#include <thalweg/blend/internal/distance_within.hpp>
 
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include <thalweg/core/parallel.hpp>
+#include <thalweg/core/run/parallel.hpp>
 
 namespace thalweg::blend {
 namespace {

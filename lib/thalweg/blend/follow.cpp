@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/blend/follow.hpp>
+#include <thalweg/blend/internal/follow.hpp>
 
-#include <thalweg/core/parallel.hpp>
-#include <thalweg/core/sum_rows.hpp>
+#include <thalweg/core/numbers/sum_rows.hpp>
+#include <thalweg/core/run/parallel.hpp>
 
 namespace thalweg::blend {
 namespace {

@@ -12,10 +12,10 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/blend/cut_tin.hpp>
-#include <thalweg/blend/mesh_outline.hpp>
+#include <thalweg/blend/internal/cut_tin.hpp>
+#include <thalweg/blend/internal/mesh_outline.hpp>
 #include <thalweg/blend/paste_tin.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 #include <thalweg/geometry/triangle_order.hpp>
 

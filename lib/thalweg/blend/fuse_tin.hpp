@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>
 
 namespace thalweg::blend {

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/blend/distance_within.hpp>
-#include <thalweg/blend/follow.hpp>
-#include <thalweg/blend/opening.hpp>
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/parallel.hpp>
-#include <thalweg/core/sum_rows.hpp>
+#include <thalweg/blend/internal/distance_within.hpp>
+#include <thalweg/blend/internal/follow.hpp>
+#include <thalweg/blend/internal/opening.hpp>
+#include <thalweg/core/numbers/sum_rows.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
 
 namespace thalweg::blend {
 namespace {

@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/solver/sparse.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/solver/linear/sparse.hpp>
 
 namespace thalweg::blend {
 namespace {

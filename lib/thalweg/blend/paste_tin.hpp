@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <thalweg/blend/gradients.hpp>
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>
 
 namespace thalweg::blend {

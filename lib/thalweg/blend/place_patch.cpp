@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/elementary.hpp>
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/sum_rows.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/sum_rows.hpp>
+#include <thalweg/core/run/error.hpp>
 
 namespace thalweg::blend {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <thalweg/core/grid.hpp>
-#include <thalweg/core/large_pages.hpp>
+#include <thalweg/core/run/large_pages.hpp>
 
 namespace thalweg {
 

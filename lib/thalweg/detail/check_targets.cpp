@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/elementary.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
 
 namespace thalweg::detail {
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/detail/condition_surface.hpp>
+#include <thalweg/detail/internal/condition_surface.hpp>
 
-#include <thalweg/core/elementary.hpp>
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/parallel.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
 #include <thalweg/detail/midpoint.hpp>
-#include <thalweg/solver/cholesky.hpp>
-#include <thalweg/solver/fractional_surface.hpp>
+#include <thalweg/solver/linear/cholesky.hpp>
+#include <thalweg/solver/spectral/fractional_surface.hpp>
 
 #include <fmt/format.h>
 

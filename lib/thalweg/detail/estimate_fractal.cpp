@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/detail/estimate_fractal.hpp>
 
-#include <thalweg/core/elementary.hpp>
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/parallel.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::detail {
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/detail/midpoint.hpp>
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/parallel.hpp>
-#include <thalweg/detail/condition_surface.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
 #include <thalweg/detail/estimate_fractal.hpp>
+#include <thalweg/detail/internal/condition_surface.hpp>
 #include <thalweg/detail/refine.hpp>
 
 #include <fmt/format.h>

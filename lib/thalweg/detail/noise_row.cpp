@@ -43,7 +43,7 @@ static_assert(std::endian::native == std::endian::little, "slices of words are r
 namespace plain {
 #define THALWEG_TARGET
 #define THALWEG_LANES 4
-#include <thalweg/detail/noise_lanes.inc>
+#include <thalweg/detail/internal/noise_lanes.inc>
 #undef THALWEG_TARGET
 #undef THALWEG_LANES
 } // namespace plain
@@ -52,7 +52,7 @@ namespace plain {
 namespace avx2 {
 #define THALWEG_TARGET __attribute__((target("avx2")))
 #define THALWEG_LANES 8
-#include <thalweg/detail/noise_lanes.inc>
+#include <thalweg/detail/internal/noise_lanes.inc>
 #undef THALWEG_TARGET
 #undef THALWEG_LANES
 } // namespace avx2

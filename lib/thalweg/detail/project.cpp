@@ -14,16 +14,16 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/elementary.hpp>
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/parallel.hpp>
-#include <thalweg/core/sum_rows.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/sum_rows.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
 #include <thalweg/detail/check_targets.hpp>
-#include <thalweg/detail/limiter.hpp>
-#include <thalweg/solver/cholesky.hpp>
-#include <thalweg/solver/circulant.hpp>
-#include <thalweg/solver/fft.hpp>
-#include <thalweg/solver/field_statistics.hpp>
+#include <thalweg/detail/internal/limiter.hpp>
+#include <thalweg/solver/linear/cholesky.hpp>
+#include <thalweg/solver/spectral/circulant.hpp>
+#include <thalweg/solver/spectral/fft.hpp>
+#include <thalweg/solver/statistics/field_statistics.hpp>
 
 namespace thalweg::detail {
 

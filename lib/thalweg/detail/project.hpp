@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/run.hpp>
-#include <thalweg/solver/stable_covariance.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/solver/spectral/stable_covariance.hpp>
 
 namespace thalweg::detail {
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/detail/refine.hpp>
 
-#include <thalweg/core/elementary.hpp>
-#include <thalweg/core/parallel.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/parallel.hpp>
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ struct Points {
 namespace plain {
 #define THALWEG_TARGET
 #define THALWEG_LANES 4
-#include <thalweg/detail/refine_lanes.inc>
+#include <thalweg/detail/internal/refine_lanes.inc>
 #undef THALWEG_TARGET
 #undef THALWEG_LANES
 } // namespace plain
@@ -42,7 +42,7 @@ namespace plain {
 namespace avx2 {
 #define THALWEG_TARGET __attribute__((target("avx2")))
 #define THALWEG_LANES 8
-#include <thalweg/detail/refine_lanes.inc>
+#include <thalweg/detail/internal/refine_lanes.inc>
 #undef THALWEG_TARGET
 #undef THALWEG_LANES
 } // namespace avx2

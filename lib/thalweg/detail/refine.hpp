@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/large_pages.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/large_pages.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/detail/noise_row.hpp>
 #include <thalweg/detail/stencil_weights.hpp>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/detail/stencil_weights.hpp>
 
-#include <thalweg/core/elementary.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
 
 #include <cmath>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/draw/canvas.hpp>
+#include <thalweg/draw/internal/canvas.hpp>
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 #include <fontconfig/fontconfig.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 
 namespace thalweg::draw {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/draw/main_stem.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/draw/internal/main_stem.hpp>
 
 namespace thalweg::draw {
 namespace {

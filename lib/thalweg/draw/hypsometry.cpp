@@ -8,9 +8,9 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/draw/axes.hpp>
-#include <thalweg/draw/canvas.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/draw/internal/axes.hpp>
+#include <thalweg/draw/internal/canvas.hpp>
 
 namespace thalweg::draw {
 namespace {

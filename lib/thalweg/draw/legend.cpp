@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/draw/legend.hpp>
+#include <thalweg/draw/internal/legend.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include <thalweg/draw/axes.hpp>
-#include <thalweg/draw/map_lines.hpp>
-#include <thalweg/draw/relief.hpp>
+#include <thalweg/draw/internal/axes.hpp>
+#include <thalweg/draw/internal/map_lines.hpp>
+#include <thalweg/draw/internal/relief.hpp>
 
 namespace thalweg::draw {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <cairo.h>
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/draw/canvas.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/draw/internal/canvas.hpp>
 
 namespace thalweg::draw {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/draw/main_stem.hpp>
+#include <thalweg/draw/internal/main_stem.hpp>
 
 #include <algorithm>
 

@@ -8,13 +8,13 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/draw/axes.hpp>
-#include <thalweg/draw/canvas.hpp>
-#include <thalweg/draw/legend.hpp>
-#include <thalweg/draw/map_lines.hpp>
-#include <thalweg/draw/relief.hpp>
-#include <thalweg/draw/window.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/draw/internal/axes.hpp>
+#include <thalweg/draw/internal/canvas.hpp>
+#include <thalweg/draw/internal/legend.hpp>
+#include <thalweg/draw/internal/map_lines.hpp>
+#include <thalweg/draw/internal/relief.hpp>
+#include <thalweg/draw/internal/window.hpp>
 
 namespace thalweg::draw {
 namespace {

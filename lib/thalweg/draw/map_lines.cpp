@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/draw/map_lines.hpp>
+#include <thalweg/draw/internal/map_lines.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 #include <cairo.h>
 
-#include <thalweg/draw/axes.hpp>
+#include <thalweg/draw/internal/axes.hpp>
 
 namespace thalweg::draw {
 namespace {

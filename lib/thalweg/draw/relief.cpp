@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/draw/relief.hpp>
+#include <thalweg/draw/internal/relief.hpp>
 
 #include <algorithm>
 #include <array>

@@ -9,12 +9,12 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/draw/axes.hpp>
-#include <thalweg/draw/canvas.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/draw/cut_sections.hpp>
-#include <thalweg/draw/main_stem.hpp>
-#include <thalweg/draw/window.hpp>
+#include <thalweg/draw/internal/axes.hpp>
+#include <thalweg/draw/internal/canvas.hpp>
+#include <thalweg/draw/internal/main_stem.hpp>
+#include <thalweg/draw/internal/window.hpp>
 
 namespace thalweg::draw {
 namespace {

@@ -10,12 +10,12 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/draw/axes.hpp>
-#include <thalweg/draw/canvas.hpp>
-#include <thalweg/draw/fishnet.hpp>
-#include <thalweg/draw/hidden_lines.hpp>
-#include <thalweg/draw/main_stem.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/draw/internal/axes.hpp>
+#include <thalweg/draw/internal/canvas.hpp>
+#include <thalweg/draw/internal/fishnet.hpp>
+#include <thalweg/draw/internal/hidden_lines.hpp>
+#include <thalweg/draw/internal/main_stem.hpp>
 
 namespace thalweg::draw {
 namespace {

@@ -9,7 +9,7 @@
 #include <CGAL/Weights/utils.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 
 namespace thalweg::geometry {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include <thalweg/geometry/exact_segments.hpp>
-#include <thalweg/geometry/segment_pairs.hpp>
+#include <thalweg/geometry/internal/exact_segments.hpp>
+#include <thalweg/geometry/internal/segment_pairs.hpp>
 
 namespace thalweg::geometry {
 namespace {

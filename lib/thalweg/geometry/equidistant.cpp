@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/geometry/equidistant.hpp>
+#include <thalweg/geometry/internal/equidistant.hpp>
 
 #include <algorithm>
 #include <cmath>

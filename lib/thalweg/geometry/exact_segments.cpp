@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/geometry/exact_segments.hpp>
+#include <thalweg/geometry/internal/exact_segments.hpp>
 
 #include <algorithm>
 #include <cmath>

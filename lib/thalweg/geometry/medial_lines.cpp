@@ -19,10 +19,10 @@
 #include <CGAL/spatial_sort.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
-#include <thalweg/geometry/equidistant.hpp>
-#include <thalweg/geometry/finish_diagram.hpp>
+#include <thalweg/geometry/internal/equidistant.hpp>
+#include <thalweg/geometry/internal/finish_diagram.hpp>
 
 namespace thalweg::geometry {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/geometry/exact_segments.hpp>
-#include <thalweg/geometry/segment_pairs.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/geometry/internal/exact_segments.hpp>
+#include <thalweg/geometry/internal/segment_pairs.hpp>
 
 namespace thalweg::geometry {
 namespace {

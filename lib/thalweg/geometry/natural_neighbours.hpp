@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg::geometry {

@@ -15,7 +15,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/triangle_order.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 

@@ -20,7 +20,7 @@
 #include <CGAL/spatial_sort.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/side_of_line.hpp>

@@ -14,7 +14,7 @@
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 
-#include <thalweg/geometry/finish_diagram.hpp>
+#include <thalweg/geometry/internal/finish_diagram.hpp>
 
 namespace thalweg::geometry {
 namespace {

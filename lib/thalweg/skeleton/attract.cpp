@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells_around.hpp>
-#include <thalweg/core/elementary.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
 
 namespace thalweg::skeleton {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/skeleton/chain_ridges.hpp>
+#include <thalweg/skeleton/internal/chain_ridges.hpp>
 
 #include <algorithm>
 #include <map>

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells_along.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/run/error.hpp>
 
 namespace thalweg::skeleton {
 

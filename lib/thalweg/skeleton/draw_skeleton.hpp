@@ -6,7 +6,7 @@
 
 #include <thalweg/core/feature_points.hpp>
 #include <thalweg/core/ridge_lines.hpp>
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/core/skeleton.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/skeleton/noise_along.hpp>

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/skeleton/field_params.hpp>
-#include <thalweg/solver/circulant.hpp>
-#include <thalweg/solver/fft.hpp>
+#include <thalweg/solver/spectral/circulant.hpp>
+#include <thalweg/solver/spectral/fft.hpp>
 
 namespace thalweg::skeleton {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/run.hpp>
-#include <thalweg/solver/stable_covariance.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/solver/spectral/stable_covariance.hpp>
 
 namespace thalweg::skeleton {
 

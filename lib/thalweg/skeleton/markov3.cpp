@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/elementary.hpp>
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/parallel.hpp>
-#include <thalweg/skeleton/normal_row.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/skeleton/internal/normal_row.hpp>
 
 namespace thalweg::skeleton {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/skeleton/field_params.hpp>
 
 namespace thalweg::skeleton {

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/parallel.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
 
 namespace thalweg::skeleton {
 

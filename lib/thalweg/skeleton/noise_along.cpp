@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/core/error.hpp>
-#include <thalweg/skeleton/perlin.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/skeleton/internal/perlin.hpp>
 
 namespace thalweg::skeleton {
 

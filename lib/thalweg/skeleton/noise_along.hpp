@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg::skeleton {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/skeleton/normal_row.hpp>
+#include <thalweg/skeleton/internal/normal_row.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/core/normal.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/normal.hpp>
 
 namespace thalweg::skeleton {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/skeleton/perlin.hpp>
+#include <thalweg/skeleton/internal/perlin.hpp>
 
 #include <libnoise/noise.h>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compiled in the place of perlin.cpp where libnoise is not installed.
-#include <thalweg/core/error.hpp>
-#include <thalweg/skeleton/perlin.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/skeleton/internal/perlin.hpp>
 
 namespace thalweg::skeleton {
 

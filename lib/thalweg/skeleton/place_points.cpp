@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/skeleton/place_points.hpp>
+#include <thalweg/skeleton/internal/place_points.hpp>
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/error.hpp>
 
 #include <fmt/format.h>
 

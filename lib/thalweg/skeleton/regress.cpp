@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/regress.hpp>
 
-#include <thalweg/core/elementary.hpp>
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/parallel.hpp>
-#include <thalweg/solver/least_squares.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/solver/linear/least_squares.hpp>
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 
 #include <thalweg/core/feature_points.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::skeleton {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/skeleton/ridge_pieces.hpp>
+#include <thalweg/skeleton/internal/ridge_pieces.hpp>
 
 #include <algorithm>
 #include <array>

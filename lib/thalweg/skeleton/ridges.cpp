@@ -10,12 +10,12 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/error.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/medial_lines.hpp>
 #include <thalweg/geometry/voronoi.hpp>
-#include <thalweg/skeleton/chain_ridges.hpp>
-#include <thalweg/skeleton/ridge_pieces.hpp>
+#include <thalweg/skeleton/internal/chain_ridges.hpp>
+#include <thalweg/skeleton/internal/ridge_pieces.hpp>
 
 namespace thalweg::skeleton {
 namespace {

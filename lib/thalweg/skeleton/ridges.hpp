@@ -7,7 +7,7 @@
 
 #include <thalweg/core/grid.hpp>
 #include <thalweg/core/ridge_lines.hpp>
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 namespace thalweg::skeleton {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/scatter.hpp>
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/core/elementary.hpp>
-#include <thalweg/core/error.hpp>
-#include <thalweg/skeleton/place_points.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/skeleton/internal/place_points.hpp>
 
 #include <fmt/format.h>
 

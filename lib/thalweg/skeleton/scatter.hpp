@@ -7,7 +7,7 @@
 
 #include <thalweg/core/feature_points.hpp>
 #include <thalweg/core/grid.hpp>
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/skeleton/attract.hpp>
 
 namespace thalweg::skeleton {

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/scatter_between.hpp>
 
-#include <thalweg/core/chance.hpp>
-#include <thalweg/core/error.hpp>
-#include <thalweg/core/nearest_cells.hpp>
-#include <thalweg/core/normal.hpp>
-#include <thalweg/skeleton/place_points.hpp>
+#include <thalweg/core/cells/nearest_cells.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/normal.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/skeleton/internal/place_points.hpp>
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/run.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/skeleton/scatter.hpp>
 

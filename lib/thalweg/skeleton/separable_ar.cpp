@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-#include <thalweg/core/elementary.hpp>
-#include <thalweg/core/parallel.hpp>
-#include <thalweg/skeleton/normal_row.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/skeleton/internal/normal_row.hpp>
 
 namespace thalweg::skeleton {
 

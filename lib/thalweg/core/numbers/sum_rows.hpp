@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/run/parallel.hpp>
+
+namespace thalweg {
+
+/// Sum of what term(row) gives for the rows [0, rows), of any type with operator+=.
+/// Gives: the same bits for any number of threads: the rows are added in their order, whichever thread made them.
+/// Throws: what term throws; Cancelled.
+template <class Term> auto sum_rows(Run const& run, std::int64_t rows, Term const& term) {
+    using Sum = decltype(term(rows));
+    std::vector<Sum> parts(static_cast<std::size_t>(rows));
+    parallel_ranges(run, rows, 8, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t r = begin; r < end; ++r) {
+            parts[static_cast<std::size_t>(r)] = term(r);
+        }
+    });
+    Sum sum{};
+    for (Sum const& part : parts) {
+        sum += part;
+    }
+    return sum;
+}
+
+} // namespace thalweg

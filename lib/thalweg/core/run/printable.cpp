@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/core/run/printable.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace thalweg {
+
+namespace {
+
+constexpr std::size_t longest_line = 600;
+constexpr std::size_t kept_first = 400;
+constexpr std::size_t kept_last = 150;
+constexpr std::size_t most_lines = 60;
+constexpr std::size_t kept_lines = 50;
+
+bool continues(char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+/// The character at the beginning of a text and its length in bytes; length 0 where it is not UTF-8.
+std::pair<std::uint32_t, std::size_t> first_character(std::string_view text) {
+    auto const head = static_cast<unsigned char>(text.front());
+    if (head < 0x80U) {
+        return {head, 1};
+    }
+    std::size_t const length = head >= 0xF0U ? 4 : head >= 0xE0U ? 3 : 2;
+    if (head < 0xC2U || head > 0xF4U || text.size() < length) {
+        return {0, 0};
+    }
+    std::uint32_t code = head & (0x7FU >> length);
+    for (std::size_t i = 1; i < length; ++i) {
+        if (!continues(text[i])) {
+            return {0, 0};
+        }
+        code = (code << 6U) | (static_cast<unsigned char>(text[i]) & 0x3FU);
+    }
+    constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
+    bool const is_known = code >= least[length] && code <= 0x10FFFF && !(code >= 0xD800 && code <= 0xDFFF);
+    return is_known ? std::pair{code, length} : std::pair<std::uint32_t, std::size_t>{0, 0};
+}
+
+/// Whether a character acts on a terminal or on the order of what it shows.
+bool acts(std::uint32_t code) {
+    return (code < 0x20 && code != '\t') || (code >= 0x7F && code <= 0x9F) || code == 0x61C ||
+           (code >= 0x200B && code <= 0x200F) || (code >= 0x2028 && code <= 0x202E) ||
+           (code >= 0x2060 && code <= 0x206F) || code == 0xFEFF;
+}
+
+std::string escaped_byte(char byte) {
+    return fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+}
+
+std::string escaped(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    while (!text.empty()) {
+        auto const [code, length] = first_character(text);
+        if (length == 0) {
+            out += escaped_byte(text.front());
+        } else if (acts(code)) {
+            out += code < 0x80 ? fmt::format("\\x{:02x}", code) : fmt::format("\\u{{{:04x}}}", code);
+        } else {
+            out += text.substr(0, length);
+        }
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return out;
+}
+
+std::string cut_line(std::string_view line) {
+    if (line.size() <= longest_line) {
+        return std::string(line);
+    }
+    std::size_t first = kept_first;
+    std::size_t last = line.size() - kept_last;
+    while (first > 0 && continues(line[first])) {
+        --first;
+    }
+    while (last < line.size() && continues(line[last])) {
+        ++last;
+    }
+    return fmt::format("{} [... {} bytes left out ...] {}", line.substr(0, first), last - first, line.substr(last));
+}
+
+bool is_same_letter(char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == b;
+}
+
+/// Where the value of "password = value" begins and ends that stands at a place; empty where none does.
+std::pair<std::size_t, std::size_t> password_at(std::string_view text, std::size_t at) {
+    constexpr std::string_view word = "password";
+    if (text.size() - at < word.size() ||
+        !std::equal(word.begin(), word.end(), text.begin() + static_cast<std::ptrdiff_t>(at),
+                    [](char w, char t) { return is_same_letter(t, w); })) {
+        return {0, 0};
+    }
+    std::size_t begin = std::min(text.find_first_not_of(' ', at + word.size()), text.size());
+    if (begin == text.size() || text[begin] != '=') {
+        return {0, 0};
+    }
+    begin = std::min(text.find_first_not_of(' ', begin + 1), text.size());
+    if (begin < text.size() && (text[begin] == '\'' || text[begin] == '"')) {
+        std::size_t end = begin + 1;
+        while (end < text.size() && text[end] != text[begin]) {
+            end += text[end] == '\\' ? 2 : 1;
+        }
+        return {begin, std::min(end + 1, text.size())};
+    }
+    return {begin, std::min(text.find_first_of(" ,&;'\"\n)", begin), text.size())};
+}
+
+/// Where the password of "://user:password@" begins and ends, whose "://" stands at a place; empty where there is none.
+std::pair<std::size_t, std::size_t> address_password_at(std::string_view text, std::size_t at) {
+    constexpr std::string_view mark = "://";
+    if (text.substr(at, mark.size()) != mark) {
+        return {0, 0};
+    }
+    std::size_t const from = at + mark.size();
+    std::size_t const end = std::min(text.find_first_of("/ \n?", from), text.size());
+    std::size_t const host = text.substr(from, end - from).rfind('@');
+    std::size_t const colon = text.find(':', from);
+    return host == std::string_view::npos || colon == std::string_view::npos || colon > from + host
+               ? std::pair<std::size_t, std::size_t>{0, 0}
+               : std::pair{colon + 1, from + host};
+}
+
+} // namespace
+
+std::string without_passwords(std::string_view text) {
+    std::string out;
+    std::size_t copied = 0;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        auto [begin, end] = password_at(text, at);
+        if (end == 0) {
+            std::tie(begin, end) = address_password_at(text, at);
+        }
+        if (end > begin) {
+            out += text.substr(copied, begin - copied);
+            out += "...";
+            copied = end;
+            at = end - 1;
+        }
+    }
+    return out + std::string(text.substr(copied));
+}
+
+bool is_utf8(std::string_view text) {
+    while (!text.empty()) {
+        std::size_t const length = first_character(text).second;
+        if (length == 0) {
+            return false;
+        }
+        text.remove_prefix(length);
+    }
+    return true;
+}
+
+std::string as_utf8(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    while (!text.empty()) {
+        std::size_t const length = first_character(text).second;
+        out += length == 0 ? escaped_byte(text.front()) : std::string(text.substr(0, length));
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return out;
+}
+
+std::string printable(std::string_view text) {
+    auto const lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+    std::size_t const shown = lines <= most_lines ? lines : kept_lines;
+    std::string out;
+    for (std::size_t i = 0; i < shown; ++i) {
+        std::size_t const end = std::min(text.find('\n'), text.size());
+        if (i > 0) {
+            out += '\n';
+        }
+        out += escaped(cut_line(without_passwords(text.substr(0, end))));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return shown == lines ? out : fmt::format("{}\n[... {} more lines ...]", out, lines - shown);
+}
+
+} // namespace thalweg

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/gdal/driver.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include <cpl_error.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogr_srs_api.h>
+#include <unistd.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/gdal/internal/gdal_guard.hpp>
+
+namespace thalweg::io {
+
+namespace {
+
+struct Kept {
+    std::vector<std::string> errors; // the first few: a corrupt file can give one a tile
+    bool is_cut = false;             // there was no memory for another
+};
+
+constexpr std::size_t errors_kept = 4;
+
+// After an error of this level, an allocation that failed, GDAL calls abort().
+void end_if_fatal(CPLErr level, char const* text) {
+    if (level != CE_Fatal) {
+        return;
+    }
+    for (char const* const part : {"error: ", text, "\n"}) {
+        [[maybe_unused]] auto const written = write(STDERR_FILENO, part, std::strlen(part));
+    }
+    std::_Exit(EXIT_FAILURE);
+}
+
+void CPL_STDCALL note(CPLErr level, CPLErrorNum, char const* text) noexcept {
+    end_if_fatal(level, text);
+    if (level < CE_Failure) {
+        return;
+    }
+    auto& [errors, is_cut] = *static_cast<Kept*>(CPLGetErrorHandlerUserData());
+    try {
+        if (errors.size() < errors_kept && std::ranges::find(errors, text) == errors.end()) {
+            errors.emplace_back(text);
+        }
+    } catch (std::exception const&) { // must not cross frames of C
+        is_cut = true;
+    }
+}
+
+// Of threads that have no Driver.
+void CPL_STDCALL note_elsewhere(CPLErr level, CPLErrorNum number, char const* text) {
+    end_if_fatal(level, text);
+    CPLDefaultErrorHandler(level, number, text);
+}
+
+} // namespace
+
+struct Driver::Log : Kept {};
+
+Driver::Driver() : log_(std::make_unique<Log>()) {
+    // Not call_once: an exception, of memory that is exhausted, would cross frames of C.
+    [[maybe_unused]] static bool const is_registered = [] {
+        GDALAllRegister();
+        guard_gdal();
+        CPLSetErrorHandler(note_elsewhere);
+        OSRSetPROJEnableNetwork(0); // a datum grid fetched on one machine only would change the coordinates there
+        return true;
+    }();
+    CPLPushErrorHandlerEx(note, static_cast<Kept*>(log_.get()));
+}
+
+Driver::~Driver() {
+    CPLPopErrorHandler();
+}
+
+std::string Driver::take() const {
+    std::string words = std::exchange(log_->is_cut, false) ? "out of memory" : "";
+    for (auto const& error : std::exchange(log_->errors, {})) {
+        words += (words.empty() ? "" : "; ") + error;
+    }
+    return words;
+}
+
+void Driver::check(std::string const& what) const {
+    if (auto const words = take(); !words.empty()) {
+        throw_refusal(take_refusal(), what);
+        if (words.find("ALLOW_NETWORK_ACCESS=NO") != std::string::npos) {
+            throw BadInput(fmt::format("{}: thalweg connects only to what the command line names; take the address out "
+                                       "of the file ({})",
+                                       what, words));
+        }
+        throw IoError(what + ": " + words);
+    }
+}
+
+std::string gdal_version() {
+    return std::string("GDAL ") + GDALVersionInfo("RELEASE_NAME");
+}
+
+} // namespace thalweg::io

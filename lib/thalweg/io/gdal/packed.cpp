@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/gdal/packed.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/gdal/driver.hpp>
+
+namespace thalweg::io {
+
+namespace {
+
+constexpr int level = 6;
+constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+constexpr std::size_t piece = 3 << 20; // of whole threes: base64 fills up only at its end
+
+struct Freed {
+    void operator()(void* memory) const { VSIFree(memory); }
+};
+
+} // namespace
+
+std::string packed(std::span<std::uint8_t const> bytes) {
+    std::string const what = "io.packed";
+    if (bytes.size() > most) {
+        throw BadInput(
+            fmt::format("{}: {} bytes are more than the {} that can be packed at once", what, bytes.size(), most));
+    }
+    Driver const driver;
+    std::uint8_t const none = 0;
+    std::size_t size = 0;
+    std::unique_ptr<void, Freed> const stream(
+        CPLZLibDeflate(bytes.empty() ? &none : bytes.data(), bytes.size(), level, nullptr, 0, &size));
+    if (stream == nullptr) {
+        driver.check(what);
+        throw IoError(what + " failed");
+    }
+    auto const* const data = static_cast<GByte const*>(stream.get());
+    std::string text;
+    text.reserve((size + 2) / 3 * 4);
+    for (std::size_t at = 0; at < size; at += piece) {
+        std::unique_ptr<char, Freed> const part(
+            CPLBase64Encode(static_cast<int>(std::min(piece, size - at)), data + at));
+        if (part == nullptr) {
+            throw IoError(what + ": out of memory");
+        }
+        text += part.get();
+    }
+    return text;
+}
+
+} // namespace thalweg::io

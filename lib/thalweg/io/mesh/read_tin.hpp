@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/tin.hpp>
+
+namespace thalweg::io {
+
+/// A mesh of a file: its triangles may also overhang.
+struct TinFile {
+    Tin tin;
+    std::string crs; ///< of the comment that write_tin leaves; "" for none
+};
+
+/// Whether a file's name ends in that of a mesh that read_tin reads: .2dm, .obj or .off.
+bool holds_tin(std::string const& path);
+
+/// Reads a mesh of triangles: 2DM (E3T, ND), Wavefront OBJ (v, f) or OFF; other words of 2DM and OBJ are passed over.
+/// Gives: vertices and triangles in the file's order; of what write_tin writes in these formats the same TIN.
+/// Throws: BadInput naming file and line: a number that is none, a face that is not a triangle or names a vertex that
+/// is not there, heights that are not in metres, more than 2^30 bytes, no triangle; IoError; Cancelled.
+/// Source: Aquaveo, 2DM files; Wavefront OBJ; Geomview OFF.
+TinFile read_tin(std::string const& path, Run const& run = {});
+
+} // namespace thalweg::io

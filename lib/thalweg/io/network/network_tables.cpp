@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/network/internal/network_tables.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <thalweg/core/length_in_plan.hpp>
+#include <thalweg/core/numbers/index.hpp>
+#include <thalweg/io/files/internal/decimals.hpp>
+#include <thalweg/io/network/internal/user_columns.hpp>
+
+namespace thalweg::io {
+
+namespace {
+
+using Kind = Column::Kind;
+
+template <class Get> Column integer(char const* name, Get get) {
+    return {name, Kind::integer, 0, [get](std::int64_t row) { return static_cast<std::int64_t>(get(row)); }};
+}
+
+template <class Get> Column real(char const* name, int decimals, Get get) {
+    return {name, Kind::real, decimals, [get](std::int64_t row) { return static_cast<double>(get(row)); }};
+}
+
+template <class Get> Column text(char const* name, Get get) {
+    return {name, Kind::text, 0, [get](std::int64_t row) { return std::string(get(row)); }};
+}
+
+/// Files in metres have no such column: it would change none of them but their bytes.
+void add_unit(Table& table, HeightUnit unit) {
+    if (unit != HeightUnit::metre) {
+        table.columns.push_back(text("z_unit", [unit](auto) { return name_of(unit); }));
+    }
+}
+
+} // namespace
+
+double length_in_space(std::vector<Vec2> const& line, std::vector<double> const& z) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        double const plan = distance(line[i - 1], line[i]);
+        double const rise = z[i] - z[i - 1];
+        sum += std::sqrt(plan * plan + rise * rise);
+    }
+    return sum;
+}
+
+Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool short_names) {
+    StreamNetwork const& plan = tables.network.plan;
+    auto const& arc_z = tables.network.arc_z;
+    NetworkOrders const& orders = tables.orders;
+    auto const arc = [&](std::int64_t row) -> Arc const& { return plan[index.arcs[as_index(row)]]; };
+    auto const up = [&](std::int64_t row) { return index.from[as_index(row)]; };
+    auto const down = [&](std::int64_t row) { return index.to[as_index(row)]; };
+
+    double const unit = metres_in(tables.unit);
+    Table table{"arcs", Table::Shape::line, static_cast<std::int64_t>(index.arcs.size()), {}, {}};
+    table.shape_at = [arc, unit, &arc_z](std::int64_t row) {
+        std::vector<Vec3> line;
+        for (std::size_t i = 0; Vec2 const p : arc(row).line) {
+            line.push_back({p.x, p.y, arc_z[as_index(row)][i++] / unit});
+        }
+        return line;
+    };
+    table.columns = {
+        integer("arc_id", [](auto row) { return row + 1; }),
+        integer("from_node", [up](auto row) { return up(row) + 1; }),
+        integer("to_node", [down](auto row) { return down(row) + 1; }),
+        integer("ds_arc", [down, &index](auto row) { return index.out[down(row)] + 1; }),
+        integer("n_up", [up, &index](auto row) { return index.in[up(row)].size(); }),
+        integer("basin_id", [&orders](auto row) { return orders.arc_basin[as_index(row)]; }),
+        integer("topo_ord", [&orders](auto row) { return orders.topological[as_index(row)]; }),
+        integer("strahler", [&orders](auto row) { return orders.strahler[as_index(row)]; }),
+        integer("shreve", [&orders](auto row) { return orders.shreve[as_index(row)]; }),
+        integer("hack", [&orders](auto row) { return orders.hack[as_index(row)]; }),
+        real("length", length_decimals, [&index](auto row) { return index.length_m[as_index(row)]; }),
+        real("length_3d", length_decimals,
+             [arc, &arc_z](auto row) { return length_in_space(arc(row).line, arc_z[as_index(row)]); }),
+        real("straight", length_decimals,
+             [arc](auto row) { return distance(arc(row).line.front(), arc(row).line.back()); }),
+        real("z_up", length_decimals, [unit, &arc_z](auto row) { return arc_z[as_index(row)].front() / unit; }),
+        real("z_down", length_decimals, [unit, &arc_z](auto row) { return arc_z[as_index(row)].back() / unit; }),
+        real("dist_out", length_decimals, [down, &orders](auto row) { return orders.node_dist_out_m[down(row)]; }),
+        real("slope", slope_decimals,
+             [&arc_z, &index](auto row) {
+                 return (arc_z[as_index(row)].front() - arc_z[as_index(row)].back()) / index.length_m[as_index(row)];
+             }),
+        real("us_area", area_decimals, [&area = tables.us_area_m2](auto row) { return area[as_index(row)]; }),
+        real("ds_area", area_decimals, [&area = tables.ds_area_m2](auto row) { return area[as_index(row)]; }),
+        real("survives", length_decimals,
+             [arc](auto row) { return std::isinf(arc(row).survives) ? -1.0 : arc(row).survives; }),
+        {"feature", Kind::wide_integer, 0, [arc](std::int64_t row) { return arc(row).feature; }},
+        // A shapefile reads an empty text back as NULL.
+        text("type", [arc](auto row) { return arc(row).type.empty() ? "none" : arc(row).type; }),
+        integer("braided",
+                [of = tables.braided](auto row) { return of != nullptr && (*of)[as_index(row)] != 0 ? 1 : 0; }),
+        integer("given", [arc](auto row) { return arc(row).given ? 1 : 0; }),
+    };
+    if (tables.user != nullptr) {
+        add_user_columns(
+            table, tables.user->attributes,
+            [&user = *tables.user](std::int64_t row) { return user.record[as_index(row)]; }, short_names);
+    }
+    add_unit(table, tables.unit);
+    return table;
+}
+
+Table nodes_table(NetworkTables const& tables, NetworkIndex const& index) {
+    auto const& plan = tables.network.plan;
+    auto const& node_z = tables.network.node_z;
+    NetworkOrders const& orders = tables.orders;
+
+    double const unit = metres_in(tables.unit);
+    Table table{"nodes", Table::Shape::point, static_cast<std::int64_t>(boost::num_vertices(plan)), {}, {}};
+    table.shape_at = [unit, &plan, &node_z](std::int64_t row) {
+        Vec2 const p = plan[as_index(row)].at;
+        return std::vector<Vec3>{{p.x, p.y, node_z[as_index(row)] / unit}};
+    };
+    table.columns = {
+        integer("node_id", [](auto row) { return row + 1; }),
+        text("kind",
+             [&plan, &sinks = tables.sinks](auto row) {
+                 bool const is_sink = std::binary_search(sinks.begin(), sinks.end(), as_index(row));
+                 return name_of(is_sink ? NodeKind::sink : kind_of(plan, as_index(row)));
+             }),
+        integer("deg_in", [&index](auto row) { return index.in[as_index(row)].size(); }),
+        integer("deg_out", [&index](auto row) { return index.out[as_index(row)] < 0 ? 0 : 1; }),
+        integer("basin_id", [&orders](auto row) { return orders.node_basin[as_index(row)]; }),
+        integer("strahler", [&orders](auto row) { return orders.node_strahler[as_index(row)]; }),
+        real("z", length_decimals, [unit, &node_z](auto row) { return node_z[as_index(row)] / unit; }),
+        real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[as_index(row)]; }),
+        real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[as_index(row)]; }),
+    };
+    add_unit(table, tables.unit);
+    return table;
+}
+
+Table ridges_table(RidgeLines const& ridges, HeightUnit unit) {
+    auto const ridge = [&ridges](std::int64_t row) -> RidgeLine const& { return ridges.lines[as_index(row)]; };
+    auto const lower = [](Vec3 const& a, Vec3 const& b) { return a.z < b.z; };
+
+    Table table{"ridges", Table::Shape::line, static_cast<std::int64_t>(ridges.lines.size()), {}, {}};
+    double const metres = metres_in(unit);
+    table.shape_at = [ridge, metres](std::int64_t row) {
+        std::vector<Vec3> line = ridge(row).line;
+        for (Vec3& p : line) {
+            p.z /= metres;
+        }
+        return line;
+    };
+    table.columns = {
+        integer("ridge_id", [](auto row) { return row + 1; }),
+        integer("left", [ridge](auto row) { return ridge(row).left; }),
+        integer("right", [ridge](auto row) { return ridge(row).right; }),
+        real("length", length_decimals, [ridge](auto row) { return length_in_plan(ridge(row).line); }),
+        real("z_min", length_decimals,
+             [=](auto row) { return std::ranges::min_element(ridge(row).line, lower)->z / metres; }),
+        real("z_max", length_decimals,
+             [=](auto row) { return std::ranges::max_element(ridge(row).line, lower)->z / metres; }),
+    };
+    add_unit(table, unit);
+    return table;
+}
+
+Table secondary_table(std::vector<SecondaryLine> const& secondary, UserData const* user) {
+    auto const one = [&secondary](std::int64_t row) -> SecondaryLine const& { return secondary[as_index(row)]; };
+    Table table{"secondary", Table::Shape::plan_line, static_cast<std::int64_t>(secondary.size()), {}, {}};
+    table.shape_at = [one](std::int64_t row) {
+        std::vector<Vec3> line = one(row).vertices;
+        for (Vec3& v : line) {
+            v.z = 0.0;
+        }
+        return line;
+    };
+    table.columns = {
+        {"feature", Kind::wide_integer, 0, [one](std::int64_t row) { return one(row).feature; }},
+        text("reason", [one](auto row) { return one(row).reason; }),
+        real("length", length_decimals, [one](auto row) { return length_in_plan(one(row).vertices); }),
+    };
+    if (user != nullptr) {
+        add_user_columns(
+            table, user->attributes, [one](std::int64_t row) { return one(row).record; }, false);
+    }
+    return table;
+}
+
+Table sources_table(UserData const& user) {
+    struct Row {
+        std::int64_t arc;
+        Stretch stretch;
+    };
+    auto const rows = std::make_shared<std::vector<Row>>();
+    for (std::size_t a = 0; a < user.sources.size(); ++a) {
+        for (Stretch const& s : user.sources[a]) {
+            rows->push_back({static_cast<std::int64_t>(a) + 1, s});
+        }
+    }
+    Table table{"sources", Table::Shape::none, static_cast<std::int64_t>(rows->size()), {}, {}};
+    table.columns = {
+        integer("arc_id", [rows](auto row) { return (*rows)[as_index(row)].arc; }),
+        {"feature", Kind::wide_integer, 0, [rows](std::int64_t row) { return (*rows)[as_index(row)].stretch.feature; }},
+        real("from_m", length_decimals, [rows](auto row) { return (*rows)[as_index(row)].stretch.from_m; }),
+        real("to_m", length_decimals, [rows](auto row) { return (*rows)[as_index(row)].stretch.to_m; }),
+    };
+    return table;
+}
+
+} // namespace thalweg::io

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/run/run.hpp>
+
+namespace thalweg::io {
+
+/// Which lines of a file are rivers.
+enum class LineFilter : std::uint8_t {
+    natural, ///< no canal, ditch, pipe, weir, coastline ...: docs/river_files.md lists them
+    none     ///< all of them
+};
+
+struct ReadRiversParams {
+    std::string path = {};             ///< anything OGR opens: GeoPackage, Shapefile, GeoJSON, FlatGeobuf, ...
+    std::string layer = {};            ///< "" takes the only line layer
+    std::string type_field = "rosgen"; ///< river type; optional in the file when it has this default name
+    std::string rank_field = {};       ///< number that falls downstream; "" takes hydroseq (NHDPlus) where there is one
+    std::string crs = {}; ///< of the result; "" takes the file's own when projected in metres, else its UTM zone
+    std::string lambda_field = "lambda";  ///< [1, 50] generator; optional in the file when it has this default name
+    LineFilter filter = LineFilter::none; ///< what it takes away is in RiverLines::secondary
+};
+
+/// Reads the lines of any OGR source, multi-part lines part by part, curves as OGR linearises them, reprojected and
+/// rounded to 1e-6 m. Heights are kept (in metres), measures ignored. Field names are found in any case of letters.
+/// The feature of a line is its number in the layer's order, from 1. Fields of NHDPlus, HydroRIVERS, EU-Hydro,
+/// OpenStreetMap and of networks say which line is downstream, which channel is a minor one and how great a river is.
+/// Features without a line of some length (null, empty, points that are all one) are left out: findings.
+/// has_z: every vertex has a height, and not all are the same (files that fill Z with 0 have none).
+/// Throws: BadInput naming file, layer and feature: missing file, layer or named field, no or several line layers, no
+/// features, something that is no line, no CRS, coordinates that are not finite or cannot be reprojected, nothing
+/// left, a lambda that is no whole number from 1 to 50; IoError when the file cannot be read to its
+/// end; Cancelled.
+RiverLines read_rivers(ReadRiversParams const& params, Run const& run = {});
+
+} // namespace thalweg::io

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <thalweg/io/network/table.hpp>
+
+namespace thalweg::io {
+
+/// Whose words and units a network's fields are in.
+enum class Schema : std::uint8_t { native, taudem, nhdplus, hydrorivers, grass };
+
+/// What a field of an arc tells. An arc's ends are up and down; the outlet is where its water leaves the network.
+enum class Quantity : std::uint8_t {
+    // The columns of the network schema, in its order.
+    arc_id,
+    from_node,
+    to_node,
+    ds_arc,
+    n_up,
+    basin_id,
+    topo_ord,
+    strahler,
+    shreve,
+    hack,
+    length,
+    length_3d,
+    straight,
+    z_up,
+    z_down,
+    dist_out, ///< from its end down to the outlet
+    slope,
+    us_area,
+    ds_area,
+    survives,
+    feature,
+    type,
+    braided,
+    given, ///< 1, or 0 for a side valley that the land has grown
+    // What others tell besides.
+    us_arc_1, ///< the arcs upstream, in order of arc_id; none beyond the last
+    us_arc_2,
+    us_arc_3,
+    us_arc_4,
+    us_arc_5,
+    outlet_arc,  ///< the arc at the outlet
+    key,         ///< a second number of the arc, which falls downstream, and by which others name it in links
+    ds_key,      ///< key of the arc downstream; 0 at an outlet
+    us_key,      ///< key of the main arc upstream; 0 at a source
+    path,        ///< key of the last arc downstream on the same main stem (of one hack order)
+    ds_path,     ///< path of the arc downstream; 0 at an outlet
+    us_path,     ///< path of the main arc upstream; 0 at a source
+    outlet_path, ///< path at the outlet
+    ds_hack,     ///< hack of the arc downstream; 0 at an outlet
+    n_down,      ///< 1, or 0 at an outlet
+    is_source,   ///< 1 where nothing flows in
+    is_outlet,   ///< 1 where it ends at the outlet
+    horton,      ///< greatest strahler along the main stem (of one hack order)
+    scheidegger, ///< 2 shreve
+    drwal,       ///< floor(log2(shreve)) + 1
+    drop,        ///< z_up - z_down
+    sinuosity,   ///< length / straight
+    dist_mid,    ///< from its middle to the outlet
+    dist_up,     ///< from its end up to the outlet
+    dist_source, ///< from its end down to the farthest source
+    length_us,   ///< sum of the lengths of all arcs upstream, its own among them
+    own_area,    ///< ds_area - us_area
+    constant,    ///< nothing: the field's value or text, always
+};
+
+/// The name by which a user names a quantity: of the columns of the network schema theirs.
+std::string_view name_of(Quantity quantity);
+/// Nothing where there is none of this name.
+std::optional<Quantity> quantity_of(std::string_view name);
+
+struct SchemaField {
+    Quantity quantity = Quantity::constant;
+    std::string_view name = {}; ///< as its owner writes it; found in any case of letters
+    Column::Kind kind = Column::Kind::integer;
+    int decimals = 0;                                          ///< of a real in a shapefile
+    double unit = 1.0;                                         ///< what a 1 in the file is, in m, m2 or m/m
+    std::string_view also = {};                                ///< other names it goes by, a blank between them
+    double unknown = std::numeric_limits<double>::quiet_NaN(); ///< stands for no arc, or for a value that is not known
+    double value = 0.0;                                        ///< of a constant that is a number
+    std::string_view text = {};                                ///< of a constant that is a text
+    bool written = true;                                       ///< else it is only understood when read
+};
+
+/// The one place that knows how the arcs of a network are called in somebody's files.
+struct SchemaTable {
+    Schema schema = Schema::native;
+    std::string_view name = {};                ///< "taudem"
+    std::span<SchemaField const> fields;       ///< in the order in which they are written
+    std::span<std::string_view const> told_by; ///< a file with all of these fields is of this schema; a blank between
+                                               ///< those of which one is enough
+    std::string_view layer = "arcs";           ///< the layer of arcs, when written
+    std::int64_t first_id = 1;   ///< the least arc id: in a file arc_id k is k - 1 + first_id, in every field of arcs
+    int most_upstream = 0;       ///< how many arcs may flow into one; 0 for any number
+    bool drawn_upstream = false; ///< vertex 0 is at the end down
+    bool segment_parts = false;  ///< its owner writes every segment as a part of its own
+};
+
+SchemaTable const& table_of(Schema schema);
+std::span<SchemaTable const> all_schemas();
+/// "native, taudem, ..." are the names. Throws: BadInput with a suggestion when it is none.
+Schema schema_named(std::string const& name);
+/// The field of a quantity; null when the schema has none.
+SchemaField const* field_of(SchemaTable const& table, Quantity quantity);
+
+} // namespace thalweg::io

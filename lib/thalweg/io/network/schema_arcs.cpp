@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/network/internal/schema_arcs.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <thalweg/core/numbers/index.hpp>
+#include <thalweg/io/network/internal/network_tables.hpp>
+#include <thalweg/io/network/internal/user_columns.hpp>
+
+namespace thalweg::io {
+
+namespace {
+
+using Value = Column::Value;
+
+/// What the quantities of an arc are, by its number; links to arcs are numbers too, -1 for none.
+class Arcs {
+public:
+    Arcs(NetworkTables const& tables, NetworkIndex const& index) : tables_(tables), index_(index) {
+        std::size_t const arcs = index.arcs.size();
+        key_.assign(arcs, 0);
+        mouth_.assign(arcs, 0);
+        outlet_.assign(arcs, 0);
+        length_up_m_.assign(arcs, 0.0);
+        longest_up_m_.assign(arcs, 0.0);
+        std::int64_t key = 0;
+        for (NodeId const n : index.upstream_order) { // outlets first
+            if (std::int64_t const a = index.out[n]; a >= 0) {
+                std::int64_t const below = down(a);
+                key_[as_index(a)] = ++key;
+                outlet_[as_index(a)] = below < 0 ? a : outlet_[as_index(below)];
+                mouth_[as_index(a)] = below >= 0 && hack(below) == hack(a) ? mouth_[as_index(below)] : a;
+            }
+        }
+        for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) { // sources first
+            if (std::int64_t const a = index.out[*n]; a >= 0) {
+                for (std::int64_t const above : index.in[*n]) {
+                    length_up_m_[as_index(a)] += length_up_m_[as_index(above)];
+                    longest_up_m_[as_index(a)] = std::max(longest_up_m_[as_index(a)], longest_up_m_[as_index(above)]);
+                }
+                length_up_m_[as_index(a)] += length(a);
+                longest_up_m_[as_index(a)] += length(a);
+            }
+        }
+    }
+
+    std::vector<Vec3> line(std::int64_t a) const {
+        std::vector<Vec3> line;
+        for (std::size_t i = 0; Vec2 const p : arc(a).line) {
+            line.push_back({p.x, p.y, z(a)[i++]});
+        }
+        return line;
+    }
+
+    /// The arc that a quantity names, -1 for none.
+    std::int64_t arc_of(Quantity quantity, std::int64_t a) const {
+        using enum Quantity;
+        switch (quantity) {
+        case arc_id:
+        case key: return a;
+        case ds_arc:
+        case ds_key: return down(a);
+        case us_arc_1: return up(a, 0);
+        case us_arc_2: return up(a, 1);
+        case us_arc_3: return up(a, 2);
+        case us_arc_4: return up(a, 3);
+        case us_arc_5: return up(a, 4);
+        case outlet_arc: return outlet_[as_index(a)];
+        case us_key: return main_up(a);
+        case path: return mouth_[as_index(a)];
+        case ds_path: return down(a) < 0 ? -1 : mouth_[as_index(down(a))];
+        case us_path: return main_up(a) < 0 ? -1 : mouth_[as_index(main_up(a))];
+        case outlet_path: return mouth_[as_index(outlet_[as_index(a)])];
+        default: return -1;
+        }
+    }
+    std::int64_t key_of(std::int64_t a) const { return key_[as_index(a)]; }
+
+    std::int64_t count(Quantity quantity, std::int64_t a) const {
+        using enum Quantity;
+        NetworkOrders const& orders = tables_.orders;
+        switch (quantity) {
+        case from_node: return static_cast<std::int64_t>(index_.from[as_index(a)]) + 1;
+        case to_node: return static_cast<std::int64_t>(index_.to[as_index(a)]) + 1;
+        case n_up: return static_cast<std::int64_t>(above(a).size());
+        case basin_id: return orders.arc_basin[as_index(a)];
+        case topo_ord: return orders.topological[as_index(a)];
+        case strahler: return orders.strahler[as_index(a)];
+        case shreve: return orders.shreve[as_index(a)];
+        case hack: return this->hack(a);
+        case feature: return arc(a).feature;
+        case braided: return tables_.braided != nullptr && (*tables_.braided)[as_index(a)] != 0 ? 1 : 0;
+        case given: return arc(a).given ? 1 : 0;
+        case ds_hack: return down(a) < 0 ? 0 : this->hack(down(a));
+        case n_down: return down(a) < 0 ? 0 : 1;
+        case is_source: return above(a).empty() ? 1 : 0;
+        case is_outlet: return down(a) < 0 ? 1 : 0;
+        case horton: return orders.strahler[as_index(mouth_[as_index(a)])]; // orders never fall downstream
+        case scheidegger: return 2 * orders.shreve[as_index(a)];
+        case drwal:
+            return static_cast<std::int64_t>(std::bit_width(static_cast<std::uint64_t>(orders.shreve[as_index(a)])));
+        default: return 0;
+        }
+    }
+
+    /// [m, m2, m/m]; NaN where it is not known.
+    double measure(Quantity quantity, std::int64_t a) const {
+        using enum Quantity;
+        NetworkOrders const& orders = tables_.orders;
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        double const drop_m = z(a).front() - z(a).back();
+        double const straight_m = distance(arc(a).line.front(), arc(a).line.back());
+        double const dist_out_m = orders.node_dist_out_m[index_.to[as_index(a)]];
+        double const us_m2 = tables_.us_area_m2[as_index(a)];
+        double const ds_m2 = tables_.ds_area_m2[as_index(a)];
+        auto const known = [&](bool is_known, double value) { return is_known ? value : unknown; };
+        switch (quantity) {
+        case length: return this->length(a);
+        case length_3d: return length_in_space(arc(a).line, z(a));
+        case straight: return straight_m;
+        case z_up: return known(tables_.heights, z(a).front());
+        case z_down: return known(tables_.heights, z(a).back());
+        case drop: return known(tables_.heights, drop_m);
+        case slope: return known(tables_.heights, drop_m / this->length(a));
+        case dist_out: return dist_out_m;
+        case dist_mid: return dist_out_m + this->length(a) / 2.0;
+        case dist_up: return dist_out_m + this->length(a);
+        case dist_source: return longest_up_m_[as_index(a)];
+        case length_us: return length_up_m_[as_index(a)];
+        case sinuosity: return known(straight_m > 0.0, this->length(a) / straight_m);
+        case us_area: return known(us_m2 >= 0.0, us_m2);
+        case ds_area: return known(ds_m2 >= 0.0, ds_m2);
+        case own_area: return known(us_m2 >= 0.0 && ds_m2 >= 0.0, ds_m2 - us_m2);
+        case survives: return known(std::isfinite(arc(a).survives), arc(a).survives);
+        default: return unknown;
+        }
+    }
+
+    std::string const& type(std::int64_t a) const { return arc(a).type; }
+
+private:
+    Arc const& arc(std::int64_t a) const { return tables_.network.plan[index_.arcs[as_index(a)]]; }
+    std::vector<double> const& z(std::int64_t a) const { return tables_.network.arc_z[as_index(a)]; }
+    double length(std::int64_t a) const { return index_.length_m[as_index(a)]; }
+    int hack(std::int64_t a) const { return tables_.orders.hack[as_index(a)]; }
+    std::int64_t down(std::int64_t a) const { return index_.out[index_.to[as_index(a)]]; }
+    std::vector<std::int64_t> const& above(std::int64_t a) const { return index_.in[index_.from[as_index(a)]]; }
+    std::int64_t up(std::int64_t a, std::size_t k) const { return k < above(a).size() ? above(a)[k] : -1; }
+    /// The arc upstream on the same main stem.
+    std::int64_t main_up(std::int64_t a) const {
+        auto const found = std::ranges::find_if(above(a), [&](std::int64_t b) { return hack(b) == hack(a); });
+        return found == above(a).end() ? -1 : *found;
+    }
+
+    NetworkTables const& tables_;
+    NetworkIndex const& index_;
+    std::vector<std::int64_t> key_;    ///< 1, 2, ... from the outlets upstream
+    std::vector<std::int64_t> mouth_;  ///< last arc downstream of the same main stem
+    std::vector<std::int64_t> outlet_; ///< the arc at the outlet
+    std::vector<double> length_up_m_;  ///< of all arcs upstream and its own
+    std::vector<double> longest_up_m_; ///< of the longest way from a source, its own length with it
+};
+
+bool names_an_arc(Quantity quantity) {
+    using enum Quantity;
+    return quantity == arc_id || quantity == ds_arc || quantity == outlet_arc ||
+           (quantity >= us_arc_1 && quantity <= us_arc_5);
+}
+
+bool names_a_key(Quantity quantity) {
+    return quantity >= Quantity::key && quantity <= Quantity::outlet_path;
+}
+
+std::function<Value(std::int64_t)> value_of(SchemaField const& field, SchemaTable const& schema,
+                                            std::shared_ptr<Arcs const> const& arcs) {
+    double const none = std::isnan(field.unknown) ? -1.0 : field.unknown;
+    Quantity const quantity = field.quantity;
+    if (quantity == Quantity::constant) {
+        return [field](std::int64_t) -> Value {
+            using enum Column::Kind;
+            return field.kind == text   ? Value(std::string(field.text))
+                   : field.kind == real ? Value(field.value)
+                                        : Value(static_cast<std::int64_t>(field.value));
+        };
+    }
+    if (names_an_arc(quantity) || names_a_key(quantity)) {
+        bool const is_key = names_a_key(quantity);
+        return [=, first = schema.first_id](std::int64_t a) -> Value {
+            std::int64_t const named = arcs->arc_of(quantity, a);
+            return named < 0 ? static_cast<std::int64_t>(none) : is_key ? arcs->key_of(named) : named + first;
+        };
+    }
+    if (field.kind == Column::Kind::text) {
+        return [=](std::int64_t a) -> Value { return arcs->type(a).empty() ? "none" : arcs->type(a); };
+    }
+    if (field.kind != Column::Kind::real) {
+        return [=](std::int64_t a) -> Value { return arcs->count(quantity, a); };
+    }
+    return [=, unit = field.unit](std::int64_t a) -> Value {
+        double const value = arcs->measure(quantity, a);
+        return std::isnan(value) ? none : value / unit;
+    };
+}
+
+/// The name, or its first other one that fits into a shapefile.
+std::string short_name(SchemaField const& field) {
+    constexpr std::size_t most = 10;
+    std::string const words = std::string(field.name) + " " + std::string(field.also);
+    for (std::size_t begin = 0; begin < words.size();) {
+        std::size_t const end = std::min(words.find(' ', begin), words.size());
+        if (end > begin && end - begin <= most) {
+            return words.substr(begin, end - begin);
+        }
+        begin = end + 1;
+    }
+    return std::string(field.name.substr(0, most));
+}
+
+} // namespace
+
+Table schema_arcs(SchemaTable const& schema, NetworkTables const& tables, NetworkIndex const& index, bool short_names) {
+    auto const arcs = std::make_shared<Arcs const>(tables, index);
+    Table table{std::string(schema.layer), Table::Shape::line, static_cast<std::int64_t>(index.arcs.size()), {}, {}};
+    table.shape_at = [arcs, upstream = schema.drawn_upstream](std::int64_t row) {
+        std::vector<Vec3> line = arcs->line(row);
+        if (upstream) {
+            std::ranges::reverse(line);
+        }
+        return line;
+    };
+    for (SchemaField const& field : schema.fields) {
+        if (field.written) {
+            table.columns.push_back({short_names ? short_name(field) : std::string(field.name), field.kind,
+                                     field.decimals, value_of(field, schema, arcs)});
+        }
+    }
+    if (tables.user != nullptr) {
+        add_user_columns(
+            table, tables.user->attributes,
+            [&user = *tables.user](std::int64_t a) { return user.record[static_cast<std::size_t>(a)]; }, short_names,
+            schema.schema);
+    }
+    return table;
+}
+
+} // namespace thalweg::io

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <thalweg/core/polygons.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/vec.hpp>
+
+namespace thalweg::io {
+
+/// A column of a table, asked row by row.
+struct Column {
+    enum class Kind { integer, wide_integer, real, text, date, time, datetime };
+    using Value = std::variant<std::monostate, std::int64_t, double, std::string>; ///< the first is NULL
+
+    std::string name; ///< in a shapefile at most 10 characters
+    Kind kind = Kind::integer;
+    int decimals = 0;                          ///< of a real in a shapefile, whose fields have 24 characters
+    std::function<Value(std::int64_t row)> at; ///< of the kind's type; texts for dates and times
+    bool is_users = false;                     ///< may be NULL, and numbers of any size
+};
+
+/// A layer of a vector file: its features are the rows [0, rows), numbered from 1.
+struct Table {
+    enum class Shape { none, point, line, plan_line, polygon, multi_polygon }; ///< plan_line: without heights
+
+    std::string name;
+    Shape shape = Shape::none;
+    std::int64_t rows = 0;
+    std::vector<Column> columns;
+    std::function<std::vector<Vec3>(std::int64_t row)>
+        shape_at; ///< one position for a point; a closed ring for a polygon
+    std::function<std::vector<Polygon>(std::int64_t row)> parts_at =
+        {}; ///< of a multi_polygon, in plan: outer ring first; asked instead of shape_at
+};
+
+/// Writes tables as the layers of a new GeoPackage, those without shape as attribute tables.
+/// Gives: the same bytes for the same tables. Throws: BadInput naming table, row and column when a number is not finite
+/// or does not fit its column; IoError, also when the file exists.
+void write_tables(std::vector<Table> const& tables, std::string const& crs, std::string const& path,
+                  Run const& run = {});
+
+/// Writes a table with shapes as a new shapefile PATH (ends in .shp), UTF-8. Gives and throws: like write_tables.
+void write_shapefile(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
+
+/// Writes a table with shapes as a new FlatGeobuf, with its spatial index. Gives and throws: like write_tables.
+void write_flatgeobuf(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
+
+/// Writes a table with shapes as new GeoJSON in its own coordinates, the CRS named as GeoJSON of 2008 does: RFC 7946
+/// would round them to degrees. Gives and throws: like write_tables; BadInput also when the CRS has no EPSG code.
+void write_geojson(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
+
+} // namespace thalweg::io

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/raster/contours.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gdal_alg.h>
+#include <ogrsf_frmts.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/gdal/driver.hpp>
+#include <thalweg/io/gdal/internal/dataset.hpp>
+#include <thalweg/io/gdal/internal/watch.hpp>
+#include <thalweg/io/network/table.hpp>
+
+namespace thalweg::io {
+
+namespace {
+
+void require_few_levels(Raster<float> const& dem, double interval_m) {
+    constexpr double most_levels = 10000.0;
+    if (!(interval_m > 0.0)) {
+        throw BadParameter(fmt::format("io.contours: an interval of {} m: give more than 0", interval_m));
+    }
+    double low = 0.0;
+    double high = 0.0;
+    bool first = true;
+    for (float const z : dem.values()) {
+        if (!std::isnan(z)) {
+            low = first ? static_cast<double>(z) : std::min(low, static_cast<double>(z));
+            high = first ? static_cast<double>(z) : std::max(high, static_cast<double>(z));
+            first = false;
+        }
+    }
+    if ((high - low) / interval_m > most_levels) {
+        throw BadParameter(
+            fmt::format("io.contours: an interval of {} m in a relief of {} m gives more than {} levels: "
+                        "give a larger one",
+                        interval_m, high - low, most_levels));
+    }
+}
+
+} // namespace
+
+std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, Run const& run) {
+    std::string const what = "io.contours";
+    require_few_levels(dem, interval_m);
+    Driver const driver;
+    Dataset const source = in_memory(dem, what);
+    Dataset const drawn(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+    OGRLayer* const layer = drawn->CreateLayer("contours", nullptr, wkbLineString, nullptr);
+    OGRFieldDefn z_field("z", OFTReal);
+    layer->CreateField(&z_field);
+    CPLStringList options;
+    options.SetNameValue("LEVEL_INTERVAL", fmt::format("{}", interval_m).c_str());
+    options.SetNameValue("ELEV_FIELD", "0");
+    options.SetNameValue("NODATA", fmt::format("{}", nodata_height).c_str());
+    Watch watch(run, "contours");
+    CPLErr const error = GDALContourGenerateEx(GDALRasterBand::ToHandle(source->GetRasterBand(1)),
+                                               OGRLayer::ToHandle(layer), options.List(), &Watch::step, &watch);
+    watch.settle();
+    driver.check(what);
+    if (error != CE_None) {
+        throw IoError(what + " failed");
+    }
+    std::vector<ContourLine> lines;
+    for (auto const& feature : *layer) {
+        OGRLineString const& drawn_line = *feature->GetGeometryRef()->toLineString();
+        ContourLine line{feature->GetFieldAsDouble(0), {}};
+        for (OGRPoint const& p : drawn_line) {
+            line.line.push_back({p.getX(), p.getY()});
+        }
+        lines.push_back(std::move(line));
+    }
+    driver.check(what); // an allocation that fails ends the loop, too
+    if (static_cast<GIntBig>(lines.size()) != layer->GetFeatureCount()) {
+        throw IoError(what + ": contours are missing: free memory");
+    }
+    return lines;
+}
+
+void write_contours(std::vector<ContourLine> const& lines, double interval_m, std::string const& crs,
+                    std::string const& path, Run const& run) {
+    write_contours(lines, interval_m, crs, path, HeightUnit::metre, run);
+}
+
+void write_contours(std::vector<ContourLine> const& lines, double interval, std::string const& crs,
+                    std::string const& path, HeightUnit unit, Run const& run) {
+    constexpr double index_every = 5.0;
+    auto const line_at = [&lines](std::int64_t row) -> ContourLine const& {
+        return lines[static_cast<std::size_t>(row)];
+    };
+    Table table{"contours", Table::Shape::line, static_cast<std::int64_t>(lines.size()), {}, {}};
+    table.columns = {
+        {"z", Column::Kind::real, 0, [=](std::int64_t row) { return line_at(row).z; }},
+        {"is_index", Column::Kind::integer, 0,
+         [=](std::int64_t row) {
+             double const level = std::floor(line_at(row).z / interval + 0.5);
+             return static_cast<std::int64_t>(level == index_every * std::floor(level / index_every));
+         }},
+    };
+    table.shape_at = [=](std::int64_t row) {
+        std::vector<Vec3> line;
+        for (Vec2 const p : line_at(row).line) {
+            line.push_back({p.x, p.y, line_at(row).z});
+        }
+        return line;
+    };
+    if (unit != HeightUnit::metre) {
+        table.columns.push_back(
+            {"z_unit", Column::Kind::text, 0, [unit](std::int64_t) { return std::string(name_of(unit)); }});
+    }
+    write_tables({table}, crs, path, run);
+}
+
+} // namespace thalweg::io

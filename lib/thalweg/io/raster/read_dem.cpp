@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/raster/read_dem.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/frame/internal/spatial_reference.hpp>
+#include <thalweg/io/frame/internal/units.hpp>
+#include <thalweg/io/gdal/driver.hpp>
+#include <thalweg/io/gdal/internal/dataset.hpp>
+#include <thalweg/io/raster/internal/plausible.hpp>
+
+namespace thalweg::io {
+
+namespace {
+
+Grid frame_of(GDALDataset& dataset, std::string const& what) {
+    Grid grid;
+    grid.width = dataset.GetRasterXSize();
+    grid.height = dataset.GetRasterYSize();
+    if (auto const* const reference = dataset.GetSpatialRef(); reference != nullptr && reference->IsEmpty() == 0) {
+        grid.crs = name_of(*reference);
+    }
+    std::array<double, 6> place{};
+    if (dataset.GetGeoTransform(place.data()) != CE_None) {
+        grid.north = static_cast<double>(grid.height);
+        return grid;
+    }
+    auto const [west, dx, skew_x, north, skew_y, dy] = place;
+    if (skew_x != 0.0 || skew_y != 0.0) {
+        throw BadInput(what + " is rotated: warp it to a north-up grid (gdalwarp)");
+    }
+    if (!(dx > 0.0) || !(dy < 0.0)) {
+        throw BadInput(what + " is not north-up: warp it (gdalwarp)");
+    }
+    if (!(std::fabs(dx + dy) <= square_within * dx)) {
+        throw BadInput(fmt::format("{} has cells of {} x {}, not squares: warp it (gdalwarp -tr)", what, dx, -dy));
+    }
+    grid.west = west;
+    grid.north = north;
+    grid.cell_m = dx;
+    return grid;
+}
+
+void require_memory(Grid const& grid, std::string const& what) {
+    double const needed = static_cast<double>(grid.cells()) * sizeof(float);
+    double const there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    if (needed > there) {
+        throw BadInput(fmt::format("{} of {} x {} cells is larger than memory", what, grid.width, grid.height));
+    }
+}
+
+enum class Unit : std::uint8_t { metre, stored };
+
+Raster<float> read(std::string const& path, Unit wanted, Run const& run) {
+    std::string const what = "io.read_dem: " + path;
+    Driver const driver;
+    Dataset const dataset = open_file(path, GDAL_OF_RASTER, what);
+    if (dataset->GetRasterCount() != 1) {
+        throw BadInput(fmt::format("{} has {} bands: a DEM has one", what, dataset->GetRasterCount()));
+    }
+    Grid const grid = frame_of(*dataset, what);
+    require_memory(grid, what);
+    GDALRasterBand& band = *dataset->GetRasterBand(1);
+    if (GDALDataTypeIsComplex(band.GetRasterDataType()) != 0) {
+        throw BadInput(what + " holds complex numbers, not heights");
+    }
+    double const unit = wanted == Unit::metre ? height_unit_of(*dataset) : 1.0;
+    double const scale = band.GetScale() * unit;
+    double const offset = band.GetOffset() * unit;
+    bool const scaled = scale != 1.0 || offset != 0.0;
+    int const width = dataset->GetRasterXSize();
+
+    Raster<float> dem(grid);
+    std::vector<double> heights(static_cast<std::size_t>(width));
+    std::vector<std::uint8_t> valid(static_cast<std::size_t>(width));
+    bool empty = true;
+    for (int row = 0; row < dataset->GetRasterYSize(); ++row) {
+        run.at(static_cast<double>(row) / static_cast<double>(grid.height), "read");
+        auto const read_row = [&](GDALRasterBand& from, void* to, GDALDataType type) {
+            if (from.RasterIO(GF_Read, 0, row, width, 1, to, width, 1, type, 0, 0, nullptr) != CE_None) {
+                driver.check(what);
+                throw IoError(fmt::format("{}: row {} cannot be read", what, row));
+            }
+        };
+        read_row(band, heights.data(), GDT_Float64);
+        read_row(*band.GetMaskBand(), valid.data(), GDT_Byte);
+        for (std::size_t col = 0; float& z : dem.row(row)) {
+            double const height = scaled ? heights[col] * scale + offset : heights[col]; // -0 stays -0
+            bool const known = valid[col] != 0 && !std::isnan(height);
+            if (known && !(std::fabs(height) <= implausible_height)) {
+                throw BadInput(fmt::format("{}: the height at column {}, row {} is {}: is the file damaged?", what, col,
+                                           row, height));
+            }
+            z = known ? static_cast<float>(height) : std::numeric_limits<float>::quiet_NaN();
+            empty = empty && !known;
+            ++col;
+        }
+    }
+    driver.check(what);
+    if (empty) {
+        throw BadInput(what + " holds no heights, only no-data");
+    }
+    return dem;
+}
+
+} // namespace
+
+Raster<float> read_dem(std::string const& path, Run const& run) {
+    return read(path, Unit::metre, run);
+}
+
+Raster<float> read_stored_dem(std::string const& path, Run const& run) {
+    return read(path, Unit::stored, run);
+}
+
+} // namespace thalweg::io

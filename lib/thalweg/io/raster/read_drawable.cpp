@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/raster/read_drawable.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <gdal_alg.h>
+#include <gdal_priv.h>
+#include <gdal_utils.h>
+#include <ogr_spatialref.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/frame/internal/spatial_reference.hpp>
+#include <thalweg/io/frame/internal/units.hpp>
+#include <thalweg/io/frame/projection.hpp>
+#include <thalweg/io/gdal/driver.hpp>
+#include <thalweg/io/gdal/internal/dataset.hpp>
+#include <thalweg/io/gdal/internal/watch.hpp>
+#include <thalweg/io/raster/internal/plausible.hpp>
+
+namespace thalweg::io {
+
+namespace {
+
+using Frame = std::array<double, 6>;
+
+constexpr double widest_zone_deg = 12.0;
+
+OGRSpatialReference const* reference_of(GDALDataset& dataset) {
+    OGRSpatialReference const* const reference = dataset.GetSpatialRef();
+    return reference != nullptr && reference->IsEmpty() == 0 ? reference : nullptr;
+}
+
+std::optional<Frame> frame_of(GDALDataset& dataset) {
+    Frame frame{};
+    return dataset.GetGeoTransform(frame.data()) == CE_None ? std::optional(frame) : std::nullopt;
+}
+
+bool is_square_and_north_up(Frame const& frame) {
+    return frame[2] == 0.0 && frame[4] == 0.0 && frame[1] > 0.0 && frame[5] < 0.0 &&
+           std::fabs(frame[1] + frame[5]) <= square_within * frame[1];
+}
+
+/// The projection in which a raster on the globe is drawn.
+OGRSpatialReference projection_for(GDALDataset& dataset, Frame const& frame, std::string const& what) {
+    OGRSpatialReference from(*reference_of(dataset));
+    from.StripVertical();
+    from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    OGRSpatialReference const globe = read_reference("EPSG:4326");
+    std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &globe));
+    if (!turn) {
+        throw BadInput(what + ": its CRS leads to no longitude and latitude; assign another (gdal_edit.py -a_srs)");
+    }
+    auto const place = [&](double col, double row) {
+        double x = frame[0] + col * frame[1] + row * frame[2];
+        double y = frame[3] + col * frame[4] + row * frame[5];
+        if (turn->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y)) {
+            throw BadInput(what + " lies where its CRS has no longitude and latitude; check its position");
+        }
+        return Vec2{x, y};
+    };
+    double const width = dataset.GetRasterXSize();
+    double const height = dataset.GetRasterYSize();
+    Vec2 const middle = place(0.5 * width, 0.5 * height);
+    double wide_deg = 0.0;
+    for (double const row : {0.0, 0.5 * height, height}) {
+        double const off = std::fabs(place(width, row).x - place(0.0, row).x);
+        wide_deg = std::max(wide_deg, off);
+    }
+    if (wide_deg <= widest_zone_deg && middle.y > -80.0 && middle.y < 84.0) {
+        return read_reference(utm_zone(middle.x, middle.y));
+    }
+    return equal_area_around(middle.x, middle.y);
+}
+
+struct Warped {
+    Dataset dataset;
+    double cell = 1.0;
+};
+
+/// Onto north-up squares, in another projection where one is given.
+Warped warp(GDALDataset& source, OGRSpatialReference const* target, std::int64_t most_side, std::string const& what,
+            Driver const& driver, Run const& run) {
+    std::string wkt;
+    if (target != nullptr) {
+        char* text = nullptr;
+        target->exportToWkt(&text);
+        wkt = text == nullptr ? "" : text;
+        CPLFree(text);
+    }
+    double const own_cell = frame_of(source).value_or(Frame{})[1];
+    CPLStringList options;
+    if (target != nullptr) {
+        options.SetNameValue("DST_SRS", wkt.c_str());
+    }
+    std::unique_ptr<void, decltype(&GDALDestroyGenImgProjTransformer)> const transformer(
+        GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(&source), nullptr, options.List()),
+        &GDALDestroyGenImgProjTransformer);
+    Frame frame{};
+    int columns = 0;
+    int rows = 0;
+    if (!transformer || GDALSuggestedWarpOutput(GDALDataset::ToHandle(&source), GDALGenImgProjTransform,
+                                                transformer.get(), frame.data(), &columns, &rows) != CE_None) {
+        throw BadInput(fmt::format("{} cannot be warped to be drawn: {}", what, driver.take()));
+    }
+    double const wide = frame[1] * columns;
+    double const high = -frame[5] * rows;
+    double const finest = std::min(frame[1], -frame[5]);
+    double const coarsest = std::max(wide, high) / static_cast<double>(most_side);
+    double const cell = std::max(finest, coarsest);
+    CPLStringList arguments;
+    auto const add = [&](std::initializer_list<std::string> words) {
+        for (std::string const& word : words) {
+            arguments.AddString(word.c_str());
+        }
+    };
+    auto const digits = [](double v) { return fmt::format("{:.17g}", v); };
+    add({"-of", "MEM", "-ot", "Float32", "-dstnodata", "nan", "-r", coarsest > finest ? "average" : "bilinear"});
+    add({"-te", digits(frame[0]), digits(frame[3] - std::max(cell, high)), digits(frame[0] + std::max(cell, wide)),
+         digits(frame[3]), "-tr", digits(cell), digits(cell)});
+    if (target != nullptr) {
+        add({"-t_srs", wkt});
+    }
+    // Older GDAL warps every band: a virtual copy of the first one leaves the others out.
+    CPLStringList first;
+    for (char const* word : {"-of", "VRT", "-b", "1"}) {
+        first.AddString(word);
+    }
+    std::unique_ptr<GDALTranslateOptions, decltype(&GDALTranslateOptionsFree)> const copy_options(
+        GDALTranslateOptionsNew(first.List(), nullptr), &GDALTranslateOptionsFree);
+    Dataset const band_one(
+        GDALDataset::FromHandle(GDALTranslate("", GDALDataset::ToHandle(&source), copy_options.get(), nullptr)));
+    if (band_one == nullptr) {
+        throw IoError(fmt::format("{}: its first band cannot be taken: {}", what, driver.take()));
+    }
+    Watch watch(run, "warp");
+    std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> const warp_options(
+        GDALWarpAppOptionsNew(arguments.List(), nullptr), &GDALWarpAppOptionsFree);
+    if (warp_options == nullptr) { // what GDAL reads in the arguments is not what was meant
+        throw BadInput(
+            fmt::format("{} cannot be warped to be drawn: its cells of {} are too small for its position: {}", what,
+                        own_cell, driver.take()));
+    }
+    GDALWarpAppOptionsSetProgress(warp_options.get(), &Watch::step, &watch);
+    GDALDatasetH from = GDALDataset::ToHandle(band_one.get());
+    Dataset warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &from, warp_options.get(), nullptr)));
+    watch.settle();
+    if (warped == nullptr) {
+        throw BadInput(fmt::format("{} cannot be warped to be drawn: {}", what, driver.take()));
+    }
+    driver.check(what);
+    return {std::move(warped), cell};
+}
+
+/// Reads the first band, k x k cells in one.
+Raster<float> read_means(GDALDataset& dataset, Grid const& grid, std::int64_t k, double scale, double offset,
+                         std::string const& what, Driver const& driver, Run const& run) {
+    GDALRasterBand& band = *dataset.GetRasterBand(1);
+    int has_nodata = 0;
+    double const nodata = band.GetNoDataValue(&has_nodata);
+    bool const float_nodata = band.GetRasterDataType() == GDT_Float32;
+    bool const masked = (band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) == 0;
+    GDALRasterIOExtraArg average;
+    INIT_RASTERIO_EXTRA_ARG(average);
+    average.eResampleAlg = GRIORA_Average;
+    GDALRasterIOExtraArg* const how = k > 1 ? &average : nullptr;
+    int const width = static_cast<int>(grid.width);
+    int const wide = static_cast<int>(std::min<std::int64_t>(grid.width * k, dataset.GetRasterXSize()));
+    constexpr std::int64_t rows_at_once = 64; // few enough to stop soon, enough to read a row of tiles once or twice
+    Raster<float> dem(grid);
+    std::vector<double> heights;
+    std::vector<std::uint8_t> valid;
+    bool empty = true;
+    for (std::int64_t row = 0; row < grid.height; row += rows_at_once) {
+        run.at(static_cast<double>(row) / static_cast<double>(grid.height), "read");
+        std::int64_t const rows = std::min(rows_at_once, grid.height - row);
+        int const high = static_cast<int>(std::min(rows * k, dataset.GetRasterYSize() - row * k));
+        auto const read = [&](GDALRasterBand& from, void* to, GDALDataType type, GDALRasterIOExtraArg* extra) {
+            if (from.RasterIO(GF_Read, 0, static_cast<int>(row * k), wide, high, to, width, static_cast<int>(rows),
+                              type, 0, 0, extra) != CE_None) {
+                driver.check(what);
+                throw IoError(fmt::format("{}: rows from {} on cannot be read", what, row * k));
+            }
+        };
+        heights.resize(static_cast<std::size_t>(rows * grid.width));
+        read(band, heights.data(), GDT_Float64, how);
+        if (masked) {
+            valid.resize(heights.size());
+            read(*band.GetMaskBand(), valid.data(), GDT_Byte, how);
+        }
+        for (std::size_t i = 0; i < heights.size(); ++i) {
+            double const raw = heights[i];
+            bool const is_nodata =
+                has_nodata != 0 &&
+                (raw == nodata || (float_nodata && static_cast<float>(raw) == static_cast<float>(nodata)));
+            double const z = raw * scale + offset;
+            bool const known = !is_nodata && !(masked && valid[i] == 0) && !std::isnan(z);
+            if (known && !(std::fabs(z) <= implausible_height)) {
+                throw BadInput(fmt::format("{}: a height of {} near row {}: is the file damaged?", what, z,
+                                           (row + static_cast<std::int64_t>(i) / grid.width) * k));
+            }
+            dem[row * grid.width + static_cast<std::int64_t>(i)] =
+                known ? static_cast<float>(z) : std::numeric_limits<float>::quiet_NaN();
+            empty = empty && !known;
+        }
+    }
+    driver.check(what);
+    if (empty) {
+        throw BadInput(what + " holds no heights, only no-data");
+    }
+    return dem;
+}
+
+} // namespace
+
+Drawable read_drawable(std::string const& path, std::int64_t most_side, Run const& run) {
+    std::string const what = "io.read_drawable: " + path;
+    if (most_side < 16 || most_side > 30000) {
+        throw BadParameter(fmt::format("io.read_drawable: most_side is {}, must lie in [16, 30000]", most_side));
+    }
+    Driver const driver;
+    Dataset source = open_file(path, GDAL_OF_RASTER, what);
+    if (source->GetRasterCount() < 1) {
+        throw BadInput(what + " has no bands of its own: name one of its subdatasets (gdalinfo lists them)");
+    }
+    GDALRasterBand& band = *source->GetRasterBand(1);
+    if (GDALDataTypeIsComplex(band.GetRasterDataType()) != 0) {
+        throw BadInput(what + " holds complex numbers, not heights");
+    }
+    Drawable out;
+    auto const note = [&](std::string words) { out.notes.push_back(std::move(words)); };
+    if (source->GetRasterCount() > 1) {
+        note(fmt::format("drawn from the first of {} bands", source->GetRasterCount()));
+    }
+    double const unit = height_unit_of(*source);
+    if (unit != 1.0) {
+        note(fmt::format("its heights, in {}, are drawn in metres", words_for_unit(unit)));
+    }
+    double const scale = band.GetScale() * unit;
+    double const offset = band.GetOffset() * unit;
+
+    std::optional<Frame> const placed = frame_of(*source);
+    OGRSpatialReference const* const reference = placed ? reference_of(*source) : nullptr;
+    Dataset warped;
+    if (placed && reference != nullptr && !is_projected_in_metres(*reference)) {
+        OGRSpatialReference const target = projection_for(*source, *placed, what);
+        Warped done = warp(*source, &target, most_side, what, driver, run);
+        char const* const name = target.GetName();
+        note(fmt::format("warped from {} into {}, cells of {:.4g} m",
+                         reference->GetName() == nullptr ? "its CRS" : reference->GetName(),
+                         name == nullptr ? "metres" : name, done.cell));
+        warped = std::move(done.dataset);
+    } else if (placed && !is_square_and_north_up(*placed)) {
+        Frame const& f = *placed;
+        Warped done = warp(*source, nullptr, most_side, what, driver, run);
+        bool const turned = f[2] != 0.0 || f[4] != 0.0 || f[1] < 0.0 || f[5] > 0.0;
+        note(turned ? fmt::format("turned north-up, cells of {:.6g} m", done.cell)
+                    : fmt::format("cells of {:.6g} x {:.6g} made squares of {:.6g} m", f[1], -f[5], done.cell));
+        warped = std::move(done.dataset);
+    }
+    if (reference == nullptr) {
+        note(placed ? "it has no CRS: its coordinates are drawn as metres"
+                    : "it has no position: its cells are drawn as 1 m");
+    }
+
+    GDALDataset& ready = warped ? *warped : *source;
+    std::int64_t const width = ready.GetRasterXSize();
+    std::int64_t const height = ready.GetRasterYSize();
+    std::int64_t const k = (std::max(width, height) + most_side - 1) / most_side;
+    Grid grid;
+    grid.width = std::max<std::int64_t>(1, width / k);
+    grid.height = std::max<std::int64_t>(1, height / k);
+    if (std::optional<Frame> const frame = frame_of(ready)) {
+        grid.west = (*frame)[0];
+        grid.north = (*frame)[3];
+        grid.cell_m = (*frame)[1] * static_cast<double>(k);
+    } else {
+        grid.cell_m = static_cast<double>(k);
+        grid.north = static_cast<double>(grid.height * k);
+    }
+    if (OGRSpatialReference const* const own = reference_of(ready); own != nullptr && placed) {
+        grid.crs = name_of(*own);
+    }
+    if (k > 1) {
+        note(fmt::format("drawn from means of {}x{} cells", k, k));
+    }
+    out.dem = read_means(ready, grid, k, scale, offset, what, driver, run);
+    return out;
+}
+
+} // namespace thalweg::io

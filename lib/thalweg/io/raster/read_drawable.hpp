@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+
+namespace thalweg::io {
+
+/// A DEM brought into a shape that can be drawn, and in words what was done to it.
+struct Drawable {
+    Raster<float> dem;
+    std::vector<std::string> notes;
+};
+
+/// Reads any raster of heights for pictures, where read_dem would refuse: larger than most_side cells a side becomes
+/// means of k x k cells (what fills no block at the east and south edge is left out); a CRS that is geographic or not
+/// in metres is warped (bilinear) into the UTM zone of its centre, or, wider than 12 degrees or near a pole, into an
+/// equal-area projection centred on it; cells that are no squares, rotated or south-up are made north-up squares; of
+/// several bands the first is taken; without a CRS coordinates count as metres.
+/// Gives: notes, one for each such change; no-data and masked cells as NaN, scale and offset applied.
+/// Takes: most_side: [16, 30000] cells.
+/// Throws: BadParameter; BadInput: no such file, not a raster, complex numbers, no heights at all, a height beyond
+/// 1e30, a place without projection; IoError; Cancelled.
+Drawable read_drawable(std::string const& path, std::int64_t most_side = 4000, Run const& run = {});
+
+} // namespace thalweg::io

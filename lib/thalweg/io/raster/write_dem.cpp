@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/raster/write_dem.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <type_traits>
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/gdal/driver.hpp>
+#include <thalweg/io/gdal/internal/dataset.hpp>
+#include <thalweg/io/gdal/internal/watch.hpp>
+
+namespace thalweg::io {
+
+namespace {
+
+void require_new(std::string const& path, std::string const& what) {
+    if (std::error_code ignored; std::filesystem::exists(path, ignored)) {
+        throw IoError(what + " exists already");
+    }
+}
+
+void require(bool done, Driver const& driver, std::string const& what) {
+    if (!done) {
+        driver.check(what);
+        throw IoError(what + " could not be written");
+    }
+}
+
+/// A new tiled GeoTIFF of one band.
+template <class T>
+void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<double> no_data, char const* verb,
+                 std::string const& path, Run const& run) {
+    std::string const what = verb + path;
+    require_new(path, what);
+    require_size(raster.grid(), what);
+    Driver const driver;
+    CPLStringList options;
+    options.SetNameValue("COMPRESS", "DEFLATE");
+    options.SetNameValue("TILED", "YES");
+    if (std::is_floating_point_v<T>) {
+        options.SetNameValue("PREDICTOR", "3");
+        options.SetNameValue("BIGTIFF", "IF_SAFER");
+        options.SetNameValue("NUM_THREADS", run.threads > 0 ? fmt::format("{}", run.threads).c_str() : "ALL_CPUS");
+    }
+    Dataset target(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+        path.c_str(), static_cast<int>(raster.width()), static_cast<int>(raster.height()), 1, type, options.List()));
+    require(target != nullptr, driver, what);
+    set_frame(*target, raster.grid());
+    if (no_data) {
+        target->GetRasterBand(1)->SetNoDataValue(*no_data);
+    }
+    GDALRasterIOExtraArg extra;
+    INIT_RASTERIO_EXTRA_ARG(extra);
+    Watch watch(run, "write");
+    extra.pfnProgress = &Watch::step;
+    extra.pProgressData = &watch;
+    int const width = target->GetRasterXSize();
+    int const height = target->GetRasterYSize();
+    // GDAL's one call reads and writes and therefore takes no const buffer.
+    void* const cells = const_cast<T*>(raster.values().data());
+    CPLErr const error =
+        target->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, width, height, cells, width, height, type, 0, 0, &extra);
+    watch.settle();
+    require(error == CE_None, driver, what);
+    target.reset();
+    driver.check(what);
+}
+
+} // namespace
+
+void write_dem(Raster<float> const& dem, std::string const& path, Run const& run) {
+    write_dem(dem, path, HeightUnit::metre, run);
+}
+
+void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit unit, Run const& run) {
+    std::string const what = "io.write_dem: " + path;
+    require_new(path, what);
+    Driver const driver;
+    Dataset const source = in_memory(dem, what);
+    source->GetRasterBand(1)->SetUnitType(name_of(unit));
+    CPLStringList options;
+    options.SetNameValue("COMPRESS", "DEFLATE");
+    options.SetNameValue("PREDICTOR", "FLOATING_POINT");
+    options.SetNameValue("OVERVIEW_PREDICTOR", "FLOATING_POINT");
+    options.SetNameValue("BLOCKSIZE", "512");
+    options.SetNameValue("OVERVIEW_RESAMPLING", "AVERAGE");
+    options.SetNameValue("NUM_THREADS", run.threads > 0 ? fmt::format("{}", run.threads).c_str() : "ALL_CPUS");
+    Watch watch(run, "write dem.tif");
+    Dataset target(GetGDALDriverManager()->GetDriverByName("COG")->CreateCopy(path.c_str(), source.get(), TRUE,
+                                                                              options.List(), &Watch::step, &watch));
+    watch.settle();
+    require(target != nullptr, driver, what);
+    target.reset();
+    driver.check(what);
+}
+
+void write_mask(Mask const& mask, std::string const& path, Run const& run) {
+    write_tiled(mask, GDT_Byte, {}, "io.write_mask: ", path, run);
+}
+
+void write_codes(Raster<std::uint8_t> const& codes, std::string const& path, Run const& run) {
+    write_tiled(codes, GDT_Byte, no_code, "io.write_codes: ", path, run);
+}
+
+void write_field(Raster<double> const& field, std::string const& path, Run const& run) {
+    constexpr auto no_data = static_cast<double>(nodata_height);
+    Raster<double> filled = field;
+    for (std::int64_t i = 0; i < filled.cells(); ++i) {
+        if (std::isinf(filled[i]) || filled[i] == no_data) {
+            Cell const c = filled.grid().at(i);
+            throw BadInput(fmt::format("io.write_field: {}: the number at column {}, row {} is {}", path, c.col, c.row,
+                                       filled[i]));
+        }
+        filled[i] = std::isnan(filled[i]) ? no_data : filled[i];
+    }
+    write_tiled(filled, GDT_Float64, no_data, "io.write_field: ", path, run);
+}
+
+} // namespace thalweg::io

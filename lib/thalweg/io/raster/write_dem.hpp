@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <thalweg/core/height_unit.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+
+namespace thalweg::io {
+
+/// Writes heights as a new cloud-optimised GeoTIFF: Float32, tiles of 512, DEFLATE with the floating-point predictor,
+/// nodata -9999 for NaN, overviews by mean. Gives: the same bytes for the same raster and any number of threads.
+/// Throws: BadInput at an infinite height or one of -9999 m, or when grid.crs is no CRS; IoError; Cancelled.
+void write_dem(Raster<float> const& dem, std::string const& path, Run const& run = {});
+
+/// The same, of heights that are in a unit already: the band names it, "m" or "ft". The other names "m".
+void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit unit, Run const& run = {});
+
+/// Writes a new Byte GeoTIFF (tiled, DEFLATE). Gives and throws: like write_dem.
+void write_mask(Mask const& mask, std::string const& path, Run const& run = {});
+
+inline constexpr std::uint8_t no_code = 255; ///< nodata of codes
+
+/// Writes codes by cell as a new Byte GeoTIFF (tiled, DEFLATE), nodata no_code. Gives and throws: like write_dem.
+void write_codes(Raster<std::uint8_t> const& codes, std::string const& path, Run const& run = {});
+
+/// Writes numbers by cell as a new Float64 GeoTIFF (tiled, DEFLATE with the floating-point predictor), nodata -9999 for
+/// NaN: contributing areas, which Float32 would round. Gives and throws: like write_dem.
+void write_field(Raster<double> const& field, std::string const& path, Run const& run = {});
+
+} // namespace thalweg::io

@@ -1,0 +1,402 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/measure/drainage/certificate.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/measure/drainage/internal/agreement.hpp>
+
+namespace thalweg::measure {
+
+namespace {
+
+constexpr std::int32_t no_reach = -1;
+constexpr std::int64_t listed = 1000; ///< findings of a kind
+
+bool are_neighbours(Cell a, Cell b) {
+    return std::max(std::abs(a.col - b.col), std::abs(a.row - b.row)) <= 1;
+}
+
+/// Adds the cells of a line to a mask, without corners: those between two that are neighbours.
+void mark_without_corners(std::vector<Vec2> const& line, Mask& marked) {
+    std::vector<Cell> const cells = cells_along(line, marked.grid());
+    Cell last{};
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (i == 0 || i + 1 == cells.size() || !are_neighbours(last, cells[i + 1])) {
+            marked[cells[i]] = 1;
+            last = cells[i];
+        }
+    }
+}
+
+class Certifier {
+public:
+    Certifier(Raster<float> const& dem, Drainage const& drainage, std::vector<Reach> const& reaches,
+              Claims const& claims, Run const& run)
+        : dem_(dem), drainage_(drainage), reaches_(reaches), claims_(claims), run_(run), grid_(dem.grid()),
+          owner_(grid_, no_reach), corner_(grid_), fed_(reaches.size(), 0) {
+        for (RiverCell const& c : river_cells(reaches, grid_, run)) {
+            if (is_honoured(c.cell)) {
+                owner_[c.cell] = static_cast<std::int32_t>(c.reach);
+                rivers_.push_back(c);
+            } else {
+                ++out_.waived_cells;
+            }
+        }
+        find_corners();
+        for (Reach const& reach : reaches) {
+            ends_.push_back(ends_of(reach));
+        }
+        for (std::size_t r = 0; r < reaches.size(); ++r) {
+            if (reaches[r].ds >= 0 && brings_water(ends_[r])) {
+                fed_[static_cast<std::size_t>(reaches[r].ds)] = 1;
+            }
+        }
+    }
+
+    Certificate certify() {
+        tell_depressions();
+        find_lakes();
+        follow_rivers();
+        trace_sources();
+        auto const [cells, agreement] = best_threshold(drainage_.area_cells, with_data(), run_);
+        out_.threshold_cells = cells;
+        out_.extracted = agreement;
+        compare_areas();
+        return std::move(out_);
+    }
+
+private:
+    /// Cells where a reach begins to be honoured and ends, -1 when no part of it lies in the grid.
+    struct Ends {
+        std::int64_t first = -1;
+        std::int64_t last = -1;
+        bool waived = false; ///< it begins lower than it is drawn
+    };
+
+    bool is_honoured(std::int64_t cell) const { return claims_.honoured.cells() == 0 || claims_.honoured[cell] != 0; }
+
+    Ends ends_of(Reach const& reach) const {
+        Ends ends;
+        for (auto const& line : reach.lines) {
+            for (Cell const cell : claims_.honoured.cells() == 0 ? cells_of_ends(line) : cells_along(line, grid_)) {
+                std::int64_t const i = grid_.index(cell);
+                ends.last = i;
+                ends.waived = ends.waived || (ends.first < 0 && !is_honoured(i));
+                ends.first = ends.first < 0 && is_honoured(i) ? i : ends.first;
+            }
+        }
+        return ends;
+    }
+
+    std::vector<Cell> cells_of_ends(std::vector<Vec2> const& line) const {
+        return line.empty() ? std::vector<Cell>{} : cells_of_vertices({line.front(), line.back()}, grid_);
+    }
+
+    /// Not of what a reach has waived down to its last cell, which is the next one's first.
+    static bool brings_water(Ends const& ends) { return !ends.waived || (ends.first >= 0 && ends.first != ends.last); }
+
+    void find_corners() {
+        Mask kept(grid_);
+        for (Reach const& reach : reaches_) {
+            for (auto const& line : reach.lines) {
+                mark_without_corners(line, kept);
+            }
+        }
+        for (RiverCell const& c : rivers_) {
+            corner_[c.cell] = kept[c.cell] == 0 ? 1 : 0;
+        }
+        std::erase_if(rivers_, [this](RiverCell const& c) { return corner_[c.cell] != 0; });
+    }
+
+    void find(char const* kind, std::int64_t feature, Cell at, double amount, std::string text) {
+        if (++told_[kind] <= listed) {
+            Vec2 const where = grid_.centre(at);
+            out_.findings.push_back({kind, feature, where, amount, std::move(text)});
+        }
+    }
+
+    std::string place(Cell at) const {
+        Vec2 const p = grid_.centre(at);
+        return fmt::format("({:.1f}, {:.1f})", p.x, p.y);
+    }
+
+    std::int64_t next_of(std::int64_t i) const {
+        std::int8_t const direction = drainage_.direction[i];
+        if (direction < 0) {
+            return -1;
+        }
+        Cell const step = d8_steps[static_cast<std::size_t>(direction)];
+        return i + step.row * grid_.width + step.col;
+    }
+
+    std::vector<std::int64_t> with_data() const {
+        std::vector<std::int64_t> cells;
+        for (RiverCell const& c : rivers_) {
+            if (!std::isnan(dem_[c.cell])) {
+                cells.push_back(c.cell);
+            }
+        }
+        return cells;
+    }
+
+    /// Whether a cell has a neighbour at its height.
+    bool is_level(Cell at) const {
+        return std::any_of(d8_steps.begin(), d8_steps.end(), [&](Cell step) {
+            Cell const n{at.col + step.col, at.row + step.row};
+            return grid_.contains(n) && dem_[n] == dem_[at]; // never NaN
+        });
+    }
+
+    /// Marks the level cells around rivers that stand.
+    void find_lakes() {
+        lake_ = Mask(grid_);
+        if (claims_.still.cells() == 0) {
+            return;
+        }
+        std::vector<std::int64_t> level;
+        for (std::int64_t i = 0; i < grid_.cells(); ++i) {
+            if (claims_.still[i] != 0 && is_level(grid_.at(i))) {
+                lake_[i] = 1;
+                level.push_back(i);
+            }
+        }
+        while (!level.empty()) {
+            Cell const at = grid_.at(level.back());
+            level.pop_back();
+            for (Cell const step : d8_steps) {
+                Cell const to{at.col + step.col, at.row + step.row};
+                if (grid_.contains(to) && lake_[to] == 0 && dem_[to] == dem_[at]) {
+                    lake_[to] = 1;
+                    level.push_back(grid_.index(to));
+                }
+            }
+        }
+        for (RiverCell const& c : rivers_) {
+            out_.lake_cells += lake_[c.cell];
+        }
+    }
+
+    /// Without cells of which it is open whether water passes them.
+    std::vector<std::int64_t> plain(std::vector<std::int64_t> cells) const {
+        std::erase_if(cells, [this](std::int64_t cell) { return lake_[cell] != 0 || corner_[cell] != 0; });
+        return cells;
+    }
+
+    void tell_depressions() {
+        out_.depressions = static_cast<std::int64_t>(drainage_.depressions.size());
+        out_.pit_cells = drainage_.pits;
+        out_.pit_volume_m3 = drainage_.pit_volume_m3;
+        for (Depression const& d : drainage_.depressions) {
+            out_.max_depth_m = std::max(out_.max_depth_m, d.max_depth_m);
+            find("depression", 0, d.lowest, d.max_depth_m,
+                 fmt::format("depression of {} cells, {:.3g} m deep, lowest at {}", d.cells, d.max_depth_m,
+                             place(d.lowest)));
+        }
+    }
+
+    /// Whether a reach is another, or lies downstream of it.
+    bool leads_to(std::size_t from, std::size_t to) const {
+        for (std::int64_t at = static_cast<std::int64_t>(from); at >= 0;
+             at = reaches_[static_cast<std::size_t>(at)].ds) {
+            if (at == static_cast<std::int64_t>(to)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    bool ends_river(RiverCell const& c) const { return reaches_[c.reach].ds < 0 && ends_[c.reach].last == c.cell; }
+
+    bool begins_river(RiverCell const& c) const { return fed_[c.reach] == 0 && ends_[c.reach].first == c.cell; }
+
+    void follow_rivers() {
+        std::vector<std::int64_t> without(reaches_.size(), 0);
+        std::vector<std::int64_t> first_without(reaches_.size(), -1);
+        for (RiverCell const& c : rivers_) {
+            Cell const at = grid_.at(c.cell);
+            if (std::isnan(dem_[c.cell])) {
+                first_without[c.reach] = without[c.reach]++ == 0 ? c.cell : first_without[c.reach];
+                continue;
+            }
+            ++out_.river_cells;
+            if (grid_.on_border(at) && !ends_river(c) && !begins_river(c)) {
+                ++out_.border_cells;
+                find("border_cell", reaches_[c.reach].id, at, 0.0,
+                     fmt::format("arc {} runs along the border of the DEM at {}", reaches_[c.reach].id, place(at)));
+            }
+            std::int64_t const next = next_of(c.cell);
+            bool const on =
+                ends_river(c) || lake_[c.cell] != 0 ||
+                (next >= 0 && owner_[next] != no_reach && leads_to(c.reach, static_cast<std::size_t>(owner_[next])));
+            out_.following_cells += on ? 1 : 0;
+            if (!on) {
+                double const drop =
+                    next < 0 ? 0.0 : static_cast<double>(dem_[c.cell]) - static_cast<double>(dem_[next]);
+                find("water_leaves", reaches_[c.reach].id, at, drop,
+                     fmt::format("arc {}: its water leaves it at {}", reaches_[c.reach].id, place(at)));
+            }
+        }
+        for (std::size_t r = 0; r < reaches_.size(); ++r) {
+            if (without[r] > 0) {
+                Cell const at = grid_.at(first_without[r]);
+                find("outside_dem", reaches_[r].id, at, static_cast<double>(without[r]),
+                     fmt::format("arc {}: {} of its cells have no height in the DEM, the first at {}", reaches_[r].id,
+                                 without[r], place(at)));
+            }
+        }
+    }
+
+    /// Where the network lets the water of a reach out: the last cell of the last reach that lies in the grid.
+    std::int64_t outlet_of(std::size_t reach) const {
+        std::int64_t outlet = -1;
+        for (auto at = static_cast<std::int64_t>(reach); at >= 0; at = reaches_[static_cast<std::size_t>(at)].ds) {
+            Ends const& ends = ends_[static_cast<std::size_t>(at)];
+            outlet = ends.last >= 0 ? ends.last : outlet;
+        }
+        return outlet;
+    }
+
+    void trace_sources() {
+        Mask passed(grid_);
+        std::vector<std::int64_t> traced;
+        for (std::size_t r = 0; r < reaches_.size(); ++r) {
+            std::int64_t const source = ends_[r].first;
+            if (fed_[r] != 0 || source < 0 || !brings_water(ends_[r]) || std::isnan(dem_[source])) {
+                continue;
+            }
+            run_.check();
+            ++out_.sources;
+            std::int64_t const outlet = outlet_of(r);
+            Cell const goal = grid_.at(outlet);
+            bool arrives = false;
+            std::int64_t last = source;
+            for (std::int64_t at = source; at >= 0; at = next_of(at)) {
+                last = at;
+                if (passed[at] == 0) {
+                    passed[at] = 1;
+                    traced.push_back(at);
+                }
+                Cell const here = grid_.at(at);
+                arrives = arrives || (std::abs(here.col - goal.col) <= 1 && std::abs(here.row - goal.row) <= 1);
+                if (at == outlet) {
+                    break;
+                }
+            }
+            out_.arriving_sources += arrives ? 1 : 0;
+            if (!arrives) {
+                Vec2 const a = grid_.centre(grid_.at(last));
+                Vec2 const b = grid_.centre(goal);
+                find("source_astray", reaches_[r].id, grid_.at(source),
+                     std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y)),
+                     fmt::format("arc {}: water from its source at {} does not come to its outlet at {}",
+                                 reaches_[r].id, place(grid_.at(source)), place(goal)));
+            }
+        }
+        std::vector<std::int64_t> const rivers = with_data();
+        std::vector<std::int64_t> const running = plain(rivers);
+        if (running.empty() && !rivers.empty()) {
+            out_.traced.fill({1.0, 1.0}); // they are all lake: there is nothing to follow
+        } else {
+            out_.traced = agreement(plain(traced), running, grid_);
+            if (claims_.drawn.cells() > 0) {
+                std::vector<std::int64_t> drawn;
+                for (std::int64_t i = 0; i < grid_.cells(); ++i) {
+                    if (claims_.drawn[i] != 0 && !std::isnan(dem_[i])) {
+                        drawn.push_back(i);
+                    }
+                }
+                out_.traced[0] = agreement(plain(traced), plain(std::move(drawn)), grid_)[0];
+            }
+        }
+    }
+
+    void compare_areas() {
+        std::vector<double> const& ds_area_m2 = claims_.ds_area_m2;
+        if (ds_area_m2.empty()) {
+            return;
+        }
+        std::vector<std::int64_t> most(reaches_.size(), 0);
+        for (RiverCell const& c : rivers_) {
+            most[c.reach] = std::max(most[c.reach], drainage_.area_cells[c.cell]);
+        }
+        double const cell_m2 = grid_.cell_m * grid_.cell_m;
+        for (std::size_t r = 0; r < reaches_.size(); ++r) {
+            if (most[r] > 0 && ds_area_m2[r] > 0.0) { // never NaN
+                double const here = static_cast<double>(most[r]) * cell_m2;
+                double const difference = std::fabs(here - ds_area_m2[r]) / ds_area_m2[r];
+                ++out_.compared_areas;
+                out_.close_areas += difference <= 0.05 ? 1 : 0;
+                out_.max_area_difference = std::max(out_.max_area_difference, difference);
+            }
+        }
+    }
+
+    Raster<float> const& dem_;
+    Drainage const& drainage_;
+    std::vector<Reach> const& reaches_;
+    Claims const& claims_;
+    Run const& run_;
+    Grid const& grid_;
+    Raster<std::int32_t> owner_;
+    Mask lake_;
+    Mask corner_; ///< 1: only corners of reaches
+    std::vector<RiverCell> rivers_;
+    std::vector<Ends> ends_;
+    std::vector<std::uint8_t> fed_; ///< by reach: another runs into it
+    std::map<std::string, std::int64_t> told_;
+    Certificate out_;
+};
+
+Check at_most(char const* name, std::int64_t value) {
+    return {name, static_cast<double>(value), 0.0, value == 0};
+}
+
+Check at_least(char const* name, double value, double limit) {
+    return {name, value, limit, value >= limit, Bound::at_least};
+}
+
+} // namespace
+
+std::vector<Check> Certificate::checks() const {
+    std::vector<Check> all = {at_most("depressions", depressions), at_most("border_cells", border_cells),
+                              at_most("sources_astray", sources - arriving_sources)};
+    if (sources > 0) {
+        all.push_back(at_least("trace_precision", traced[1].precision, 0.99));
+        all.push_back(at_least("trace_recall", traced[1].recall, 0.95));
+        all.push_back(at_least("trace_f_same_cell", traced[0].f(), 0.98));
+    }
+    return all;
+}
+
+Certificate certify(Raster<float> const& dem, Drainage const& drainage, std::vector<Reach> const& reaches,
+                    Claims const& claims, Run const& run) {
+    if (drainage.direction.grid() != dem.grid()) {
+        throw BadInput("measure.certify: the drainage is not that of this DEM; drain it first");
+    }
+    if (!claims.ds_area_m2.empty() && claims.ds_area_m2.size() != reaches.size()) {
+        throw BadInput(
+            fmt::format("measure.certify: {} areas for {} reaches", claims.ds_area_m2.size(), reaches.size()));
+    }
+    for (Mask const* const mask : {&claims.still, &claims.drawn, &claims.honoured}) {
+        if (mask->cells() > 0 && mask->grid() != dem.grid()) {
+            throw BadInput("measure.certify: what stands, is drawn or honoured is not on the DEM's grid");
+        }
+    }
+    if (reaches.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+        throw BadInput("measure.certify: more than 2^31 reaches");
+    }
+    return Certifier(dem, drainage, reaches, claims, run).certify();
+}
+
+} // namespace thalweg::measure

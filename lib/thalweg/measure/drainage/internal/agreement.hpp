@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/measure/drainage/certificate.hpp>
+
+/// Private to this room.
+namespace thalweg::measure {
+
+/// How far cells found agree with a river's; both lists without repeats.
+Agreements agreement(std::vector<std::int64_t> const& found, std::vector<std::int64_t> const& rivers, Grid const& grid);
+
+/// The area [cells] of 2^n and 3 * 2^n from 16 at which the cells with at least that much agree best with a river's
+/// within a cell (ties: the least), and how far they do. (0, nothing) when no cell has 16.
+std::pair<std::int64_t, Agreements> best_threshold(Raster<std::int64_t> const& area_cells,
+                                                   std::vector<std::int64_t> const& rivers, Run const& run);
+
+} // namespace thalweg::measure

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/measure/laws/horton.hpp>
+#include <thalweg/measure/laws/junction_angles.hpp>
+#include <thalweg/measure/laws/link_lengths.hpp>
+#include <thalweg/measure/laws/power_law.hpp>
+#include <thalweg/measure/laws/tokunaga.hpp>
+
+namespace thalweg::measure {
+
+/// The laws of a network: of its tree, its lengths, its slopes and its angles.
+struct NetworkLaws {
+    HortonLaws horton;
+    std::optional<TokunagaLaw> tokunaga;
+    std::optional<PowerLaw> hack;      ///< L = c A^h
+    std::optional<PowerLaw> concavity; ///< S = k A^-theta: its exponent is -theta
+    double drainage_density_m = 0.0;   ///< [m/m2] length of all rivers over the land's area
+    LinkLengths links;
+    JunctionAngles junctions;
+};
+
+struct NetworkLawsParams {
+    double land_m2 = 0.0;                   ///< [m2] above 0: the land that the rivers drain
+    double junction_reach_m = 0.0;          ///< [m] above 0, as junction_angles
+    std::vector<double> head_m = {};        ///< [m] by node, as hack
+    std::vector<double> side_branches = {}; ///< T_1, T_2, ..., as tokunaga
+};
+
+/// Every law of a network, drawn or drained, by the verbs beside this one.
+/// Throws: BadParameter when the land or the reach is not above 0; BadInput as the verbs do.
+NetworkLaws network_laws(RaisedNetwork const& network, NetworkOrders const& orders, ContributingAreas const& areas,
+                         NetworkLawsParams const& params);
+
+} // namespace thalweg::measure

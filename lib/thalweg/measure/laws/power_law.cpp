@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/measure/laws/power_law.hpp>
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/measure/laws/internal/compensated_sum.hpp>
+
+namespace thalweg::measure {
+
+namespace {
+
+struct Logarithms {
+    CompensatedSum area;
+    CompensatedSum value;
+    std::int64_t places = 0;
+};
+
+} // namespace
+
+std::optional<PowerLaw> with_line(PowerLaw law, std::optional<LineFit> const& fit, std::int64_t least_bins) {
+    if (!fit || fit->points < least_bins) {
+        return std::nullopt;
+    }
+    law.exponent = fit->slope;
+    law.coefficient = exact::exp(fit->intercept);
+    law.r2 = fit->r2;
+    law.exponent_error = fit->slope_error;
+    return law;
+}
+
+std::optional<PowerLaw> fit_power_law(std::vector<AtArea> const& places, PowerLawParams const& params) {
+    if (params.bins_per_decade < 1 || params.bins_per_decade > 100 || params.least_places < 1 ||
+        params.least_bins < 2) {
+        throw BadParameter(fmt::format("measure.fit_power_law: {} bins a decade of at least {} places, at least {} of "
+                                       "them; they must be [1, 100], from 1 and from 2",
+                                       params.bins_per_decade, params.least_places, params.least_bins));
+    }
+    double const per_e_fold = params.bins_per_decade / exact::log(10.0);
+    std::map<std::int64_t, Logarithms> bins;
+    for (AtArea const& p : places) {
+        if (p.area_m2 > 0.0 && p.value > 0.0 && std::isfinite(p.area_m2) && std::isfinite(p.value)) {
+            double const area = exact::log(p.area_m2);
+            Logarithms& bin = bins[static_cast<std::int64_t>(std::floor(area * per_e_fold))];
+            bin.area.add(area);
+            bin.value.add(exact::log(p.value));
+            ++bin.places;
+        }
+    }
+    PowerLaw law;
+    std::vector<Vec2> line;
+    for (auto const& [number, bin] : bins) {
+        if (bin.places >= params.least_places) {
+            auto const n = static_cast<double>(bin.places);
+            line.push_back({bin.area.value() / n, bin.value.value() / n});
+            law.bins.push_back({exact::exp(line.back().x), exact::exp(line.back().y), bin.places});
+            law.places += bin.places;
+        }
+    }
+    law.left_out = static_cast<std::int64_t>(places.size()) - law.places;
+    return with_line(std::move(law), fit_line(line), params.least_bins);
+}
+
+} // namespace thalweg::measure

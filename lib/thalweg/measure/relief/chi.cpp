@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/measure/relief/chi.hpp>
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/measure/laws/internal/compensated_sum.hpp>
+#include <thalweg/measure/laws/line_fit.hpp>
+
+namespace thalweg::measure {
+
+namespace {
+
+void check(ChiParams const& params, Raster<float> const& dem, Drainage const& drainage) {
+    if (!(params.theta >= 0.0 && params.theta <= 2.0) || params.support_cells < 1 || params.least_cells < 3 ||
+        params.most_stems < 1) {
+        throw BadParameter(fmt::format("measure.chi: theta {}, a support of {} cells, {} stems of at least {}; they "
+                                       "must be [0, 2], from 1, from 1 and from 3",
+                                       params.theta, params.support_cells, params.most_stems, params.least_cells));
+    }
+    if (!(dem.grid() == drainage.direction.grid())) {
+        throw BadInput("measure.chi: the DEM and its drainage have different grids; drain this DEM");
+    }
+}
+
+/// Cells where rivers leave the DEM, those that drain most first.
+std::vector<std::int64_t> mouths(Drainage const& drainage, ChiParams const& params) {
+    std::vector<std::int64_t> all;
+    for (std::int64_t i = 0; i < drainage.direction.cells(); ++i) {
+        if (drainage.direction[i] == d8_leaves && drainage.area_cells[i] >= params.support_cells) {
+            all.push_back(i);
+        }
+    }
+    std::sort(all.begin(), all.end(), [&](std::int64_t a, std::int64_t b) {
+        return drainage.area_cells[a] != drainage.area_cells[b] ? drainage.area_cells[a] > drainage.area_cells[b]
+                                                                : a < b;
+    });
+    return all;
+}
+
+/// The neighbour that brings most water to a cell, as a direction from there; -1 where none does.
+int main_donor(Drainage const& drainage, Cell cell) {
+    int best = -1;
+    std::int64_t most = 0;
+    for (std::size_t k = 0; k < d8_steps.size(); ++k) {
+        Cell const from{cell.col + d8_steps[k].col, cell.row + d8_steps[k].row};
+        if (!drainage.direction.grid().contains(from) ||
+            drainage.direction[from] != static_cast<std::int8_t>((k + 4) % 8)) {
+            continue;
+        }
+        if (drainage.area_cells[from] > most) {
+            most = drainage.area_cells[from];
+            best = static_cast<int>(k);
+        }
+    }
+    return best;
+}
+
+/// Chi and height along the stem above a mouth.
+std::vector<Vec2> stem_above(Raster<float> const& dem, Drainage const& drainage, std::int64_t mouth,
+                             ChiParams const& params) {
+    Grid const& grid = dem.grid();
+    std::vector<Vec2> stem{{0.0, static_cast<double>(dem[mouth])}};
+    Cell at = grid.at(mouth);
+    for (int k = main_donor(drainage, at); k >= 0; k = main_donor(drainage, at)) {
+        auto const way = static_cast<std::size_t>(k);
+        at = {at.col + d8_steps[way].col, at.row + d8_steps[way].row};
+        if (drainage.area_cells[at] < params.support_cells) {
+            break;
+        }
+        double const area_m2 = static_cast<double>(drainage.area_cells[at]) * grid.cell_m * grid.cell_m;
+        double const step = grid.cell_m / d8_per_length[way] * exact::pow(area_m2, -params.theta);
+        stem.push_back({stem.back().x + step, static_cast<double>(dem[at])});
+    }
+    return stem;
+}
+
+/// Squares of the heights' distances from their mean.
+double spread(std::vector<Vec2> const& stem) {
+    CompensatedSum sum;
+    for (Vec2 const p : stem) {
+        sum.add(p.y);
+    }
+    double const mean = sum.value() / static_cast<double>(stem.size());
+    CompensatedSum squares;
+    for (Vec2 const p : stem) {
+        squares.add((p.y - mean) * (p.y - mean));
+    }
+    return squares.value();
+}
+
+} // namespace
+
+std::optional<Chi> chi(Raster<float> const& dem, Drainage const& drainage, ChiParams const& params, Run const& run) {
+    check(params, dem, drainage);
+    Chi found;
+    found.theta = params.theta;
+    CompensatedSum explained;
+    CompensatedSum all;
+    for (std::int64_t const mouth : mouths(drainage, params)) {
+        run.check();
+        if (found.stems == params.most_stems) {
+            break;
+        }
+        std::vector<Vec2> const stem = stem_above(dem, drainage, mouth, params);
+        auto const cells = static_cast<std::int64_t>(stem.size());
+        auto const fit = fit_line(stem);
+        double const squares = spread(stem);
+        if (cells < params.least_cells || !fit || !(squares > 0.0)) {
+            continue;
+        }
+        if (found.stems == 0) {
+            found.main_r2 = fit->r2;
+            found.main_steepness = fit->slope;
+        }
+        explained.add(fit->r2 * squares);
+        all.add(squares);
+        ++found.stems;
+        found.cells += cells;
+    }
+    if (found.stems == 0) {
+        return std::nullopt;
+    }
+    found.r2 = explained.value() / all.value();
+    return found;
+}
+
+} // namespace thalweg::measure

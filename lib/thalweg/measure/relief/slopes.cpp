@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/measure/relief/slopes.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/measure/laws/internal/compensated_sum.hpp>
+
+namespace thalweg::measure {
+
+namespace {
+
+constexpr std::int64_t rows_a_block = 64;
+constexpr std::size_t classes_a_degree = 100;
+constexpr std::size_t classes = 90 * classes_a_degree;
+constexpr std::size_t degrees_a_share = 2;
+
+/// Tangents of half the sectors around the eight directions.
+struct Sector {
+    double straight; ///< of the angle itself: beside an axis
+    double diagonal; ///< of 45 degrees less it: beside a diagonal
+    double even;     ///< share of all aspects that lies in the eight of them
+};
+
+Sector sector(double half_deg) {
+    auto const tangent = [](double deg) {
+        double const angle = deg * (exact::pi / 180.0);
+        return exact::sin(angle) / exact::cos(angle);
+    };
+    return {tangent(half_deg), tangent(45.0 - half_deg), half_deg / 22.5};
+}
+
+/// What some rows add. The blocks are put together in their order, whichever thread made them.
+struct Block {
+    std::vector<std::int64_t> counts; ///< by class of slope
+    CompensatedSum degrees;
+    CompensatedSum degrees_squared;
+    CompensatedSum tangents;
+    CompensatedSum tangents_squared;
+    std::int64_t facing = 0; ///< cells that are not level
+    std::int64_t along = 0;
+    std::int64_t on = 0;
+};
+
+bool within(Sector const& s, double shorter, double longer) {
+    return shorter <= s.straight * longer || shorter >= s.diagonal * longer;
+}
+
+void add_row(Raster<float> const& dem, std::int64_t row, Sector const& wide, Sector const& narrow, Block& block) {
+    auto const north = dem.row(row - 1);
+    auto const here = dem.row(row);
+    auto const south = dem.row(row + 1);
+    double const per_metre = 1.0 / (8.0 * dem.grid().cell_m);
+    auto const z = [](std::span<float const> line, std::size_t c) { return static_cast<double>(line[c]); };
+    for (std::size_t c = 1; c + 1 < here.size(); ++c) {
+        double const west = z(north, c - 1) + 2.0 * z(here, c - 1) + z(south, c - 1);
+        double const east = z(north, c + 1) + 2.0 * z(here, c + 1) + z(south, c + 1);
+        double const up = z(north, c - 1) + 2.0 * z(north, c) + z(north, c + 1);
+        double const down = z(south, c - 1) + 2.0 * z(south, c) + z(south, c + 1);
+        double const dx = std::fabs(east - west) * per_metre;
+        double const dy = std::fabs(down - up) * per_metre;
+        double const tangent = std::sqrt(dx * dx + dy * dy);
+        if (std::isnan(tangent) || std::isnan(here[c])) {
+            continue;
+        }
+        double const degrees = exact::atan2(tangent, 1.0) * (180.0 / exact::pi);
+        ++block.counts[std::min(static_cast<std::size_t>(degrees * classes_a_degree), classes - 1)];
+        block.degrees.add(degrees);
+        block.degrees_squared.add(degrees * degrees);
+        block.tangents.add(tangent);
+        block.tangents_squared.add(tangent * tangent);
+        if (tangent > 0.0) {
+            ++block.facing;
+            block.along += within(wide, std::min(dx, dy), std::max(dx, dy)) ? 1 : 0;
+            block.on += within(narrow, std::min(dx, dy), std::max(dx, dy)) ? 1 : 0;
+        }
+    }
+}
+
+/// The slope below which a share of the cells lies, those of a class spread evenly over it.
+double percentile(std::vector<std::int64_t> const& counts, std::int64_t cells, double share) {
+    double const wanted = share * static_cast<double>(cells);
+    double before = 0.0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        auto const here = static_cast<double>(counts[i]);
+        if (here > 0.0 && before + here >= wanted) {
+            return (static_cast<double>(i) + (wanted - before) / here) / static_cast<double>(classes_a_degree);
+        }
+        before += here;
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Deviation from the sums of values and of their squares.
+double deviation(double mean, double mean_of_squares) {
+    return std::sqrt(std::max(0.0, mean_of_squares - mean * mean));
+}
+
+Block total_of(std::vector<Block> const& blocks) {
+    Block total;
+    total.counts.assign(classes, 0);
+    for (Block const& block : blocks) {
+        for (std::size_t i = 0; i < classes; ++i) {
+            total.counts[i] += block.counts[i];
+        }
+        total.degrees.add(block.degrees.value());
+        total.degrees_squared.add(block.degrees_squared.value());
+        total.tangents.add(block.tangents.value());
+        total.tangents_squared.add(block.tangents_squared.value());
+        total.facing += block.facing;
+        total.along += block.along;
+        total.on += block.on;
+    }
+    return total;
+}
+
+} // namespace
+
+Slopes slopes(Raster<float> const& dem, Run const& run) {
+    if (dem.cells() > 0 && !(dem.grid().cell_m > 0.0)) {
+        throw BadInput(fmt::format("measure.slopes: the DEM's cells have a side of {} m; it must be greater than 0",
+                                   dem.grid().cell_m));
+    }
+    Slopes found;
+    found.percentile_deg.fill(std::numeric_limits<double>::quiet_NaN());
+    std::int64_t const rows = std::max<std::int64_t>(dem.height() - 2, 0);
+    Sector const wide = sector(11.25);
+    Sector const narrow = sector(2.5);
+    std::vector<Block> blocks(static_cast<std::size_t>((rows + rows_a_block - 1) / rows_a_block));
+    parallel_ranges(run, static_cast<std::int64_t>(blocks.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t b = begin; b < end; ++b) {
+            run.check();
+            Block& block = blocks[static_cast<std::size_t>(b)];
+            block.counts.assign(classes, 0);
+            for (std::int64_t r = b * rows_a_block; r < std::min((b + 1) * rows_a_block, rows); ++r) {
+                add_row(dem, r + 1, wide, narrow, block);
+            }
+        }
+    });
+    Block const total = total_of(blocks);
+    for (std::int64_t const count : total.counts) {
+        found.cells += count;
+    }
+    if (found.cells == 0) {
+        return found;
+    }
+    auto const n = static_cast<double>(found.cells);
+    found.mean_deg = total.degrees.value() / n;
+    found.std_deg = deviation(found.mean_deg, total.degrees_squared.value() / n);
+    found.tangent_mean = total.tangents.value() / n;
+    found.tangent_cv = deviation(found.tangent_mean, total.tangents_squared.value() / n) / found.tangent_mean;
+    for (std::size_t p = 0; p < slope_percents.size(); ++p) {
+        found.percentile_deg[p] = percentile(total.counts, found.cells, slope_percents[p] / 100.0);
+    }
+    found.shares.assign(90 / degrees_a_share, 0.0);
+    for (std::size_t i = 0; i < classes; ++i) {
+        found.shares[i / (classes_a_degree * degrees_a_share)] += static_cast<double>(total.counts[i]);
+    }
+    for (double& share : found.shares) {
+        share /= n;
+    }
+    if (total.facing > 0) {
+        auto const facing = static_cast<double>(total.facing);
+        found.aspects_along_grid = static_cast<double>(total.along) / facing / wide.even;
+        found.aspects_on_grid = static_cast<double>(total.on) / facing / narrow.even;
+    }
+    return found;
+}
+
+} // namespace thalweg::measure

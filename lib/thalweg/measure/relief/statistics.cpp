@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/measure/relief/statistics.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/measure/laws/internal/compensated_sum.hpp>
+#include <thalweg/solver/statistics/central_difference.hpp>
+#include <thalweg/solver/statistics/fractal_dimension.hpp>
+
+namespace thalweg::measure {
+
+namespace {
+
+constexpr std::int64_t rows_a_sum = 8;
+
+/// What one row adds. The rows are put together in their order, whichever thread made them.
+struct RowSums {
+    std::int64_t cells = 0;
+    Extreme min;
+    Extreme max;
+    CompensatedSum above_datum;
+    CompensatedSum squares;
+    CompensatedSum slope_cells;
+    CompensatedSum slope_metres;
+    CompensatedSum cubes;
+    CompensatedSum fourths;
+    CompensatedSum rises_along_row;
+    CompensatedSum rises_along_column;
+    std::int64_t pairs_along_row = 0;
+    std::int64_t pairs_along_column = 0;
+};
+
+void add_heights(Raster<float> const& dem, std::int64_t row, double datum, RowSums& sums) {
+    auto const here = dem.row(row);
+    for (std::size_t c = 0; c < here.size(); ++c) {
+        if (std::isnan(here[c])) {
+            continue;
+        }
+        double const z = here[c];
+        Cell const cell{static_cast<std::int64_t>(c), row};
+        if (sums.cells == 0 || z < sums.min.z) {
+            sums.min = {z, cell};
+        }
+        if (sums.cells == 0 || z > sums.max.z) {
+            sums.max = {z, cell};
+        }
+        ++sums.cells;
+        sums.above_datum.add(z - datum);
+    }
+}
+
+void add_slopes(Raster<float> const& dem, std::int64_t row, RowSums& sums) {
+    constexpr float hole = std::numeric_limits<float>::quiet_NaN();
+    auto const here = dem.row(row);
+    auto const north = row > 0 ? dem.row(row - 1) : std::span<float const>{};
+    auto const south = row + 1 < dem.height() ? dem.row(row + 1) : std::span<float const>{};
+    for (std::size_t c = 0; c < here.size(); ++c) {
+        if (std::isnan(here[c])) {
+            continue;
+        }
+        double const dx =
+            solver::central_difference(c > 0 ? here[c - 1] : hole, here[c], c + 1 < here.size() ? here[c + 1] : hole);
+        double const dy =
+            solver::central_difference(north.empty() ? hole : north[c], here[c], south.empty() ? hole : south[c]);
+        double const gradient = std::sqrt(dx * dx + dy * dy);
+        sums.slope_cells.add(exact::atan2(gradient, 1.0));
+        sums.slope_metres.add(exact::atan2(gradient, dem.grid().cell_m));
+    }
+}
+
+void add_rises(Raster<float> const& dem, std::int64_t row, RowSums& sums) {
+    auto const here = dem.row(row);
+    auto const north = row > 0 ? dem.row(row - 1) : std::span<float const>{};
+    auto const add = [](float a, float b, CompensatedSum& rises, std::int64_t& pairs) {
+        if (!std::isnan(a) && !std::isnan(b)) {
+            rises.add(std::fabs(static_cast<double>(b) - a));
+            ++pairs;
+        }
+    };
+    for (std::size_t c = 0; c < here.size(); ++c) {
+        if (c > 0) {
+            add(here[c - 1], here[c], sums.rises_along_row, sums.pairs_along_row);
+        }
+        if (!north.empty()) {
+            add(north[c], here[c], sums.rises_along_column, sums.pairs_along_column);
+        }
+    }
+}
+
+void add_powers(Raster<float> const& dem, std::int64_t row, double mean, RowSums& sums) {
+    for (float const z : dem.row(row)) {
+        if (!std::isnan(z)) {
+            double const above = z - mean;
+            sums.squares.add(above * above);
+            sums.cubes.add(above * above * above);
+            sums.fourths.add(above * above * above * above);
+        }
+    }
+}
+
+/// The mean of two axes' means, or that of the one which has pairs.
+double mean_of_axes(double row_sum, std::int64_t row_pairs, double column_sum, std::int64_t column_pairs) {
+    double const along_row = row_sum / static_cast<double>(row_pairs);
+    double const along_column = column_sum / static_cast<double>(column_pairs);
+    if (row_pairs == 0) {
+        return along_column;
+    }
+    return column_pairs == 0 ? along_row : (along_row + along_column) / 2.0;
+}
+
+/// First cell with a height, having seen that all heights are numbers.
+double first_height(Raster<float> const& dem) {
+    auto const values = dem.values();
+    auto const infinite = std::find_if(values.begin(), values.end(), [](float z) { return std::isinf(z); });
+    if (infinite != values.end()) {
+        Cell const cell = dem.grid().at(infinite - values.begin());
+        throw BadInput(
+            fmt::format("measure.statistics: the height at column {}, row {} is infinite; mark cells without "
+                        "data as NaN",
+                        cell.col, cell.row));
+    }
+    auto const first = std::find_if(values.begin(), values.end(), [](float z) { return !std::isnan(z); });
+    if (first == values.end()) {
+        throw BadInput(fmt::format("measure.statistics: none of the {} cells of the DEM has a height; is the no-data "
+                                   "value right?",
+                                   dem.cells()));
+    }
+    return *first;
+}
+
+} // namespace
+
+Statistics statistics(Raster<float> const& dem, Run const& run) {
+    // Sums count from a height of the DEM: no digits go into an offset, and a plain has a deviation of exactly 0.
+    double const datum = first_height(dem);
+    if (!(dem.grid().cell_m > 0.0)) {
+        throw BadInput(fmt::format("measure.statistics: the DEM's cells have a side of {} m; it must be greater than 0",
+                                   dem.grid().cell_m));
+    }
+    std::vector<RowSums> rows(static_cast<std::size_t>(dem.height()));
+    auto const for_rows = [&](auto const& add) {
+        parallel_ranges(run, dem.height(), rows_a_sum, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t r = begin; r < end; ++r) {
+                run.check();
+                add(r, rows[static_cast<std::size_t>(r)]);
+            }
+        });
+    };
+    auto const total = [&](CompensatedSum RowSums::*member) {
+        CompensatedSum sum;
+        for (RowSums const& row : rows) {
+            sum.add((row.*member).value());
+        }
+        return sum.value();
+    };
+
+    for_rows([&](std::int64_t r, RowSums& sums) {
+        add_heights(dem, r, datum, sums);
+        add_slopes(dem, r, sums);
+        add_rises(dem, r, sums);
+    });
+    Statistics result;
+    std::int64_t row_pairs = 0;
+    std::int64_t column_pairs = 0;
+    for (RowSums const& row : rows) {
+        row_pairs += row.pairs_along_row;
+        column_pairs += row.pairs_along_column;
+        if (row.cells > 0) {
+            result.min = result.cells == 0 || row.min.z < result.min.z ? row.min : result.min;
+            result.max = result.cells == 0 || row.max.z > result.max.z ? row.max : result.max;
+            result.cells += row.cells;
+        }
+    }
+    result.nodata = dem.cells() - result.cells;
+    auto const n = static_cast<double>(result.cells);
+    result.mean = datum + total(&RowSums::above_datum) / n;
+    result.slope_rad = total(&RowSums::slope_cells) / n;
+    result.slope_true_deg = total(&RowSums::slope_metres) / n * (180.0 / exact::pi);
+
+    result.roughness_m =
+        mean_of_axes(total(&RowSums::rises_along_row), row_pairs, total(&RowSums::rises_along_column), column_pairs);
+
+    for_rows([&](std::int64_t r, RowSums& sums) { add_powers(dem, r, result.mean, sums); });
+    result.std = std::sqrt(total(&RowSums::squares) / n);
+    double const variance = result.std * result.std;
+    result.skew = total(&RowSums::cubes) / n / (variance * result.std);
+    result.kurtosis = total(&RowSums::fourths) / n / (variance * variance) - 3.0;
+    using solver::Axis;
+    result.lx = solver::correlation_length(solver::correlogram(dem, result.mean, result.std, Axis::rows, run));
+    result.ly = solver::correlation_length(solver::correlogram(dem, result.mean, result.std, Axis::columns, run));
+    result.dimension = solver::fractal_dimension(solver::differences(dem, solver::near_lags, run));
+    result.dimension_dyadic = solver::fractal_dimension(solver::differences(dem, solver::dyadic_lags, run));
+    return result;
+}
+
+} // namespace thalweg::measure

@@ -1,0 +1,318 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/measure/topology/internal/topology_steps.hpp>
+
+// The columns of the network schema that follow from lines and trees.
+namespace thalweg::measure::topology_steps {
+
+namespace {
+
+constexpr double of_lengths = 1e-6; // [m] what files round coordinates to, a vertex
+constexpr double of_values = 1e-9;  // relative: what decimals of a column leave of a double
+
+double tolerance(double right, double vertices) {
+    return of_lengths * (1.0 + vertices) + of_values * std::fabs(right);
+}
+
+/// What follows from an arc's line.
+struct Measured {
+    double length = 0.0;
+    double length_3d = 0.0;
+    double straight = 0.0;
+    double vertices = 0.0;
+};
+
+Measured measured(FileArc const& arc) {
+    Measured of;
+    of.vertices = static_cast<double>(arc.line.size());
+    for (std::size_t i = 1; i < arc.line.size(); ++i) {
+        double const plan = distance(plan_of(arc.line[i - 1]), plan_of(arc.line[i]));
+        double const rise = arc.line[i].z - arc.line[i - 1].z;
+        of.length += plan;
+        of.length_3d += std::sqrt(plan * plan + rise * rise);
+    }
+    of.straight = arc.line.empty() ? 0.0 : distance(plan_of(arc.line.front()), plan_of(arc.line.back()));
+    return of;
+}
+
+/// What follows from the tree of an arc's outlet.
+struct InTree {
+    bool known = false;
+    double steps = 0.0; ///< arcs to the outlet, itself included
+    double below = 0.0; ///< [m] from its end to the outlet
+    double vertices = 0.0;
+};
+
+class Columns {
+public:
+    Columns(NetworkFile const& file, Joints const& joints, Graph const& g, Findings& findings)
+        : file_(file), joints_(joints), g_(g), findings_(findings), tree_(file.arcs.size()) {
+        for (FileArc const& arc : file.arcs) {
+            measured_.push_back(measured(arc));
+        }
+    }
+
+    void check() {
+        walk_trees();
+        find_longest();
+        note_hack();
+        for (std::size_t a = 0; a < file_.arcs.size(); ++a) {
+            if (g_.left_out[a] == 0) {
+                check_line(a);
+                check_tree(a);
+                check_areas(a);
+            }
+        }
+        if (file_.says.nodes) {
+            for (std::size_t j = 0; j < joints_.junctions.ids.size(); ++j) {
+                check_node(j);
+            }
+        }
+    }
+
+private:
+    /// From the outlets up, as far as rivers do not divide.
+    void walk_trees() {
+        for (std::size_t j = 0; j < joints_.junctions.ids.size(); ++j) {
+            if (!g_.out.at(j).empty()) {
+                continue;
+            }
+            auto const mouths = g_.in.at(j);
+            std::vector<std::size_t> ready(mouths.begin(), mouths.end());
+            for (std::size_t const a : ready) {
+                tree_[a] = {true, 1.0, 0.0, 0.0};
+            }
+            while (!ready.empty()) {
+                std::size_t const a = ready.back();
+                ready.pop_back();
+                order_.push_back(a);
+                std::size_t const from = g_.ends[a][0];
+                if (g_.out.at(from).size() != 1) {
+                    continue;
+                }
+                for (std::size_t const up : g_.in.at(from)) {
+                    tree_[up] = {true, tree_[a].steps + 1.0, tree_[a].below + measured_[a].length,
+                                 tree_[a].vertices + measured_[a].vertices};
+                    ready.push_back(up);
+                }
+            }
+        }
+    }
+
+    /// By arc the longest way [m] from a source to its end, and Strahler's order.
+    void find_longest() {
+        longest_.assign(file_.arcs.size(), 0.0);
+        strahler_.assign(file_.arcs.size(), 1.0);
+        for (auto a = order_.rbegin(); a != order_.rend(); ++a) {
+            double above = 0.0;
+            double highest = 0.0;
+            int of_highest = 0;
+            for (std::size_t const up : g_.in.at(g_.ends[*a][0])) {
+                above = std::max(above, tree_[up].known ? longest_[up] : 0.0);
+                of_highest = strahler_[up] > highest ? 1 : of_highest + (strahler_[up] == highest ? 1 : 0);
+                highest = std::max(highest, strahler_[up]);
+            }
+            longest_[*a] = above + measured_[*a].length;
+            strahler_[*a] = std::max(1.0, highest + (of_highest > 1 ? 1.0 : 0.0));
+        }
+    }
+
+    void compare(std::size_t a, char const* name, double told, double right, double slack) {
+        if (std::isnan(told) || std::isnan(right) || std::fabs(told - right) <= slack) {
+            return;
+        }
+        FileArc const& arc = file_.arcs[a];
+        findings_.push_back(
+            {"column_mismatch", number_of(file_, arc), start_of(arc), right,
+             fmt::format("arc {}: its {} is {:.9g} and should be {:.9g}", number_of(file_, arc), name, told, right)});
+    }
+
+    void check_line(std::size_t a) {
+        FileArc const& arc = file_.arcs[a];
+        NetworkFile::ArcColumns const& told = arc.columns;
+        Measured const& of = measured_[a];
+        if (arc.line.size() < 2) {
+            return; // found elsewhere
+        }
+        double const slack = tolerance(of.length, of.vertices);
+        compare(a, "length", told.length_m, of.length, slack);
+        compare(a, "straight", told.straight_m, of.straight, slack);
+        if (!file_.says.heights) {
+            return;
+        }
+        compare(a, "length_3d", told.length_3d_m, of.length_3d, tolerance(of.length_3d, of.vertices));
+        if (joints_.against[a] == 0) {
+            double const high = arc.line.front().z;
+            double const low = arc.line.back().z;
+            compare(a, "z_up", told.z_up_m, high, tolerance(high, 1.0));
+            compare(a, "z_down", told.z_down_m, low, tolerance(low, 1.0));
+            double const slope = (high - low) / of.length;
+            compare(a, "slope", told.slope, slope, (2.0 * tolerance(high, 1.0) + std::fabs(slope) * slack) / of.length);
+        }
+    }
+
+    void check_tree(std::size_t a) {
+        NetworkFile::ArcColumns const& told = file_.arcs[a].columns;
+        if (!tree_[a].known) {
+            return;
+        }
+        if (g_.out.at(g_.ends[a][0]).size() == 1) {
+            compare(a, "n_up", told.n_up, static_cast<double>(g_.in.at(g_.ends[a][0]).size()), 0.0);
+        }
+        compare(a, "topo_ord", told.topo_ord, tree_[a].steps, 0.0);
+        compare(a, "dist_out", told.dist_out_m, tree_[a].below, tolerance(tree_[a].below, tree_[a].vertices));
+        check_hack(a);
+    }
+
+    /// What the Hack orders of a node's arcs are held against.
+    struct AtNode {
+        double below = 1.0;    ///< the order of the arc that leaves
+        double longest = 0.0;  ///< [m] of the ways that end here
+        std::size_t mains = 0; ///< arcs that end here with the order below
+    };
+
+    /// By node; once for all arcs of one, since a node may have any number of them.
+    void note_hack() {
+        at_node_.resize(joints_.junctions.ids.size());
+        for (std::size_t j = 0; j < at_node_.size(); ++j) {
+            AtNode& at = at_node_[j];
+            auto const out = g_.out.at(j);
+            at.below = out.empty() ? 1.0 : file_.arcs[out.front()].columns.hack;
+            for (std::size_t const a : g_.in.at(j)) {
+                at.longest = std::max(at.longest, longest_[a]);
+                at.mains += file_.arcs[a].columns.hack == at.below ? 1 : 0;
+            }
+        }
+    }
+
+    /// Of the arcs that end in one node one on the longest way goes on with the order below; the others have one more.
+    void check_hack(std::size_t a) {
+        auto const [below, most, mains] = at_node_[g_.ends[a][1]];
+        bool const may_be_main = longest_[a] >= most - tolerance(most, 2.0 * tree_[a].vertices + 1000.0);
+        double const told = file_.arcs[a].columns.hack;
+        bool const is_main = told == below;
+        if (std::isnan(below) || (is_main ? may_be_main && mains == 1 : told == below + 1.0 && mains == 1)) {
+            return;
+        }
+        compare(a, "hack", told, below + (may_be_main ? 0.0 : 1.0), 0.0);
+    }
+
+    /// Areas never fall downstream.
+    void check_areas(std::size_t a) {
+        FileArc const& arc = file_.arcs[a];
+        if (!file_.says.areas || !file_.says.downstream || file_.schema != "native") {
+            return;
+        }
+        double arriving = 0.0;
+        auto const in = g_.in.at(g_.ends[a][0]);
+        if (g_.out.at(g_.ends[a][0]).size() == 1) {
+            for (std::size_t const up : in) {
+                arriving += file_.arcs[up].ds_area_m2;
+            }
+        }
+        auto const at_least = [&](char const* name, double told, double least) {
+            if (told >= 0.0 && told < least) { // -1 where nobody knows
+                compare(a, name, told, least, 1e-3 + of_values * least);
+            }
+        };
+        at_least("us_area", arc.us_area_m2, arriving);
+        at_least("ds_area", arc.ds_area_m2, arc.us_area_m2);
+    }
+
+    void compare_node(FileNode const& node, char const* name, double told, double right, double slack) {
+        if (std::isnan(told) || std::isnan(right) || std::fabs(told - right) <= slack) {
+            return;
+        }
+        findings_.push_back(
+            {"node_column_mismatch", node.id, plan_of(node.at), right,
+             fmt::format("node {}: its {} is {:.9g} and should be {:.9g}", node.id, name, told, right)});
+    }
+
+    void check_node(std::size_t j) {
+        if (joints_.junctions.node[j] == none || joints_.junctions.repeated[j] != 0) {
+            return;
+        }
+        FileNode const& node = file_.nodes[joints_.junctions.node[j]];
+        auto const in = g_.in.at(j);
+        auto const out = g_.out.at(j);
+        if (in.empty() && out.empty()) {
+            return; // found elsewhere
+        }
+        compare_node(node, "deg_in", node.columns.deg_in, static_cast<double>(in.size()), 0.0);
+        compare_node(node, "deg_out", node.columns.deg_out, static_cast<double>(out.size()), 0.0);
+        check_kind(node, in.size(), out.size());
+        if (file_.says.heights) {
+            compare_node(node, "z", node.columns.z_m, node.at.z, tolerance(node.at.z, 1.0));
+        }
+        std::size_t const of = out.size() == 1 ? out.front() : out.empty() ? in.front() : none;
+        if (of == none || !tree_[of].known) {
+            return;
+        }
+        FileArc const& arc = file_.arcs[of];
+        double const reach = out.empty() ? 0.0 : tree_[of].below + measured_[of].length;
+        compare_node(node, "dist_out", node.columns.dist_out_m, reach,
+                     tolerance(reach, tree_[of].vertices + measured_[of].vertices));
+        if (file_.says.basin) { // of any arc here: a wrong one among them is found elsewhere
+            auto const has = [&](std::size_t b) {
+                return static_cast<double>(file_.arcs[b].basin) == node.columns.basin_id;
+            };
+            if (std::none_of(in.begin(), in.end(), has) && std::none_of(out.begin(), out.end(), has)) {
+                compare_node(node, "basin_id", node.columns.basin_id, static_cast<double>(arc.basin), 0.0);
+            }
+        }
+        double order = 0.0;
+        for (std::size_t const a : out.empty() ? in : out) {
+            order = std::max(order, strahler_[a]);
+        }
+        compare_node(node, "strahler", node.columns.strahler, order, 0.0);
+        if (file_.says.areas) {
+            double area = arc.us_area_m2;
+            if (out.empty()) {
+                area = 0.0;
+                for (std::size_t const a : in) {
+                    area += file_.arcs[a].ds_area_m2;
+                }
+            }
+            compare_node(node, "area", node.columns.area_m2, area, 1e-3 + of_values * area);
+        }
+    }
+
+    void check_kind(FileNode const& node, std::size_t in, std::size_t out) {
+        NodeKind const right = out == 0  ? NodeKind::outlet
+                               : in == 0 ? NodeKind::source
+                               : in == 1 ? NodeKind::pseudo
+                                         : NodeKind::confluence;
+        bool const is_sink = out == 0 && node.columns.kind == name_of(NodeKind::sink);
+        if (!node.columns.kind.empty() && node.columns.kind != name_of(right) && !is_sink) {
+            findings_.push_back(
+                {"node_column_mismatch", node.id, plan_of(node.at), 0.0,
+                 fmt::format("node {}: its kind is {} and should be {}", node.id, node.columns.kind, name_of(right))});
+        }
+    }
+
+    NetworkFile const& file_;
+    Joints const& joints_;
+    Graph const& g_;
+    Findings& findings_;
+    std::vector<Measured> measured_; ///< by arc
+    std::vector<InTree> tree_;       ///< likewise
+    std::vector<double> longest_;    ///< likewise
+    std::vector<double> strahler_;   ///< likewise
+    std::vector<AtNode> at_node_;    ///< by node
+    std::vector<std::size_t> order_; ///< arcs of trees, each after the one downstream
+};
+
+} // namespace
+
+void check_columns(NetworkFile const& file, Joints const& joints, Graph const& meant, Findings& findings) {
+    Columns(file, joints, meant, findings).check();
+}
+
+} // namespace thalweg::measure::topology_steps

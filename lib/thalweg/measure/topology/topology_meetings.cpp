@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/geometry/meetings.hpp>
+#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/measure/topology/internal/topology_steps.hpp>
+
+// Where arcs meet themselves and others.
+namespace thalweg::measure::topology_steps {
+
+namespace {
+
+using geometry::Meeting;
+
+/// A line turns back on itself.
+struct Spike {
+    Vec2 tip;
+    Vec2 base;
+    double length_m = 0.0;
+};
+
+/// Where the line turns back at its inner vertex i, and comes within near_m of where it was, or exactly onto it.
+bool turns_back(std::vector<Vec2> const& line, std::size_t i, double near_m, bool exactly, Spike& spike) {
+    Vec2 const tip = line[i];
+    Vec2 base = line[i - 1];
+    Vec2 other = line[i + 1];
+    if (distance(tip, other) < distance(tip, base)) {
+        std::swap(base, other);
+    }
+    spike = {tip, base, distance(tip, base)};
+    if (exactly) {
+        return true;
+    }
+    double const turn = (base.x - tip.x) * (other.x - tip.x) + (base.y - tip.y) * (other.y - tip.y);
+    return turn > 0.0 && spike.length_m > near_m && distance(base, geometry::foot_on(tip, other, base).at) <= near_m;
+}
+
+class MeetingCheck {
+public:
+    MeetingCheck(NetworkFile const& file, Plans const& plans, Joints const& joints, double near_m)
+        : file_(file), plans_(plans), joints_(joints), near_m_(near_m) {}
+
+    /// meetings: all of arc a with itself.
+    void look_at_itself(std::size_t a, std::span<Meeting const> meetings) {
+        auto const& line = plans_[a];
+        std::vector<Spike> spikes;
+        for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+            bool const exactly = std::any_of(meetings.begin(), meetings.end(), [&](Meeting const& m) {
+                return m.is_stretch() && m.other_segment == i && m.segment + 1 == i;
+            });
+            if (Spike spike; turns_back(line, i, near_m_, exactly, spike)) {
+                spikes.push_back(spike);
+            }
+        }
+        FileArc const& arc = file_.arcs[a];
+        if (!spikes.empty()) {
+            Spike const& longest = *std::max_element(
+                spikes.begin(), spikes.end(), [](Spike const& p, Spike const& q) { return p.length_m < q.length_m; });
+            found_.push_back(
+                {"spike", number_of(file_, arc), longest.tip, longest.length_m,
+                 fmt::format("arc {}: turns back on itself at ({}, {}) for {} m ({} such places)",
+                             number_of(file_, arc), longest.tip.x, longest.tip.y, longest.length_m, spikes.size())});
+        }
+        std::vector<Vec2> touches;
+        for (Meeting const& m : meetings) {
+            if (!belongs_to_spike(m, spikes, meetings)) {
+                touches.push_back(m.at);
+            }
+        }
+        auto const key = [](Vec2 p) { return std::tuple(p.x, p.y); };
+        Vec2 const at = touches.empty() ? Vec2{} : touches.front();
+        std::ranges::sort(touches, {}, key);
+        touches.erase(std::unique(touches.begin(), touches.end()), touches.end());
+        if (!touches.empty()) {
+            found_.push_back({"self_touching", number_of(file_, arc), at, static_cast<double>(touches.size()),
+                              fmt::format("arc {}: touches or crosses itself at ({}, {}) ({} such places)",
+                                          number_of(file_, arc), at.x, at.y, touches.size())});
+        }
+    }
+
+    /// meetings: all of arcs a < b.
+    void look_at_pair(std::size_t a, std::size_t b, std::span<Meeting const> meetings) {
+        FileArc const& earlier = file_.arcs[a];
+        FileArc const& arc = file_.arcs[b];
+        double shared_m = 0.0;
+        std::vector<Vec2> stretch_ends;
+        std::vector<Vec2> points;
+        for (Meeting const& m : meetings) {
+            if (m.is_stretch()) {
+                shared_m += distance(m.at, m.until);
+                stretch_ends.insert(stretch_ends.end(), {m.at, m.until});
+            } else if (!is_fault_of_an_end(a, b, m.at)) {
+                points.push_back(m.at);
+            }
+        }
+        if (!stretch_ends.empty()) {
+            Vec2 const at = stretch_ends.front();
+            found_.push_back({"overlap", number_of(file_, arc), at, shared_m,
+                              fmt::format("arc {}: shares a stretch of {} m with arc {}, at ({}, {})",
+                                          number_of(file_, arc), shared_m, number_of(file_, earlier), at.x, at.y)});
+        }
+        std::ranges::sort(points, {}, [](Vec2 p) { return std::tuple(p.x, p.y); });
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        for (Vec2 const at : points) {
+            if (std::find(stretch_ends.begin(), stretch_ends.end(), at) != stretch_ends.end()) {
+                continue;
+            }
+            if (ends_at(b, at) || ends_at(a, at)) {
+                touches_.push_back(ends_at(b, at) ? Touch{at, a, b} : Touch{at, b, a});
+            } else {
+                found_.push_back({"crossing", number_of(file_, arc), at, static_cast<double>(number_of(file_, earlier)),
+                                  fmt::format("arc {}: meets arc {} at ({}, {}), where they share no node",
+                                              number_of(file_, arc), number_of(file_, earlier), at.x, at.y)});
+            }
+        }
+    }
+
+    void finish(Findings& findings) {
+        std::ranges::sort(touches_, {}, [](Touch const& t) { return std::tuple(t.at.x, t.at.y, t.through, t.ending); });
+        for (std::size_t first = 0, last = 0; first < touches_.size(); first = last) {
+            Touch const& touch = touches_[first];
+            while (last < touches_.size() && touches_[last].at == touch.at && touches_[last].through == touch.through) {
+                ++last;
+            }
+            // What one arc runs into is its end; what several run into is run through by another.
+            bool const through = last - first > 1 && !ends_at(touch.through, touch.at);
+            FileArc const& arc = file_.arcs[through ? touch.through : touch.ending];
+            FileArc const& other = file_.arcs[through ? touch.ending : touch.through];
+            found_.push_back(
+                {"touches", number_of(file_, arc), touch.at, static_cast<double>(number_of(file_, other)),
+                 through ? fmt::format("arc {}: runs through the end of arc {} at ({}, {}), but has no "
+                                       "node there",
+                                       number_of(file_, arc), number_of(file_, other), touch.at.x, touch.at.y)
+                         : fmt::format("arc {}: ends on arc {} at ({}, {}), where they share no node",
+                                       number_of(file_, arc), number_of(file_, other), touch.at.x, touch.at.y)});
+        }
+        findings.insert(findings.end(), std::make_move_iterator(found_.begin()), std::make_move_iterator(found_.end()));
+    }
+
+private:
+    /// An end of an arc lies on another.
+    struct Touch {
+        Vec2 at;
+        std::size_t through;
+        std::size_t ending;
+    };
+
+    bool ends_at(std::size_t a, Vec2 at) const { return plans_[a].front() == at || plans_[a].back() == at; }
+
+    bool belongs_to_spike(Meeting const& m, std::vector<Spike> const& spikes, std::span<Meeting const> all) const {
+        if (spikes.empty()) {
+            return false;
+        }
+        auto const near_spike = [&](Vec2 p) {
+            return std::any_of(spikes.begin(), spikes.end(), [&](Spike const& s) {
+                return distance(p, s.tip) <= 2.0 * near_m_ || distance(p, s.base) <= 2.0 * near_m_;
+            });
+        };
+        auto const ends_stretch = [&](Vec2 p) {
+            return std::any_of(all.begin(), all.end(),
+                               [&](Meeting const& o) { return o.is_stretch() && (o.at == p || o.until == p); });
+        };
+        return m.is_stretch() || near_spike(m.at) || ends_stretch(m.at);
+    }
+
+    /// Whether two arcs of one junction meet beside it because an end there is off its place, which has been found.
+    bool is_fault_of_an_end(std::size_t a, std::size_t b, Vec2 at) const {
+        for (std::size_t const end_a : {0U, 1U}) {
+            for (std::size_t const end_b : {0U, 1U}) {
+                bool const common = joints_.meant[a][end_a] == joints_.meant[b][end_b];
+                bool const faulty = joints_.faulty[a][end_a] != 0 || joints_.faulty[b][end_b] != 0;
+                if (common && faulty && distance(at, joints_.place(a, end_a, plans_)) <= 2.0 * near_m_ &&
+                    distance(at, joints_.place(b, end_b, plans_)) <= 2.0 * near_m_) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    NetworkFile const& file_;
+    Plans const& plans_;
+    Joints const& joints_;
+    double near_m_;
+    Findings found_ = {};
+    std::vector<Touch> touches_ = {};
+};
+
+} // namespace
+
+void check_meetings(NetworkFile const& file, Plans const& plans, Joints const& joints, double near_m,
+                    Findings& findings, Run const& run) {
+    std::vector<geometry::EndNodes> nodes = joints.meant;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+        if (joints.against[a] != 0) {
+            std::swap(nodes[a][0], nodes[a][1]);
+        }
+    }
+    auto const meetings = geometry::meetings(plans, nodes, run);
+    MeetingCheck check(file, plans, joints, near_m);
+    auto m = meetings.begin();
+    for (std::size_t a = 0; a < plans.size(); ++a) {
+        auto const own = m;
+        while (m != meetings.end() && m->line == a && m->other == a) {
+            ++m;
+        }
+        check.look_at_itself(a, std::span(own, m));
+        while (m != meetings.end() && m->line == a) {
+            auto const first = m;
+            while (m != meetings.end() && m->line == a && m->other == first->other) {
+                ++m;
+            }
+            check.look_at_pair(a, first->other, std::span(first, m));
+        }
+    }
+    check.finish(findings);
+}
+
+} // namespace thalweg::measure::topology_steps

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/network/channels/channels.hpp>
+
+namespace thalweg::network {
+
+struct ChooseLakesParams {
+    double share = 0.1;             ///< [0, 1] of the reaches with enough area that get a lake
+    double min_area_cells = 2000.0; ///< [0, ...] drainage area of a reach, from which it may have one
+    std::int64_t max_cells = 2000;  ///< [4, ...] largest lake; none is larger than a fiftieth of its drainage area,
+                                    ///< nor smaller than 16 cells
+    std::uint64_t seed = 7;
+};
+
+/// Chooses reaches that run through a lake, and its shape: grown from a cell of the river by noise, faster along it.
+/// Takes: channels and by arc its drainage area [m2].
+/// Gives: labels for flood_lakes, from 1 in the order of arcs; lakes keep three cells from one another and from the
+/// grid's edge, so that some find less room. Chance is the hash of (seed, arc).
+/// Throws: BadParameter; BadInput for areas of other arcs; Cancelled.
+Raster<std::int32_t> choose_lakes(ChannelsOfArcs const& drawn, std::vector<double> const& area_m2,
+                                  ChooseLakesParams const& params = {}, Run const& run = {});
+
+} // namespace thalweg::network

@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/channels/shorten.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/numbers/index.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/order/internal/require_trees.hpp>
+#include <thalweg/network/vectorise/internal/keep_arcs.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+using Flags = std::vector<std::uint8_t>;
+
+/// By channel cell whether it is gone.
+Flags flags_of(std::vector<std::int64_t> const& gone, Channels const& channels) {
+    Flags is_gone(channels.cell.size(), 0);
+    for (std::int64_t const i : gone) {
+        if (i < 0 || as_index(i) >= is_gone.size()) {
+            throw BadInput(fmt::format("network.shorten: cell {} of {} channel cells", i, is_gone.size()));
+        }
+        is_gone[as_index(i)] = 1;
+    }
+    for (std::size_t i = 0; i < is_gone.size(); ++i) {
+        if (channels.receiver[i] >= 0 && is_gone[i] == 0 && is_gone[as_index(channels.receiver[i])] != 0) {
+            Vec2 const at = channels.grid.centre(channels.grid.at(channels.cell[as_index(channels.receiver[i])]));
+            throw BadInput(fmt::format("network.shorten: a river that stays flows into the cell at ({:.3f}, {:.3f}), "
+                                       "which is to go; let it go with all above it",
+                                       at.x, at.y));
+        }
+    }
+    return is_gone;
+}
+
+/// The middle of a segment's way through a cell; nothing where it does not run through it.
+std::optional<Vec2> middle_in(Cell cell, Vec2 a, Vec2 b, Grid const& grid) {
+    double begin = 0.0;
+    double end = 1.0;
+    Vec2 const centre = grid.centre(cell);
+    auto const clip = [&](double from, double to, double middle) {
+        if (from == to) {
+            return;
+        }
+        double const t = (middle - 0.5 * grid.cell_m - from) / (to - from);
+        double const u = (middle + 0.5 * grid.cell_m - from) / (to - from);
+        begin = std::max(begin, std::min(t, u));
+        end = std::min(end, std::max(t, u));
+    };
+    clip(a.x, b.x, centre.x);
+    clip(a.y, b.y, centre.y);
+    double const along = 0.5 * (begin + end);
+    Vec2 const at{a.x + (b.x - a.x) * along, a.y + (b.y - a.y) * along};
+    if (!(begin < end) || !(grid.cell_of(at) == cell) || at == b) {
+        return {};
+    }
+    return at;
+}
+
+/// A line from its first place in a cell that stays, which lies after those that go; empty where that is its end.
+std::vector<Vec2> rest_of(std::vector<Vec2> const& line, Grid const& grid, Mask const& goes, Mask const& stays) {
+    std::vector<Cell> const cells = cells_of_vertices(line, grid);
+    std::size_t segment = 0; // of the last cell that goes
+    std::int64_t step = -1;
+    for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
+        walk_cells(cells[i], cells[i + 1], [&](Cell c, std::int64_t k, std::int64_t) {
+            if (goes[c] != 0) {
+                segment = i;
+                step = k;
+            }
+        });
+    }
+    for (std::size_t i = segment; i + 1 < cells.size(); ++i) {
+        std::vector<Vec2> rest;
+        walk_cells(cells[i], cells[i + 1], [&](Cell c, std::int64_t k, std::int64_t n) {
+            if (!rest.empty() || stays[c] == 0 || (i == segment && k <= step)) {
+                return;
+            }
+            if (k == n) {
+                rest = {line[i + 1]};
+            } else if (auto const at = middle_in(c, line[i], line[i + 1], grid)) {
+                rest = {*at, line[i + 1]};
+            }
+        });
+        if (!rest.empty()) {
+            rest.insert(rest.end(), line.begin() + static_cast<std::ptrdiff_t>(i) + 2, line.end());
+            return rest.size() > 1 ? rest : std::vector<Vec2>{};
+        }
+    }
+    return {};
+}
+
+/// Marks some of an arc's channel cells in a mask, or clears them.
+void mark(Mask& mask, Channels const& channels, std::vector<std::int64_t> const& numbers, Flags const& is_gone,
+          std::uint8_t which, std::uint8_t value) {
+    for (std::int64_t const i : numbers) {
+        if (is_gone[as_index(i)] == which) {
+            mask[channels.cell[as_index(i)]] = value;
+        }
+    }
+}
+
+/// What is left of the channels, and the new numbers; -1 for those that are gone.
+Channels left_of(Channels const& channels, Flags const& is_gone, std::vector<std::int64_t>& now) {
+    Channels out;
+    out.grid = channels.grid;
+    now.assign(is_gone.size(), -1);
+    for (std::size_t i = 0; i < is_gone.size(); ++i) {
+        if (is_gone[i] != 0) {
+            continue;
+        }
+        now[i] = static_cast<std::int64_t>(out.cell.size());
+        out.cell.push_back(channels.cell[i]);
+        out.receiver.push_back(channels.receiver[i] < 0 ? -1 : now[as_index(channels.receiver[i])]);
+        if (!channels.z.empty()) {
+            out.z.push_back(channels.z[i]);
+        }
+        if (!channels.level.empty()) {
+            out.level.push_back(channels.level[i]);
+        }
+    }
+    return out;
+}
+
+/// The network while its tips are taken off.
+class Tips {
+public:
+    Tips(StreamNetwork const& network, ChannelsOfArcs const& drawn, Flags const& is_gone)
+        : kept(boost::num_edges(network), 1), network_(network), index_(network_), drawn_(drawn), is_gone_(is_gone),
+          goes_(drawn.channels.grid, 0), stays_(drawn.channels.grid, 0), has_water_(index_.arcs.size(), 0) {}
+
+    Flags kept; ///< by arc
+    std::vector<Finding> notes;
+
+    /// Sources first: an arc without water above loses the cells at its beginning that are gone.
+    void take_off() {
+        for (auto n = index_.upstream_order.rbegin(); n != index_.upstream_order.rend(); ++n) {
+            if (index_.out[*n] >= 0) {
+                visit(as_index(index_.out[*n]));
+            }
+        }
+    }
+
+    StreamNetwork const& network() const { return network_; }
+    NetworkIndex const& index() const { return index_; }
+
+private:
+    /// Whether cells that are rivers flow into an arc's first; arcs without cells of their own are passed through.
+    bool has_water_above(std::size_t a) const {
+        auto const& above = index_.in[index_.from[a]];
+        return std::any_of(above.begin(), above.end(), [&](std::int64_t b) { return has_water_[as_index(b)] != 0; });
+    }
+
+    /// Whether the rivers above an arc are gone, and passed by the cell of the node in which it begins.
+    bool lost_its_node(std::size_t a) const {
+        Grid const& grid = drawn_.channels.grid;
+        Cell const first = cells_of_vertices({network_[index_.arcs[a]].line.front()}, grid).front();
+        return !index_.in[index_.from[a]].empty() &&
+               grid.index(first) != drawn_.channels.cell[as_index(drawn_.of_arc[a].front())];
+    }
+
+    void leave_out_above(std::size_t a) {
+        std::vector<std::size_t> open{a};
+        while (!open.empty()) {
+            auto const& above = index_.in[index_.from[open.back()]];
+            open.pop_back();
+            for (std::int64_t const b : above) {
+                kept[as_index(b)] = 0;
+                open.push_back(as_index(b));
+            }
+        }
+    }
+
+    void visit(std::size_t a) {
+        auto const& cells = drawn_.of_arc[a];
+        bool const goes_on = has_water_above(a);
+        if (cells.empty() || goes_on || (is_gone_[as_index(cells.front())] == 0 && !lost_its_node(a))) {
+            has_water_[a] = goes_on || !cells.empty() ? 1 : 0;
+            return;
+        }
+        leave_out_above(a);
+        std::vector<Vec2>& line = network_[index_.arcs[a]].line;
+        Vec2 const source = line.front();
+        double const before_m = length_of(line);
+        mark(goes_, drawn_.channels, cells, is_gone_, 1, 1);
+        mark(stays_, drawn_.channels, cells, is_gone_, 0, 1);
+        std::vector<Vec2> rest = rest_of(line, drawn_.channels.grid, goes_, stays_);
+        mark(goes_, drawn_.channels, cells, is_gone_, 1, 0);
+        mark(stays_, drawn_.channels, cells, is_gone_, 0, 0);
+        Finding note{"shortened", network_[index_.arcs[a]].feature, source, before_m, ""};
+        note.feature = note.feature != 0 ? note.feature : static_cast<std::int64_t>(a) + 1;
+        if (rest.empty()) {
+            kept[a] = 0;
+            note.text = fmt::format("arc {} from ({:.3f}, {:.3f}) was left out, {:.3f} m: it stood above its "
+                                    "surroundings",
+                                    a + 1, source.x, source.y, before_m);
+        } else {
+            has_water_[a] = 1;
+            line = std::move(rest);
+            network_[index_.from[a]].at = line.front();
+            note.amount = before_m - length_of(line);
+            note.where = line.front();
+            note.text = fmt::format("arc {} begins at ({:.3f}, {:.3f}), {:.3f} m farther down: its tip stood above its "
+                                    "surroundings",
+                                    a + 1, line.front().x, line.front().y, note.amount);
+        }
+        notes.push_back(std::move(note));
+    }
+
+    StreamNetwork network_;
+    NetworkIndex index_;
+    ChannelsOfArcs const& drawn_;
+    Flags const& is_gone_;
+    Mask goes_;
+    Mask stays_;
+    Flags has_water_; ///< by arc, where sources first have come to it
+};
+
+} // namespace
+
+Shortened shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn, std::vector<std::int64_t> const& gone) {
+    require_trees(network, NetworkIndex(network), "network.shorten");
+    if (drawn.of_arc.size() != boost::num_edges(network)) {
+        throw BadInput(fmt::format("network.shorten: channels of {} arcs for {}; draw this network",
+                                   drawn.of_arc.size(), boost::num_edges(network)));
+    }
+    Flags const is_gone = flags_of(gone, drawn.channels);
+    Tips tips(network, drawn, is_gone);
+    tips.take_off();
+
+    std::vector<std::int64_t> lengths;
+    for (ArcId const arc : tips.index().arcs) {
+        lengths.push_back(static_cast<std::int64_t>(std::floor(length_of(tips.network()[arc].line) * 1024.0)));
+    }
+    KeptArcs kept = keep_arcs(tips.network(), tips.index(), lengths, tips.kept, Merge::new_ones);
+    Shortened out;
+    out.network = std::move(kept.network);
+    out.notes = std::move(tips.notes);
+    std::vector<std::int64_t> now;
+    out.drawn.channels = left_of(drawn.channels, is_gone, now);
+    out.drawn.notes = drawn.notes;
+    for (std::vector<std::size_t> const& pieces : kept.pieces) {
+        auto& cells = out.drawn.of_arc.emplace_back();
+        for (std::size_t const piece : pieces) {
+            for (std::int64_t const i : drawn.of_arc[piece]) {
+                if (now[as_index(i)] >= 0 && (cells.empty() || cells.back() != now[as_index(i)])) {
+                    cells.push_back(now[as_index(i)]);
+                }
+            }
+        }
+    }
+    return out;
+}
+
+} // namespace thalweg::network

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include <thalweg/core/channels.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/stream_network.hpp>
+
+namespace thalweg::network {
+
+/// Where the water of a land runs.
+struct LandWater {
+    Raster<float> const& dem;
+    Raster<std::int8_t> const& direction;   ///< as d8_steps; below 0 where water leaves, or there is no land
+    Raster<std::int64_t> const& area_cells; ///< cells that drain through a cell, itself included
+};
+
+struct SideValleysParams {
+    std::int64_t support_cells = 200; ///< [1, ...] cells that must drain through a cell for a valley to run there
+};
+
+struct SideValleys {
+    RaisedNetwork network;
+    std::int64_t grown = 0;    ///< arcs that the land has grown
+    std::int64_t cut = 0;      ///< of these, that end where a drawn line runs beside the cells its water takes
+    std::int64_t left_out = 0; ///< that would have met a line elsewhere than in a node, with what flows into them
+};
+
+/// Adds to given rivers the valleys that the land around them has grown.
+/// Takes: given rivers with heights, their channels, and the water of a land that honours these.
+/// Gives: given arcs first, cut where valleys join them, their vertices kept bit for bit; then the grown ones
+/// (Arc::given is false), from cell centre to cell centre along the steepest descent through every cell outside the
+/// channels with the support, to the nearest point of a given line beside the channel its water enters, or to the
+/// first cell of the border. Heights are those of the cells, not below what lies downstream. No two arcs meet but in
+/// nodes. Throws: BadParameter when the support is below 1; BadInput for rasters on another grid; Cancelled. Source:
+/// O'Callaghan and Mark 1984.
+SideValleys side_valleys(RaisedNetwork const& given, Channels const& channels, LandWater const& water,
+                         SideValleysParams const& params = {}, Run const& run = {});
+
+} // namespace thalweg::network

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/elevation/assign_types.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/network/order/internal/require_trees.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+[[noreturn]] void refuse(Arc const& arc, std::size_t number) {
+    std::vector<std::string> known;
+    std::string list;
+    for (Rosgen const type : rosgen_types) {
+        known.emplace_back(name_of(type));
+        list += (list.empty() ? "" : ", ") + known.back();
+    }
+    Vec2 const at = arc.line.front();
+    throw BadInput(fmt::format(
+        "network.assign_types: '{}', the type of arc {} (feature {}) at ({:.3f}, {:.3f}), is not one of {}.{}",
+        arc.type, number + 1, arc.feature, at.x, at.y, list, did_you_mean(arc.type, known)));
+}
+
+Rosgen of_order(int order, int highest, std::vector<Rosgen> const& types) {
+    auto const last = static_cast<std::int64_t>(types.size()) - 1;
+    std::int64_t const steps = std::int64_t{highest} - 1;
+    std::int64_t const place = steps > 0 ? (2 * (order - 1) * last + steps) / (2 * steps) : last;
+    return types[static_cast<std::size_t>(place)];
+}
+
+} // namespace
+
+RiverTypes assign_types(StreamNetwork const& network, NetworkOrders const& orders, AssignTypesParams const& params,
+                        Run const& run) {
+    if (!(params.coast_m >= 0.0)) {
+        throw BadParameter(fmt::format("network.assign_types: coast_m is {} m; it must be 0 or more", params.coast_m));
+    }
+    if (params.by_order.empty()) {
+        throw BadParameter("network.assign_types: by_order names no type; name one at least");
+    }
+    NetworkIndex const index(network);
+    require_trees(network, index, "network.assign_types");
+    std::size_t const arcs = index.arcs.size();
+    bool const fits = orders.strahler.size() == arcs && orders.node_dist_out_m.size() == index.out.size() &&
+                      std::ranges::all_of(orders.strahler, [](int w) { return w >= 1; });
+    if (!fits) {
+        throw BadInput(fmt::format("network.assign_types: the orders are not those of a network of {} arcs and {} "
+                                   "nodes; give the orders that network.order returns",
+                                   arcs, index.out.size()));
+    }
+    run.check();
+
+    int const highest = arcs == 0 ? 1 : *std::ranges::max_element(orders.strahler);
+    RiverTypes types;
+    for (std::size_t a = 0; a < arcs; ++a) {
+        Arc const& arc = network[index.arcs[a]];
+        Rosgen type = params.one;
+        if (!arc.type.empty() && arc.type != "none") {
+            auto const own = rosgen_of(arc.type);
+            if (!own) {
+                refuse(arc, a);
+            }
+            type = *own;
+        } else if (params.choice == TypeChoice::by_order) {
+            type = of_order(orders.strahler[a], highest, params.by_order);
+        }
+        double const middle = orders.node_dist_out_m[index.to[a]] + 0.5 * index.length_m[a];
+        types.type.push_back(type);
+        types.braided.push_back(is_braided(type) || middle < params.coast_m ? 1 : 0);
+    }
+    return types;
+}
+
+} // namespace thalweg::network

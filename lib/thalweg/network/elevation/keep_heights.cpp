@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/elevation/keep_heights.hpp>
+
+#include <thalweg/core/run/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace thalweg::network {
+
+RaisedNetwork keep_heights(StreamNetwork const& network, RaisedNetwork const& known, double slope) {
+    std::map<std::pair<double, double>, double> height;
+    NetworkIndex const old(known.plan);
+    for (std::size_t a = 0; a < old.arcs.size(); ++a) {
+        auto const& line = known.plan[old.arcs[a]].line;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            height[{line[i].x, line[i].y}] = known.arc_z[a][i];
+        }
+    }
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    auto const height_at = [&](Vec2 p) {
+        auto const at = height.find({p.x, p.y});
+        return at == height.end() ? none : at->second;
+    };
+
+    NetworkIndex const index(network);
+    RaisedNetwork out;
+    out.plan = network;
+    out.arc_z.resize(index.arcs.size());
+    for (NodeId n = 0; n < boost::num_vertices(network); ++n) {
+        out.node_z.push_back(height_at(network[n].at));
+    }
+    for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) { // sources first
+        std::int64_t const leaving = index.out[*n];
+        if (leaving < 0) {
+            continue;
+        }
+        auto const a = static_cast<std::size_t>(leaving);
+        auto const& line = network[index.arcs[a]].line;
+        auto& z = out.arc_z[a];
+        z.push_back(out.node_z[*n]);
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            double const given = height_at(line[i]);
+            z.push_back(std::isnan(given) ? z.back() - slope * distance(line[i - 1], line[i]) : given);
+        }
+        if (std::isnan(z.back())) {
+            throw BadInput("network.keep_heights: a river has no height at its source; give the lines Z, or choose "
+                           "another [network] heights");
+        }
+        double& end = out.node_z[index.to[a]];
+        end = std::isnan(end) ? z.back() : std::min(end, z.back());
+    }
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) { // several arcs may carry on to one node: its lowest counts
+        out.arc_z[a].back() = out.node_z[index.to[a]];
+    }
+    return out;
+}
+
+} // namespace thalweg::network

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/stream_network.hpp>
+
+namespace thalweg::network {
+
+enum class HeightMode : std::uint8_t {
+    straight,          ///< slope times the straight distance to the outlet, as printed; may run uphill
+    straight_repaired, ///< the least majorant of it that falls along every arc by 0.01 slope
+    along_stream       ///< slope times the distance along the stream
+};
+
+struct HeightParams {
+    HeightMode mode = HeightMode::straight_repaired;
+    double slope = 0.087; ///< [m/m] > 0, s: tan 5 degrees in paper 000
+};
+
+struct HeightReport {
+    std::int64_t uphill_arcs = 0; ///< arcs that do not fall under straight, before any repair
+    double uphill_length_m = 0.0; ///< their length
+    double max_rise_m = 0.0;      ///< greatest rise along such an arc
+    std::int64_t lifted = 0;      ///< nodes the repair raised
+    double max_lift_m = 0.0;
+    double rms_lift_m = 0.0; ///< over the lifted nodes
+};
+
+struct Raised {
+    RaisedNetwork network;
+    HeightReport report;
+};
+
+/// Gives every node its height above the outlet (z = 0) and every vertex the linear interpolation by arc length.
+/// Gives: under straight_repaired and along_stream every arc falls strictly; no node is lowered below straight.
+/// Throws: BadParameter; BadInput for an arc of no length or a network that is no forest.
+/// Source: paper 000, section 3.3, figure 5; specification 0.3 (majorant with least slope 0.01 s).
+Raised set_heights(StreamNetwork const& network, HeightParams const& params = {}, Run const& run = {});
+
+} // namespace thalweg::network

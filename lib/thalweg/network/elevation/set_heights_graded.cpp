@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/elevation/set_heights_graded.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/elevation/internal/raise.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+void require(GradedParams const& params) {
+    auto const wrong = [](char const* name, double value, char const* range) {
+        throw BadParameter(
+            fmt::format("network.set_heights_graded: {} is {}; it must be a number {}", name, value, range));
+    };
+    if (!(params.slope > 0.0) || !std::isfinite(params.slope)) {
+        wrong("slope", params.slope, "above 0");
+    }
+    if (!(params.theta >= 0.0 && params.theta <= 1.0)) {
+        wrong("theta", params.theta, "from 0 to 1");
+    }
+    if (!(params.least_area_m2 > 0.0) || !std::isfinite(params.least_area_m2)) {
+        wrong("least_area_m2", params.least_area_m2, "above 0");
+    }
+}
+
+void require_areas(StreamNetwork const& network, NetworkIndex const& index, std::vector<double> const& us_area_m2,
+                   std::vector<double> const& ds_area_m2) {
+    std::size_t const arcs = index.arcs.size();
+    if (us_area_m2.size() != arcs || ds_area_m2.size() != arcs) {
+        throw BadInput(fmt::format("network.set_heights_graded: {} and {} areas for {} arcs; give one for each end",
+                                   us_area_m2.size(), ds_area_m2.size(), arcs));
+    }
+    for (std::size_t a = 0; a < arcs; ++a) {
+        for (double const area : {us_area_m2[a], ds_area_m2[a]}) {
+            if (!(area >= 0.0) || !std::isfinite(area)) {
+                Vec2 const at = network[index.from[a]].at;
+                throw BadInput(fmt::format("network.set_heights_graded: an area of arc {} at ({:.3f}, {:.3f}) is {} "
+                                           "m2; it must be a number of 0 or more",
+                                           a + 1, at.x, at.y, area));
+            }
+        }
+    }
+}
+
+/// Points and weights of Gauss and Legendre on [-1, 1], of one side.
+struct Abscissa {
+    double at;
+    double weight;
+};
+constexpr std::array<Abscissa, 4> gauss_8{{{0.1834346424956498049, 0.3626837833783619830},
+                                           {0.5255324099163289858, 0.3137066458778872873},
+                                           {0.7966664774136267396, 0.2223810344533744706},
+                                           {0.9602898564975362317, 0.1012285362903762591}}};
+
+/// Integral of A^-theta from area a to b, 0 < a <= b <= panel_ratio a: exact to rounding.
+double panel(double a, double b, double theta) {
+    double const middle = 0.5 * (a + b);
+    double const half = 0.5 * (b - a);
+    double sum = 0.0;
+    for (Abscissa const& x : gauss_8) {
+        sum += x.weight * (exact::pow(middle - half * x.at, -theta) + exact::pow(middle + half * x.at, -theta));
+    }
+    return half * sum;
+}
+
+/// Mean of A^-theta between two areas. By panels and not in closed form: that loses its digits where the areas or theta
+/// and 1 are nearly the same.
+double mean_power(double a, double b, double theta) {
+    constexpr double panel_ratio = 1.5; // the error of a panel is 1e-16 there
+    if (a == b) {
+        return exact::pow(a, -theta);
+    }
+    double const low = std::min(a, b);
+    double const high = std::max(a, b);
+    double sum = 0.0;
+    for (double from = low; from < high; from *= panel_ratio) {
+        sum += panel(from, std::min(from * panel_ratio, high), theta);
+    }
+    return sum / (high - low);
+}
+
+/// How far the river falls from the first vertex to each of them, were k_s 1.
+std::vector<double> fall_along(std::vector<Vec2> const& line, double us_area, double ds_area, double theta) {
+    std::vector<double> const way = way_along(line);
+    auto const area = [&](double so_far) {
+        double const share = so_far / way.back();
+        return us_area * (1.0 - share) + ds_area * share;
+    };
+    std::vector<double> fall{0.0};
+    for (std::size_t i = 1; i < way.size(); ++i) {
+        fall.push_back(fall.back() + (way[i] - way[i - 1]) * mean_power(area(way[i - 1]), area(way[i]), theta));
+    }
+    return fall;
+}
+
+/// From the outlets upwards, the sum of what every arc adds.
+std::vector<double> sum_upstream(NetworkIndex const& index, std::vector<double> const& by_arc) {
+    std::vector<double> sum(index.out.size(), 0.0);
+    for (NodeId const n : index.upstream_order) {
+        if (index.out[n] >= 0) {
+            auto const a = static_cast<std::size_t>(index.out[n]);
+            // An addition lost in rounding would leave the arc level.
+            sum[n] = std::max(sum[index.to[a]] + by_arc[a], next_above(sum[index.to[a]]));
+        }
+    }
+    return sum;
+}
+
+} // namespace
+
+Graded set_heights_graded(StreamNetwork const& network, std::vector<double> const& us_area_m2,
+                          std::vector<double> const& ds_area_m2, GradedParams const& params, Run const& run) {
+    require(params);
+    NetworkIndex const index(network);
+    require_raisable(network, index, "network.set_heights_graded");
+    require_areas(network, index, us_area_m2, ds_area_m2);
+
+    std::vector<std::vector<double>> falls;
+    std::vector<double> whole;
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        run.check();
+        falls.push_back(fall_along(network[index.arcs[a]].line, std::max(us_area_m2[a], params.least_area_m2),
+                                   std::max(ds_area_m2[a], params.least_area_m2), params.theta));
+        whole.push_back(falls.back().back());
+    }
+
+    Graded graded{{network, std::vector<double>(index.out.size(), 0.0), {}}, 0.0};
+    if (index.arcs.empty()) {
+        return graded;
+    }
+    std::vector<double> const way = sum_upstream(index, index.length_m);
+    auto const source = static_cast<std::size_t>(std::ranges::max_element(way) - way.begin());
+    graded.steepness = params.slope * way[source] / sum_upstream(index, whole)[source];
+    for (double& fall : whole) {
+        fall *= graded.steepness;
+    }
+    graded.network.node_z = sum_upstream(index, whole);
+    require_heights(network, graded.network.node_z, "network.set_heights_graded");
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        graded.network.arc_z.push_back(
+            between(falls[a], graded.network.node_z[index.from[a]], graded.network.node_z[index.to[a]]));
+    }
+    return graded;
+}
+
+} // namespace thalweg::network

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/growth/dla/grow_dla.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/growth/dla/internal/tiled_bytes.hpp>
+#include <thalweg/network/growth/dla/internal/walk.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+constexpr std::uint8_t no_parent = 4;
+
+} // namespace
+
+double least_arrivals(DlaParams const& params) {
+    constexpr double rows_of_a_side = 2.5; // measured at S = 0.001 to 0.01 with 100 to 10 000 particles
+    auto const radius = static_cast<double>(params.max_radius);
+    double const within = params.max_radius > 0 ? 4.0 * radius * radius : std::numeric_limits<double>::infinity();
+    double const particles = std::min(static_cast<double>(params.particles), within);
+    return particles + rows_of_a_side * std::sqrt(particles) / params.sticking / params.sticking;
+}
+
+void require_growth(DlaParams const& params) {
+    if (params.particles < 1) {
+        throw BadParameter(fmt::format("network.grow_dla: particles is {}, it must be at least 1", params.particles));
+    }
+    if (!(params.sticking > 0.0 && params.sticking <= 1.0)) {
+        throw BadParameter(fmt::format("network.grow_dla: sticking is {}, it must lie in (0, 1]", params.sticking));
+    }
+    if (params.visits < 1 || params.visits > 255) {
+        throw BadParameter(fmt::format("network.grow_dla: visits is {}, it must lie in [1, 255]", params.visits));
+    }
+    if (params.max_radius < 0) {
+        throw BadParameter(fmt::format("network.grow_dla: max_radius is {}, it must be at least 1, or 0 for no limit",
+                                       params.max_radius));
+    }
+    constexpr double most_arrivals = 1e12;
+    double const arrivals = params.particles > 1 ? least_arrivals(params) : 0.0; // one is the seed
+    if (arrivals > most_arrivals) {
+        throw BadParameter(
+            fmt::format("network.grow_dla: {} particles with sticking {} need more than {:.0e} arrivals of "
+                        "walkers and would not end in a day: set sticking nearer to 1, or fewer particles",
+                        params.particles, params.sticking, most_arrivals));
+    }
+}
+
+namespace {
+
+/// Numbers the occupied cells row by row, so that a cell finds its particle: a bit a cell and a count a word.
+class Register {
+public:
+    explicit Register(std::vector<Cell> const& cells) {
+        Cell high = cells.front();
+        low_ = cells.front();
+        for (Cell const c : cells) {
+            low_ = {std::min(low_.col, c.col), std::min(low_.row, c.row)};
+            high = {std::max(high.col, c.col), std::max(high.row, c.row)};
+        }
+        width_ = high.col - low_.col + 1;
+        std::int64_t const area = width_ * (high.row - low_.row + 1);
+        words_.resize(static_cast<std::size_t>(area / 64 + 1));
+        for (Cell const c : cells) {
+            std::size_t const i = index(c);
+            words_[i / 64].bits |= std::uint64_t{1} << i % 64;
+        }
+        std::int64_t count = 0;
+        for (Word& word : words_) {
+            word.before = count;
+            count += std::popcount(word.bits);
+        }
+        particles_.resize(cells.size());
+        for (std::size_t p = 0; p < cells.size(); ++p) {
+            particles_[rank(cells[p])] = static_cast<std::int64_t>(p);
+        }
+    }
+
+    std::int64_t particle(Cell c) const { return particles_[rank(c)]; }
+
+private:
+    struct Word {
+        std::uint64_t bits = 0;
+        std::int64_t before = 0;
+    };
+
+    std::size_t index(Cell c) const {
+        return static_cast<std::size_t>((c.row - low_.row) * width_ + (c.col - low_.col));
+    }
+    std::size_t rank(Cell c) const {
+        std::size_t const i = index(c);
+        Word const& word = words_[i / 64];
+        std::uint64_t const below = word.bits & ((std::uint64_t{1} << i % 64) - 1);
+        return static_cast<std::size_t>(word.before + std::popcount(below));
+    }
+
+    Cell low_;
+    std::int64_t width_ = 0;
+    std::vector<Word> words_;
+    std::vector<std::int64_t> particles_;
+};
+
+std::vector<std::int64_t> find_parents(std::vector<Cell> const& cells, std::vector<std::uint8_t> const& direction) {
+    Register const reg(cells);
+    std::vector<std::int64_t> parent(cells.size(), -1);
+    for (std::size_t p = 1; p < cells.size(); ++p) {
+        Site const offset = neighbour_offsets[direction[p]];
+        parent[p] = reg.particle({cells[p].col + offset.x, cells[p].row + offset.y});
+    }
+    return parent;
+}
+
+/// One of the set bits, each as likely.
+std::uint8_t pick(unsigned mask, ChanceStream& chance) {
+    int const count = std::popcount(mask);
+    int skip = count == 1 ? 0 : static_cast<int>(chance.real() * count);
+    for (; skip > 0; --skip) {
+        mask &= mask - 1;
+    }
+    return static_cast<std::uint8_t>(std::countr_zero(mask));
+}
+
+enum class Fate : std::uint8_t { sticks, walks_on, is_removed };
+
+/// What becomes of arrivals: the visit counts and the stick test.
+class Gate {
+public:
+    explicit Gate(DlaParams const& params)
+        : rule_(params.rule), visits_(params.visits),
+          holds_{0.0, params.sticking * params.sticking, params.sticking, 1.0} {}
+
+    void reach(std::int32_t half) {
+        if (visits_ > 1 && half > counts_.half()) {
+            counts_.widen(half);
+        }
+    }
+
+    Fate arrive(Walker& walker, unsigned mask) {
+        double const hold = holds_[static_cast<std::size_t>(std::popcount(mask))];
+        if (rule_ == VisitRule::stick_then_count) {
+            return !stick(hold, walker) ? Fate::walks_on : count(walker.at) ? Fate::sticks : Fate::is_removed;
+        }
+        return !count(walker.at) ? Fate::is_removed : stick(hold, walker) ? Fate::sticks : Fate::walks_on;
+    }
+
+private:
+    static bool stick(double hold, Walker& walker) { return hold >= 1.0 || walker.chance.real() < hold; }
+
+    /// Counts a visit; whether there were enough with it.
+    bool count(Site site) {
+        if (visits_ == 1) {
+            return true;
+        }
+        std::uint8_t& seen = counts_[site];
+        if (seen < visits_) {
+            ++seen;
+        }
+        return seen >= visits_;
+    }
+
+    VisitRule rule_;
+    int visits_;
+    std::array<double, 4> holds_; ///< by the number of occupied neighbours
+    TiledBytes counts_{TiledBytes::tile};
+};
+
+} // namespace
+
+Cluster grow_dla(DlaParams const& params, Run const& run) {
+    require_growth(params);
+    Cluster cluster;
+    std::vector<std::uint8_t> direction;
+    Walk walk;
+    Gate gate(params);
+    auto const add = [&](Site site, std::uint8_t parent) {
+        walk.occupy(site);
+        gate.reach(walk.half());
+        cluster.cells.push_back({site.x, site.y});
+        direction.push_back(parent);
+    };
+    auto const size = [&] { return static_cast<std::int64_t>(cluster.cells.size()); };
+    auto const wide = [&] { return params.max_radius > 0 && walk.radius() >= static_cast<double>(params.max_radius); };
+
+    add({0, 0}, no_parent);
+    std::int64_t arrivals = 0;
+    while (size() < params.particles && !wide()) {
+        Walker w = walker(params.seed, cluster.walkers++);
+        walk.release(w);
+        for (;;) {
+            unsigned const mask = walk.approach(w);
+            if (++arrivals % 4096 == 0) {
+                run.at(static_cast<double>(size()) / static_cast<double>(params.particles), "grow");
+            }
+            Fate const fate = gate.arrive(w, mask);
+            if (fate == Fate::sticks) {
+                add(w.at, pick(mask, w.chance));
+            }
+            if (fate != Fate::walks_on) {
+                break;
+            }
+            walk.step(w);
+        }
+    }
+    cluster.radius = walk.radius();
+    cluster.stop = wide() ? GrowthStop::radius : GrowthStop::particles;
+    cluster.parent = find_parents(cluster.cells, direction);
+    return cluster;
+}
+
+} // namespace thalweg::network

@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/growth/forest/plant_forest.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/growth/dla/internal/walk.hpp>
+#include <thalweg/network/growth/forest/internal/room_in.hpp>
+#include <thalweg/network/growth/forest/spread_outlets.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+/// The room a cell has where trees grow: then all cells under a step between two such are land, and no coast.
+std::int64_t room_inland(std::int64_t step) {
+    return (step + 2) / 2 + 2;
+}
+
+Mask inland_of(Mask const& land, std::int64_t step) {
+    Raster<std::uint8_t> const room = room_in(land);
+    Mask inland(land.grid());
+    for (std::int64_t row = 0; row < land.height(); ++row) {
+        for (std::int64_t col = 0; col < land.width(); ++col) {
+            inland[Cell{col, row}] = room[Cell{col + 1, row + 1}] >= room_inland(step) ? 1 : 0;
+        }
+    }
+    return inland;
+}
+
+/// Where a river leaves the land, and the cell inland where its tree begins: the land between is crossed straight.
+struct Mouth {
+    Cell outlet;
+    Cell seed;
+};
+
+/// Which outlets get a tree.
+class Mouths {
+public:
+    Mouths(Mask const& land, Mask const& inland, std::int64_t step)
+        : land_(land), inland_(inland), step_(step), near_way_(land.grid(), 0), near_seed_(land.grid(), 0) {}
+
+    std::vector<Mouth> const& all() const { return mouths_; }
+
+    /// The cell inland that is nearest to an outlet, straight over land; nothing where there is none so near that its
+    /// river could not touch another on the way.
+    std::optional<Cell> seed_for(Cell outlet) const {
+        std::int64_t const reach = room_inland(step_) + 1;
+        std::optional<Cell> best;
+        cells_around(land_.grid(), outlet, reach, [&](Cell c) {
+            bool const nearer = !best || squared_cells(c, outlet) < squared_cells(*best, outlet);
+            if (inland_[c] != 0 && nearer && over_land(c, outlet)) {
+                best = c;
+            }
+        });
+        return best;
+    }
+
+    /// Whether the outlet got a tree.
+    bool add(Cell outlet) {
+        constexpr std::int64_t apart = 3;
+        std::optional<Cell> const seed = seed_for(outlet);
+        if (!seed || near_seed_[*seed] != 0) {
+            return false;
+        }
+        bool meets = false;
+        auto const along = [&](auto visit) {
+            walk_cells(*seed, outlet, [&](Cell c, std::int64_t, std::int64_t) { visit(c); });
+        };
+        along([&](Cell c) { meets = meets || near_way_[c] != 0; });
+        if (meets) {
+            return false;
+        }
+        along([&](Cell c) { cells_around(land_.grid(), c, apart, [&](Cell n) { near_way_[n] = 1; }); });
+        cells_around(land_.grid(), *seed, 2 * step_, [&](Cell c) {
+            if (squared_cells(c, *seed) < 4 * step_ * step_) {
+                near_seed_[c] = 1;
+            }
+        });
+        mouths_.push_back({outlet, *seed});
+        return true;
+    }
+
+private:
+    bool over_land(Cell a, Cell b) const {
+        bool dry = true;
+        walk_cells(a, b, [&](Cell c, std::int64_t, std::int64_t) { dry = dry && land_[c] != 0; });
+        return dry;
+    }
+
+    Mask const& land_;
+    Mask const& inland_;
+    std::int64_t step_;
+    Mask near_way_;
+    Mask near_seed_;
+    std::vector<Mouth> mouths_;
+};
+
+/// The cells of a mask that hang together by sides with one; they are taken out of it.
+std::vector<Cell> take_piece(Cell from, Mask& left) {
+    std::vector<Cell> piece{from};
+    left[from] = 0;
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+        for (Site const o : neighbour_offsets) {
+            Cell const next{piece[k].col + o.x, piece[k].row + o.y};
+            if (left.grid().contains(next) && left[next] != 0) {
+                left[next] = 0;
+                piece.push_back(next);
+            }
+        }
+    }
+    return piece;
+}
+
+Finding finding(char const* kind, Grid const& grid, Cell c, double amount, std::string text) {
+    return {kind, 0, grid.centre(c), amount, fmt::format("{} ({}, {})", text, c.col, c.row)};
+}
+
+void check(Mask const& land, std::vector<Cell> const& coast, std::vector<Cell> const& outlets,
+           ForestParams const& params) {
+    constexpr std::int64_t least_step = 4; // below, rivers of two trees could touch between their seeds and outlets
+    if (params.step_cells < least_step || params.step_cells > 100) {
+        throw BadParameter(fmt::format("network.plant_forest: step_cells is {}, it must lie in [{}, 100]",
+                                       params.step_cells, least_step));
+    }
+    if (coast.empty()) {
+        throw BadInput("network.plant_forest: there is no land, all cells are sea");
+    }
+    Mask on_coast(land.grid(), 0);
+    for (Cell const c : coast) {
+        on_coast[c] = 1;
+    }
+    for (Cell const c : outlets) {
+        if (!land.grid().contains(c) || on_coast[c] == 0) {
+            throw BadInput(
+                fmt::format("network.plant_forest: the outlet ({}, {}) lies off the land's coast", c.col, c.row));
+        }
+    }
+}
+
+/// Gives every piece of the land's inside that has no tree one, at the first cell of its coast where that finds room.
+void add_missing(Mask const& inland, std::vector<Cell> const& coast, Mouths& mouths, std::vector<Finding>& notes) {
+    Mask left = inland;
+    for (Mouth const& mouth : mouths.all()) {
+        if (left[mouth.seed] != 0) {
+            take_piece(mouth.seed, left);
+        }
+    }
+    for (Cell const c : coast) {
+        std::optional<Cell> const seed = mouths.seed_for(c);
+        if (seed && left[*seed] != 0 && mouths.add(c)) {
+            take_piece(*seed, left);
+            notes.push_back(
+                finding("added_outlet", inland.grid(), c, 0.0, "an outlet was added for land without one, at cell"));
+        }
+    }
+}
+
+/// One note for each piece of land without a tree.
+void note_dry_land(Mask const& land, Mouths const& mouths, std::vector<Finding>& notes) {
+    Mask left = land;
+    for (Mouth const& mouth : mouths.all()) {
+        if (left[mouth.outlet] != 0) {
+            take_piece(mouth.outlet, left);
+        }
+    }
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        if (left[i] != 0) {
+            Cell const c = land.grid().at(i);
+            auto const size = static_cast<double>(take_piece(c, left).size());
+            notes.push_back(finding("dry_land", land.grid(), c, size,
+                                    fmt::format("a piece of land of {} cells has no room for a river, at cell", size)));
+        }
+    }
+}
+
+/// The trees as arcs: every particle without or with several children is a node, and so is every outlet.
+StreamNetwork as_network(GrownForest const& forest, Grid const& grid, std::vector<Mouth> const& mouths) {
+    std::size_t const count = forest.cells.size();
+    std::vector<int> children(count, 0);
+    for (std::int64_t const up : forest.parent) {
+        if (up >= 0) {
+            ++children[static_cast<std::size_t>(up)];
+        }
+    }
+    StreamNetwork network;
+    for (Mouth const& mouth : mouths) {
+        boost::add_vertex(Node{grid.centre(mouth.outlet)}, network);
+    }
+    std::vector<NodeId> node(count, 0);
+    for (std::size_t p = 0; p < count; ++p) {
+        if (children[p] != 1) {
+            node[p] = boost::add_vertex(Node{grid.centre(forest.cells[p])}, network);
+        }
+    }
+    for (std::size_t p = 0; p < count; ++p) {
+        if (children[p] == 1) {
+            continue;
+        }
+        Arc arc;
+        std::size_t at = p;
+        do {
+            arc.line.push_back(grid.centre(forest.cells[at]));
+            at = forest.parent[at] < 0 ? count : static_cast<std::size_t>(forest.parent[at]);
+        } while (at < count && children[at] == 1);
+        NodeId const end = at < count ? node[at] : static_cast<NodeId>(forest.tree[p]);
+        arc.line.push_back(network[end].at);
+        add_arc(network, node[p], end, std::move(arc));
+    }
+    return network;
+}
+
+} // namespace
+
+PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, ForestParams const& params,
+                           Run const& run) {
+    std::vector<Cell> const coast = coast_cells(land);
+    check(land, coast, outlets, params);
+    Mask const inland = inland_of(land, params.step_cells);
+    Mouths mouths(land, inland, params.step_cells);
+    PlantedForest planted;
+    for (Cell const c : outlets) {
+        if (!mouths.add(c)) {
+            planted.notes.push_back(
+                finding("crowded_outlet", land.grid(), c, 0.0,
+                        "an outlet was left out, with no room for its river between others or coasts, at cell"));
+        }
+    }
+    add_missing(inland, coast, mouths, planted.notes);
+    note_dry_land(land, mouths, planted.notes);
+    if (mouths.all().empty()) {
+        throw BadInput(fmt::format("network.plant_forest: there is no room for a river: no cell is {} cells away "
+                                   "from the sea; take smaller cells or shorter steps",
+                                   room_inland(params.step_cells)));
+    }
+    std::vector<Cell> seeds;
+    for (Mouth const& mouth : mouths.all()) {
+        seeds.push_back(mouth.seed);
+    }
+    GrownForest const forest = grow_forest(inland, seeds, params, run);
+    planted.network = as_network(forest, land.grid(), mouths.all());
+    planted.outlets = static_cast<std::int64_t>(seeds.size());
+    planted.particles = static_cast<std::int64_t>(forest.cells.size());
+    planted.walkers = forest.walkers;
+    planted.stop = forest.stop;
+    return planted;
+}
+
+} // namespace thalweg::network

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/growth/forest/shape_island.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/network/growth/dla/internal/walk.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+constexpr std::uint64_t island_stage = 0x69736c616e643031; // "island01"
+constexpr double share_of_land = 0.42;                     // of the grid
+
+/// One octave of gradient noise, its lattice turned and moved by chance.
+class Octave {
+public:
+    Octave(double wave_cells, double amplitude, std::uint64_t seed, std::uint64_t number, double span_cells)
+        : amplitude_(amplitude) {
+        auto const words = chance_block(seed, island_stage, number);
+        double const turn = 2.0 * exact::pi * unit(words[0]);
+        along_ = {exact::cos(turn) / wave_cells, exact::sin(turn) / wave_cells};
+        // The lattice covers the span whichever way it is turned.
+        half_ = static_cast<std::int64_t>(std::ceil(span_cells / wave_cells)) + 2;
+        offset_ = {unit(words[1]), unit(words[2])};
+        auto const side = static_cast<std::uint64_t>(2 * half_ + 1);
+        for (std::uint64_t i = 0; i < side * side; ++i) {
+            double const angle = 2.0 * exact::pi * unit(chance(seed, island_stage, number, 1, i));
+            gradients_.push_back({exact::cos(angle), exact::sin(angle)});
+        }
+    }
+
+    double at(double x, double y) const {
+        double const u = along_.x * x - along_.y * y + offset_.x;
+        double const v = along_.y * x + along_.x * y + offset_.y;
+        double const col = std::floor(u);
+        double const row = std::floor(v);
+        double const fu = u - col;
+        double const fv = v - row;
+        auto const i = static_cast<std::int64_t>(col);
+        auto const j = static_cast<std::int64_t>(row);
+        double const su = fade(fu);
+        double const sv = fade(fv);
+        double const north = mix(slope(i, j, fu, fv), slope(i + 1, j, fu - 1.0, fv), su);
+        double const south = mix(slope(i, j + 1, fu, fv - 1.0), slope(i + 1, j + 1, fu - 1.0, fv - 1.0), su);
+        return amplitude_ * mix(north, south, sv);
+    }
+
+private:
+    static double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
+    static double mix(double a, double b, double t) { return a + t * (b - a); }
+    double slope(std::int64_t i, std::int64_t j, double fu, double fv) const {
+        Vec2 const g = gradients_[static_cast<std::size_t>((j + half_) * (2 * half_ + 1) + i + half_)];
+        return g.x * fu + g.y * fv;
+    }
+
+    double amplitude_;
+    Vec2 along_;
+    Vec2 offset_;
+    std::int64_t half_ = 0;
+    std::vector<Vec2> gradients_;
+};
+
+/// Octaves of which each is half as long as the one before, and nearly half as strong.
+std::vector<Octave> octaves(double longest_cells, double shortest_cells, std::uint64_t seed, std::uint64_t first,
+                            double span_cells) {
+    constexpr double fall = 0.56;
+    std::vector<Octave> all;
+    double amplitude = 1.0;
+    for (double wave = longest_cells; wave >= shortest_cells; wave *= 0.5) {
+        all.emplace_back(wave, amplitude, seed, first + all.size(), span_cells);
+        amplitude *= fall;
+    }
+    return all;
+}
+
+double sum(std::vector<Octave> const& noise, double x, double y) {
+    double total = 0.0;
+    for (Octave const& octave : noise) {
+        total += octave.at(x, y);
+    }
+    return total;
+}
+
+/// The cells of one value that hang together by sides, from a cell of it; they are marked as seen.
+std::vector<std::int64_t> patch_from(std::int64_t start, Mask const& land, Mask& seen) {
+    Grid const& grid = land.grid();
+    std::vector<std::int64_t> cells{start};
+    seen[start] = 1;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        Cell const c = grid.at(cells[k]);
+        for (Site const o : neighbour_offsets) {
+            Cell const next{c.col + o.x, c.row + o.y};
+            if (grid.contains(next) && seen[next] == 0 && land[next] == land[c]) {
+                seen[next] = 1;
+                cells.push_back(grid.index(next));
+            }
+        }
+    }
+    return cells;
+}
+
+/// The cells of a share of the grid that stand highest.
+Mask highest(Raster<float> const& heights, double share) {
+    std::vector<float> sorted(heights.values().begin(), heights.values().end());
+    auto const level = sorted.begin() + static_cast<std::ptrdiff_t>((1.0 - share) * static_cast<double>(sorted.size()));
+    std::ranges::nth_element(sorted, level);
+    Mask found(heights.grid());
+    for (std::int64_t i = 0; i < heights.cells(); ++i) {
+        found[i] = heights[i] >= *level && std::isfinite(heights[i]) ? 1 : 0;
+    }
+    return found;
+}
+
+/// Makes lagoons land and small islets sea.
+void tidy(Mask& land) {
+    Grid const& grid = land.grid();
+    for (std::uint8_t const value : {std::uint8_t{0}, std::uint8_t{1}}) {
+        std::int64_t const least = value == 0 ? grid.cells() : grid.cells() / 1000;
+        Mask seen(grid, 0);
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            if (land[i] != value || seen[i] != 0) {
+                continue;
+            }
+            std::vector<std::int64_t> const patch = patch_from(i, land, seen);
+            bool const open_sea = value == 0 && patch.front() == 0; // the margin holds the grid's first cell
+            if (!open_sea && static_cast<std::int64_t>(patch.size()) < least) {
+                for (std::int64_t const c : patch) {
+                    land[c] = value == 0 ? 1 : 0;
+                }
+            }
+        }
+    }
+}
+
+} // namespace
+
+Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) {
+    if (!(params.ruggedness >= 0.0 && params.ruggedness <= 1.0)) {
+        throw BadParameter(
+            fmt::format("network.shape_island: ruggedness is {}, it must lie in [0, 1]", params.ruggedness));
+    }
+    if (std::min(grid.width, grid.height) < 16) {
+        throw BadInput(fmt::format("network.shape_island: the grid has {} x {} cells, an island needs 16 x 16",
+                                   grid.width, grid.height));
+    }
+    auto const width = static_cast<double>(grid.width);
+    auto const height = static_cast<double>(grid.height);
+    double const shorter = std::min(width, height);
+    double const margin = std::max(1.0, shorter / 40.0);
+    constexpr double shortest = 8.0; // cells
+    double const span = 0.5 * std::sqrt(width * width + height * height) + shorter;
+    std::vector<Octave> const moves = octaves(0.6 * shorter, shortest, params.seed, 0, span);
+    std::vector<Octave> const bends_x = octaves(0.7 * shorter, 0.05 * shorter, params.seed, 32, span);
+    std::vector<Octave> const bends_y = octaves(0.7 * shorter, 0.05 * shorter, params.seed, 64, span);
+    double const bend = 0.35 * params.ruggedness * shorter;
+    Vec2 const middle{sum(bends_x, 0.0, 0.0), sum(bends_y, 0.0, 0.0)};
+    // Islands are longer than wide, in any direction.
+    auto const words = chance_block(params.seed, island_stage, 96);
+    double const turn = exact::pi * unit(words[0]);
+    double const slender = 1.0 + 0.5 * unit(words[1]) * params.ruggedness;
+    Vec2 const along{exact::cos(turn), exact::sin(turn)};
+
+    Raster<float> above(grid, -std::numeric_limits<float>::infinity());
+    parallel_ranges(run, grid.height, 16, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            for (std::int64_t col = 0; col < grid.width; ++col) {
+                double const x = static_cast<double>(col) + 0.5 - 0.5 * width;
+                double const y = static_cast<double>(row) + 0.5 - 0.5 * height;
+                double const to_edge = std::min(0.5 * width - std::fabs(x), 0.5 * height - std::fabs(y));
+                if (to_edge < margin) {
+                    continue;
+                }
+                double const bent_x = x + bend * (sum(bends_x, x, y) - middle.x);
+                double const bent_y = y + bend * (sum(bends_y, x, y) - middle.y);
+                double const u = 2.0 * bent_x / width;
+                double const v = 2.0 * bent_y / height;
+                double const length = along.x * u + along.y * v;
+                double const breadth = slender * (along.x * v - along.y * u);
+                double const oval = std::sqrt(length * length + breadth * breadth);
+                // Towards the margin the sea wins, so that no coast is cut straight by it.
+                double const sea = 1.0 - std::min(1.0, (to_edge - margin) / (0.15 * shorter));
+                above[Cell{col, row}] =
+                    static_cast<float>(params.ruggedness * sum(moves, bent_x, bent_y) - oval - 0.8 * sea * sea * sea);
+            }
+        }
+    });
+    Mask land = highest(above, share_of_land);
+    tidy(land);
+    return land;
+}
+
+} // namespace thalweg::network

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/error.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+constexpr std::uint64_t tokunaga_stage = 0x746f6b756e616761; // "tokunaga"
+
+void check(TokunagaParams const& params) {
+    if (params.generator < 1 || params.generator > 50) {
+        throw BadParameter(
+            fmt::format("network.grow_tokunaga: generator is {}, it must lie in [1, 50]", params.generator));
+    }
+    if (params.order < 1 || params.order > 30) {
+        throw BadParameter(fmt::format("network.grow_tokunaga: order is {}, it must lie in [1, 30]", params.order));
+    }
+    if (params.max_links < 1) {
+        throw BadParameter(
+            fmt::format("network.grow_tokunaga: max_links is {}, it must be at least 1", params.max_links));
+    }
+}
+
+/// One refinement of a tree.
+class Refinement {
+public:
+    Refinement(TokunagaParams const& params, int step) : params_(params), step_(step) {
+        for (int order = 2; order <= params.order; ++order) {
+            means_.push_back(mean_side_branches(params.generator, params.rule, order));
+        }
+    }
+
+    std::vector<TreeLink> refine(std::vector<TreeLink> const& coarse) {
+        links_.clear();
+        tops_.assign(coarse.size(), -1);
+        for (std::size_t i = 0; i < coarse.size(); ++i) {
+            words_ = chance_block(params_.seed, tokunaga_stage, static_cast<std::uint64_t>(step_), i);
+            TreeLink const& old = coarse[i];
+            std::int64_t const below = old.down < 0 ? -1 : tops_[static_cast<std::size_t>(old.down)];
+            bool const source = old.up[0] < 0;
+            int const sides = source ? params_.generator - 1 : side_branches(old.order);
+            std::int64_t top = add(below, old.order + 1, old.turn);
+            for (int k = 0; k < sides; ++k) {
+                std::int64_t const next = add(top, old.order + 1, 0);
+                add(top, 1, bank(source, k, sides));
+                top = next;
+            }
+            if (source) {
+                int const first = turned(fork_bit) ? 1 : -1;
+                add(top, 1, first);
+                add(top, 1, -first);
+            }
+            tops_[i] = top;
+            if (static_cast<std::int64_t>(links_.size()) > params_.max_links) {
+                throw BadParameter(fmt::format("network.grow_tokunaga: order {} with generator {} has more than {} "
+                                               "links; lower the order or the generator",
+                                               params_.order, params_.generator, params_.max_links));
+            }
+        }
+        return std::move(links_);
+    }
+
+private:
+    static constexpr int fork_bit = 63;
+
+    std::int64_t add(std::int64_t down, int order, int turn) {
+        auto const link = static_cast<std::int64_t>(links_.size());
+        links_.push_back({.down = down, .up = {{-1, -1}}, .order = order, .turn = turn});
+        if (down >= 0) {
+            auto& up = links_[static_cast<std::size_t>(down)].up;
+            up[up[0] < 0 ? 0 : 1] = link;
+        }
+        return link;
+    }
+
+    int side_branches(int order) const {
+        double const mean = means_[static_cast<std::size_t>(order - 2)];
+        double const whole = std::floor(mean);
+        return static_cast<int>(whole) + (unit(words_[0]) < mean - whole ? 1 : 0);
+    }
+
+    bool turned(int bit) const {
+        return params_.banks == BankRule::chance && (words_[1] >> static_cast<unsigned>(bit) & 1) != 0;
+    }
+
+    /// As paper 003 writes its rules: G[--G] alone, else from the left; F[++G] alone, F[--G]F[++G].
+    int bank(bool source, int k, int sides) const {
+        int const first = source == (sides == 1) || (!source && sides % 2 == 0) ? -2 : 2;
+        int const side = k % 2 == 0 ? first : -first;
+        return turned(k) ? -side : side;
+    }
+
+    TokunagaParams const& params_;
+    int step_;
+    std::vector<double> means_; ///< by order - 2
+    std::array<std::uint64_t, 4> words_{};
+    std::vector<TreeLink> links_;
+    std::vector<std::int64_t> tops_; ///< by old link: the uppermost of those it became
+};
+
+} // namespace
+
+TokunagaTree grow_tokunaga(TokunagaParams const& params, Run const& run) {
+    check(params);
+    TokunagaTree tree;
+    tree.links.resize(1);
+    double const c = tokunaga_laws(params.generator).c;
+    for (int step = 1; step < params.order; ++step) {
+        run.check();
+        tree.links = Refinement(params, step).refine(tree.links);
+        tree.link_length = step == 1 ? 1.0 : tree.link_length / c;
+    }
+    return tree;
+}
+
+} // namespace thalweg::network

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/network/growth/tokunaga/internal/spread_forest.hpp>
+
+namespace thalweg::network {
+
+/// A network of the links that stay.
+struct KeptNetwork {
+    StreamNetwork network;                               ///< its arcs run between sources, confluences and outlets
+    std::vector<std::vector<std::int64_t>> links_of_arc; ///< by arc number, upstream first
+};
+
+/// Makes a network of links: one arc of those between which no other link enters.
+/// Gives: arcs in the order of their lowest link.
+KeptNetwork join_links(Forest const& forest, std::vector<Vec2> const& at, std::vector<std::uint8_t> const& stays);
+
+} // namespace thalweg::network

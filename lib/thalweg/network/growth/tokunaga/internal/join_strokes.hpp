@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/grid.hpp>
+#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/run/run.hpp>
+
+/// Private to this room.
+namespace thalweg::network {
+
+/// A stroke in plan, and where it begins.
+struct Stroke {
+    std::vector<Vec2> line;   ///< [m] from the mouth upstream
+    std::vector<double> way;  ///< [m] along the line to each vertex
+    std::int64_t onto = -1;   ///< stroke on which it begins, by number; -1 for none
+    double onto_way_m = 0.0;  ///< [m] along that stroke
+    std::int64_t feature = 0; ///< as the file counts
+};
+
+/// Reads strokes as drawn and finds which begins on which.
+/// Takes: lines inside the grid. A stroke begins on another when its first vertex lies within half a cell of it: it is
+/// moved onto it.
+/// Throws: as grow_strokes, for what concerns the strokes alone; Cancelled.
+std::vector<Stroke> join_strokes(RiverLines const& strokes, Grid const& grid, Run const& run = {});
+
+/// Strokes by number, each after the one on which it begins; no ring of them.
+std::vector<std::size_t> downstream_first(std::vector<Stroke> const& strokes);
+
+/// Distance [m] of a place from a line.
+double distance_to(Stroke const& stroke, Vec2 p);
+
+/// The place at a way [m] along a line.
+Vec2 place_at(Stroke const& stroke, double way_m);
+
+} // namespace thalweg::network

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/import/internal/adopt_steps.hpp>
+
+namespace thalweg::network::adopt_steps {
+namespace {
+
+constexpr std::size_t no_owner = static_cast<std::size_t>(-1);
+
+struct Hash {
+    static std::size_t mix(std::uint64_t a, std::uint64_t b) {
+        std::uint64_t h = (a ^ (b * 0x9e3779b97f4a7c15ULL)) * 0xbf58476d1ce4e5b9ULL;
+        return static_cast<std::size_t>(h ^ (h >> 29));
+    }
+    std::size_t operator()(Vec2 p) const {
+        return mix(std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y));
+    }
+    std::size_t operator()(std::pair<std::size_t, std::size_t> e) const { return mix(e.first, e.second); }
+};
+
+// Vertices by number in the order of the lines; positions equal bit for bit are one vertex.
+struct Numbering {
+    std::vector<Vec2> at;
+    std::vector<std::vector<std::size_t>> of_line;
+};
+
+Numbering number(std::vector<RiverLine> const& lines) {
+    Numbering numbering;
+    std::unordered_map<Vec2, std::size_t, Hash> known;
+    for (auto const& line : lines) {
+        auto& numbers = numbering.of_line.emplace_back();
+        for (auto const& v : line.vertices) {
+            auto const [entry, fresh] = known.try_emplace(Vec2{v.x, v.y}, numbering.at.size());
+            if (fresh) {
+                numbering.at.push_back(entry->first);
+            }
+            numbers.push_back(entry->second);
+        }
+    }
+    return numbering;
+}
+
+// For every segment of every line the line that has it first.
+std::vector<std::vector<std::size_t>> owners_of(Numbering const& numbering) {
+    std::unordered_map<std::pair<std::size_t, std::size_t>, std::size_t, Hash> known;
+    std::vector<std::vector<std::size_t>> owners;
+    for (std::size_t l = 0; l < numbering.of_line.size(); ++l) {
+        auto const& v = numbering.of_line[l];
+        auto& of_line = owners.emplace_back();
+        for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+            auto const [entry, fresh] = known.try_emplace(std::minmax(v[i], v[i + 1]), l);
+            of_line.push_back(fresh ? no_owner : entry->second);
+        }
+    }
+    return owners;
+}
+
+} // namespace
+
+void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::string const& name) {
+    std::vector<std::size_t> root(p.nodes.size());
+    std::iota(root.begin(), root.end(), std::size_t{0});
+    auto const find = [&](std::size_t n) {
+        while (root[n] != n) {
+            n = root[n] = root[root[n]];
+        }
+        return n;
+    };
+    for (std::size_t closing = 0; closing < p.pieces.size(); ++closing) {
+        auto const& piece = p.pieces[closing];
+        std::size_t const a = find(piece.from);
+        std::size_t const b = find(piece.to);
+        if (a != b) {
+            root[std::max(a, b)] = std::min(a, b);
+            continue;
+        }
+        // The way round: breadth first through the pieces before the closing one.
+        std::vector<std::size_t> came_by(p.nodes.size(), no_owner);
+        std::vector<std::size_t> queue{piece.from};
+        auto const other = [&](std::size_t k, std::size_t n) {
+            return p.pieces[k].from == n ? p.pieces[k].to : p.pieces[k].from;
+        };
+        for (std::size_t i = 0; i < queue.size(); ++i) {
+            for (std::size_t const k : p.at_node[queue[i]]) {
+                std::size_t const n = other(k, queue[i]);
+                if (k < closing && n != piece.from && came_by[n] == no_owner) {
+                    came_by[n] = k;
+                    queue.push_back(n);
+                }
+            }
+        }
+        std::vector<std::int64_t> features{lines[piece.line].feature};
+        for (std::size_t n = piece.to; n != piece.from; n = other(came_by[n], n)) {
+            features.push_back(lines[p.pieces[came_by[n]].line].feature);
+        }
+        std::ranges::sort(features);
+        features.erase(std::unique(features.begin(), features.end()), features.end());
+        constexpr std::size_t most_named = 8;
+        std::string named;
+        for (std::size_t i = 0; i < std::min(features.size(), most_named); ++i) {
+            named += fmt::format("{}{}", i == 0 ? "" : i + 1 == features.size() ? " and " : ", ", features[i]);
+        }
+        if (features.size() > most_named) {
+            named += fmt::format(" and {} more", features.size() - most_named);
+        }
+        Vec2 const at = p.nodes[piece.from];
+        Vec2 const through = p.nodes[piece.to];
+        throw BadInput(fmt::format("network.adopt: river{} {} in {} {} a cycle through ({:.6f}, {:.6f}) and ({:.6f}, "
+                                   "{:.6f}); water has one way down from every place: remove one "
+                                   "branch, or keep the main one by divergences = \"main\"",
+                                   features.size() == 1 ? "" : "s", named, name,
+                                   features.size() == 1 ? "forms" : "form", at.x, at.y, through.x, through.y));
+    }
+}
+
+Pieces cut(std::vector<RiverLine> const& lines, Left& left) {
+    auto const numbering = number(lines);
+    auto const owners = owners_of(numbering);
+    std::vector<int> degree(numbering.at.size(), 0);
+    std::vector<char> is_end(numbering.at.size(), 0);
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        auto const& v = numbering.of_line[l];
+        is_end[v.front()] = is_end[v.back()] = 1;
+        for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+            if (owners[l][i] == no_owner) {
+                ++degree[v[i]];
+                ++degree[v[i + 1]];
+            }
+        }
+    }
+    Pieces p;
+    std::vector<std::size_t> node_of(numbering.at.size(), no_owner);
+    auto const node = [&](std::size_t vertex) {
+        if (node_of[vertex] == no_owner) {
+            node_of[vertex] = p.nodes.size();
+            p.nodes.push_back(numbering.at[vertex]);
+            p.at_node.emplace_back();
+        }
+        return node_of[vertex];
+    };
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        auto const& v = numbering.of_line[l];
+        for (std::size_t i = 0; i + 1 < v.size();) {
+            std::size_t const first = i;
+            std::size_t const owner = owners[l][i];
+            double length = 0.0;
+            do {
+                length += distance(numbering.at[v[i]], numbering.at[v[i + 1]]);
+                ++i;
+            } while (i + 1 < v.size() && owners[l][i] == owner &&
+                     (owner != no_owner || (degree[v[i]] == 2 && is_end[v[i]] == 0)));
+            Vec2 const at = numbering.at[v[i]];
+            if (owner == no_owner) {
+                p.pieces.push_back({l, first, i, node(v[first]), node(v[i]), length});
+            } else {
+                auto const begin = lines[l].vertices.begin();
+                left.secondary.push_back(
+                    {lines[l].feature,
+                     {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(i) + 1},
+                     "duplicate",
+                     lines[l].feature});
+                left.repairs.push_back({"duplicate", lines[l].feature, numbering.at[v[first]], length,
+                                        fmt::format("river {} repeats river {} for {:.6g} m; that part is left out",
+                                                    lines[l].feature, lines[owner].feature, length)});
+            }
+            if (i + 1 < v.size() && degree[v[i]] > 2) {
+                left.repairs.push_back({"split", lines[l].feature, at, static_cast<double>(degree[v[i]]),
+                                        fmt::format("river {} is divided at ({:.6f}, {:.6f}), where rivers meet",
+                                                    lines[l].feature, at.x, at.y)});
+            }
+        }
+    }
+    for (std::size_t k = 0; k < p.pieces.size(); ++k) {
+        p.at_node[p.pieces[k].from].push_back(k);
+        if (p.pieces[k].to != p.pieces[k].from) {
+            p.at_node[p.pieces[k].to].push_back(k);
+        }
+    }
+    return p;
+}
+
+} // namespace thalweg::network::adopt_steps

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/import/from_file.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/order/internal/require_trees.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+using FileArc = NetworkFile::FileArc;
+
+constexpr char const* remedy = "run thalweg check on the file; its --fix writes a mended copy";
+
+[[noreturn]] void refuse(std::string const& fault) {
+    throw BadInput(fmt::format("network.from_file: {}; {}", fault, remedy));
+}
+
+/// Places of the items in ascending order of their ids. Throws where an id repeats.
+template <class Item> std::vector<std::size_t> by_id(std::vector<Item> const& items, char const* noun) {
+    std::vector<std::size_t> order(items.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        order[i] = i;
+    }
+    std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(items[i].id, i); });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        if (items[order[i]].id == items[order[i - 1]].id) {
+            refuse(fmt::format("several {}s have the id {}", noun, items[order[i]].id));
+        }
+    }
+    return order;
+}
+
+/// The nodes of a file: their numbers, and which they are by their ids.
+class Nodes {
+public:
+    explicit Nodes(NetworkFile const& file)
+        : file_(file), sorted_(by_id(file.nodes, "node")), number_(sorted_.size()), order_(sorted_) {
+        for (std::size_t i = 0; i < number_.size(); ++i) {
+            number_[i] = i;
+        }
+    }
+
+    /// Places of the nodes in the file, in the order of their numbers.
+    std::vector<std::size_t> const& order() const { return order_; }
+    /// The number of the node that an end of an arc names.
+    NodeId of(std::int64_t id, FileArc const& arc) const { return number_[place_of(id, arc)]; }
+
+    /// Numbers nodes as the arcs come to name them: ids that were made for places follow the order of features, which
+    /// is the format's own affair.
+    void number_by(std::vector<std::size_t> const& arcs) {
+        constexpr auto none = static_cast<std::size_t>(-1);
+        std::vector<std::size_t> number(sorted_.size(), none);
+        std::vector<std::size_t> order;
+        auto const name = [&](std::size_t place) {
+            if (number[place] == none) {
+                number[place] = order.size();
+                order.push_back(sorted_[place]);
+            }
+        };
+        for (std::size_t const i : arcs) {
+            name(place_of(file_.arcs[i].from_node, file_.arcs[i]));
+            name(place_of(file_.arcs[i].to_node, file_.arcs[i]));
+        }
+        for (std::size_t place = 0; place < sorted_.size(); ++place) {
+            name(place);
+        }
+        number_ = std::move(number);
+        order_ = std::move(order);
+    }
+
+private:
+    /// The place of an id among all, sorted.
+    std::size_t place_of(std::int64_t id, FileArc const& arc) const {
+        auto const at = std::ranges::lower_bound(sorted_, id, {}, [&](std::size_t i) { return file_.nodes[i].id; });
+        if (at == sorted_.end() || file_.nodes[*at].id != id) {
+            refuse(fmt::format("arc {} names node {}, which is missing", arc.id, id));
+        }
+        return static_cast<std::size_t>(at - sorted_.begin());
+    }
+
+    NetworkFile const& file_;
+    std::vector<std::size_t> sorted_; ///< nodes of the file by their ids
+    std::vector<std::size_t> number_; ///< of the node at a place in sorted_
+    std::vector<std::size_t> order_;  ///< nodes of the file by their numbers
+};
+
+void require_line(FileArc const& arc, bool heights) {
+    double length = 0.0;
+    for (std::size_t i = 0; i < arc.line.size(); ++i) {
+        Vec3 const p = arc.line[i];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || (heights && !std::isfinite(p.z))) {
+            refuse(fmt::format("vertex {} of arc {} is ({}, {}, {})", i + 1, arc.id, p.x, p.y, p.z));
+        }
+        length += i > 0 ? distance({arc.line[i - 1].x, arc.line[i - 1].y}, {p.x, p.y}) : 0.0;
+    }
+    if (!(length > 0.0)) {
+        refuse(fmt::format("arc {} has no length", arc.id));
+    }
+}
+
+void require_end(FileArc const& arc, NetworkFile::FileNode const& node, Vec3 end, bool own_height) {
+    bool const meets = end.x == node.at.x && end.y == node.at.y && (!own_height || end.z == node.at.z);
+    if (!meets) {
+        refuse(fmt::format("arc {} ends at ({}, {}, {}) but its node {} is at ({}, {}, {})", arc.id, end.x, end.y,
+                           end.z, node.id, node.at.x, node.at.y, node.at.z));
+    }
+}
+
+/// That the arcs downstream are those which the file says.
+void require_downstream(NetworkFile const& file, std::vector<std::size_t> const& order, NetworkIndex const& index) {
+    for (std::size_t a = 0; a < order.size(); ++a) {
+        std::int64_t const below = index.out[index.to[a]];
+        std::int64_t const id = below < 0 ? 0 : file.arcs[order[static_cast<std::size_t>(below)]].id;
+        if (FileArc const& arc = file.arcs[order[a]]; arc.ds_arc != id) {
+            refuse(fmt::format("arc {} says that {} is downstream of it, but its node {} leads to {}", arc.id,
+                               arc.ds_arc, arc.to_node, id));
+        }
+    }
+}
+
+} // namespace
+
+FileNetwork from_file(NetworkFile const& file) {
+    if (file.arcs.empty()) {
+        throw BadInput("network.from_file: the file holds no arcs: is it the right layer?");
+    }
+    bool const heights = file.says.heights;
+    Nodes nodes(file);
+    std::vector<std::size_t> const order = by_id(file.arcs, "arc");
+    if (!file.says.ends) {
+        nodes.number_by(order);
+    }
+    FileNetwork made;
+    StreamNetwork& plan = made.network.plan;
+    for (std::size_t const i : nodes.order()) {
+        Vec3 const at = file.nodes[i].at;
+        boost::add_vertex(Node{{at.x, at.y}}, plan);
+        made.network.node_z.push_back(heights ? at.z : std::numeric_limits<double>::quiet_NaN());
+    }
+    for (std::size_t const i : order) {
+        FileArc const& arc = file.arcs[i];
+        require_line(arc, heights);
+        NodeId const from = nodes.of(arc.from_node, arc);
+        NodeId const to = nodes.of(arc.to_node, arc);
+        bool const own_height = heights && file.says.nodes;
+        require_end(arc, file.nodes[nodes.order()[from]], arc.line.front(), own_height);
+        require_end(arc, file.nodes[nodes.order()[to]], arc.line.back(), own_height);
+        Arc drawn{{}, arc.survives, arc.feature, arc.type, arc.given};
+        std::vector<double> z;
+        for (Vec3 const p : arc.line) {
+            drawn.line.push_back({p.x, p.y});
+            z.push_back(heights ? p.z : std::numeric_limits<double>::quiet_NaN());
+        }
+        z.front() = made.network.node_z[from];
+        z.back() = made.network.node_z[to];
+        add_arc(plan, from, to, std::move(drawn));
+        made.network.arc_z.push_back(std::move(z));
+        made.us_area_m2.push_back(arc.us_area_m2);
+        made.ds_area_m2.push_back(arc.ds_area_m2);
+        made.braided.push_back(arc.braided ? 1 : 0);
+        made.arc_ids.push_back(arc.id);
+        made.records.push_back(arc.record);
+    }
+    NetworkIndex const index(plan);
+    for (std::size_t a = 0; a < order.size(); ++a) {
+        FileArc const& arc = file.arcs[order[a]];
+        bool const is_whole = arc.sources.empty() && arc.feature != 0;
+        made.stretches.push_back(is_whole ? std::vector<Stretch>{{arc.feature, 0.0, index.length_m[a]}} : arc.sources);
+    }
+    for (NodeId n = 0; n < index.out.size(); ++n) {
+        if (index.out[n] < 0 && index.in[n].empty()) {
+            refuse(fmt::format("node {} at ({}, {}) has no arc", file.nodes[nodes.order()[n]].id, plan[n].at.x,
+                               plan[n].at.y));
+        }
+    }
+    try {
+        require_trees(plan, index, "network.from_file");
+    } catch (BadInput const& fault) {
+        throw BadInput(fmt::format("{}: {}; {}", fault.where(), fault.what(), remedy));
+    }
+    if (file.says.downstream) {
+        require_downstream(file, order, index);
+    }
+    return made;
+}
+
+} // namespace thalweg::network

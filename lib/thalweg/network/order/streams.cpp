@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/order/streams.hpp>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/order/internal/require_trees.hpp>
+
+namespace thalweg::network {
+
+std::vector<std::int64_t> streams(StreamNetwork const& network, NetworkOrders const& orders) {
+    NetworkIndex const index(network);
+    require_trees(network, index, "network.streams");
+    std::size_t const arcs = index.arcs.size();
+    if (orders.strahler.size() != arcs) {
+        throw BadInput(
+            fmt::format("network.streams: {} orders for {} arcs; order this network", orders.strahler.size(), arcs));
+    }
+    std::vector<std::size_t> mouth(arcs); // the last arc of the stream
+    for (NodeId const n : index.upstream_order) {
+        if (std::int64_t const out = index.out[n]; out >= 0) {
+            auto const a = static_cast<std::size_t>(out);
+            std::int64_t const below = index.out[index.to[a]];
+            auto const b = static_cast<std::size_t>(below);
+            mouth[a] = below >= 0 && orders.strahler[b] == orders.strahler[a] ? mouth[b] : a;
+        }
+    }
+    std::vector<std::int64_t> number(arcs, 0);
+    std::int64_t count = 0;
+    for (std::size_t a = 0; a < arcs; ++a) {
+        if (mouth[a] == a) {
+            number[a] = ++count;
+        }
+    }
+    std::vector<std::int64_t> labels;
+    for (std::size_t a = 0; a < arcs; ++a) {
+        labels.push_back(number[mouth[a]]);
+    }
+    return labels;
+}
+
+} // namespace thalweg::network

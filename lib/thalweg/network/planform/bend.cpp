@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/planform/internal/bend.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+constexpr std::uint64_t stage_plain = 0x6265'6e64;                // "bend"
+constexpr std::uint64_t stage_river = 0x7761'6e64;                // "wand"
+constexpr double floor_cells = 0.08;                              // width of a valley floor over area ^ 0.4 (cells)
+constexpr double wave_widths = 12.0;                              // a wave over the width
+constexpr double shortest_wave = 10.0;                            // [cells]
+constexpr double amplitude = 0.16;                                // of a wave
+constexpr std::array<double, 3> long_waves = {160.0, 72.0, 32.0}; // [cells]
+constexpr std::uint64_t waves_each = 4;
+constexpr double shear = 0.22;  // slope of one wave
+constexpr double margin = 24.0; // [cells] in which the plain's waves fade
+
+double smooth_step(double t) {
+    double const u = std::clamp(t, 0.0, 1.0);
+    return u * u * (3.0 - 2.0 * u);
+}
+
+Vec2 plus(Vec2 a, Vec2 b) {
+    return {a.x + b.x, a.y + b.y};
+}
+
+/// A wave that moves places along its crests: it shears, and leaves areas as they are.
+struct Wave {
+    Vec2 across; ///< unit vector
+    double number = 0.0;
+    double phase = 0.0;
+    double amplitude = 0.0;
+};
+
+std::vector<Wave> waves_of(Grid const& grid, double gain, std::uint64_t seed) {
+    std::vector<Wave> out;
+    auto const least = static_cast<double>(std::min(grid.width, grid.height));
+    for (double const cells : long_waves) {
+        double const wave = std::min(cells, 0.5 * least) * grid.cell_m;
+        for (std::uint64_t k = 0; k < waves_each; ++k) {
+            auto const words = chance_block(seed, stage_plain, static_cast<std::uint64_t>(cells), k);
+            double const way = 2.0 * exact::pi * unit(words[0]);
+            out.push_back({{exact::cos(way), exact::sin(way)},
+                           2.0 * exact::pi / wave,
+                           2.0 * exact::pi * unit(words[1]),
+                           gain * shear * wave / (2.0 * exact::pi)});
+        }
+    }
+    return out;
+}
+
+/// A raster's value at a place, linear between the middles of cells.
+double between_cells(Raster<std::uint8_t> const& raster, Vec2 p) {
+    Grid const& grid = raster.grid();
+    double const x = (p.x - grid.west) / grid.cell_m - 0.5;
+    double const y = (grid.north - p.y) / grid.cell_m - 0.5;
+    double const col = std::floor(x);
+    double const row = std::floor(y);
+    auto const corner = [&](double dx, double dy) {
+        Cell const c{std::clamp<std::int64_t>(static_cast<std::int64_t>(col + dx), 0, grid.width - 1),
+                     std::clamp<std::int64_t>(static_cast<std::int64_t>(row + dy), 0, grid.height - 1)};
+        return static_cast<double>(raster[c]);
+    };
+    double const north = corner(0.0, 0.0) * (1.0 - (x - col)) + corner(1.0, 0.0) * (x - col);
+    double const south = corner(0.0, 1.0) * (1.0 - (x - col)) + corner(1.0, 1.0) * (x - col);
+    return north * (1.0 - (y - row)) + south * (y - row);
+}
+
+/// A river's points, and what is made of them.
+struct River {
+    std::size_t begin;
+    std::size_t end;
+    std::vector<double> const& way_m;
+
+    /// The first point, and the one after the last, within a reach of a place along the river.
+    std::size_t first(double way) const {
+        auto const at = static_cast<std::ptrdiff_t>(begin);
+        return static_cast<std::size_t>(
+            std::lower_bound(way_m.begin() + at, way_m.begin() + static_cast<std::ptrdiff_t>(end), way) -
+            way_m.begin());
+    }
+};
+
+/// Length of river that each point stands for [m].
+std::vector<double> weights(Stems const& stems) {
+    std::vector<double> out(stems.at.size(), 0.0);
+    for (Stem const& stem : stems.stems) {
+        for (std::size_t i = stem.begin + 1; i < stem.end; ++i) {
+            double const half = 0.5 * (stems.way_m[i] - stems.way_m[i - 1]);
+            out[i - 1] += half;
+            out[i] += half;
+        }
+    }
+    return out;
+}
+
+/// The weighted mean of values within a reach of a point, as parabolas fall off; the reach is less near the ends, so
+/// that these stay.
+template <class Value>
+void mean_near(Stem const& stem, std::vector<double> const& way_m, std::vector<double> const& weight, std::size_t i,
+               double reach, Value add) {
+    double const way = way_m[i];
+    double const within = std::min({reach, way - way_m[stem.begin], way_m[stem.end - 1] - way});
+    River const river{stem.begin, stem.end, way_m};
+    double sum = 0.0;
+    std::size_t const first = river.first(way - within);
+    std::size_t last = first;
+    for (; last < stem.end && way_m[last] <= way + within; ++last) {
+        double const t = within > 0.0 ? (way_m[last] - way) / within : 0.0;
+        sum += weight[last] * (1.0 - t * t);
+    }
+    if (!(sum > 0.0)) {
+        add(i, 1.0);
+        return;
+    }
+    for (std::size_t j = first; j < last; ++j) {
+        double const t = within > 0.0 ? (way_m[j] - way) / within : 0.0;
+        add(j, weight[j] * (1.0 - t * t) / sum);
+    }
+}
+
+/// Half waves along a river: extremes of chance size that mostly take turns, joined smoothly.
+double noise(double half_waves, std::uint64_t seed, std::uint64_t river) {
+    constexpr double takes_turns = 0.8;
+    auto const extreme = [&](std::uint64_t k) {
+        auto const words = chance_block(seed, stage_river, river, k);
+        double const size = 0.35 + 0.65 * unit(words[0]);
+        bool const odd = (k % 2 == 1) != (unit(words[1]) > takes_turns);
+        return odd ? -size : size;
+    };
+    double const floor = std::floor(half_waves);
+    auto const k = static_cast<std::uint64_t>(floor);
+    double const a = extreme(k);
+    return a + (extreme(k + 1) - a) * smooth_step(half_waves - floor);
+}
+
+/// By point the wavelength of its river [m].
+std::vector<double> wavelengths(Stems const& stems, std::vector<double> const& weight, double cell_m) {
+    std::vector<double> own;
+    for (double const area_m2 : stems.area_m2) {
+        double const cells = std::max(area_m2 / (cell_m * cell_m), 1.0);
+        own.push_back(cell_m * std::max(shortest_wave, wave_widths * floor_cells * exact::pow(cells, 0.4)));
+    }
+    std::vector<double> out(own.size(), 0.0);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        mean_near(stems.stems[stems.stem_of[i]], stems.way_m, weight, i, own[i],
+                  [&](std::size_t j, double share) { out[i] += share * own[j]; });
+    }
+    return out;
+}
+
+/// Unit vector to the left of a river, as it runs a quarter wave up and down from a point.
+Vec2 across(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2> const& at, std::size_t i,
+            double reach) {
+    River const river{stem.begin, stem.end, way_m};
+    std::size_t const last = stem.end - 1;
+    std::size_t const up = std::min(river.first(way_m[i] - reach), i > stem.begin ? i - 1 : i);
+    std::size_t const down = std::max(std::min(river.first(way_m[i] + reach), last), std::min(i + 1, last));
+    double const length = distance(at[up], at[down]);
+    if (!(length > 0.0)) {
+        return {};
+    }
+    return {-(at[down].y - at[up].y) / length, (at[down].x - at[up].x) / length};
+}
+
+} // namespace
+
+Raster<std::uint8_t> distance_to_fixed(StreamNetwork const& network, NetworkIndex const& index, Grid const& grid,
+                                       Mask const& land) {
+    auto const far = static_cast<std::uint8_t>(margin);
+    Raster<std::uint8_t> out(grid, far);
+    std::vector<std::int64_t> front;
+    auto const fix = [&](Cell c) {
+        if (grid.contains(c) && out[c] != 0) {
+            out[c] = 0;
+            front.push_back(grid.index(c));
+        }
+    };
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        if (land[i] == 0) {
+            fix(grid.at(i));
+        }
+    }
+    for (NodeId const outlet : index.outlets) {
+        Cell const at = grid.cell_of(network[outlet].at);
+        fix(at);
+        for (Cell const step : d8_steps) {
+            fix({at.col + step.col, at.row + step.row});
+        }
+    }
+    for (std::size_t k = 0; k < front.size(); ++k) { // breadth first
+        Cell const c = grid.at(front[k]);
+        auto const next = static_cast<std::uint8_t>(out[c] + 1);
+        for (Cell const step : d8_steps) {
+            Cell const n{c.col + step.col, c.row + step.row};
+            if (grid.contains(n) && next < out[n]) {
+                out[n] = next;
+                front.push_back(grid.index(n));
+            }
+        }
+    }
+    return out;
+}
+
+std::vector<Vec2> bend_plain(std::vector<Vec2> at, Raster<std::uint8_t> const& to_fixed, double gain,
+                             std::uint64_t seed) {
+    if (!(gain > 0.0)) {
+        return at;
+    }
+    Grid const& grid = to_fixed.grid();
+    std::vector<Wave> const waves = waves_of(grid, gain, seed);
+    for (Vec2& p : at) {
+        double const inside = std::min({p.x - grid.west, grid.east() - p.x, grid.north - p.y, p.y - grid.south()});
+        double const fades =
+            smooth_step(inside / (margin * grid.cell_m)) * smooth_step(between_cells(to_fixed, p) / margin);
+        Vec2 shift;
+        for (Wave const& wave : waves) {
+            double const along = (p.x - grid.west) * wave.across.x + (grid.north - p.y) * wave.across.y;
+            double const by = fades * wave.amplitude * exact::sin(wave.number * along + wave.phase);
+            shift = plus(shift, {by * wave.across.y, by * wave.across.x}); // y grows to the north
+        }
+        p = plus(p, shift);
+    }
+    return at;
+}
+
+std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, double cell_m, Rounding rounding) {
+    std::vector<double> const weight = weights(stems);
+    std::vector<double> const wave_m = wavelengths(stems, weight, cell_m);
+    std::vector<Vec2> out(at.size());
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        double const reach = rounding == Rounding::river ? 2.5 * cell_m + 0.1 * wave_m[i] : 2.0 * cell_m;
+        Vec2 mean;
+        mean_near(stems.stems[stems.stem_of[i]], stems.way_m, weight, i, reach, [&](std::size_t j, double share) {
+            mean = {mean.x + share * at[j].x, mean.y + share * at[j].y};
+        });
+        double const far = distance(mean, at[i]);
+        double const most = 0.5 * cell_m;
+        double const share = rounding == Rounding::half_a_cell && far > most ? most / far : 1.0;
+        out[i] = {share * (mean.x - at[i].x), share * (mean.y - at[i].y)};
+    }
+    if (rounding == Rounding::half_a_cell) {
+        for (std::size_t const node : stems.node_point) { // what follows a node would move by more
+            out[node] = {};
+        }
+    }
+    return out;
+}
+
+std::vector<Vec2> wander(Stems const& stems, std::vector<Vec2> const& at, double cell_m, double gain,
+                         std::uint64_t seed) {
+    std::vector<double> const wave_m = wavelengths(stems, weights(stems), cell_m);
+    std::vector<Vec2> out(at.size());
+    for (Stem const& stem : stems.stems) {
+        double half_waves = unit(chance(seed, stage_river, stem.source, ~0ULL));
+        double const end_m = stems.way_m[stem.end - 1];
+        for (std::size_t i = stem.begin; i < stem.end; ++i) {
+            double const step = i == stem.begin ? 0.0 : stems.way_m[i] - stems.way_m[i - 1];
+            half_waves += 2.0 * step / wave_m[i];
+            double const fades = smooth_step((end_m - stems.way_m[i]) / (0.5 * wave_m[i]));
+            double const by = fades * gain * amplitude * wave_m[i] * noise(half_waves, seed, stem.source);
+            Vec2 const left = across(stem, stems.way_m, at, i, 0.25 * wave_m[i]);
+            out[i] = {by * left.x, by * left.y};
+        }
+    }
+    return out;
+}
+
+} // namespace thalweg::network

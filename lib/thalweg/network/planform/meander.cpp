@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/planform/meander.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/geometry/meetings.hpp>
+#include <thalweg/network/order/internal/require_trees.hpp>
+#include <thalweg/network/planform/internal/bend.hpp>
+#include <thalweg/network/planform/internal/keep_apart.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+constexpr double eased_reach = 6.0;   // [cells] along a river on either side of where it came too near
+constexpr double smoothed_near = 8.0; // [cells] along a river within which smoothing may bring it nearer to itself
+constexpr int rounds_of_halving = 48;
+
+void check(StreamNetwork const& network, NetworkIndex const& index, Grid const& grid,
+           std::vector<double> const& area_m2, MeanderParams const& params) {
+    if (!(params.gain >= 0.0 && params.gain <= 2.0)) {
+        throw BadParameter(fmt::format("network.meander: gain is {}, it must lie in [0, 2]", params.gain));
+    }
+    if (!(params.gap_cells >= 0.5 && params.gap_cells <= 4.0)) {
+        throw BadParameter(fmt::format("network.meander: gap_cells is {}, it must lie in [0.5, 4]", params.gap_cells));
+    }
+    require_trees(network, index, "network.meander");
+    if (area_m2.size() != index.arcs.size()) {
+        throw BadInput(fmt::format("network.meander: {} areas for {} arcs; give those of this network", area_m2.size(),
+                                   index.arcs.size()));
+    }
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        if (!(area_m2[a] >= 0.0) || !std::isfinite(area_m2[a])) {
+            throw BadInput(
+                fmt::format("network.meander: the area of arc {} is {}; it must be 0 or more", a + 1, area_m2[a]));
+        }
+        if (!(index.length_m[a] > 0.0)) {
+            Vec2 const at = network[index.from[a]].at;
+            throw BadInput(
+                fmt::format("network.meander: arc {} at ({:.3f}, {:.3f}) has no length; remove it", a + 1, at.x, at.y));
+        }
+        cells_of_vertices(network[index.arcs[a]].line, grid, fmt::format("arc {}", a + 1));
+    }
+}
+
+/// Arcs through points, and the point of each vertex.
+struct Lines {
+    std::vector<std::vector<Vec2>> line;
+    std::vector<std::vector<std::size_t>> point;
+};
+
+Lines lines_through(Stems const& stems, NetworkIndex const& index, std::vector<Vec2> const& at) {
+    Lines out;
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        auto& line = out.line.emplace_back();
+        auto& point = out.point.emplace_back();
+        for (std::size_t i = stems.first_point[a]; i <= stems.last_point[a]; ++i) {
+            if (line.empty() || !(line.back() == at[i])) {
+                line.push_back(at[i]);
+                point.push_back(i);
+            }
+        }
+    }
+    return out;
+}
+
+/// Points at which arcs meet though they should not.
+std::vector<std::size_t> meeting_points(Lines const& lines, NetworkIndex const& index, Run const& run) {
+    std::vector<geometry::EndNodes> nodes;
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        nodes.push_back({index.from[a], index.to[a]});
+    }
+    std::vector<std::size_t> found;
+    for (geometry::Meeting const& m : geometry::meetings(lines.line, nodes, run)) {
+        found.push_back(lines.point[m.line][m.segment]);
+        found.push_back(lines.point[m.line][m.segment + 1]);
+        found.push_back(lines.point[m.other][m.other_segment]);
+        found.push_back(lines.point[m.other][m.other_segment + 1]);
+    }
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        if (lines.line[a].size() < 2) { // shrunk to a point
+            found.push_back(lines.point[a].front());
+        }
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+}
+
+/// Points, and with those that have no shift of their own left the place on the larger river that they follow.
+std::vector<std::size_t> with_mouths(Stems const& stems, std::vector<std::size_t> points,
+                                     std::vector<double> const& share) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        Stem const& stem = stems.stems[stems.stem_of[points[k]]];
+        if (stem.joins && share[points[k]] == 0.0) {
+            points.push_back(stems.node_point[stem.mouth]);
+        }
+    }
+    return points;
+}
+
+class Meandering {
+public:
+    Meandering(StreamNetwork const& network, NetworkIndex const& index, Grid const& grid, Mask const& land,
+               std::vector<double> const& area_m2, MeanderParams const& params, Run const& run)
+        : network_(network), index_(index), grid_(grid), land_(land), params_(params), run_(run),
+          to_fixed_(distance_to_fixed(network, index, grid, land)),
+          stems_(stems_of(network, index, area_m2, grid.cell_m)) {}
+
+    Meandered made() {
+        out_.vertices = static_cast<std::int64_t>(stems_.at.size());
+        // Less and less of the plain's waves, then none.
+        for (double const bend : {1.0, 0.5, 0.25, 0.0}) {
+            if (try_with(bend * params_.gain)) {
+                return std::move(out_);
+            }
+        }
+        out_.network = network_; // rivers that touch but for a rounding
+        return std::move(out_);
+    }
+
+private:
+    bool try_with(double bend) {
+        base_ = settled(bend_plain(stems_.at, to_fixed_, bend, params_.seed));
+        if (!is_proven(base_) || went_to_sea()) {
+            return false;
+        }
+        bool const wanders = params_.gain > 0.0;
+        double const cell = grid_.cell_m;
+        move(smoothing(stems_, base_, cell, wanders ? Rounding::river : Rounding::half_a_cell), smoothed_near * cell);
+        if (wanders) {
+            move(wander(stems_, base_, cell, params_.gain, params_.seed), 0.0);
+        }
+        finish(base_);
+        return true;
+    }
+
+    /// Moves the points as far as rivers keep apart; not at all where that does not end.
+    void move(std::vector<Vec2> const& shift, double near_m) {
+        std::vector<double> share(base_.size(), 1.0);
+        for (int round = 0; round < rounds_of_halving; ++round) {
+            run_.check();
+            std::vector<Vec2> at = settled(shifted(stems_, base_, shift, share, grid_.cell_m));
+            std::vector<std::size_t> bad =
+                too_near(stems_, base_, at, grid_, land_, {params_.gap_cells * grid_.cell_m, near_m});
+            if (bad.empty()) {
+                bad = meeting_points(lines_through(stems_, index_, at), index_, run_);
+            }
+            if (bad.empty()) {
+                base_ = std::move(at);
+                return;
+            }
+            ++out_.rounds;
+            std::int64_t const eased = ease(stems_, with_mouths(stems_, bad, share), eased_reach * grid_.cell_m, share);
+            if (eased == 0) {
+                return;
+            }
+            out_.eased += eased;
+        }
+    }
+
+    /// Points as they are written. Those that did not move at all keep every bit.
+    std::vector<Vec2> settled(std::vector<Vec2> at) const {
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            at[i] = at[i] == stems_.at[i] ? at[i] : rounded(at[i]);
+        }
+        return at;
+    }
+
+    bool is_proven(std::vector<Vec2> const& at) const {
+        return meeting_points(lines_through(stems_, index_, at), index_, run_).empty();
+    }
+
+    /// Whether some point on land came to lie in the sea.
+    bool went_to_sea() const {
+        auto const is_sea = [&](Vec2 p) {
+            Cell const c = grid_.cell_of(p);
+            return grid_.contains(c) && land_[c] == 0;
+        };
+        for (std::size_t i = 0; land_.cells() > 0 && i < base_.size(); ++i) {
+            if (is_sea(base_[i]) && !is_sea(stems_.at[i])) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    void finish(std::vector<Vec2> const& at) {
+        Lines lines = lines_through(stems_, index_, at);
+        for (NodeId n = 0; n < index_.out.size(); ++n) {
+            bool const has_arcs = index_.out[n] >= 0 || !index_.in[n].empty();
+            boost::add_vertex(has_arcs ? Node{at[stems_.node_point[n]]} : network_[n], out_.network);
+        }
+        for (std::size_t a = 0; a < index_.arcs.size(); ++a) {
+            Arc arc = network_[index_.arcs[a]];
+            arc.line = std::move(lines.line[a]);
+            add_arc(out_.network, index_.from[a], index_.to[a], std::move(arc));
+        }
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            out_.max_shift_m = std::max(out_.max_shift_m, distance(at[i], stems_.at[i]));
+        }
+    }
+
+    StreamNetwork const& network_;
+    NetworkIndex const& index_;
+    Grid const& grid_;
+    Mask const& land_;
+    MeanderParams const& params_;
+    Run const& run_;
+    Raster<std::uint8_t> to_fixed_;
+    Stems stems_;
+    std::vector<Vec2> base_; ///< by point: as far as it is proven
+    Meandered out_;
+};
+
+void require_apart(StreamNetwork const& network, NetworkIndex const& index, Run const& run) {
+    std::vector<std::vector<Vec2>> lines;
+    std::vector<geometry::EndNodes> nodes;
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        auto& line = lines.emplace_back(network[index.arcs[a]].line);
+        line.erase(std::unique(line.begin(), line.end()), line.end());
+        nodes.push_back({index.from[a], index.to[a]});
+    }
+    auto const found = geometry::meetings(lines, nodes, run);
+    if (!found.empty()) {
+        geometry::Meeting const& m = found.front();
+        throw BadInput(fmt::format("network.meander: arcs {} and {} meet at ({:.3f}, {:.3f}), where no node is; mend "
+                                   "the network first",
+                                   m.line + 1, m.other + 1, m.at.x, m.at.y));
+    }
+}
+
+Meandered wandering(StreamNetwork const& network, Grid const& grid, Mask const& land,
+                    std::vector<double> const& area_m2, MeanderParams const& params, Run const& run) {
+    NetworkIndex const index(network);
+    check(network, index, grid, area_m2, params);
+    if (index.arcs.empty()) {
+        return {network, 0, 0, 0, 0.0};
+    }
+    require_apart(network, index, run);
+    return Meandering(network, index, grid, land, area_m2, params, run).made();
+}
+
+} // namespace
+
+Meandered meander(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
+                  MeanderParams const& params, Run const& run) {
+    return wandering(network, grid, {}, area_m2, params, run);
+}
+
+Meandered meander(StreamNetwork const& network, Mask const& land, std::vector<double> const& area_m2,
+                  MeanderParams const& params, Run const& run) {
+    return wandering(network, land.grid(), land, area_m2, params, run);
+}
+
+} // namespace thalweg::network

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/planform/rotate.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/network/order/internal/require_trees.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+constexpr std::uint64_t turn_stage = 0x7475726e; // "turn"
+
+struct Extent {
+    Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+    void enlarge(Vec2 p) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    Vec2 middle() const { return {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)}; }
+};
+
+/// Calls change for every position in a network.
+template <class Change> void each_position(StreamNetwork& network, Change change) {
+    for (NodeId n = 0; n < boost::num_vertices(network); ++n) {
+        change(network[n].at);
+    }
+    for (auto [e, end] = boost::edges(network); e != end; ++e) {
+        for (Vec2& p : network[*e].line) {
+            change(p);
+        }
+    }
+}
+
+Extent extent_of(StreamNetwork& network) {
+    Extent box;
+    each_position(network, [&](Vec2 const& p) { box.enlarge(p); });
+    return box;
+}
+
+/// The grid around a box of cells where it has no size of its own.
+Grid grid_around(Grid grid, double wide_cells, double high_cells) {
+    double const margin = std::max(2.0, std::ceil(std::max(wide_cells, high_cells) / 20.0));
+    auto const side = [&](double cells) { return static_cast<std::int64_t>(std::ceil(cells + 2.0 * margin)); };
+    grid.width = grid.width > 0 ? grid.width : side(wide_cells);
+    grid.height = grid.height > 0 ? grid.height : side(high_cells);
+    return grid;
+}
+
+} // namespace
+
+double turn_by_chance(std::uint64_t seed) {
+    auto const words = chance_block(seed, turn_stage);
+    double const turn = 12.0 + 21.0 * unit(words[0]);
+    return words[1] % 2 == 0 ? turn : -turn;
+}
+
+Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams const& params) {
+    if (!(params.turn_deg >= -180.0 && params.turn_deg <= 180.0)) {
+        throw BadParameter(fmt::format("network.rotate: turn_deg is {}, it must lie in [-180, 180]", params.turn_deg));
+    }
+    if (boost::num_edges(network) == 0) {
+        throw BadInput("network.rotate: the network has no arcs; trace or read some rivers first");
+    }
+    require_trees(network, NetworkIndex(network), "network.rotate");
+    Rotated out{network, frame};
+    Vec2 const about = extent_of(out.network).middle();
+    double const turn = params.turn_deg / 180.0 * exact::pi;
+    double const c = params.turn_deg == 0.0 ? 1.0 : exact::cos(turn);
+    double const s = params.turn_deg == 0.0 ? 0.0 : exact::sin(turn);
+    each_position(out.network, [&](Vec2& p) {
+        Vec2 const from{p.x - about.x, p.y - about.y};
+        p = {c * from.x - s * from.y, s * from.x + c * from.y};
+    });
+    Extent const box = extent_of(out.network);
+    double const wide = (box.high.x - box.low.x) / frame.cell_m;
+    double const high = (box.high.y - box.low.y) / frame.cell_m;
+    out.grid = grid_around(frame, wide, high);
+    if (wide > static_cast<double>(out.grid.width) || high > static_cast<double>(out.grid.height)) {
+        throw BadInput(
+            fmt::format("network.rotate: the network is {:.1f} x {:.1f} cells when turned by {} degrees, the "
+                        "grid {} x {}; enlarge it, or leave out width and height",
+                        wide, high, params.turn_deg, out.grid.width, out.grid.height));
+    }
+    Vec2 const middle{0.5 * (out.grid.west + out.grid.east()), 0.5 * (out.grid.north + out.grid.south())};
+    each_position(out.network, [&](Vec2& p) {
+        p = {rounded(p.x - box.middle().x + middle.x), rounded(p.y - box.middle().y + middle.y)};
+    });
+    return out;
+}
+
+} // namespace thalweg::network

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/planform/internal/stems.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace thalweg::network {
+
+namespace {
+
+/// By node the arc whose river goes on below it, -1 at sources.
+std::vector<std::int64_t> main_arcs(NetworkIndex const& index, std::vector<double> const& area_m2) {
+    std::vector<std::int64_t> out(index.out.size(), -1);
+    for (NodeId n = 0; n < out.size(); ++n) {
+        for (std::int64_t const a : index.in[n]) {
+            auto const best = static_cast<std::size_t>(std::max<std::int64_t>(out[n], 0));
+            if (out[n] < 0 || area_m2[static_cast<std::size_t>(a)] > area_m2[best]) {
+                out[n] = a;
+            }
+        }
+    }
+    return out;
+}
+
+void add_point(Stems& out, Vec2 at, double area_m2) {
+    bool const first = out.at.size() == out.stems.back().begin;
+    out.way_m.push_back(first ? 0.0 : out.way_m.back() + distance(out.at.back(), at));
+    out.at.push_back(at);
+    out.area_m2.push_back(area_m2);
+    out.stem_of.push_back(out.stems.size() - 1);
+}
+
+/// Adds an arc's points; its first is there already where the stem goes on.
+void add_arc_points(Stems& out, std::vector<Vec2> const& line, double area_m2, double step_m) {
+    if (out.at.size() == out.stems.back().begin) {
+        add_point(out, line.front(), area_m2);
+    }
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        if (line[i] == line[i - 1]) {
+            continue;
+        }
+        // A lattice's diagonal steps stay whole.
+        double const steps = std::ceil(distance(line[i - 1], line[i]) / (1.5 * step_m));
+        for (double k = 1.0; k < steps; k += 1.0) {
+            double const t = k / steps;
+            add_point(
+                out, {line[i - 1].x + (line[i].x - line[i - 1].x) * t, line[i - 1].y + (line[i].y - line[i - 1].y) * t},
+                area_m2);
+        }
+        add_point(out, line[i], area_m2);
+    }
+}
+
+} // namespace
+
+Stems stems_of(StreamNetwork const& network, NetworkIndex const& index, std::vector<double> const& area_m2,
+               double step_m) {
+    Stems out;
+    out.first_point.resize(index.arcs.size());
+    out.last_point.resize(index.arcs.size());
+    out.node_point.resize(index.out.size());
+    std::vector<std::int64_t> const main = main_arcs(index, area_m2);
+    for (NodeId const mouth : index.upstream_order) { // every stem after what it joins
+        bool const is_outlet = index.out[mouth] < 0;
+        std::vector<std::int64_t> arriving = index.in[mouth];
+        std::stable_partition(arriving.begin(), arriving.end(), [&](std::int64_t a) { return a == main[mouth]; });
+        for (std::int64_t const last : arriving) {
+            if (!is_outlet && last == main[mouth]) {
+                continue; // it is the middle of a stem
+            }
+            std::vector<std::size_t> arcs;
+            for (std::int64_t a = last; a >= 0; a = main[index.from[static_cast<std::size_t>(a)]]) {
+                arcs.push_back(static_cast<std::size_t>(a));
+            }
+            std::reverse(arcs.begin(), arcs.end());
+            bool const owns_mouth = is_outlet && last == main[mouth];
+            out.stems.push_back({out.at.size(), 0, index.from[arcs.front()], mouth, !owns_mouth});
+            for (std::size_t const a : arcs) {
+                add_arc_points(out, network[index.arcs[a]].line, area_m2[a], step_m);
+                out.last_point[a] = out.at.size() - 1;
+                out.first_point[a] = a == arcs.front() ? out.stems.back().begin : out.node_point[index.from[a]];
+                out.node_point[index.from[a]] = out.first_point[a];
+                if (a != arcs.back() || owns_mouth) {
+                    out.node_point[index.to[a]] = out.last_point[a];
+                }
+            }
+            out.stems.back().end = out.at.size();
+        }
+    }
+    return out;
+}
+
+} // namespace thalweg::network

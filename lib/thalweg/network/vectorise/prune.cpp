@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/vectorise/prune.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/numbers/index.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/order/internal/require_trees.hpp>
+#include <thalweg/network/vectorise/internal/keep_arcs.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+/// Lengths are counted in whole units of 2^-24 cells a segment: then the sum of the pieces is the length of the merged
+/// arc in any order, and pruning again finds the same lengths. A step between cells is one cell to the unit however
+/// the coordinates are rounded.
+constexpr double units_per_cell = 0x1p24;
+
+using Number = std::int64_t;
+
+std::vector<std::int64_t> lengths_in_units(StreamNetwork const& network, NetworkIndex const& index, double cell_m) {
+    double total_m = 0.0;
+    for (double const length_m : index.length_m) {
+        total_m += length_m;
+    }
+    if (!(total_m / cell_m < 0x1p36)) {
+        throw BadParameter(fmt::format("network.prune: the rivers are {} m long, too long for cells of {} m; give the "
+                                       "cell in metres",
+                                       total_m, cell_m));
+    }
+    std::vector<std::int64_t> units;
+    for (ArcId const arc : index.arcs) {
+        std::vector<Vec2> const& line = network[arc].line;
+        std::int64_t sum = 0;
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            double const cells = distance(line[i - 1], line[i]) / cell_m;
+            sum += static_cast<std::int64_t>(std::floor(cells * units_per_cell + 0.5));
+        }
+        units.push_back(sum);
+    }
+    return units;
+}
+
+/// What is left of the network while leaves are removed. A reach is a maximal chain of the network's arcs, its pieces;
+/// it goes by the number of its most upstream piece.
+class Remains {
+public:
+    Remains(NetworkIndex const& index, std::vector<std::int64_t> units)
+        : units_(std::move(units)), source_(index.from), mouth_(index.to), arriving_(index.out.size(), 0),
+          arriving_xor_(index.out.size(), 0), leaving_(index.out), gone_(units_.size(), 0),
+          next_piece_(units_.size(), -1), last_piece_(units_.size()) {
+        for (Number a = 0; a < static_cast<Number>(units_.size()); ++a) {
+            last_piece_[as_index(a)] = a;
+            ++arriving_[mouth_[as_index(a)]];
+            arriving_xor_[mouth_[as_index(a)]] ^= a;
+        }
+        for (NodeId n = 0; n < arriving_.size(); ++n) {
+            merge_at(n);
+        }
+    }
+
+    Number arcs() const { return static_cast<Number>(units_.size()); }
+    std::int64_t units(Number reach) const { return units_[as_index(reach)]; }
+    NodeId source(Number reach) const { return source_[as_index(reach)]; }
+    /// A reach that still exists and has no river above it.
+    bool is_leaf(Number reach) const { return gone_[as_index(reach)] == 0 && arriving_[source_[as_index(reach)]] == 0; }
+
+    /// Removes a leaf; gives the reach that was merged at its confluence, or -1.
+    Number remove(Number leaf) {
+        NodeId const at = mouth_[as_index(leaf)];
+        gone_[as_index(leaf)] = 1;
+        --arriving_[at];
+        arriving_xor_[at] ^= leaf;
+        return merge_at(at);
+    }
+    template <class F> void each_piece(Number reach, F f) const {
+        for (Number piece = reach; piece >= 0; piece = next_piece_[as_index(piece)]) {
+            f(as_index(piece));
+        }
+    }
+
+private:
+    Number merge_at(NodeId node) {
+        if (arriving_[node] != 1 || leaving_[node] < 0) {
+            return -1;
+        }
+        Number const up = arriving_xor_[node];
+        Number const down = leaving_[node];
+        units_[as_index(up)] += units_[as_index(down)];
+        next_piece_[as_index(last_piece_[as_index(up)])] = down;
+        last_piece_[as_index(up)] = last_piece_[as_index(down)];
+        mouth_[as_index(up)] = mouth_[as_index(down)];
+        arriving_xor_[mouth_[as_index(up)]] ^= up ^ down;
+        leaving_[source_[as_index(up)]] = up;
+        gone_[as_index(down)] = 1;
+        return up;
+    }
+
+    std::vector<std::int64_t> units_;
+    std::vector<NodeId> source_;
+    std::vector<NodeId> mouth_;
+    std::vector<std::int64_t> arriving_; ///< by node: how many reaches end in it
+    std::vector<Number> arriving_xor_;   ///< by node: their numbers, so that the last one left is known
+    std::vector<Number> leaving_;        ///< by node: a reach or piece of one, -1 at an outlet
+    std::vector<std::uint8_t> gone_;
+    std::vector<Number> next_piece_;
+    std::vector<Number> last_piece_;
+};
+
+/// A leaf in the order of removal: shortest first, of equals the northernmost source, then the westernmost.
+struct Leaf {
+    std::int64_t units;
+    double minus_y;
+    double x;
+    Number reach;
+    auto operator<=>(Leaf const&) const = default;
+};
+
+/// The largest L in units at which each arc is kept: the running maximum of the removed lengths.
+std::vector<std::int64_t> survival(StreamNetwork const& network, Remains remains, Run const& run) {
+    std::priority_queue<Leaf, std::vector<Leaf>, std::greater<>> queue;
+    auto const push = [&](Number reach) {
+        Vec2 const at = network[remains.source(reach)].at;
+        queue.push({remains.units(reach), -at.y, at.x, reach});
+    };
+    for (Number a = 0; a < remains.arcs(); ++a) {
+        if (remains.is_leaf(a)) {
+            push(a);
+        }
+    }
+    std::vector<std::int64_t> survives(as_index(remains.arcs()), 0);
+    std::int64_t longest = 0;
+    for (std::int64_t popped = 1; !queue.empty(); ++popped) {
+        if (popped % 65536 == 0) {
+            run.check();
+        }
+        Leaf const leaf = queue.top();
+        queue.pop();
+        if (!remains.is_leaf(leaf.reach) || leaf.units != remains.units(leaf.reach)) {
+            continue;
+        }
+        longest = std::max(longest, leaf.units);
+        remains.each_piece(leaf.reach, [&](std::size_t piece) { survives[piece] = longest; });
+        if (Number const merged = remains.remove(leaf.reach); merged >= 0 && remains.is_leaf(merged)) {
+            push(merged);
+        }
+    }
+    return survives;
+}
+
+/// A number a reader may copy, not above x.
+std::string readable_floor(double x) {
+    double const hundredths = std::floor(x * 100.0) / 100.0;
+    return hundredths > 0.0 ? fmt::format("{}", hundredths) : fmt::format("{}", x);
+}
+
+} // namespace
+
+Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const& run) {
+    if (!(params.length_cells >= 0.0) || !std::isfinite(params.length_cells)) {
+        throw BadParameter(fmt::format("network.prune: length is {} cells; it must be 0 or more", params.length_cells));
+    }
+    if (!(params.cell_m > 0.0) || !std::isfinite(params.cell_m)) {
+        throw BadParameter(fmt::format("network.prune: cell is {} m; it must be above 0", params.cell_m));
+    }
+    NetworkIndex const index(network);
+    require_trees(network, index, "network.prune");
+    if (index.arcs.empty()) {
+        throw BadInput("network.prune: the network has no arcs; trace or read some rivers first");
+    }
+
+    std::vector<std::int64_t> const units = lengths_in_units(network, index, params.cell_m);
+    std::vector<std::int64_t> const survives = survival(network, Remains(index, units), run);
+
+    Pruned pruned;
+    pruned.arcs_before = static_cast<std::int64_t>(index.arcs.size());
+    StreamNetwork with_thresholds = network;
+    NetworkIndex const copy(with_thresholds); // an ArcId points into its own network
+    std::vector<std::uint8_t> kept;
+    for (std::size_t a = 0; a < copy.arcs.size(); ++a) {
+        double const cells = static_cast<double>(survives[a]) / units_per_cell;
+        with_thresholds[copy.arcs[a]].survives = cells;
+        kept.push_back(cells >= params.length_cells ? 1 : 0);
+    }
+    if (std::find(kept.begin(), kept.end(), 1) == kept.end()) {
+        auto const longest = *std::max_element(survives.begin(), survives.end());
+        std::string const most = readable_floor(static_cast<double>(longest) / units_per_cell);
+        throw BadParameter(fmt::format("network.prune: pruning at {} cells removes every arc (the longest is {}). "
+                                       "Try {} or less.",
+                                       params.length_cells, most, most));
+    }
+    // L = 0 leaves a network as it is drawn, with the nodes between its features.
+    pruned.network =
+        params.length_cells > 0.0 ? keep_arcs(with_thresholds, copy, units, kept).network : std::move(with_thresholds);
+    return pruned;
+}
+
+} // namespace thalweg::network

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/vectorise/trace.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+
+namespace thalweg::network {
+
+namespace {
+
+struct Neighbours {
+    std::size_t count = 0;
+    std::array<std::int64_t, 8> number{};
+    std::array<std::uint8_t, 8> diagonal{};
+};
+
+/// The set cells, numbered in ascending order of their index, and who is next to whom.
+class SkeletonGraph {
+public:
+    explicit SkeletonGraph(Mask const& mask) : mask_(mask) {
+        for (std::int64_t row = 0; row < mask.height(); ++row) {
+            row_begin_.push_back(size());
+            auto const values = mask.row(row);
+            for (std::int64_t col = 0; col < mask.width(); ++col) {
+                if (values[static_cast<std::size_t>(col)] != 0) {
+                    cells_.push_back({col, row});
+                }
+            }
+        }
+        row_begin_.push_back(size());
+    }
+
+    std::int64_t size() const { return static_cast<std::int64_t>(cells_.size()); }
+    Cell cell(std::int64_t number) const { return cells_[static_cast<std::size_t>(number)]; }
+
+    /// A diagonal neighbour counts only where neither orthogonal cell between is set.
+    Neighbours neighbours(std::int64_t number) const {
+        Neighbours found;
+        Cell const c = cell(number);
+        for (std::int64_t dr = -1; dr <= 1; ++dr) {
+            for (std::int64_t dc = -1; dc <= 1; ++dc) {
+                bool const diagonal = dr != 0 && dc != 0;
+                if ((dr == 0 && dc == 0) || !set({c.col + dc, c.row + dr}) ||
+                    (diagonal && (set({c.col + dc, c.row}) || set({c.col, c.row + dr})))) {
+                    continue;
+                }
+                found.number[found.count] = number_of({c.col + dc, c.row + dr});
+                found.diagonal[found.count] = diagonal ? 1 : 0;
+                ++found.count;
+            }
+        }
+        return found;
+    }
+
+private:
+    bool set(Cell c) const { return mask_.grid().contains(c) && mask_[c] != 0; }
+    std::int64_t number_of(Cell c) const {
+        auto const begin = cells_.begin() + row_begin_[static_cast<std::size_t>(c.row)];
+        auto const end = cells_.begin() + row_begin_[static_cast<std::size_t>(c.row + 1)];
+        auto const at = std::lower_bound(begin, end, c.col, [](Cell a, std::int64_t col) { return a.col < col; });
+        return at - cells_.begin();
+    }
+
+    Mask const& mask_;
+    std::vector<Cell> cells_;
+    std::vector<std::int64_t> row_begin_;
+};
+
+/// Distance to the outlet in steps of both kinds: equal distances are equal, whatever the order of the steps.
+struct Steps {
+    std::int64_t orthogonal = 0;
+    std::int64_t diagonal = 0;
+    double cells() const {
+        constexpr double sqrt2 = 1.41421356237309504880;
+        return static_cast<double>(orthogonal) + static_cast<double>(diagonal) * sqrt2;
+    }
+};
+
+/// A position in cells from the north-west, to 2^-16 of a cell: cells that are equally far stay so however the
+/// coordinates in metres are rounded.
+Vec2 in_cells(Grid const& grid, Vec2 p) {
+    auto const rounded = [](double cells) { return std::floor(cells * 65536.0 + 0.5) / 65536.0; };
+    return {rounded((p.x - grid.west) / grid.cell_m), rounded((grid.north - p.y) / grid.cell_m)};
+}
+
+/// The cell of number `start`'s component nearest to the mouth [cells]; marks the component as seen.
+std::int64_t outlet_of(std::int64_t start, SkeletonGraph const& graph, Vec2 mouth, std::vector<std::uint8_t>& seen) {
+    std::int64_t best = start;
+    double best_distance = std::numeric_limits<double>::infinity();
+    std::vector<std::int64_t> open{start};
+    seen[static_cast<std::size_t>(start)] = 1;
+    while (!open.empty()) {
+        std::int64_t const u = open.back();
+        open.pop_back();
+        Cell const c = graph.cell(u);
+        double const d = distance({static_cast<double>(c.col) + 0.5, static_cast<double>(c.row) + 0.5}, mouth);
+        if (d < best_distance || (d == best_distance && u < best)) {
+            best = u;
+            best_distance = d;
+        }
+        Neighbours const near = graph.neighbours(u);
+        for (std::size_t k = 0; k < near.count; ++k) {
+            if (std::uint8_t& mark = seen[static_cast<std::size_t>(near.number[k])]; mark == 0) {
+                mark = 1;
+                open.push_back(near.number[k]);
+            }
+        }
+    }
+    return best;
+}
+
+/// Sets the cell downstream of every cell that reaches the outlet (Dijkstra; of equal ways the lower cell).
+void drain_to(std::int64_t outlet, SkeletonGraph const& graph, std::vector<std::int64_t>& downstream,
+              std::vector<Steps>& steps, Run const& run) {
+    using Entry = std::pair<double, std::int64_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    queue.emplace(0.0, outlet);
+    downstream[static_cast<std::size_t>(outlet)] = outlet;
+    for (std::int64_t popped = 1; !queue.empty(); ++popped) {
+        auto const [at, u] = queue.top();
+        queue.pop();
+        if (popped % 65536 == 0) {
+            run.check();
+        }
+        Steps const here = steps[static_cast<std::size_t>(u)];
+        if (at > here.cells()) {
+            continue;
+        }
+        Neighbours const near = graph.neighbours(u);
+        for (std::size_t k = 0; k < near.count; ++k) {
+            std::int64_t const v = near.number[k];
+            Steps const there{here.orthogonal + 1 - near.diagonal[k], here.diagonal + near.diagonal[k]};
+            std::int64_t& parent = downstream[static_cast<std::size_t>(v)];
+            Steps& known = steps[static_cast<std::size_t>(v)];
+            if (parent < 0 || there.cells() < known.cells()) {
+                parent = u;
+                known = there;
+                queue.emplace(there.cells(), v);
+            } else if (there.cells() == known.cells() && u < parent) {
+                parent = u;
+            }
+        }
+    }
+}
+
+} // namespace
+
+StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& run) {
+    if (!std::isfinite(params.mouth.x) || !std::isfinite(params.mouth.y)) {
+        throw BadParameter("network.trace: the mouth is not a finite position; give it in metres");
+    }
+    SkeletonGraph const graph(skeleton);
+    Grid const& grid = skeleton.grid();
+    std::int64_t const count = graph.size();
+    if (count == 0) {
+        throw BadInput("network.trace: the skeleton is empty; grow a larger cluster or choose another branch");
+    }
+
+    Vec2 const mouth = in_cells(grid, params.mouth);
+    auto const cells = static_cast<std::size_t>(count);
+    std::vector<std::uint8_t> seen(cells, 0);
+    std::vector<std::int64_t> downstream(cells, -1);
+    std::vector<Steps> steps(cells);
+    for (std::int64_t i = 0; i < count; ++i) {
+        if (seen[static_cast<std::size_t>(i)] == 0) {
+            run.check();
+            drain_to(outlet_of(i, graph, mouth, seen), graph, downstream, steps, run);
+        }
+    }
+
+    std::vector<std::uint8_t> upstream(cells, 0);
+    for (std::size_t i = 0; i < cells; ++i) {
+        if (auto const down = static_cast<std::size_t>(downstream[i]); down != i) {
+            ++upstream[down];
+        }
+    }
+    StreamNetwork network;
+    std::vector<std::int64_t> node(cells, -1);
+    for (std::size_t i = 0; i < cells; ++i) {
+        bool const outlet = downstream[i] == static_cast<std::int64_t>(i);
+        if (outlet ? upstream[i] > 0 : upstream[i] != 1) {
+            Vec2 const at = grid.centre(graph.cell(static_cast<std::int64_t>(i)));
+            node[i] = static_cast<std::int64_t>(boost::add_vertex(Node{at}, network));
+        }
+    }
+    for (std::size_t i = 0; i < cells; ++i) {
+        if (node[i] < 0 || downstream[i] == static_cast<std::int64_t>(i)) {
+            continue;
+        }
+        Arc arc;
+        arc.line.push_back(grid.centre(graph.cell(static_cast<std::int64_t>(i))));
+        std::size_t at = i;
+        do {
+            at = static_cast<std::size_t>(downstream[at]);
+            arc.line.push_back(grid.centre(graph.cell(static_cast<std::int64_t>(at))));
+        } while (node[at] < 0);
+        add_arc(network, static_cast<NodeId>(node[i]), static_cast<NodeId>(node[at]), std::move(arc));
+    }
+    if (boost::num_edges(network) == 0) {
+        throw BadInput(fmt::format("network.trace: no two of the skeleton's {} cells are neighbours, there is nothing "
+                                   "to trace; grow a larger cluster or choose another branch",
+                                   count));
+    }
+    return network;
+}
+
+} // namespace thalweg::network

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/stream_network.hpp>
+
+namespace thalweg::network {
+
+struct TraceParams {
+    Vec2 mouth; ///< [m] each component drains to its cell nearest to this point (ties: lower cell index); rounded to
+                ///< 2^-16 of a cell
+};
+
+/// Traces a skeleton into a network of arcs.
+/// Takes: a skeleton; a diagonal step counts only where neither orthogonal cell between is set (m-adjacency).
+/// Gives: the shortest-path tree from the outlet cell (steps 1 and sqrt 2, ties by cell index): nodes are outlets and
+/// cells with no or several cells upstream, arcs the paths between, with one vertex in each cell's centre; nodes and
+/// arcs are numbered by cell index (arcs by that of their upstream end). A component of one cell is left out.
+/// Throws: BadInput for a skeleton without two neighbouring cells; BadParameter for a mouth that is no position.
+/// Source: paper 000, section 3.2; specification 0.2.
+StreamNetwork trace(Mask const& skeleton, TraceParams const& params = {}, Run const& run = {});
+
+} // namespace thalweg::network

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/commands/check_files.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/io/network/write_findings.hpp>
+#include <thalweg/io/network/write_network.hpp>
+#include <thalweg/measure/topology/topology.hpp>
+#include <thalweg/pipeline/commands/internal/append.hpp>
+#include <thalweg/pipeline/commands/internal/certify_files.hpp>
+#include <thalweg/pipeline/commands/internal/mend_network.hpp>
+#include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+
+namespace thalweg::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A file to be written, or the files of two shapefiles, which appear together.
+class CheckOutput {
+public:
+    CheckOutput(std::string const& path, char const* option, bool may_be_shapefile, CheckJob const& job)
+        : folder_(fs::path(path).has_parent_path() ? fs::path(path).parent_path().string() : "."),
+          stem_(fs::path(path).stem().string()) {
+        std::string const ending = fs::path(path).extension().string();
+        if (ending == ".gpkg") {
+            names_ = {stem_ + ending};
+        } else if (ending == ".shp" && may_be_shapefile) {
+            if (stem_.ends_with("_arcs")) {
+                stem_.resize(stem_.size() - std::string("_arcs").size());
+            }
+            for (char const* const layer : {"_arcs", "_nodes"}) {
+                for (char const* const part : {".shp", ".shx", ".dbf", ".prj", ".cpg"}) {
+                    names_.push_back(stem_ + layer + part);
+                }
+            }
+        } else {
+            throw BadParameter(fmt::format("pipeline.check_files: {} {}: it must end in {}", option, path,
+                                           may_be_shapefile ? ".gpkg or .shp" : ".gpkg"));
+        }
+        refuse_present(option, job);
+    }
+
+    bool is_shapefile() const { return names_.size() > 1; }
+
+    /// Calls write(path), of a shapefile without its ending; then puts what it wrote in place. Gives what is there now.
+    template <class Write> std::vector<std::string> put(Write const& write) const {
+        io::OutputFolder folder(folder_, fs::exists(folder_) ? io::Existing::add : io::Existing::refuse, present_);
+        write(folder.path(is_shapefile() ? stem_ : names_.front()));
+        std::vector<std::string> written;
+        for (std::string const& name : folder.files()) {
+            written.push_back((fs::path(folder_) / name).lexically_normal().string());
+        }
+        folder.commit();
+        return written;
+    }
+
+private:
+    void refuse_present(char const* option, CheckJob const& job) {
+        std::error_code error;
+        fs::path const input = job.network;
+        for (std::string const& name : names_) {
+            fs::path const file = (fs::path(folder_) / name).lexically_normal();
+            if (!fs::exists(file, error)) {
+                continue;
+            }
+            bool const in_input = fs::is_directory(input, error) && fs::equivalent(folder_, input, error);
+            bool const of_input = input.has_filename() && fs::exists(input, error) &&
+                                  fs::equivalent(folder_, input.parent_path() / ".", error) &&
+                                  stem_of(file) == stem_of(input);
+            if (fs::equivalent(file, input, error) || in_input || of_input) {
+                throw BadParameter(fmt::format(
+                    "pipeline.check_files: {} {}: the input is not touched; name another file", option, file.string()));
+            }
+            if (!job.overwrite) {
+                throw BadInput(fmt::format("pipeline.check_files: {} {}: it exists; --overwrite replaces it", option,
+                                           file.string()));
+            }
+            present_.push_back(name);
+        }
+    }
+    /// Of a network: arcs and nodes are two files of one.
+    static std::string stem_of(fs::path const& file) {
+        std::string stem = file.stem().string();
+        for (std::string const layer : {"_arcs", "_nodes"}) {
+            if (stem.ends_with(layer)) {
+                stem.resize(stem.size() - layer.size());
+            }
+        }
+        return stem;
+    }
+
+    std::string folder_;
+    std::string stem_;
+    std::vector<std::string> names_ = {};
+    std::vector<std::string> present_ = {};
+};
+
+void write_copy(MendedNetwork const& mended, NetworkFile const& file, CheckOutput const& output, CheckedFiles& checked,
+                Run const& run) {
+    io::NetworkTables const tables{mended.network,
+                                   mended.orders,
+                                   mended.us_area_m2,
+                                   mended.ds_area_m2,
+                                   mended.node_area_m2,
+                                   file.crs,
+                                   {{"version", version()}, {"mended", std::to_string(mended.mended.size())}},
+                                   &mended.braided,
+                                   nullptr,
+                                   &mended.secondary,
+                                   &mended.user,
+                                   HeightUnit::metre,
+                                   true,
+                                   sinks_in(mended.network.plan, file)};
+    if (output.is_shapefile()) {
+        for (io::ShortenedName const& one : io::shortened_names(tables)) {
+            checked.notes.push_back({"shortened_field",
+                                     0,
+                                     {},
+                                     1.0,
+                                     fmt::format("field {} is {} in the shapefile", one.name, one.in_shapefile)});
+        }
+    }
+    append(checked.written, output.put([&](std::string const& path) {
+        output.is_shapefile() ? io::write_shapefiles(tables, path, run) : io::write_geopackage(tables, path, run);
+    }));
+}
+
+/// What a folder that make wrote tells about its rivers in rasters; nothing of other networks.
+RiverRasters rasters_beside(std::string const& network) {
+    auto const beside = [&](char const* name) {
+        std::string const path = (fs::path(network) / name).string();
+        std::error_code ignored;
+        return fs::is_regular_file(path, ignored) ? path : std::string();
+    };
+    std::string const recipe = beside("recipe.toml");
+    if (recipe.empty()) {
+        return {};
+    }
+    RiverRasters rasters{beside("network.tif"), beside("lakes.tif"), false};
+    try {
+        rasters.waive = replaces_rivers(read_recipe(io::read_text(recipe, 2 << 20), recipe));
+    } catch (Error const&) { // not a recipe of ours: every cell counts
+        return {};
+    }
+    return rasters;
+}
+
+/// Whether it is plain where each arc runs and what it runs into.
+bool has_direction(measure::TopologyReport const& topology) {
+    return std::none_of(topology.findings.begin(), topology.findings.end(), [](Finding const& f) {
+        return f.kind == "cycle" || f.kind == "duplicate_arc_id" || f.kind == "nan";
+    });
+}
+
+} // namespace
+
+bool CheckedFiles::ok() const {
+    return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
+}
+
+CheckedFiles check_files(CheckJob const& job, Run const& run) {
+    std::vector<CheckOutput> fix;
+    if (!job.fix.empty()) {
+        fix.emplace_back(job.fix, "--fix", true, job);
+    }
+    std::vector<CheckOutput> layer;
+    if (!job.findings.empty()) {
+        layer.emplace_back(job.findings, "--findings", false, job);
+    }
+    io::ReadNetworkParams read = job.read;
+    read.any_lines = !job.fix.empty();
+    NetworkFile const network = io::read_network(job.network, read, run);
+    CheckedFiles checked;
+    checked.arcs = static_cast<std::int64_t>(network.arcs.size());
+    checked.nodes = static_cast<std::int64_t>(network.nodes.size());
+    checked.schema = network.schema;
+    checked.notes = network.findings;
+
+    measure::TopologyReport const topology = measure::check_topology(network, {job.near_m}, run);
+    append(checked.checks, topology.checks);
+    append(checked.findings, topology.findings);
+
+    if (!job.dem.empty() && has_direction(topology)) {
+        RiverRasters const rasters = rasters_beside(job.network);
+        checked.certificate = certify_files(network, job.dem, rasters, run);
+        if (checked.certificate->waived_cells > 0) {
+            checked.notes.push_back({"not_honoured",
+                                     0,
+                                     {},
+                                     static_cast<double>(checked.certificate->waived_cells),
+                                     fmt::format("{} river cells are not checked against the DEM: a patch with rivers "
+                                                 "= \"replace\" took their place, or that of rivers below ({})",
+                                                 checked.certificate->waived_cells, rasters.drawn)});
+        }
+        append(checked.checks, checked.certificate->checks());
+        append(checked.findings, checked.certificate->findings);
+    } else if (!job.dem.empty()) {
+        checked.notes.push_back({"no_certificate",
+                                 0,
+                                 {},
+                                 0.0,
+                                 "the DEM was not checked: rivers run in circles, share ids or have vertices that are "
+                                 "no numbers"});
+    }
+
+    for (CheckOutput const& output : fix) {
+        MendedNetwork const mended = mend_network(network, topology, {job.near_m}, run);
+        checked.mended = mended.mended;
+        if (mended.done) {
+            write_copy(mended, network, output, checked, run);
+        }
+    }
+    for (CheckOutput const& output : layer) {
+        append(checked.written, output.put([&](std::string const& path) {
+            io::write_findings(checked.findings, network.crs, path, run);
+        }));
+    }
+    return checked;
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/commands/convert.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/frame/same_frame.hpp>
+#include <thalweg/io/network/write_network.hpp>
+#include <thalweg/io/network/write_postgis.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/network/elevation/drape.hpp>
+#include <thalweg/network/import/from_file.hpp>
+#include <thalweg/network/order/order.hpp>
+#include <thalweg/network/planform/split_confluences.hpp>
+#include <thalweg/pipeline/make/frame.hpp>
+#include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/make/internal/split_areas.hpp>
+#include <thalweg/pipeline/make/line_sources.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A network with all that its tables need.
+struct Ready {
+    network::FileNetwork source;
+    NetworkOrders orders;
+    std::vector<double> node_area_m2;
+};
+
+bool is_known(std::vector<double> const& areas) {
+    return std::ranges::all_of(areas, [](double a) { return a >= 0.0; }); // NaN and -1 are not
+}
+
+Raster<float> read_dem(ConvertParams const& params, std::string const& crs, Run const& run) {
+    Raster<float> dem = io::read_dem(params.dem, run);
+    if (!io::same_crs(dem.grid().crs, crs, "pipeline.convert: " + params.dem, params.path)) {
+        throw BadInput(fmt::format("pipeline.convert: {} is in {:.60}, {} in {:.60}: warp it (gdalwarp -t_srs)",
+                                   params.dem, dem.grid().crs, params.path, crs));
+    }
+    return dem;
+}
+
+/// What the source does not say: heights, areas.
+void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, Converted& converted, Run const& run) {
+    network::FileNetwork& source = ready.source;
+    if (!file.says.heights) {
+        converted.heights = dem != nullptr ? "dem" : "none";
+        if (dem != nullptr) {
+            source.network = network::drape(source.network.plan, *dem);
+        } else {
+            std::ranges::fill(source.network.node_z, 0.0);
+            for (auto& z : source.network.arc_z) {
+                std::ranges::fill(z, 0.0);
+            }
+        }
+    }
+    if (is_known(source.us_area_m2) && is_known(source.ds_area_m2)) {
+        ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
+    } else if (dem != nullptr) {
+        converted.areas = "d8";
+        measure::ContributingAreas areas = measure::areas_d8(source.network.plan, measure::drain(*dem, run), run);
+        source.us_area_m2 = std::move(areas.us_area_m2);
+        source.ds_area_m2 = std::move(areas.ds_area_m2);
+        ready.node_area_m2 = std::move(areas.node_m2);
+    } else {
+        converted.areas = "none";
+        std::ranges::fill(source.us_area_m2, -1.0);
+        std::ranges::fill(source.ds_area_m2, -1.0);
+        ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
+    }
+}
+
+void split(Ready& ready, ConvertParams const& params, Converted& converted, Run const& run) {
+    network::FileNetwork& source = ready.source;
+    network::Split made =
+        network::split_confluences(source.network, {params.max_upstream, params.split_distance_m}, run);
+    converted.split = static_cast<std::int64_t>(made.pieces.size());
+    add_pieces(made.pieces, source.us_area_m2, source.ds_area_m2);
+    for (network::SplitPiece const& piece : made.pieces) {
+        source.braided.push_back(source.braided[piece.of]);
+        source.records.push_back(source.records[piece.of]);
+    }
+    source.stretches = LineSources(source.network.plan, source.stretches).redrawn(made.network.plan);
+    source.network = std::move(made.network);
+    ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
+}
+
+/// The grid of a mask: that of the DEM, or around the network.
+Grid grid_of(StreamNetwork const& plan, ConvertParams const& params, Raster<float> const* dem, std::string const& crs) {
+    if (dem != nullptr) {
+        return dem->grid();
+    }
+    if (!(params.cell_m > 0.0)) {
+        throw BadParameter("pipeline.convert: a raster needs cells: give --dem or --cell");
+    }
+    RiverLines lines{{}, crs, params.path, false};
+    NetworkIndex const index(plan);
+    for (ArcId const arc : index.arcs) {
+        RiverLine line;
+        for (Vec2 const p : plan[arc].line) {
+            line.vertices.push_back({p.x, p.y, 0.0});
+        }
+        lines.lines.push_back(std::move(line));
+    }
+    GridRecipe wanted;
+    wanted.cell_m = params.cell_m;
+    return frame_lines(lines, wanted);
+}
+
+/// A name of which the files of one network differ by their endings: NAME of NAME_arcs.dbf.
+std::string common_name(fs::path const& file) {
+    std::string const stem = file.stem().string();
+    for (std::string const layer : {"_arcs", "_nodes"}) {
+        if (stem.ends_with(layer)) {
+            return stem.substr(0, stem.size() - layer.size());
+        }
+    }
+    return stem;
+}
+
+/// Whether a file that is there may belong to the network that is read. It is not asked of GDAL: opening some formats
+/// leaves files beside them.
+bool may_be_read(fs::path const& file, fs::path const& source) {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored) || !fs::exists(source, ignored)) { // or it is a database
+        return false;
+    }
+    fs::path const folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    if (fs::is_directory(source, ignored)) {
+        return fs::equivalent(folder, source, ignored);
+    }
+    fs::path const own = source.has_parent_path() ? source.parent_path() : fs::path(".");
+    auto const kind = [](fs::path const& f) {
+        std::string const ending = f.extension().string();
+        return ending == ".shx" || ending == ".dbf" || ending == ".prj" || ending == ".cpg" ? ".shp" : ending;
+    };
+    return fs::equivalent(file, source, ignored) ||
+           (fs::equivalent(folder, own, ignored) && common_name(file) == common_name(source) &&
+            kind(file) == kind(source));
+}
+
+/// Throws BadInput where an output would replace what is read.
+void require_other(std::vector<std::string> const& files, fs::path const& folder, std::string const& source) {
+    for (std::string const& file : files) {
+        if (may_be_read(folder / file, source)) {
+            throw BadInput(
+                fmt::format("pipeline.convert: {} may be the input: name another output", (folder / file).string()));
+        }
+    }
+}
+
+class ConvertOutput {
+public:
+    ConvertOutput(ConvertParams const& params, std::string const& output, io::Existing existing)
+        : params_(params), output_(output), existing_(existing), database_(io::is_postgis(output)) {
+        if (database_) {
+            if (output == params.path && existing == io::Existing::replace) {
+                throw BadInput(
+                    "pipeline.convert: the output is the input database: name another table and leave out --overwrite");
+            }
+            return;
+        }
+        write_ = {io::network_format(params.format, output), params.schema, {}};
+        fs::path const path(output);
+        folder_ = path.has_parent_path() ? path.parent_path() : fs::path(".");
+        std::error_code ignored;
+        if (!path.has_filename()) {
+            throw BadParameter(fmt::format("pipeline.convert: '{}' is not a valid file name", output));
+        }
+        if (!fs::is_directory(folder_, ignored)) {
+            throw BadInput(fmt::format("pipeline.convert: there is no folder {} for {}", folder_.string(), output));
+        }
+        files_ = io::network_files(output, write_);
+        require_other(files_, folder_, params.path);
+        for (std::string const& file : files_) {
+            if (existing == io::Existing::refuse && fs::exists(folder_ / file, ignored)) {
+                throw BadInput(fmt::format("pipeline.convert: {} already exists: name another or use --overwrite",
+                                           (folder_ / file).string()));
+            }
+        }
+    }
+
+    bool is_mask() const { return !database_ && write_.format == io::NetworkFormat::mask; }
+
+    /// Which columns of the user have other names there.
+    void say_shortened(io::NetworkTables const& tables, std::vector<Finding>& findings) const {
+        if (!database_ && write_.format == io::NetworkFormat::shapefile) {
+            for (io::ShortenedName const& one : io::shortened_names(tables, params_.schema)) {
+                findings.push_back({"shortened_field",
+                                    0,
+                                    {},
+                                    1.0,
+                                    fmt::format("field {} is {} in the shapefile", one.name, one.in_shapefile)});
+            }
+        }
+    }
+
+    std::vector<std::string> write(io::NetworkTables const& tables, Grid const& grid, Run const& run) {
+        if (database_) {
+            bool const overwrite = existing_ == io::Existing::replace;
+            return io::write_postgis(tables, output_, {params_.schema, params_.table, overwrite}, run);
+        }
+        io::OutputFolder staged(folder_.string(), io::Existing::add,
+                                existing_ == io::Existing::replace ? files_ : std::vector<std::string>{});
+        write_.grid = grid;
+        io::write_network(tables, staged.path(fs::path(output_).filename().string()), write_, run);
+        std::vector<std::string> written = staged.files();
+        staged.commit();
+        for (std::string& file : written) {
+            file = fs::path(output_).has_parent_path() ? (folder_ / file).string() : file;
+        }
+        return written;
+    }
+
+private:
+    ConvertParams const& params_;
+    std::string output_;
+    io::Existing existing_;
+    bool database_;
+    io::WriteNetworkParams write_ = {};
+    fs::path folder_;
+    std::vector<std::string> files_;
+};
+
+} // namespace
+
+Converted convert(ConvertParams const& params, std::string const& output, io::Existing existing, Run const& run) {
+    ConvertOutput out(params, output, existing);
+    NetworkFile file = io::read_network(params.path, params.read, run);
+    Converted converted;
+    converted.schema = file.schema;
+    converted.crs = file.crs;
+    converted.findings = std::move(file.findings);
+    Ready ready{network::from_file(file), {}, {}};
+    std::optional<Raster<float>> dem;
+    if (!params.dem.empty()) {
+        dem = read_dem(params, file.crs, run);
+    }
+    complete(ready, file, dem ? &*dem : nullptr, converted, run);
+    if (params.max_upstream != 0) {
+        split(ready, params, converted, run);
+    }
+    StreamNetwork const& plan = ready.source.network.plan;
+    ready.orders = network::order(plan);
+    converted.arcs = static_cast<std::int64_t>(boost::num_edges(plan));
+    converted.nodes = static_cast<std::int64_t>(boost::num_vertices(plan));
+    io::NetworkTables tables{ready.source.network,
+                             ready.orders,
+                             ready.source.us_area_m2,
+                             ready.source.ds_area_m2,
+                             ready.node_area_m2,
+                             file.crs,
+                             {}};
+    tables.run = {{"version", version()},
+                  {"schema_from", file.schema},
+                  {"heights_from", converted.heights},
+                  {"area_from", converted.areas}};
+    tables.braided = &ready.source.braided;
+    tables.heights = std::string(converted.heights) != "none";
+    tables.sinks = sinks_in(plan, file);
+    io::UserData const user{std::move(file.attributes), ready.source.records, ready.source.stretches};
+    tables.user = &user;
+    out.say_shortened(tables, converted.findings);
+    Grid const grid = out.is_mask() ? grid_of(plan, params, dem ? &*dem : nullptr, file.crs) : Grid{};
+    converted.written = out.write(tables, grid, run);
+    return converted;
+}
+
+} // namespace thalweg::pipeline

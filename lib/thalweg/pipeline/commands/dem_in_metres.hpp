@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+
+namespace thalweg::pipeline {
+
+/// A DEM whose cells are squares on the ground.
+struct MetricDem {
+    Raster<float> dem;
+    std::vector<std::string> notes; ///< what was done, in words
+};
+
+/// Reads a DEM; one in degrees is warped into the UTM zone of its middle, onto cells as large as its own there.
+/// Throws: BadInput like read_dem, and where a geographic DEM lies in no UTM zone; IoError; Cancelled.
+MetricDem dem_in_metres(std::string const& path, Run const& run = {});
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <thalweg/blend/fuse_tin.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/pipeline/commands/make_blend.hpp>
+
+namespace thalweg::pipeline {
+
+struct MakeBlendTinParams {
+    std::string target = {};     ///< a mesh that read_tin reads
+    std::string source = {};     ///< the patch, another
+    std::optional<Vec2> at = {}; ///< [m] of the target: where the middle of the patch's box comes to lie
+    double rotate_deg = 0.0;     ///< [-360, 360] counterclockwise about that middle
+    double scale = 1.0;          ///< > 0, in plan
+    double gain = 1.0;           ///< finite, of heights
+};
+
+/// A blended mesh and how it came about.
+struct MadeBlendTin {
+    blend::FusedTin fused;
+    std::string crs;
+    PatchPlace place = PatchPlace::given;
+    Vec2 at; ///< [m] the middle of the patch's box
+};
+
+/// Reads two meshes and pastes the one into the other: moved, turned and scaled, then fuse_tin.
+/// Takes: files. Without a place the patch stays at its own coordinates, bit for bit where it is neither turned nor
+/// scaled; where its box does not meet the target's it comes into the middle of the target's box.
+/// Throws: BadParameter; BadInput: as read_tin and fuse_tin do, meshes in two different CRS; NotConverged; IoError;
+/// Cancelled.
+MadeBlendTin make_blend_tin(MakeBlendTinParams const& params, Run const& run = {});
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/commands/make_measures.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/measure/drainage/drain_dinf.hpp>
+#include <thalweg/pipeline/commands/internal/reaches_of_file.hpp>
+#include <thalweg/pipeline/commands/internal/require_metres.hpp>
+#include <thalweg/pipeline/make/internal/catchment_rows.hpp>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char const* d8 = "d8";
+constexpr char const* dinf = "dinf";
+constexpr char const* directions = "directions";
+constexpr char const* outlines = "catchments";
+
+struct Measured {
+    std::string dem;
+    std::string network; ///< "" for none
+};
+
+Measured source_of(MakeMeasuresParams const& params) {
+    std::error_code ignored;
+    Measured source{params.dem, params.network};
+    if (fs::is_directory(params.dem, ignored)) {
+        source.dem = (fs::path(params.dem) / "dem.tif").string();
+        if (fs::path const beside = fs::path(params.dem) / "network.gpkg";
+            source.network.empty() && fs::exists(beside, ignored)) {
+            source.network = beside.string();
+        }
+    }
+    return source;
+}
+
+std::set<std::string> wanted_of(MakeMeasuresParams const& params, Measured const& source) {
+    std::vector<std::string> const known = measure_names();
+    for (std::string const& word : params.what) {
+        if (std::find(known.begin(), known.end(), word) == known.end()) {
+            throw BadParameter(fmt::format("pipeline.make_measures: unknown measure '{}'; the measures are {}.{}", word,
+                                           fmt::join(known, ", "), did_you_mean(word, known)));
+        }
+    }
+    std::set<std::string> wanted(params.what.begin(), params.what.end());
+    if (wanted.empty()) {
+        wanted = {d8, dinf};
+        if (!source.network.empty()) {
+            wanted.insert(outlines);
+        }
+    }
+    if (wanted.count(outlines) != 0 && source.network.empty()) {
+        throw BadInput("pipeline.make_measures: catchments need rivers: name a network after the DEM");
+    }
+    return wanted;
+}
+
+/// Powers of two clockwise from the east, as most programs for water have D8 directions.
+Raster<std::uint8_t> d8_codes(Raster<std::int8_t> const& direction) {
+    Raster<std::uint8_t> codes(direction.grid());
+    for (std::int64_t i = 0; i < codes.cells(); ++i) {
+        int const way = direction[i];
+        codes[i] = way == measure::d8_no_data ? io::no_code : static_cast<std::uint8_t>(way < 0 ? 0 : 1 << way);
+    }
+    return codes;
+}
+
+/// Radians counterclockwise from the east, as Tarboton has D-infinity directions.
+Raster<double> dinf_angles(Raster<float> const& bearing) {
+    Raster<double> angles(bearing.grid(), std::numeric_limits<double>::quiet_NaN());
+    for (std::int64_t i = 0; i < angles.cells(); ++i) {
+        auto const eighths = static_cast<double>(bearing[i]);
+        if (bearing[i] == measure::dinf_leaves) {
+            angles[i] = -1.0;
+        } else if (!std::isnan(eighths)) {
+            angles[i] = (eighths == 0.0 ? 0.0 : 8.0 - eighths) * (exact::pi / 4.0);
+        }
+    }
+    return angles;
+}
+
+double greatest(Raster<double> const& areas) {
+    double most = 0.0;
+    for (double const area : areas.values()) {
+        most = area > most ? area : most; // never NaN
+    }
+    return most;
+}
+
+/// The folder's new files: each is asked for, then written.
+class Writer {
+public:
+    Writer(std::string const& folder, std::set<std::string> const& wanted, io::Existing existing)
+        : folder_(folder), out_(folder, io::Existing::add, there(folder, wanted, existing)) {}
+
+    std::string path(std::string const& name) {
+        names_.push_back(name);
+        return out_.path(name);
+    }
+    std::vector<std::string> commit() {
+        out_.commit();
+        std::vector<std::string> files;
+        for (std::string const& name : names_) {
+            files.push_back((fs::path(folder_) / name).string());
+        }
+        return files;
+    }
+
+private:
+    static std::vector<std::string> there(std::string const& folder, std::set<std::string> const& wanted,
+                                          io::Existing existing) {
+        std::vector<std::string> names;
+        for (auto const& [measure, name] : {std::pair{d8, "area_d8.tif"},
+                                            {dinf, "area_dinf.tif"},
+                                            {directions, "direction_d8.tif"},
+                                            {directions, "direction_dinf.tif"},
+                                            {outlines, "catchments.gpkg"}}) {
+            if (wanted.count(measure) != 0 && fs::exists(fs::symlink_status(fs::path(folder) / name))) {
+                names.emplace_back(name);
+            }
+        }
+        if (!names.empty() && existing == io::Existing::refuse) {
+            throw BadInput(fmt::format("pipeline.make_measures: {} already exists: name another folder or use "
+                                       "--overwrite",
+                                       (fs::path(folder) / names.front()).string()));
+        }
+        return names;
+    }
+
+    std::string folder_;
+    io::OutputFolder out_;
+    std::vector<std::string> names_;
+};
+
+MeasuredCatchments write_catchments(NetworkFile const& file, measure::Drainage const& drainage, std::string const& path,
+                                    Run const& run) {
+    FileReaches const rivers = reaches_of_file(file, drainage.direction.grid());
+    measure::Catchments const catchments = measure::catchments(rivers.reaches, drainage, run);
+    auto const rows = catchment_rows(rivers.reaches, rivers.basins, catchments);
+    return {io::write_catchments({catchments.reach, rows}, path, run),
+            static_cast<std::int64_t>(rows.size()),
+            rivers.cut,
+            rivers.outside,
+            rivers.nowhere,
+            catchments.without};
+}
+
+std::vector<std::string> notes_on(NetworkFile const& file, MeasuredCatchments const& c) {
+    std::vector<std::string> notes;
+    for (Finding const& finding : file.findings) {
+        notes.push_back(finding.text);
+    }
+    if (file.id_shift != 0) {
+        notes.push_back(fmt::format("arc_id is the file's and {}", file.id_shift));
+    }
+    if (c.arcs_cut + c.arcs_outside > 0) {
+        notes.push_back(
+            fmt::format("{} of {} arcs leave the DEM and {} lie outside it", c.arcs_cut, c.arcs, c.arcs_outside));
+    }
+    if (c.arcs_nowhere > 0) {
+        notes.push_back(fmt::format("{} arcs have a vertex that is not a number and were left out", c.arcs_nowhere));
+    }
+    if (std::int64_t const idle = c.arcs - c.arcs_outside - c.count.catchments; idle > 0) {
+        notes.push_back(fmt::format("{} arcs have no catchment: other arcs own their cells", idle));
+    }
+    if (c.cells_without > 0) {
+        notes.push_back(fmt::format("water of {} cells leaves the DEM before it meets a river", c.cells_without));
+    }
+    return notes;
+}
+
+} // namespace
+
+std::vector<std::string> measure_names() {
+    return {d8, dinf, directions, outlines};
+}
+
+MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& output, io::Existing existing,
+                           Run const& run) {
+    Measured const source = source_of(params);
+    auto const wanted = wanted_of(params, source);
+    Writer out(output, wanted, existing);
+    Raster<float> const dem = io::read_dem(source.dem, run);
+    require_metres(dem.grid(), source.dem, "pipeline.make_measures");
+    NetworkFile network;
+    if (wanted.count(outlines) != 0) {
+        io::ReadNetworkParams how = params.read;
+        how.crs = dem.grid().crs;
+        network = io::read_network(source.network, how, run);
+        if (!network.crs.empty() && dem.grid().crs.empty()) {
+            throw BadInput(fmt::format("pipeline.make_measures: {} has no CRS, {} is in {:.60}: give the DEM its CRS "
+                                       "first (gdal_translate -a_srs)",
+                                       source.dem, source.network, network.crs));
+        }
+    }
+
+    measure::Drainage const drainage = measure::drain(dem, run);
+    MadeMeasures made;
+    made.pits = drainage.pits;
+    made.cells = std::count_if(drainage.direction.values().begin(), drainage.direction.values().end(),
+                               [](std::int8_t way) { return way != measure::d8_no_data; });
+    made.area_m2 = static_cast<double>(made.cells) * dem.grid().cell_m * dem.grid().cell_m;
+    if (wanted.count(d8) != 0) {
+        Raster<double> const areas = areas_m2(drainage);
+        made.d8_m2 = greatest(areas);
+        io::write_field(areas, out.path("area_d8.tif"), run);
+    }
+    if (wanted.count(directions) != 0) {
+        io::write_codes(d8_codes(drainage.direction), out.path("direction_d8.tif"), run);
+    }
+    if (wanted.count(dinf) + wanted.count(directions) != 0) {
+        measure::DinfDrainage const parted = measure::drain_dinf(dem, drainage, run);
+        if (wanted.count(dinf) != 0) {
+            Raster<double> const areas = areas_m2(parted.area_cells);
+            made.dinf_m2 = greatest(areas);
+            io::write_field(areas, out.path("area_dinf.tif"), run);
+        }
+        if (wanted.count(directions) != 0) {
+            io::write_field(dinf_angles(parted.bearing), out.path("direction_dinf.tif"), run);
+        }
+    }
+    if (wanted.count(outlines) != 0) {
+        made.catchments = write_catchments(network, drainage, out.path("catchments.gpkg"), run);
+        made.notes = notes_on(network, *made.catchments);
+    }
+    made.files = out.commit();
+    return made;
+}
+
+} // namespace thalweg::pipeline

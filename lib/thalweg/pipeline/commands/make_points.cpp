@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/commands/make_points.hpp>
+
+#include <filesystem>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/skeleton.hpp>
+#include <thalweg/io/gdal/has_layer.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/io/raster/read_mask.hpp>
+#include <thalweg/pipeline/commands/internal/require_metres.hpp>
+#include <thalweg/pipeline/make/internal/read_cells.hpp>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A skeleton, and which of its cells are rivers.
+struct SkeletonOfLand {
+    Skeleton skeleton;
+    Mask rivers;
+};
+
+/// Cells under the ridges of a network file; none where it has no such layer.
+Mask ridges_of(std::string const& path, Grid const& grid, Run const& run) {
+    if (!io::has_layer(path, "ridges")) {
+        return Mask(grid);
+    }
+    return cells_under(io::read_rivers({.path = path, .layer = "ridges", .crs = grid.crs}, run), grid, path);
+}
+
+// The land is taken over: a large one need not be there twice.
+SkeletonOfLand skeleton_of(Raster<float> land, fs::path const& folder, Run const& run) {
+    Mask const ridges = ridges_of((folder / "network.gpkg").string(), land.grid(), run);
+    SkeletonOfLand drawn{{std::move(land)}, {}};
+    drawn.rivers = io::read_mask((folder / "network.tif").string(), drawn.skeleton.z.grid(), run);
+    for (std::int64_t i = 0; i < ridges.cells(); ++i) {
+        if (drawn.rivers[i] == 0 && ridges[i] == 0) {
+            drawn.skeleton.z[i] = std::numeric_limits<float>::quiet_NaN();
+        }
+    }
+    return drawn;
+}
+
+} // namespace
+
+MadePoints make_points(MakePointsParams const& params, std::string const& output, Run const& run) {
+    std::error_code ignored;
+    bool const is_folder = fs::is_directory(params.path, ignored);
+    if (params.of == PointsOf::skeleton && !is_folder) {
+        throw BadParameter(
+            fmt::format("pipeline.make_points: --skeleton needs a folder written by make; {} is not one", params.path));
+    }
+    fs::path const folder(params.path);
+    Raster<float> land = io::read_dem(is_folder ? (folder / "dem.tif").string() : params.path, run);
+    require_metres(land.grid(), params.path, "pipeline.make_points");
+    MadePoints made{0, land.grid().crs};
+    if (params.of == PointsOf::skeleton) {
+        SkeletonOfLand const drawn = skeleton_of(std::move(land), folder, run);
+        made.count = io::write_points(drawn.skeleton, drawn.rivers, output, params.write, run);
+    } else {
+        made.count = io::write_points(land, output, params.write, run);
+    }
+    return made;
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/io/mesh/write_points.hpp>
+
+namespace thalweg::pipeline {
+
+/// Which cells of a land become points.
+enum class PointsOf : std::uint8_t {
+    land,    ///< all with a height
+    skeleton ///< those of its rivers and ridges
+};
+
+struct MakePointsParams {
+    std::string path = {}; ///< a DEM, or a folder that make wrote
+    PointsOf of = PointsOf::land;
+    io::WritePointsParams write = {};
+};
+
+/// What was written.
+struct MadePoints {
+    std::uint64_t count = 0;
+    std::string crs;
+};
+
+/// Reads a DEM and writes its cells as points, of a skeleton those of network.tif in the same folder and those
+/// under the ridges of its network.gpkg, with the heights of dem.tif. Takes: output: a file that is not there yet.
+/// Gives: what io::write_points does. Throws: BadParameter, also for a skeleton of what is no folder; BadInput when a
+/// file is missing, the coordinates are not metres or the frames differ; IoError; Cancelled.
+MadePoints make_points(MakePointsParams const& params, std::string const& output, Run const& run = {});
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/commands/make_tin.hpp>
+
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/geometry/tin_of_dem.hpp>
+#include <thalweg/geometry/triangulate.hpp>
+#include <thalweg/io/gdal/content_of.hpp>
+#include <thalweg/io/gdal/has_layer.hpp>
+#include <thalweg/io/mesh/read_points.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+
+namespace thalweg::pipeline {
+namespace {
+
+using Kind = io::FileContent::Kind;
+using Lines = std::vector<std::vector<Vec3>>;
+
+struct Breaklines {
+    Lines lines;
+    std::string crs;
+};
+
+Breaklines read_lines(std::string const& path, std::string const& crs, Run const& run) {
+    io::FileContent const content = io::content_of(path);
+    if (content.kind != Kind::lines) {
+        throw BadInput(fmt::format("pipeline.make_tin: {} holds no lines", path));
+    }
+    RiverLines rivers = io::read_rivers({content.path, content.layer, "rosgen", {}, crs}, run);
+    if (!rivers.has_z) {
+        throw BadInput(
+            fmt::format("pipeline.make_tin: the lines of {} have no heights (or all the same): a TIN takes lines "
+                        "with Z, such as layer arcs of a network.gpkg",
+                        content.path));
+    }
+    Breaklines read{{}, rivers.crs};
+    for (RiverLine& line : rivers.lines) {
+        read.lines.push_back(std::move(line.vertices));
+    }
+    return read;
+}
+
+MadeTin of_dem(std::string const& path, double error_m, Run const& run) {
+    auto const dem = io::read_dem(path, run);
+    auto simplified = geometry::tin_of_dem(dem, {error_m}, run);
+    MadeTin made;
+    made.tin = std::move(simplified.tin);
+    made.crs = dem.grid().crs;
+    made.source = "dem";
+    made.error_m = simplified.error_m;
+    made.left_out = simplified.left_out;
+    return made;
+}
+
+MadeTin of_points(std::vector<Vec3> const& points, Breaklines const& breaklines, char const* source, Run const& run) {
+    auto triangulation = geometry::triangulate(points, breaklines.lines, run);
+    MadeTin made;
+    made.tin = std::move(triangulation.tin);
+    made.crs = breaklines.crs;
+    made.source = source;
+    made.merged = triangulation.merged;
+    made.merged_dz_m = triangulation.merged_dz_m;
+    made.crossings = triangulation.crossings;
+    made.crossings_dz_m = triangulation.crossings_dz_m;
+    return made;
+}
+
+} // namespace
+
+MadeTin make_tin(MakeTinParams const& params, Run const& run) {
+    io::FileContent const content = io::content_of(params.path);
+    if (content.kind == Kind::raster) {
+        if (!params.breaklines.empty() || !params.crs.empty()) {
+            throw BadParameter("pipeline.make_tin: --breaklines and --crs apply to points and lines, not to a DEM");
+        }
+        return of_dem(content.path, params.error_m.value_or(geometry::TinOfDemParams{}.error_m), run);
+    }
+    if (params.error_m) {
+        throw BadParameter(fmt::format("pipeline.make_tin: --error applies to a DEM only; {} holds {}", content.path,
+                                       content.kind == Kind::points ? "points" : "lines"));
+    }
+    if (content.kind == Kind::points) {
+        FeaturePoints const points = io::read_points({content.path, {}, "z", params.crs}, run);
+        Breaklines breaklines{{}, points.crs};
+        if (!params.breaklines.empty()) {
+            breaklines = read_lines(params.breaklines, points.crs, run);
+        }
+        return of_points(points.points, breaklines, "points", run);
+    }
+    Breaklines network = read_lines(content.path, params.crs, run);
+    if (content.layer == "arcs" && io::has_layer(content.path, "ridges")) {
+        RiverLines ridges = io::read_rivers({.path = content.path, .layer = "ridges", .crs = network.crs}, run);
+        for (RiverLine& line : ridges.lines) {
+            network.lines.push_back(std::move(line.vertices));
+        }
+    }
+    if (!params.breaklines.empty()) {
+        Breaklines more = read_lines(params.breaklines, network.crs, run);
+        network.lines.insert(network.lines.end(), more.lines.begin(), more.lines.end());
+    }
+    return of_points({}, network, "network", run);
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/commands/internal/require_metres.hpp>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/frame/ground_cell.hpp>
+
+namespace thalweg::pipeline {
+
+void require_metres(Grid const& grid, std::string const& path, char const* who) {
+    io::GridUnit const unit = io::ground_cell(grid).unit;
+    if (unit == io::GridUnit::degrees || unit == io::GridUnit::other) {
+        throw BadInput(fmt::format("{}: the coordinates of {} are {}: reproject it to a CRS in metres first "
+                                   "(gdalwarp -t_srs)",
+                                   who, path, unit == io::GridUnit::degrees ? "geographic" : "not in metres"));
+    }
+}
+
+} // namespace thalweg::pipeline

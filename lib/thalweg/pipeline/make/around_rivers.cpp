@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/internal/around_rivers.hpp>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/geometry/triangulate.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/network/order/streams.hpp>
+#include <thalweg/pipeline/make/internal/land.hpp>
+#include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
+#include <thalweg/pipeline/make/internal/read_cells.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/skeleton/draw_skeleton.hpp>
+#include <thalweg/skeleton/midpoint_inverse.hpp>
+#include <thalweg/skeleton/ridges.hpp>
+#include <thalweg/skeleton/scatter_between.hpp>
+#include <thalweg/surface/diffusion/diffuse.hpp>
+#include <thalweg/surface/diffusion/harmonic.hpp>
+#include <thalweg/surface/dilation/dilate_over.hpp>
+#include <thalweg/surface/tin/rasterise_tin.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+std::vector<Vec3> in_space(std::vector<Vec2> const& line, std::vector<double> const& z) {
+    std::vector<Vec3> out;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        out.push_back({line[i].x, line[i].y, z[i]});
+    }
+    return out;
+}
+
+/// Ridges between streams, where the recipe asks for them.
+void make_ridges(Terrain& terrain, Diary& diary, Run const& run) {
+    SkeletonRecipe const& wanted = *terrain.recipe.skeleton;
+    skeleton::RidgesParams params;
+    params.method = wanted.ridges == Ridges::voronoi ? skeleton::RidgesParams::Method::voronoi
+                                                     : skeleton::RidgesParams::Method::segments;
+    params.gain = wanted.ridge_gain;
+    params.farthest_m = wanted.ridge_farthest_m;
+    terrain.ridges = diary.stage("ridge", [&] {
+        return skeleton::ridges(terrain.network, network::streams(terrain.network.plan, terrain.orders), terrain.grid,
+                                params, run);
+    });
+    diary.say(fmt::format("{} ridges", terrain.ridges.lines.size()));
+}
+
+/// Random points between the rivers, where the recipe asks for them.
+FeaturePoints scattered(Terrain& terrain, Mask const& inside, Diary& diary, Run const& run) {
+    SkeletonRecipe const& wanted = *terrain.recipe.skeleton;
+    skeleton::ScatterBetweenParams params;
+    params.seed = terrain.recipe.seed;
+    params.count = wanted.scatter;
+    params.spacing_cells = wanted.spacing_cells;
+    params.gain = wanted.ridge_gain;
+    params.farthest_m = wanted.ridge_farthest_m;
+    params.law = wanted.law;
+    skeleton::Scattered points =
+        diary.stage("scatter", [&] { return skeleton::scatter_between(terrain.valley, inside, params, run); });
+    diary.say(fmt::format("{} points", points.points.points.size()));
+    check_scattered(terrain, points.missing, params.count, run);
+    return std::move(points.points);
+}
+
+/// The triangles of points, rivers and ridges, whose lines are breaklines.
+void make_skeleton_tin(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
+    std::vector<std::vector<Vec3>> breaklines;
+    std::size_t number = 0;
+    for (auto const& arc : boost::make_iterator_range(boost::edges(terrain.network.plan))) {
+        breaklines.push_back(in_space(terrain.network.plan[arc].line, terrain.network.arc_z[number++]));
+    }
+    for (RidgeLine const& ridge : terrain.ridges.lines) {
+        breaklines.push_back(ridge.line);
+    }
+    terrain.tin = diary.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
+    diary.say(fmt::format("{} triangles of {} vertices", terrain.tin->triangles.size(), terrain.tin->vertices.size()));
+}
+
+/// The cells the land has: those of the recipe's mask, or all; without the sea.
+Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
+    if (recipe.surface->mask.empty()) {
+        return land.values().empty() ? Mask(valley.z.grid(), 1) : land;
+    }
+    Grid const& grid = valley.z.grid();
+    Mask inside = read_mask_of_land(file_in(recipe, recipe.surface->mask), grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        inside[i] = inside[i] != 0 && (land.values().empty() || land[i] != 0) ? 1 : 0;
+        if (inside[i] == 0 && !std::isnan(valley.z[i])) {
+            Cell const c = grid.at(i);
+            throw BadInput(fmt::format("surface.mask = \"{}\" leaves out cell ({}, {}), where a river runs",
+                                       recipe.surface->mask, c.col, c.row));
+        }
+    }
+    return inside;
+}
+
+/// Land over the skeleton's triangles. Valley cells keep their heights.
+Raster<float> over_triangles(Terrain const& terrain, Run const& run) {
+    Raster<float> land =
+        surface::rasterise_tin(*terrain.tin, terrain.grid, {surface::RasteriseTinParams::Outside::nearest}, run);
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        land[i] = std::isnan(terrain.valley.z[i]) ? land[i] : terrain.valley.z[i];
+    }
+    return land;
+}
+
+void warn_of_jumps(surface::Dilated const& drawn, surface::IncrementParams const& params, Run const& run) {
+    auto const jumps = surface::increment_jumps(drawn.levels, params);
+    if (!jumps.empty()) {
+        run.say(fmt::format("warning: surface.increment = \"{}\" jumps from {:.3g} to {:.3g} at x = {:.4g}{}: slopes "
+                            "break there",
+                            params.increment, jumps[0].from, jumps[0].to, jumps[0].x,
+                            jumps.size() > 1 ? fmt::format(", and {} times more", jumps.size() - 1) : ""));
+    }
+}
+
+surface::Dilated dilated(Terrain const& terrain, Mask const& inside, Run const& run) {
+    SurfaceRecipe const& wanted = *terrain.recipe.surface;
+    bool const whole = wanted.mask.empty() && terrain.land.values().empty();
+    if (wanted.base == Base::paper) { // without a mask by the closed form
+        return whole ? surface::dilate(terrain.valley, wanted.dilate, run)
+                     : surface::dilate(terrain.valley, inside, wanted.dilate, run);
+    }
+    surface::HarmonicParams params;
+    params.tolerance = wanted.tolerance.value_or(params.tolerance);
+    Raster<float> const base = wanted.base == Base::tin ? over_triangles(terrain, run)
+                                                        : surface::harmonic(terrain.valley, inside, params, run);
+    return whole ? surface::dilate_over(terrain.valley, base, wanted.dilate, run)
+                 : surface::dilate_over(terrain.valley, base, inside, wanted.dilate, run);
+}
+
+/// What a land is diffused from: rivers, ridges, points, and what follows from them beside them.
+Skeleton gathered(Terrain const& terrain, FeaturePoints const& points, Run const& run) {
+    SkeletonRecipe const wanted = terrain.recipe.skeleton.value_or(SkeletonRecipe{});
+    skeleton::DrawSkeletonParams params;
+    params.noise.amplitude_m = wanted.ridge_noise_m;
+    params.noise.wavelength_m = wanted.ridge_wavelength_m;
+    params.noise.seed = terrain.recipe.seed;
+    Skeleton drawn = skeleton::draw_skeleton(terrain.valley, terrain.ridges, points, params, run).skeleton;
+    if (wanted.midpoint_inverse_cells > 0.0) {
+        drawn = skeleton::midpoint_inverse(drawn, {wanted.midpoint_inverse_cells}, run);
+    }
+    return drawn;
+}
+
+surface::Dilated diffused(Terrain& terrain, FeaturePoints const& points, Mask const& inside, Run const& run) {
+    surface::DiffuseParams params = terrain.recipe.surface->diffuse;
+    params.seed = terrain.recipe.seed;
+    params.tolerance = terrain.recipe.surface->tolerance.value_or(params.tolerance);
+    surface::Diffused land = surface::diffuse(gathered(terrain, points, run), inside, params, run);
+    terrain.diffusion = {land.iterations, land.residual};
+    surface::Dilated drawn;
+    drawn.dem = std::move(land.dem);
+    return drawn;
+}
+
+/// Adds fractal detail to land with rivers: none in the valleys, all of it some cells away.
+void add_detail(Terrain& terrain, Raster<float>& dem, Run const& run) {
+    constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
+    if (levels_of(terrain.recipe) == 0) {
+        return;
+    }
+    Raster<float> const noise = detail_alone(terrain.recipe, terrain.grid, run);
+    surface::Expansion const expansion = surface::expand(terrain.valley, run);
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        double const share = 1.0 - exact::exp(-static_cast<double>(expansion.level[i]) / near_cells);
+        dem[i] = static_cast<float>(static_cast<double>(dem[i]) + share * static_cast<double>(noise[i]));
+    }
+}
+
+surface::Dilated draw(Terrain& terrain, FeaturePoints const& points, Mask const& inside, Run const& run) {
+    SurfaceRecipe const& wanted = *terrain.recipe.surface;
+    if (wanted.method == Method::tin) {
+        surface::Dilated drawn;
+        drawn.dem = over_triangles(terrain, run);
+        for (std::int64_t i = 0; i < inside.cells(); ++i) {
+            if (inside[i] == 0) {
+                drawn.dem[i] = std::numeric_limits<float>::quiet_NaN();
+            }
+        }
+        return drawn;
+    }
+    return wanted.method == Method::diffuse ? diffused(terrain, points, inside, run) : dilated(terrain, inside, run);
+}
+
+/// Whether the slopes rise as high above their rivers as it was asked.
+void check_relief(Terrain& terrain) {
+    constexpr double allowed = 0.01;
+    double const asked = terrain.recipe.surface->dilate.relief_m;
+    if (asked > 0.0) {
+        double const error = std::fabs(terrain.surface->rise_m / asked - 1.0);
+        terrain.checks.push_back({"relief_error", error, allowed, error <= allowed});
+    }
+}
+
+std::string about(Terrain const& terrain) {
+    SurfaceRecipe const& wanted = *terrain.recipe.surface;
+    switch (wanted.method) {
+    case Method::dilate:
+        return fmt::format("{}, {} levels", wanted.dilate.increment.increment, terrain.surface->levels);
+    case Method::diffuse: return fmt::format("diffused, {} iterations", terrain.diffusion->iterations);
+    case Method::equilibrium:
+    case Method::tin:
+    case Method::regress: break;
+    }
+    return "over triangles";
+}
+
+} // namespace
+
+void draw_around_rivers(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run const& run) {
+    Recipe const& recipe = terrain.recipe;
+    SurfaceRecipe const& wanted = *recipe.surface;
+    Mask inside;
+    FeaturePoints own;
+    if (in_equilibrium(recipe)) { // whose rivers have their heights from it
+        draw_in_equilibrium(terrain, diary, run);
+    } else {
+        inside = inside_of(recipe, terrain.land, terrain.valley);
+    }
+    bool const scatters = recipe.skeleton && recipe.skeleton->scatter > 0;
+    if (scatters) {
+        own = scattered(terrain, inside, diary, run);
+    }
+    FeaturePoints const& points = scatters ? own : given;
+    if (recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
+        make_ridges(terrain, diary, run);
+    }
+    bool const over_tin = wanted.method == Method::tin || (wanted.method == Method::dilate && wanted.base == Base::tin);
+    if (over_tin || (recipe.skeleton && recipe.skeleton->tin)) {
+        make_skeleton_tin(terrain, points, diary, run);
+    }
+    if (!in_equilibrium(recipe)) {
+        terrain.surface = diary.stage("fill", [&] { return draw(terrain, points, inside, run); });
+        diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height, about(terrain)));
+        if (wanted.method == Method::dilate) {
+            check_relief(terrain);
+            warn_of_jumps(*terrain.surface, wanted.dilate.increment, run);
+        }
+    }
+    add_detail(terrain, terrain.surface->dem, run);
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/io/raster/write_catchments.hpp>
+#include <thalweg/measure/drainage/catchments.hpp>
+
+/// Private to this room.
+namespace thalweg::pipeline {
+
+/// What a file says of catchments. basins: by reach.
+std::vector<io::CatchmentRow> catchment_rows(std::vector<measure::Reach> const& reaches,
+                                             std::vector<std::int64_t> const& basins,
+                                             measure::Catchments const& catchments);
+
+/// Contributing areas in m2 for a file, NaN without data.
+Raster<double> areas_m2(measure::Drainage const& drainage);
+Raster<double> areas_m2(Raster<double> const& area_cells);
+
+} // namespace thalweg::pipeline

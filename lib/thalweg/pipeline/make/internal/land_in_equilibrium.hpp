@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/pipeline/make/internal/diary.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+
+/// Land in equilibrium with its rivers. Private to this room.
+namespace thalweg::pipeline {
+
+/// Whether the recipe draws its land in equilibrium with rivers.
+bool in_equilibrium(Recipe const& recipe);
+
+/// The usual mean slope [degrees] of land in cells of this size: the coarser, the gentler. Within 6 % of the mean
+/// slopes of Big Tujunga averaged to cells of 75 to 1200 m.
+double usual_slope_deg(double cell_m);
+
+/// Draws the land around the planned rivers, takes tips off these that would stand perched, and gives them and their
+/// cells the land's heights. Takes: a terrain with a network in plan; its heights too, where they are asked for.
+void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run);
+
+/// Makes arcs of the side valleys the land has grown, where the recipe wants them.
+void add_side_valleys(Terrain& terrain, measure::Drainage const& drainage, Diary& diary, Run const& run);
+
+} // namespace thalweg::pipeline

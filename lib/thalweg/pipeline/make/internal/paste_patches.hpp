@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <thalweg/pipeline/make/internal/diary.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+
+/// Real relief in the land. Private to this room.
+namespace thalweg::pipeline {
+
+/// Pastes the recipe's patches into the land, in their order; rivers keep their cells' heights unless a patch says so.
+void paste_patches(Terrain& terrain, Diary& diary, Run const& run);
+
+} // namespace thalweg::pipeline

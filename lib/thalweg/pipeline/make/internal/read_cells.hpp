@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/run/run.hpp>
+
+/// What files say of the cells of a grid. Private to this room.
+namespace thalweg::pipeline {
+
+/// Cells of a raster on the grid that are neither 0 nor no-data, or whose centres lie in polygons; empty for "".
+/// Throws: as io::read_mask, io::read_polygons and blend::mask_polygons.
+Mask read_part(std::string const& path, Grid const& grid, Run const& run);
+
+/// The cells of a grid under lines. what: the lines' name, for messages. Throws: as cells_along, for lines that leave
+/// the grid.
+Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& what);
+
+/// Cells of a raster on the grid, or under lines; empty for "". Throws: as the doors; BadInput for points, and when no
+/// line crosses the grid.
+Mask read_kept(std::string const& path, Grid const& grid, Run const& run);
+
+/// The cells of a raster for surface.mask that are neither 0 nor no-data; without cells for "". Throws: as
+/// io::read_dem; BadInput when it has not as many cells as the grid.
+Mask read_mask_of_land(std::string const& path, Grid const& grid);
+
+/// A field that varies over the land, above 0: a raster, brought to the grid's cells, or polygons with a real field
+/// erodibility, 1 between them (of several the last counts); empty for "". what: the key, for messages.
+/// Throws: as the doors; BadInput naming the cell where a raster has no value or one that is not above 0.
+Raster<float> read_field(std::string const& path, Grid const& grid, std::string const& what, Run const& run);
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/channels.hpp>
+#include <thalweg/core/network_file.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/core/valley.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+
+/// What rivers say of the DEM around them, alike in make and check. Private to this room.
+namespace thalweg::pipeline {
+
+/// Cells in which rivers stand: those under parts of arcs that are drawn level. Without cells where there are none.
+Mask still_cells(NetworkFile const& network, Grid const& grid);
+
+/// The cells of lakes that lie in channels, and of their outlets. Without cells where there are none.
+Mask lake_cells(Channels const& channels);
+
+/// 1 where either mask has 1, of which any may be without cells.
+Mask either(Mask one, Mask const& other);
+
+/// Cells in which rivers end inland: those of nodes of the kind "sink", where the DEM has heights.
+std::vector<std::int64_t> sinks_of(NetworkFile const& network, Raster<float> const& dem);
+
+/// The nodes of a network at the places of a file's nodes of the kind "sink", ascending.
+std::vector<NodeId> sinks_in(StreamNetwork const& network, NetworkFile const& file);
+
+/// Nodes at which rivers end although land goes on: outlets in cells with heights all around, ascending.
+std::vector<NodeId> inland_ends(StreamNetwork const& network, Raster<float> const& dem);
+
+/// The cells of nodes.
+std::vector<std::int64_t> cells_of(std::vector<NodeId> const& nodes, StreamNetwork const& network, Grid const& grid);
+
+/// 1 in the cells of a valley.
+Mask river_mask(Valley const& valley);
+
+/// Whether a patch may take the place of rivers.
+bool replaces_rivers(Recipe const& recipe);
+
+/// A valley without the cells in which the DEM has other heights, and without what lies upstream of these.
+Valley honoured_valley(Valley valley, StreamNetwork const& network, Raster<float> const& dem);
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <thalweg/io/network/write_network.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+
+/// The user's columns of a terrain's rivers. Private to this module.
+namespace thalweg::pipeline {
+
+/// What the file said of the lines that became these arcs; nothing for grown rivers.
+std::optional<io::UserData> user_data(Terrain const& t, StreamNetwork const& plan);
+
+/// Every line of the file that is not in the network, also those that pruning or the terrain took away.
+std::vector<SecondaryLine> secondary_of(Terrain const& t);
+
+/// The columns that have other names in the shapefiles.
+std::vector<io::ShortenedName> shortened_names(Terrain const& t);
+
+} // namespace thalweg::pipeline

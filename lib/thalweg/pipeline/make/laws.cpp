@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/laws.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/frame/ground_cell.hpp>
+#include <thalweg/measure/drainage/flow_lengths.hpp>
+#include <thalweg/network/order/count_streams.hpp>
+#include <thalweg/network/order/order.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+
+#include <algorithm>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+constexpr double cells_of_junction = 10.0;
+
+/// flow_length: of the DEM under the network, or null.
+measure::NetworkLaws laws_of(RaisedNetwork const& network, NetworkOrders const& orders,
+                             measure::ContributingAreas const& areas, Grid const& grid, std::int64_t land_cells,
+                             Raster<float> const* flow_length) {
+    measure::NetworkLawsParams params;
+    params.land_m2 = static_cast<double>(land_cells) * grid.cell_m * grid.cell_m;
+    params.junction_reach_m = cells_of_junction * grid.cell_m;
+    params.side_branches = network::count_streams(network.plan).side;
+    if (flow_length != nullptr) {
+        for (NodeId n = 0; n < boost::num_vertices(network.plan); ++n) {
+            Cell const cell = grid.cell_of(network.plan[n].at);
+            params.head_m.push_back(grid.contains(cell) ? static_cast<double>((*flow_length)[cell]) : 0.0);
+        }
+    }
+    return measure::network_laws(network, orders, areas, params);
+}
+
+} // namespace
+
+DemLaws laws_of_dem(Raster<float> const& dem, measure::Drainage const& drainage, Raster<float> const& flow_length,
+                    DemLawsParams const& params, Run const& run) {
+    Grid const& grid = dem.grid();
+    auto const ways = drainage.direction.values();
+    auto const land = std::count_if(ways.begin(), ways.end(), [](std::int8_t d) { return d != measure::d8_no_data; });
+    if (land == 0) {
+        throw BadInput("pipeline.laws_of_dem: no cell of the DEM has data");
+    }
+    DemLaws found;
+    found.as_dense = params.network_m > 0.0;
+    found.support_cells =
+        found.as_dense ? measure::support_for_length(drainage, params.network_m, run) : params.support_cells;
+    found.support_m2 = static_cast<double>(found.support_cells) * grid.cell_m * grid.cell_m;
+    measure::ExtractedStreams const streams =
+        measure::extract_streams(drainage, dem, {.support_cells = found.support_cells}, run);
+    found.laws =
+        laws_of(streams.network, network::order(streams.network.plan), streams.areas, grid, land, &flow_length);
+    return found;
+}
+
+DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params, Run const& run) {
+    Grid grid = dem.grid();
+    grid.cell_m = io::ground_cell(grid).side_m;
+    Raster<float> on_ground(grid);
+    std::copy(dem.values().begin(), dem.values().end(), on_ground.values().begin());
+    measure::Drainage const drainage = measure::drain(on_ground, run);
+    return laws_of_dem(on_ground, drainage, measure::flow_lengths(drainage, run), params, run);
+}
+
+RiverLaws laws_of_terrain(Terrain const& terrain, measure::Drainage const* drainage, Run const& run) {
+    RiverLaws found;
+    std::optional<Raster<float>> flow_length;
+    if (drainage != nullptr) {
+        flow_length = measure::flow_lengths(*drainage, run);
+    }
+    DemLawsParams params;
+    if (boost::num_edges(terrain.network.plan) > 0) {
+        std::int64_t const land = terrain.statistics ? terrain.statistics->cells : terrain.grid.cells();
+        found.network = laws_of(terrain.network, terrain.orders, terrain.areas, terrain.grid, land,
+                                flow_length ? &*flow_length : nullptr);
+        params.network_m =
+            found.network->drainage_density_m * static_cast<double>(land) * terrain.grid.cell_m * terrain.grid.cell_m;
+    }
+    if (drainage != nullptr) {
+        found.dem = laws_of_dem(terrain.surface->dem, *drainage, *flow_length, params, run);
+    }
+    return found;
+}
+
+} // namespace thalweg::pipeline

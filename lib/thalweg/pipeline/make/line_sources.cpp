@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/line_sources.hpp>
+
+#include <algorithm>
+#include <bit>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+std::uint64_t mix(std::uint64_t a, std::uint64_t b) {
+    std::uint64_t const h = (a ^ (b * 0x9e3779b97f4a7c15ULL)) * 0xbf58476d1ce4e5b9ULL;
+    return h ^ (h >> 29);
+}
+
+constexpr std::int64_t several = -1;
+
+/// Takes: by segment its feature, 0 for none.
+std::vector<Stretch> stretches_of(std::vector<Vec2> const& line, std::vector<std::int64_t> const& features) {
+    std::vector<Stretch> stretches;
+    double along_m = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        double const from_m = along_m;
+        along_m += distance(line[i - 1], line[i]);
+        std::int64_t const feature = features[i - 1];
+        if (feature <= 0) {
+            continue;
+        }
+        if (stretches.empty() || stretches.back().feature != feature || stretches.back().to_m != from_m) {
+            stretches.push_back({feature, from_m, from_m});
+        }
+        stretches.back().to_m = along_m;
+    }
+    return stretches;
+}
+
+} // namespace
+
+std::size_t LineSources::Hash::operator()(Vec2 p) const {
+    return static_cast<std::size_t>(mix(std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y)));
+}
+
+std::size_t LineSources::Hash::operator()(std::pair<Vec2, Vec2> const& segment) const {
+    return static_cast<std::size_t>(mix((*this)(segment.first), (*this)(segment.second)));
+}
+
+LineSources::LineSources(StreamNetwork const& network, std::vector<std::vector<Stretch>> const& stretches) {
+    NetworkIndex const index(network);
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        auto const& line = network[index.arcs[a]].line;
+        auto const& own = stretches[a];
+        double along_m = 0.0;
+        std::size_t k = 0;
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            double const length_m = distance(line[i - 1], line[i]);
+            double const middle_m = along_m + 0.5 * length_m;
+            along_m += length_m;
+            while (k + 1 < own.size() && middle_m > own[k].to_m) {
+                ++k;
+            }
+            bool const is_known =
+                k < own.size() && middle_m >= own[k].from_m && middle_m <= own[k].to_m + 1e-6 * length_m;
+            std::int64_t const feature = is_known ? own[k].feature : 0;
+            segments_[{line[i - 1], line[i]}] = feature;
+            leaving_[line[i - 1]] = feature;
+            auto const [end, is_first] = arriving_.try_emplace(line[i], feature);
+            end->second = is_first || end->second == feature ? feature : several;
+            knows_any_ = knows_any_ || is_known;
+        }
+    }
+}
+
+std::vector<std::vector<Stretch>> LineSources::of(StreamNetwork const& network) const {
+    std::vector<std::vector<Stretch>> result;
+    for (ArcId const arc : NetworkIndex(network).arcs) {
+        auto const& line = network[arc].line;
+        std::vector<std::int64_t> features;
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            if (auto const known = segments_.find({line[i - 1], line[i]}); known != segments_.end()) {
+                features.push_back(known->second);
+            } else { // an arc may begin farther down, but not one that is the terrain's own
+                bool const is_cut = i == 1 && network[arc].feature > 0 && arriving_.contains(line[i]);
+                features.push_back(is_cut ? replaced(network[arc], i) : 0);
+            }
+        }
+        result.push_back(stretches_of(line, features));
+    }
+    return result;
+}
+
+std::vector<std::vector<Stretch>> LineSources::redrawn(StreamNetwork const& network) const {
+    std::vector<std::vector<Stretch>> result;
+    for (ArcId const arc : NetworkIndex(network).arcs) {
+        auto const& line = network[arc].line;
+        std::vector<std::int64_t> features;
+        std::size_t unknown = 0; // at the beginning
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            auto const known = segments_.find({line[i - 1], line[i]});
+            bool const is_known =
+                known != segments_.end() || arriving_.contains(line[i]) || leaving_.contains(line[i - 1]);
+            unknown += !is_known && unknown + 1 == i ? 1U : 0U;
+            features.push_back(known != segments_.end() ? known->second
+                               : is_known               ? replaced(network[arc], i)
+                               : features.empty()       ? network[arc].feature
+                                                        : features.back());
+        }
+        if (unknown < features.size()) {
+            std::fill_n(features.begin(), unknown, features[unknown]);
+        }
+        result.push_back(stretches_of(line, features));
+    }
+    return result;
+}
+
+/// The feature of a segment that is a part of one there was, or led where it led; 0 where there was none.
+std::int64_t LineSources::replaced(Arc const& arc, std::size_t segment) const {
+    if (arc.feature <= 0) {
+        return 0;
+    }
+    if (auto const end = arriving_.find(arc.line[segment]); end != arriving_.end()) {
+        return end->second == several ? arc.feature : end->second;
+    }
+    auto const begin = leaving_.find(arc.line[segment - 1]);
+    return begin == leaving_.end() ? 0 : begin->second;
+}
+
+LineSources LineSources::bent(StreamNetwork const& before, StreamNetwork const& after) const {
+    auto stretches = of(before);
+    NetworkIndex const was(before);
+    NetworkIndex const is(after);
+    for (std::size_t a = 0; a < stretches.size(); ++a) {
+        double const share = is.length_m[a] / was.length_m[a];
+        for (Stretch& s : stretches[a]) {
+            s.from_m *= share;
+            s.to_m *= share;
+        }
+    }
+    return {after, stretches};
+}
+
+} // namespace thalweg::pipeline

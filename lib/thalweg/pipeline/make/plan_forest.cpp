@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/blend/mask_polygons.hpp>
+#include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/frame/projection.hpp>
+#include <thalweg/io/gdal/content_of.hpp>
+#include <thalweg/io/mesh/read_points.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/io/raster/read_polygons.hpp>
+#include <thalweg/network/growth/forest/plant_forest.hpp>
+#include <thalweg/network/growth/forest/shape_island.hpp>
+#include <thalweg/network/growth/forest/spread_outlets.hpp>
+#include <thalweg/network/import/clip_lines.hpp>
+#include <thalweg/pipeline/make/frame.hpp>
+#include <thalweg/pipeline/make/internal/plan_rivers.hpp>
+#include <thalweg/pipeline/make/internal/read_cells.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+/// The land on its grid: the region's polygons, an island, or all of it.
+Mask land_of(Recipe& recipe, Run const& run) {
+    ForestRecipe const& wanted = recipe.network->forest;
+    if (wanted.region.empty()) {
+        recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
+        Grid const grid = frame_tree(1, recipe.grid);
+        return wanted.shape == LandShape::island ? network::shape_island(grid, {wanted.ruggedness, recipe.seed}, run)
+                                                 : Mask(grid, 1);
+    }
+    std::string const path = file_in(recipe, wanted.region);
+    recipe.grid.crs = recipe.grid.crs.empty() ? io::crs_for_polygons(path) : io::projected_crs(recipe.grid.crs);
+    Polygons const polygons = io::read_polygons(path, recipe.grid.crs, run);
+    return blend::mask_polygons(polygons, frame_polygons(polygons, recipe.grid));
+}
+
+/// Which of some cells lie near marked ones.
+std::vector<Cell> near_to(Mask const& marked, std::vector<Cell> const& cells, std::int64_t reach) {
+    std::vector<Cell> found;
+    for (Cell const c : cells) {
+        bool near = false;
+        cells_around(marked.grid(), c, reach, [&](Cell other) { near = near || marked[other] != 0; });
+        if (near) {
+            found.push_back(c);
+        }
+    }
+    return found;
+}
+
+std::vector<Cell> spread(Recipe const& recipe, Mask const& land, std::vector<Cell> const& coast, Run const& run) {
+    ForestRecipe const& wanted = recipe.network->forest;
+    constexpr double spacings = 6.0;
+    return network::spread_outlets(
+        land, coast, {wanted.seeds, spacings * static_cast<double>(wanted.spacing_cells), recipe.seed}, run);
+}
+
+/// The cells of the coast nearest to the points of a file.
+std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, std::vector<Finding>& notes, Run const& run) {
+    ForestRecipe const& wanted = recipe.network->forest;
+    Grid const& grid = land.grid();
+    if (wanted.seeds > 0) {
+        throw BadInput(
+            fmt::format("network.forest.outlets = \"{}\" holds points, each an outlet; leave network.forest.seeds out",
+                        wanted.outlets));
+    }
+    io::ReadPointsParams params;
+    params.path = file_in(recipe, wanted.outlets);
+    params.crs = grid.crs;
+    params.heights = io::PointHeights::passed_over;
+    std::vector<Cell> const coast = network::coast_cells(land);
+    std::vector<Cell> outlets;
+    for (Vec3 const& p : io::read_points(params, run).points) {
+        run.check();
+        Vec2 const at{p.x, p.y};
+        auto const nearest = std::ranges::min_element(coast, {}, [&](Cell c) {
+            Vec2 const there = grid.centre(c);
+            return (there.x - at.x) * (there.x - at.x) + (there.y - at.y) * (there.y - at.y);
+        });
+        if (nearest == coast.end()) {
+            return {}; // no land: that is told where the forest is planted
+        }
+        double const moved = distance(at, grid.centre(*nearest));
+        if (moved > grid.cell_m) {
+            notes.push_back({"moved_outlet", 0, grid.centre(*nearest), moved,
+                             fmt::format("the outlet at ({:.1f}, {:.1f}) lies off the coast and was moved {:.0f} m to "
+                                         "cell ({}, {})",
+                                         at.x, at.y, moved, nearest->col, nearest->row)});
+        }
+        outlets.push_back(*nearest);
+    }
+    return outlets;
+}
+
+/// The coast along the lines of a file, or along its polygons, which become water.
+std::vector<Cell> coast_along_file(Recipe const& recipe, Mask& land, Run const& run) {
+    ForestRecipe const& wanted = recipe.network->forest;
+    Grid const& grid = land.grid();
+    std::string const path = file_in(recipe, wanted.outlets);
+    Mask marked;
+    std::int64_t reach = 1;
+    if (io::holds_polygons(path)) {
+        marked = blend::mask_polygons(io::read_polygons(path, grid.crs, run), grid);
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            land[i] = marked[i] != 0 ? 0 : land[i];
+        }
+    } else {
+        RiverLines const lines = io::read_rivers({.path = path, .crs = grid.crs}, run);
+        marked = cells_under(network::clip_lines(lines, grid), grid, wanted.outlets);
+        reach = wanted.spacing_cells; // coasts are drawn in more or less detail
+    }
+    std::vector<Cell> coast = near_to(marked, network::coast_cells(land), reach);
+    if (coast.empty()) {
+        throw BadInput(fmt::format("network.forest.outlets: no coast of the land lies within {} cells of {}; give "
+                                   "outlets on the coast, or the region whose coast they lie on",
+                                   reach, wanted.outlets));
+    }
+    return coast;
+}
+
+std::vector<Cell> outlets_of(Recipe const& recipe, Mask& land, std::vector<Finding>& notes, Run const& run) {
+    ForestRecipe const& wanted = recipe.network->forest;
+    std::string const path = file_in(recipe, wanted.outlets);
+    if (wanted.outlets.empty()) {
+        std::vector<Cell> const coast = network::coast_cells(land);
+        return coast.empty() ? coast : spread(recipe, land, coast, run);
+    }
+    bool const points = io::is_text_of_points(path) ||
+                        (!io::holds_polygons(path) && io::content_of(path).kind == io::FileContent::Kind::points);
+    return points ? at_points(recipe, land, notes, run)
+                  : spread(recipe, land, coast_along_file(recipe, land, run), run);
+}
+
+} // namespace
+
+Planned plan_forest(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
+    ForestRecipe& wanted = recipe.network->forest;
+    std::vector<Finding>& notes = terrain.story.repairs;
+    Mask land = diary.stage("shape", [&] { return land_of(recipe, run); });
+    std::vector<Cell> const outlets = outlets_of(recipe, land, notes, run);
+    network::ForestParams params = wanted.growth;
+    params.step_cells = wanted.spacing_cells / 2;
+    params.seed = recipe.seed;
+    network::PlantedForest planted =
+        diary.stage("grow", [&] { return network::plant_forest(land, outlets, params, run); });
+    notes.insert(notes.end(), planted.notes.begin(), planted.notes.end());
+    diary.say(fmt::format("{} trees of {} particles  seed {}", planted.outlets, planted.particles, recipe.seed));
+    terrain.story.particles = planted.particles;
+    terrain.story.walkers = planted.walkers;
+    terrain.story.full = planted.stop == network::ForestStop::full;
+    Grid const grid = land.grid();
+    bool const all_land = std::ranges::all_of(land.values(), [](std::uint8_t v) { return v != 0; });
+    return {std::move(planted.network), grid, {}, all_land ? Mask{} : std::move(land)};
+}
+
+std::vector<Finding> pruned_outlets(StreamNetwork const& before, StreamNetwork const& after) {
+    auto const places = [](StreamNetwork const& network) {
+        std::vector<Vec2> at;
+        for (NodeId const n : NetworkIndex(network).outlets) {
+            at.push_back(network[n].at);
+        }
+        std::ranges::sort(at, [](Vec2 a, Vec2 b) { return a.y != b.y ? a.y > b.y : a.x < b.x; });
+        return at;
+    };
+    std::vector<Vec2> const left = places(after);
+    std::vector<Finding> notes;
+    for (Vec2 const p : places(before)) {
+        if (std::ranges::find(left, p) == left.end()) {
+            notes.push_back({"pruned_outlet", 0, p, 0.0,
+                             fmt::format("the river that ended at ({:.1f}, {:.1f}) was pruned away, its branches are "
+                                         "all too short",
+                                         p.x, p.y)});
+        }
+    }
+    return notes;
+}
+
+} // namespace thalweg::pipeline

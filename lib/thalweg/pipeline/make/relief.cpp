@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/relief.hpp>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/io/frame/ground_cell.hpp>
+#include <thalweg/measure/drainage/reaches.hpp>
+#include <thalweg/measure/relief/perched.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace thalweg::pipeline {
+
+LandRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
+    Grid grid = dem.grid();
+    grid.cell_m = io::ground_cell(grid).side_m;
+    Raster<float> on_ground(grid);
+    std::copy(dem.values().begin(), dem.values().end(), on_ground.values().begin());
+    return {measure::relief(on_ground, measure::drain(on_ground, run), measure::statistics(on_ground, run), {}, run),
+            std::nullopt};
+}
+
+LandRelief relief_of_terrain(Terrain const& terrain, measure::Drainage const& drainage, Run const& run) {
+    Raster<float> const& dem = terrain.surface->dem;
+    LandRelief found{measure::relief(dem, drainage, *terrain.statistics, {}, run), std::nullopt};
+    double const asked =
+        terrain.recipe.surface ? terrain.recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;
+    double const mean_slope = (asked > 0.0 ? asked : found.land.slopes.mean_deg) * (exact::pi / 180.0);
+    if (terrain.recipe.network && !std::isnan(mean_slope)) {
+        std::vector<std::int64_t> cells =
+            terrain.channels.cell; // side valleys that the land has grown climb its slopes
+        if (!terrain.equilibrium) {
+            for (std::int64_t i = 0; i < terrain.valley.z.cells(); ++i) {
+                if (!std::isnan(terrain.valley.z[i])) {
+                    cells.push_back(i);
+                }
+            }
+        }
+        double const rise_m = exact::sin(mean_slope) / exact::cos(mean_slope) * dem.grid().cell_m;
+        found.perched = static_cast<std::int64_t>(measure::perched(dem, cells, rise_m).size());
+    }
+    return found;
+}
+
+std::vector<ReliefRow> relief_rows(LandRelief const& relief) {
+    auto const known = [](double value) { return std::isnan(value) ? std::nullopt : std::optional(value); };
+    auto const lands = measure::real_lands();
+    std::vector<ReliefRow> rows;
+    auto const& figures = measure::relief_figures();
+    for (std::size_t f = 0; f < figures.size(); ++f) {
+        ReliefRow row{figures[f].key, figures[f].name, figures[f].unit, known(figures[f].of(relief.land)), {}, {}};
+        for (measure::RealLand const& land : lands) {
+            row.beside.push_back(land.figures[f]);
+        }
+        if (figures[f].judges == measure::Judges::yes) {
+            row.range = measure::relief_range(f);
+        }
+        rows.push_back(std::move(row));
+    }
+    auto const mean = measure::mean_forms();
+    ReliefRow forms{"form_distance", "distance of geomorphons from the reference DEMs", "", std::nullopt, {}, {}};
+    if (std::any_of(relief.land.forms.begin(), relief.land.forms.end(), [](double share) { return share > 0.0; })) {
+        forms.value = measure::total_variation(relief.land.forms, mean);
+    }
+    for (measure::RealLand const& land : lands) {
+        forms.beside.push_back(measure::total_variation(land.forms, mean));
+    }
+    forms.range = {0.0, measure::land_tolerance * *std::max_element(forms.beside.begin(), forms.beside.end())};
+    rows.push_back(std::move(forms));
+    if (relief.perched) {
+        rows.push_back({"perched",
+                        "river cells that stand perched",
+                        "",
+                        static_cast<double>(*relief.perched),
+                        {},
+                        measure::ReliefRange{0.0, 0.0}});
+    }
+    return rows;
+}
+
+} // namespace thalweg::pipeline

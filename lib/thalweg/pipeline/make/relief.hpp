@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/measure/relief/real_lands.hpp>
+#include <thalweg/measure/relief/relief.hpp>
+
+namespace thalweg::pipeline {
+
+/// The relief of a land, and of the rivers drawn on it.
+struct LandRelief {
+    measure::Relief land;
+    std::optional<std::int64_t> perched; ///< river cells that stand above their surroundings, where rivers are drawn
+};
+
+/// Relief of any DEM, drained for it, with the side that its cells have on the ground (io::ground_cell): a geographic
+/// one's too, though its cells are taken for squares. Throws: as measure::statistics and ground_cell do; Cancelled.
+LandRelief relief_of_dem(Raster<float> const& dem, Run const& run = {});
+
+struct Terrain;
+
+/// Relief of a terrain with a surface and its statistics.
+/// Gives: perched where it has rivers: by the mean slope that the recipe asks for, else that of the land.
+LandRelief relief_of_terrain(Terrain const& terrain, measure::Drainage const& drainage, Run const& run = {});
+
+/// A figure as report.json and the page tell it.
+struct ReliefRow {
+    std::string_view key;
+    std::string_view name;
+    std::string_view unit;
+    std::optional<double> value;               ///< none where the land is too small to tell
+    std::vector<double> beside;                ///< of the real lands, in their order; empty where they have none
+    std::optional<measure::ReliefRange> range; ///< none where nothing can be said
+    bool ok() const { return !value || !range || (*value >= range->low && *value <= range->high); }
+};
+
+/// The figures one by one: those of measure::relief_figures, the distance of the geomorphons from the mean of the real
+/// lands, and perched cells where there are rivers.
+std::vector<ReliefRow> relief_rows(LandRelief const& relief);
+
+/// All of it beside the real lands, as one JSON object: dem.relief in report.json, and what the page draws.
+std::string relief_json(LandRelief const& relief);
+
+} // namespace thalweg::pipeline

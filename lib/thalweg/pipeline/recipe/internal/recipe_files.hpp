@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+
+/// What a recipe names. Private to this room.
+namespace thalweg::pipeline {
+
+/// A file the recipe names, found from the recipe's folder.
+std::string file_in(Recipe const& recipe, std::string const& name);
+
+/// Whether a name means a database or an address of GDAL's, which no folder holds.
+bool is_address(std::string const& name);
+
+/// The recipe with every file it names found from anywhere.
+Recipe with_absolute_files(Recipe recipe);
+
+/// The terrain lies on this grid, and its recipe says so.
+void take_frame(Terrain& terrain, Grid const& grid);
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <thalweg/core/height_unit.hpp>
+#include <thalweg/detail/midpoint.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/io/network/schema.hpp>
+#include <thalweg/network/elevation/rosgen.hpp>
+#include <thalweg/network/elevation/set_heights.hpp>
+#include <thalweg/network/elevation/set_heights_by_type.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/network/growth/dla/pick_branch.hpp>
+#include <thalweg/network/growth/forest/grow_forest.hpp>
+#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
+#include <thalweg/network/import/adopt.hpp>
+#include <thalweg/skeleton/attract.hpp>
+#include <thalweg/skeleton/regress.hpp>
+#include <thalweg/skeleton/scatter.hpp>
+#include <thalweg/surface/diffusion/diffuse.hpp>
+#include <thalweg/surface/dilation/dilate.hpp>
+#include <thalweg/surface/drainage/drain.hpp>
+#include <thalweg/surface/equilibrium/equilibrium.hpp>
+
+namespace thalweg::pipeline {
+
+/// Where the land lies. What is left out is chosen from the network.
+struct GridRecipe {
+    std::int64_t width = 0;  ///< [cells] 0: the network's box and 5 % around it
+    std::int64_t height = 0; ///< [cells] likewise
+    double cell_m = 30.0;    ///< [m] > 0; 0 chooses it from the lines of a file
+    std::string crs;         ///< projected, metres; "": the line file's own or its UTM zone, else EPSG:32631
+    std::optional<std::array<double, 2>> origin; ///< [m] west and north edge
+    bool clip = false;                           ///< cut rivers at the grid's edge instead of refusing them
+};
+
+enum class Source : std::uint8_t { dla, tokunaga, forest, lines };
+enum class Heights : std::uint8_t {
+    automatic,
+    straight,
+    straight_repaired,
+    along_stream,
+    rosgen,
+    graded,
+    file,
+    soft,  ///< those of the file, or straight_repaired, as upper bounds of a land in equilibrium
+    fixed, ///< likewise, kept
+    ends   ///< likewise those of sources and outlets, kept; graded between
+};
+/// What becomes of rivers that end inside the grid.
+enum class InlandEnds : std::uint8_t { carry, sink, coast };
+enum class Side : std::uint8_t { north, east, south, west };
+
+/// What coastlines among the lines of a file are to the land.
+enum class Coastlines : std::uint8_t {
+    sea, ///< its coast
+    none ///< nothing
+};
+
+struct LinesRecipe {
+    std::string path;
+    std::string layer;
+    std::string type_field = "rosgen";
+    std::string rank_field;
+    double snap_m = 0.0; ///< [m] 0 takes 1e-6 of the box's diagonal
+    network::Orientation orientation = network::Orientation::automatic;
+    network::Divergences divergences = network::Divergences::main;
+    io::LineFilter filter = io::LineFilter::natural;
+    Coastlines coastlines = Coastlines::sea;
+};
+
+struct TokunagaRecipe {
+    int generator = 2; ///< [1, 50] lambda, also of strokes without their own
+    int order = 6;     ///< [1, 12] Strahler order at the mouth; strokes: MaxDepth, that of one as long as the grid
+    network::SideRule rule = network::SideRule::tokunaga;
+    Side mouth = Side::south;   ///< of the grid, in the middle of which the river leaves
+    std::string region;         ///< polygon the network fills; "": the grid
+    std::string strokes;        ///< directed lines, each of which grows a network; "" grows one in the region
+    std::string layer;          ///< of the strokes' file; "" takes the only line layer
+    double spacing_cells = 3.0; ///< [cells] >= 0: links closer than this to others are left out
+};
+
+/// The land of a forest that no region is given for.
+enum class LandShape : std::uint8_t { grid, island };
+
+/// Rivers that grow inland from a coast or border until the land is full of them.
+struct ForestRecipe {
+    LandShape shape = LandShape::grid;
+    double ruggedness = 0.5;         ///< [0, 1] of an island's coast
+    std::string region;              ///< polygons that are land; "": the shape
+    std::string outlets;             ///< points; or lines or polygons along whose coast outlets lie; "": all of it
+    std::int64_t seeds = 0;          ///< [0, ...] outlets; 0: one for every six spacings of coast
+    std::int64_t spacing_cells = 10; ///< [8, 200] between rivers that do not meet
+    network::ForestParams growth;    ///< its step and seed follow from the recipe
+};
+
+struct NetworkRecipe {
+    Source source = Source::dla;
+    std::optional<double> prune_cells; ///< [cells] default 20 for dla and forest, else 0
+    Heights heights = Heights::automatic;
+    double slope = 0.087;                  ///< [m/m] > 0
+    double concavity = 0.38;               ///< [0, 1] theta of graded heights
+    std::optional<network::Rosgen> rosgen; ///< type of arcs without one; none: by Strahler order
+    network::SlopeDraw rosgen_slope = network::SlopeDraw::middle;
+    std::optional<double> rotate_deg; ///< [degrees] counterclockwise; none: by chance where rivers are grown for a land
+                                      ///< in equilibrium, else 0
+    std::optional<double> meander;    ///< [0, 2] of nature's amplitude; none: 1 where rivers are grown likewise, else 0
+    InlandEnds inland = InlandEnds::carry;
+    bool fill_space = false;          ///< the land's own side valleys become arcs
+    std::int64_t support_cells = 200; ///< [cells] that drain through where a side valley begins
+    double coast_m = 0.0;             ///< [m] >= 0: nearer to the outlet along the stream rivers are braided
+    network::DlaParams dla;
+    network::BranchChoice branch = network::BranchChoice::largest;
+    LinesRecipe lines;
+    TokunagaRecipe tokunaga;
+    ForestRecipe forest;
+};
+
+/// What ridges lie midway between: points along the rivers, or the rivers themselves.
+enum class Ridges : std::uint8_t { none, voronoi, segments };
+
+/// What else the surface must honour.
+struct SkeletonRecipe {
+    Ridges ridges = Ridges::none;
+    double ridge_gain = 0.3;             ///< [m/m] >= 0, lambda: rise above the rivers by distance from them
+    double ridge_farthest_m = 0.0;       ///< [m] >= 0, d_max: distance beyond which they rise no more; 0: none
+    double ridge_noise_m = 0.0;          ///< [m] >= 0, amplitude of noise along them
+    double ridge_wavelength_m = 1000.0;  ///< [m] > 0, of its longest waves
+    double midpoint_inverse_cells = 0.0; ///< [cells] >= 0, L: cells beside the skeleton that follow from it; 0: none
+    std::string points;                  ///< file of points with heights; "" for none
+    std::int64_t scatter = 0;            ///< points at random; 0 for none
+    double spacing_cells = 0.0;          ///< [cells] least distance of points at random
+    skeleton::HeightLaw law = skeleton::HeightLaw::uniform;
+    skeleton::Deviation deviation = skeleton::Deviation::exact; ///< of points at random
+    skeleton::Falloff falloff = skeleton::Falloff::literal;     ///< of their pull to the extremes
+    bool tin = false;                                           ///< write the skeleton's TIN
+};
+
+enum class Method : std::uint8_t { equilibrium, dilate, diffuse, tin, regress };
+enum class Base : std::uint8_t { harmonic, paper, tin };
+enum class Interpolation : std::uint8_t { linear, natural };
+
+/// What a land in equilibrium is like, beside surface.relief and network.concavity.
+struct EquilibriumRecipe {
+    std::optional<double> mean_slope_deg; ///< none: 25, where no relief is asked
+    double hillslope_m = 0.0;             ///< [m] 0: one cell
+    double floor_width = 0.04;            ///< as surface::EquilibriumParams
+    double roughness = 0.25;
+    std::optional<surface::Edge> edge; ///< none: mainland by coastlines, coast by other sea, else open
+    std::string uplift;                ///< raster on the grid; "" for none
+    std::string erodibility;           ///< raster on the grid, or polygons with a field of that name; "" for none
+    std::string lakes;                 ///< polygons; "" for none
+    double lake_share = 0.0;           ///< [0, 1] of the reaches with enough water, that run through a lake
+};
+
+struct SurfaceRecipe {
+    Method method = Method::equilibrium;
+    EquilibriumRecipe equilibrium;
+    Base base = Base::harmonic;
+    surface::DilateParams dilate;
+    surface::DiffuseParams diffuse;
+    std::string mask; ///< raster on the grid: cells with 0 or no data are left out; "" for none
+    Interpolation interpolation = Interpolation::linear; ///< of a TIN
+    std::optional<double> tolerance;                     ///< (0, 0.1] of a solution; none: that of each method
+    skeleton::RegressParams regress;
+    std::optional<surface::Drain> drain; ///< none: carve where there are rivers, else surface::Drain::none
+};
+
+/// The land that the statistics are brought to.
+enum class Prior : std::uint8_t { grf, separable, markov3, points };
+
+/// What the land as a whole shall be; what is not named is left as it comes.
+struct StatisticsRecipe {
+    std::optional<double> mean;                  ///< [m]
+    std::optional<double> std;                   ///< [m] > 0
+    std::optional<std::array<double, 3>> max;    ///< height [m], column, row
+    std::optional<std::array<double, 3>> min;    ///< likewise
+    std::optional<std::array<double, 2>> length; ///< [cells] > 0, along rows and along columns
+    std::optional<double> slope;                 ///< [rad] (0, pi/2) arctan of metres a cell
+    std::optional<double> dimension;             ///< (2, 3)
+    Prior skeleton = Prior::grf;
+    double reach_cells = 6.0; ///< [cells] >= 0, R of equations 4 and 10; 0 pulls nothing
+    skeleton::Falloff falloff = skeleton::Falloff::continuous;
+};
+
+enum class DetailMethod : std::uint8_t { none, midpoint };
+
+struct DetailRecipe {
+    DetailMethod method = DetailMethod::midpoint;
+    detail::MidpointParams midpoint;
+};
+
+/// What becomes of rivers under a patch.
+enum class PatchRivers : std::uint8_t { keep, replace };
+
+/// Real relief pasted into the land.
+struct PatchRecipe {
+    std::string source = {}; ///< DEM
+    std::optional<std::array<double, 2>> at =
+        {}; ///< [m] where its centre comes to lie; none: where it is, or the middle
+    std::optional<std::array<double, 4>> window = {}; ///< [cells] of the source: column, row, width, height
+    std::string mask = {};      ///< polygons, or a raster on the grid: what is pasted; "": all that is covered
+    double rotate_deg = 0.0;    ///< [degrees] counterclockwise
+    double scale = 1.0;         ///< > 0, in plan
+    double gain = 1.0;          ///< of its heights
+    double feather_cells = 0.0; ///< [cells] over which its slopes take over from the land's
+    PatchRivers rivers = PatchRivers::keep;
+};
+
+struct OutputRecipe {
+    std::string title;                      ///< of the pictures and the page; "" names the seed
+    double contour_interval = 0.0;          ///< [units] 0 chooses a round number
+    bool catchments = true;                 ///< of the arcs, where there are rivers and a surface
+    bool accumulation = false;              ///< contributing areas by cell, where there is a surface
+    io::Schema schema = io::Schema::native; ///< another one: a network file more, in its words
+    HeightUnit units = HeightUnit::metre;   ///< of heights in dem.tif, networks, contours and TINs
+};
+
+/// Everything that decides a result, as one plain value.
+struct Recipe {
+    std::uint64_t seed = 7;
+    GridRecipe grid;
+    std::optional<NetworkRecipe> network;
+    std::optional<SkeletonRecipe> skeleton;
+    std::optional<SurfaceRecipe> surface;
+    std::optional<StatisticsRecipe> statistics;
+    std::optional<DetailRecipe> detail;
+    std::vector<PatchRecipe> patches; ///< in their order
+    OutputRecipe output;
+    std::string folder;                             ///< file names are relative to it; "" is the working folder
+    std::map<std::string, std::string> set_at = {}; ///< where keys were set, for messages: "r.toml, line 3" or "--set"
+};
+
+/// What `thalweg make` makes without a recipe; the same as samples/relief_dla.toml.
+Recipe default_recipe();
+
+/// What a key of a recipe file means.
+struct KeyHelp {
+    std::string path;     ///< section.key
+    std::string type;     ///< integer | number | text | yes/no | two numbers
+    std::string range;    ///< in words or the choices
+    std::string unit;     ///< "" for none
+    std::string standard; ///< default as TOML, or in words
+    std::string meaning;
+    std::vector<std::string> choices = {}; ///< words it may be; of an expression, those with a name; {} for none
+    std::string used_by = {};              ///< what a recipe must hold for the key to have an effect; "": any recipe
+    bool is_file = false;                  ///< its value names a file, relative to the recipe's folder
+};
+
+/// Every key in the order of recipe files.
+std::vector<KeyHelp> recipe_keys();
+
+/// Reads a recipe from TOML text. Throws BadParameter with all faults at once: unknown sections and keys (did you
+/// mean), wrong types, values out of range. name: for messages.
+Recipe read_recipe(std::string const& toml, std::string const& name);
+
+/// Sets one key from "section.key=value"; "patch.2.key=value" of the second patch, or a new
+/// one after the last. A file is found from the working folder, wherever the recipe lies. Throws BadParameter.
+void set_key(Recipe& recipe, std::string const& assignment);
+
+/// The recipe as TOML: every key that has an effect, defaults too. read_recipe gives it back.
+std::string write_recipe(Recipe const& recipe);
+
+/// The title of what a recipe makes: output.title, or "thalweg, seed 7" where that is "".
+std::string title_of(Recipe const& recipe);
+
+/// Throws BadParameter naming all that does not fit together (a source without its file, ...), and every key that is
+/// set away from its default and has no effect.
+void check_recipe(Recipe const& recipe);
+
+} // namespace thalweg::pipeline

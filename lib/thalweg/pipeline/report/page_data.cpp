@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/report/internal/page_data.hpp>
+
+#include <thalweg/pipeline/report/internal/page_laws.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t most_points = 600;
+constexpr std::size_t most_shown = 50;
+
+/// To the millimetre, so that no digits are written that no one needs.
+double to_millimetres(double metres) {
+    constexpr double finest = 1e12; // beyond, a double has not much finer steps
+    return std::fabs(metres) < finest ? std::floor(metres * 1000.0 + 0.5) / 1000.0 : metres;
+}
+
+/// At most so many of a list, evenly, the first and last among them.
+template <class T> std::vector<T> thinned(std::vector<T> const& all) {
+    if (all.size() <= most_points) {
+        return all;
+    }
+    std::vector<T> some;
+    for (std::size_t i = 0; i < most_points; ++i) {
+        some.push_back(all[i * (all.size() - 1) / (most_points - 1)]);
+    }
+    return some;
+}
+
+ordered_json grid_object(Grid const& grid) {
+    return {{"width", grid.width}, {"height", grid.height}, {"cell_m", grid.cell_m},
+            {"west", grid.west},   {"north", grid.north},   {"crs", grid.crs}};
+}
+
+ordered_json heights_object(std::optional<PageHeights> const& heights) {
+    if (!heights) {
+        return nullptr;
+    }
+    return {{"width", heights->width}, {"height", heights->height}, {"cells", heights->cells},
+            {"min", heights->min},     {"max", heights->max},       {"nodata", heights->nodata}};
+}
+
+ordered_json arcs_object(Terrain const& t, NetworkIndex const& index, PageLines const& lines) {
+    ordered_json id = ordered_json::array();
+    ordered_json downstream = ordered_json::array();
+    ordered_json survives = ordered_json::array();
+    ordered_json length = ordered_json::array();
+    ordered_json z_up = ordered_json::array();
+    ordered_json z_down = ordered_json::array();
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        id.push_back(a + 1);
+        downstream.push_back(index.out[index.to[a]] + 1);
+        double const until = t.network.plan[index.arcs[a]].survives;
+        survives.push_back(std::isfinite(until) ? ordered_json(to_millimetres(until)) : ordered_json(nullptr));
+        length.push_back(to_millimetres(index.length_m[a]));
+        z_up.push_back(to_millimetres(t.network.arc_z[a].front()));
+        z_down.push_back(to_millimetres(t.network.arc_z[a].back()));
+    }
+    std::vector<std::int64_t> const n(lines.vertices.begin(),
+                                      lines.vertices.begin() + static_cast<std::ptrdiff_t>(index.arcs.size()));
+    return {{"id", id},
+            {"ds", downstream},
+            {"basin", t.orders.arc_basin},
+            {"strahler", t.orders.strahler},
+            {"shreve", t.orders.shreve},
+            {"hack", t.orders.hack},
+            {"survives", survives},
+            {"length", length},
+            {"z_up", z_up},
+            {"z_down", z_down},
+            {"us_area", t.areas.us_area_m2},
+            {"ds_area", t.areas.ds_area_m2},
+            {"n", n}};
+}
+
+ordered_json ridges_object(Terrain const& t, NetworkIndex const& index, PageLines const& lines) {
+    if (t.ridges.lines.empty()) {
+        return nullptr;
+    }
+    auto const first = lines.vertices.begin() + static_cast<std::ptrdiff_t>(index.arcs.size());
+    return {{"n", std::vector<std::int64_t>(first, lines.vertices.end())}};
+}
+
+/// A place on a profile: distance to the outlet and height, both in metres.
+struct ProfilePoint {
+    double to_outlet_m;
+    double z;
+};
+
+/// The main stem of the basin that drains the largest area, from its source down.
+std::vector<ProfilePoint> main_stem(Terrain const& t, NetworkIndex const& index) {
+    std::vector<ProfilePoint> upstream;
+    if (index.outlets.empty()) {
+        return upstream;
+    }
+    NodeId const outlet = *std::max_element(index.outlets.begin(), index.outlets.end(), [&](NodeId a, NodeId b) {
+        return t.areas.node_m2[a] < t.areas.node_m2[b];
+    });
+    auto const stem_above = [&](NodeId node) {
+        auto const& in = index.in[node];
+        auto const at = std::find_if(in.begin(), in.end(),
+                                     [&](std::int64_t a) { return t.orders.hack[static_cast<std::size_t>(a)] == 1; });
+        return at == in.end() ? std::int64_t{-1} : *at;
+    };
+    for (std::int64_t arc = stem_above(outlet); arc >= 0;) {
+        auto const a = static_cast<std::size_t>(arc);
+        std::vector<Vec2> const& line = t.network.plan[index.arcs[a]].line;
+        double to_outlet = t.orders.node_dist_out_m[index.to[a]];
+        for (std::size_t i = line.size(); i-- > 0;) {
+            bool const shared = i + 1 == line.size() && !upstream.empty();
+            to_outlet += i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0;
+            if (!shared) {
+                upstream.push_back({to_outlet, t.network.arc_z[a][i]});
+            }
+        }
+        arc = stem_above(index.from[a]);
+    }
+    std::reverse(upstream.begin(), upstream.end());
+    return upstream;
+}
+
+ordered_json profile_array(std::vector<ProfilePoint> const& stem) {
+    ordered_json out = ordered_json::array();
+    for (ProfilePoint const& p : thinned(stem)) {
+        out.push_back({to_millimetres(p.to_outlet_m), to_millimetres(p.z)});
+    }
+    return out;
+}
+
+ordered_json curve_object(Terrain const& t) {
+    if (!t.surface || !t.recipe.surface || t.surface->increments.empty()) {
+        return nullptr;
+    }
+    std::vector<ordered_json> points;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < t.surface->increments.size(); ++i) {
+        sum += t.surface->increments[i];
+        points.push_back({i + 1, to_millimetres(t.surface->increments[i]), to_millimetres(sum)});
+    }
+    return {{"name", t.recipe.surface->dilate.increment.increment}, {"points", thinned(points)}};
+}
+
+ordered_json hypsometry_object(Terrain const& t) {
+    if (!t.hypsometry) {
+        return nullptr;
+    }
+    ordered_json points = ordered_json::array();
+    for (measure::HypsometricPoint const& p : t.hypsometry->points) {
+        points.push_back({p.share_above, to_millimetres(p.z)});
+    }
+    return {{"integral", t.hypsometry->integral}, {"points", points}};
+}
+
+/// A list of figures: what was asked, where something was, and what came of it.
+class Figures {
+public:
+    template <class Number> void add(char const* name, Number got, char const* unit) {
+        rows_.push_back({{"name", name}, {"asked", nullptr}, {"got", got}, {"unit", unit}});
+    }
+    template <class Number> void add(char const* name, std::optional<Number> asked, Number got, char const* unit) {
+        add(name, got, unit);
+        if (asked) {
+            rows_.back()["asked"] = *asked;
+        }
+    }
+    ordered_json take() { return std::move(rows_); }
+
+private:
+    ordered_json rows_ = ordered_json::array();
+};
+
+/// What [statistics] asks for under the name a residual has.
+std::optional<double> asked_for(Terrain const& t, char const* name) {
+    if (t.projection) {
+        for (detail::Residual const& r : t.projection->residuals) {
+            if (r.name == name) {
+                return r.asked;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+void add_land(Terrain const& t, Figures& figures) {
+    measure::Statistics const& s = *t.statistics;
+    figures.add("mean height", asked_for(t, "mean"), to_millimetres(s.mean), "m");
+    figures.add("standard deviation", asked_for(t, "std"), to_millimetres(s.std), "m");
+    figures.add("lowest height", asked_for(t, "min"), to_millimetres(s.min.z), "m");
+    figures.add("highest height", asked_for(t, "max"), to_millimetres(s.max.z), "m");
+    figures.add("relief, highest less lowest", to_millimetres(s.max.z - s.min.z), "m");
+    if (!t.surface->increments.empty() && t.recipe.surface) {
+        double const relief = t.recipe.surface->dilate.relief_m;
+        figures.add("greatest rise above the valley", relief > 0.0 ? std::optional(relief) : std::nullopt,
+                    to_millimetres(t.surface->rise_m), "m");
+    }
+    figures.add("correlation length along rows", asked_for(t, "lx_cells"), s.lx.cells, "cells");
+    figures.add("correlation length along columns", asked_for(t, "ly_cells"), s.ly.cells, "cells");
+    figures.add("fractal dimension", asked_for(t, "dimension"), s.dimension, "");
+    figures.add("mean slope on unit cells", asked_for(t, "slope_rad"), s.slope_rad, "rad");
+    figures.add("mean slope", s.slope_true_deg, "degrees");
+    figures.add("hypsometric integral", t.hypsometry->integral, "");
+    figures.add("cells in pits", t.pits, "");
+}
+
+void add_rivers(Terrain const& t, NetworkIndex const& index, std::vector<ProfilePoint> const& stem, Figures& figures) {
+    std::optional<NetworkRecipe> const& wanted = t.recipe.network;
+    double const length = std::accumulate(index.length_m.begin(), index.length_m.end(), 0.0);
+    auto const land = static_cast<double>(t.statistics ? t.statistics->cells : t.grid.cells());
+    if (wanted && wanted->source == Source::dla) {
+        figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.story.particles, "");
+    }
+    if (wanted && wanted->source == Source::forest) {
+        figures.add("particles of the forest", t.story.particles, "");
+    }
+    figures.add("arcs", index.arcs.size(), "");
+    figures.add("outlets", index.outlets.size(), "");
+    figures.add("highest Strahler order", t.laws.network ? t.laws.network->horton.orders.size() : 0, "");
+    figures.add("length of all rivers", to_millimetres(length / 1000.0), "km");
+    figures.add("drainage density", length / 1000.0 / (land * t.grid.cell_m * t.grid.cell_m / 1e6), "km/km2");
+    if (!stem.empty() && stem.front().to_outlet_m > 0.0) {
+        // Only along_stream asks for a slope along the water; the others ask for one along a straight line.
+        figures.add("slope of the main stem",
+                    wanted && wanted->heights == Heights::along_stream ? std::optional(wanted->slope) : std::nullopt,
+                    (stem.front().z - stem.back().z) / stem.front().to_outlet_m, "m/m");
+    }
+}
+
+ordered_json shown(std::vector<Finding> const& findings) {
+    ordered_json texts = ordered_json::array();
+    for (std::size_t i = 0; i < std::min(findings.size(), most_shown); ++i) {
+        texts.push_back(findings[i].text);
+    }
+    return {{"count", findings.size()}, {"shown", texts}};
+}
+
+ordered_json timings_array(Terrain const& t) {
+    ordered_json out = ordered_json::array();
+    for (auto const& [stage, seconds] : t.timings_s) {
+        out.push_back({stage, to_millimetres(seconds)});
+    }
+    return out;
+}
+
+ordered_json notes_array(Terrain const& t, std::optional<PageHeights> const& heights,
+                         std::vector<std::string> const& further) {
+    ordered_json out = further;
+    if (!t.surface) {
+        out.push_back("the recipe has no [surface]: the page shows the rivers alone");
+    }
+    if (t.fine_forms_cells > 0.0) {
+        out.push_back(
+            fmt::format("the statistics cannot be reached from this skeleton alone: forms finer than about {} "
+                        "cells come from a Gaussian surface",
+                        t.fine_forms_cells));
+    }
+    if (heights && heights->cells > 1) {
+        out.push_back(fmt::format("heights are shown as means of {0}x{0} cells", heights->cells));
+    }
+    return out;
+}
+
+/// Within a string of JSON any character may be written so; elsewhere JSON has no '<'.
+std::string without_tags(std::string const& json) {
+    std::string out;
+    out.reserve(json.size());
+    for (char const c : json) {
+        if (c == '<') {
+            out += "\\u003c";
+        } else {
+            out += c;
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+std::string page_data(Terrain const& t, PageParams const& params, std::optional<PageHeights> const& heights,
+                      PageLines const& lines) {
+    NetworkIndex const index(t.network.plan);
+    std::vector<ProfilePoint> const stem = main_stem(t, index);
+    Figures figures;
+    if (t.statistics) {
+        add_land(t, figures);
+    }
+    if (t.recipe.network || !index.arcs.empty()) {
+        add_rivers(t, index, stem, figures);
+    }
+    ordered_json const data{{"version", version()},
+                            {"title", title_of(t.recipe)},
+                            {"seed", t.recipe.seed},
+                            {"command", params.command},
+                            {"recipe", params.recipe},
+                            {"grid", grid_object(t.grid)},
+                            {"heights", heights_object(heights)},
+                            {"contour_m", params.contour_interval_m},
+                            {"rivers",
+                             {{"step", lines.step},
+                              {"prune", t.recipe.network ? t.recipe.network->prune_cells.value_or(0.0) : 0.0},
+                              {"arcs", arcs_object(t, index, lines)}}},
+                            {"ridges", ridges_object(t, index, lines)},
+                            {"profile", profile_array(stem)},
+                            {"curve", curve_object(t)},
+                            {"hypsometry", hypsometry_object(t)},
+                            {"laws", ordered_json::parse(page_laws(t.laws))},
+                            {"relief", t.relief ? ordered_json::parse(relief_json(*t.relief)) : ordered_json(nullptr)},
+                            {"statistics", figures.take()},
+                            {"checks", ordered_json::parse(checks_json(t.checks))},
+                            {"timings", timings_array(t)},
+                            {"repairs", shown(t.story.repairs)},
+                            {"findings", shown(t.findings)},
+                            {"notes", notes_array(t, heights, params.notes)}};
+    return without_tags(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+}
+
+} // namespace thalweg::pipeline

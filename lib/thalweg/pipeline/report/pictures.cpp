@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/report/pictures.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/draw/curve.hpp>
+#include <thalweg/draw/hypsometry.hpp>
+#include <thalweg/draw/map.hpp>
+#include <thalweg/draw/profile.hpp>
+#include <thalweg/draw/sections.hpp>
+#include <thalweg/draw/wireframe.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/measure/relief/hypsometry.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+RaisedNetwork const* network_of(Scene const& scene) {
+    return scene.network ? &*scene.network : nullptr;
+}
+
+NetworkOrders const* orders_of(Scene const& scene) {
+    return scene.network ? &scene.orders : nullptr;
+}
+
+double relief_of(Raster<float> const& dem) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (float const z : dem.values()) {
+        if (std::isfinite(z)) {
+            low = std::min(low, static_cast<double>(z));
+            high = std::max(high, static_cast<double>(z));
+        }
+    }
+    return high > low ? high - low : 0.0;
+}
+
+draw::Picture draw_map(Scene const& scene, Look const& look, Run const& run) {
+    Raster<float> const& dem = *scene.dem;
+    double const interval = scene.contour_interval_m > 0.0 ? scene.contour_interval_m : round_interval(relief_of(dem));
+    draw::MapSheet sheet{dem, io::hillshade(dem), network_of(scene), orders_of(scene), {}};
+    for (io::ContourLine& contour : io::contours(dem, interval, run)) {
+        sheet.contours.emplace_back(contour.z, std::move(contour.line));
+    }
+    draw::MapParams params;
+    params.title = scene.title;
+    params.contour_interval_m = sheet.contours.empty() ? 0.0 : interval;
+    params.format = look.format;
+    params.width_px = look.width_px > 0 ? look.width_px : params.width_px;
+    return draw::map(sheet, params);
+}
+
+draw::Picture draw_wireframe(Scene const& scene, Look const& look) {
+    draw::WireframeScene const land{*scene.dem, network_of(scene), orders_of(scene)};
+    draw::WireframeParams params;
+    params.title = scene.title;
+    params.azimuth_deg = look.azimuth_deg ? *look.azimuth_deg : draw::azimuth_up_valley(land);
+    params.elevation_deg = look.elevation_deg.value_or(params.elevation_deg);
+    params.exaggeration = look.exaggeration.value_or(params.exaggeration);
+    params.format = look.format;
+    params.width_px = look.width_px > 0 ? look.width_px : params.width_px;
+    return draw::wireframe(land, params);
+}
+
+/// Pictures of a given shape keep it at another width.
+template <class Params> Params sized(Look const& look) {
+    Params params;
+    params.format = look.format;
+    if (look.width_px > 0) {
+        params.height_px = std::clamp(params.height_px * look.width_px / params.width_px, 200, 8000);
+        params.width_px = look.width_px;
+    }
+    return params;
+}
+
+draw::Picture draw_hypsometry(Scene const& scene, Look const& look, Run const& run) {
+    measure::Hypsometry const found = measure::hypsometry(*scene.dem, run);
+    std::vector<Vec2> curve;
+    for (measure::HypsometricPoint const& point : found.points) {
+        curve.push_back({point.share_above, point.z});
+    }
+    draw::HypsometryParams params = sized<draw::HypsometryParams>(look);
+    params.title = scene.title;
+    return draw::hypsometry(curve, found.integral, params);
+}
+
+} // namespace
+
+std::vector<PictureKind> const& picture_kinds() {
+    static std::vector<PictureKind> const kinds = {PictureKind::map,      PictureKind::profile,
+                                                   PictureKind::curve,    PictureKind::hypsometry,
+                                                   PictureKind::sections, PictureKind::wireframe};
+    return kinds;
+}
+
+char const* name_of(PictureKind kind) {
+    switch (kind) {
+    case PictureKind::map: return "map";
+    case PictureKind::profile: return "profile";
+    case PictureKind::curve: return "curve";
+    case PictureKind::hypsometry: return "hypsometry";
+    case PictureKind::sections: return "sections";
+    case PictureKind::wireframe: break;
+    }
+    return "wireframe";
+}
+
+double round_interval(double relief_m) {
+    double step = 1e-3;
+    while (step * 20.0 < relief_m) {
+        for (double const factor : {2.0, 2.5, 2.0}) { // 1, 2, 5, 10
+            step *= factor;
+            if (step * 20.0 >= relief_m) {
+                break;
+            }
+        }
+    }
+    return step;
+}
+
+std::string missing_for(PictureKind kind, Scene const& scene) {
+    switch (kind) {
+    case PictureKind::profile: return scene.network ? "" : "there are no rivers: name a file of them with --network";
+    case PictureKind::curve:
+        return scene.increments.empty() ? "there is no recipe with a surface: it is drawn from a folder written by make"
+                                        : "";
+    case PictureKind::map:
+    case PictureKind::hypsometry:
+    case PictureKind::sections:
+    case PictureKind::wireframe: break;
+    }
+    return scene.dem ? "" : "there is no DEM";
+}
+
+draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& look, Run const& run) {
+    if (std::string const missing = missing_for(kind, scene); !missing.empty()) {
+        throw BadInput(fmt::format("pipeline.draw_picture: no {} can be drawn, {}", name_of(kind), missing));
+    }
+    switch (kind) {
+    case PictureKind::map: return draw_map(scene, look, run);
+    case PictureKind::profile: {
+        draw::ProfileParams params = sized<draw::ProfileParams>(look);
+        params.title = scene.title;
+        return draw::profile(*scene.network, scene.orders, params);
+    }
+    case PictureKind::hypsometry: return draw_hypsometry(scene, look, run);
+    case PictureKind::wireframe: return draw_wireframe(scene, look);
+    case PictureKind::sections: {
+        draw::SectionsParams params;
+        params.title = scene.title;
+        params.format = look.format;
+        params.width_px = look.width_px > 0 ? look.width_px : params.width_px;
+        return draw::sections(*scene.dem, network_of(scene), orders_of(scene), params);
+    }
+    case PictureKind::curve: break;
+    }
+    draw::CurveParams params = sized<draw::CurveParams>(look);
+    params.increment = scene.increment;
+    return draw::curve(scene.increments, params);
+}
+
+} // namespace thalweg::pipeline

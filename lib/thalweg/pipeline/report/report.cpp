@@ -1,0 +1,379 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/report/report.hpp>
+
+#include <thalweg/pipeline/make/internal/user_data.hpp>
+
+#include <thalweg/pipeline/commands/check_files.hpp>
+
+#include <thalweg/core/run/memory.hpp>
+
+#include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
+#include <thalweg/pipeline/report/law_rows.hpp>
+
+#include <nlohmann/json.hpp>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json extreme(measure::Extreme const& e) {
+    return {{"z", e.z}, {"col", e.cell.col}, {"row", e.cell.row}};
+}
+
+/// A figure that the heights do not tell is NaN, which JSON writes as null.
+ordered_json dem(measure::Statistics const& s) {
+    return {{"cells", s.cells},
+            {"nodata", s.nodata},
+            {"mean", s.mean},
+            {"std", s.std},
+            {"min", extreme(s.min)},
+            {"max", extreme(s.max)},
+            {"slope_rad", s.slope_rad},
+            {"slope_true_deg", s.slope_true_deg},
+            {"skew", s.skew},
+            {"kurtosis", s.kurtosis},
+            {"roughness_m", s.roughness_m},
+            {"lx_cells", s.lx.cells},
+            {"lx_extrapolated", s.lx.extrapolated},
+            {"ly_cells", s.ly.cells},
+            {"ly_extrapolated", s.ly.extrapolated},
+            {"dimension", s.dimension},
+            {"dimension_dyadic", s.dimension_dyadic}};
+}
+
+ordered_json checks_array(std::vector<Check> const& checks) {
+    ordered_json out = ordered_json::array();
+    for (Check const& c : checks) {
+        out.push_back(
+            {{"name", c.name}, {"value", c.value}, {"limit", c.limit}, {"bound", word_of(c.bound)}, {"ok", c.ok}});
+    }
+    return out;
+}
+
+ordered_json findings_array(std::vector<Finding> const& findings) {
+    ordered_json out = ordered_json::array();
+    for (Finding const& f : findings) {
+        ordered_json one{{"kind", f.kind}, {"feature", f.feature}};
+        if (std::isfinite(f.where.x) && std::isfinite(f.where.y)) {
+            one["x"] = f.where.x;
+            one["y"] = f.where.y;
+        }
+        if (std::isfinite(f.amount)) {
+            one["amount"] = f.amount;
+        }
+        one["text"] = f.text;
+        out.push_back(std::move(one));
+    }
+    return out;
+}
+
+ordered_json recipe_object(Recipe const& recipe) {
+    std::ostringstream text;
+    toml::table const table = toml::parse(write_recipe(recipe));
+    text << toml::json_formatter{table};
+    return ordered_json::parse(text.str());
+}
+
+/// A ratio, or null where it is unknown.
+ordered_json ratio(std::optional<measure::HortonRatio> const& law) {
+    return law ? ordered_json(law->ratio) : ordered_json(nullptr);
+}
+
+ordered_json horton(measure::HortonLaws const& laws) {
+    ordered_json orders = ordered_json::array();
+    for (measure::StreamOrder const& o : laws.orders) {
+        orders.push_back(
+            {{"order", o.order}, {"streams", o.streams}, {"length_m", o.length_m}, {"area_m2", o.area_m2}});
+    }
+    return {{"orders", orders},
+            {"bifurcation", ratio(laws.bifurcation)},
+            {"length", ratio(laws.length)},
+            {"area", ratio(laws.area)}};
+}
+
+ordered_json streams_object(network::StreamCounts const& counts) {
+    return {{"links", counts.links}, {"streams", counts.streams}, {"side_branches", counts.side}};
+}
+
+/// Side branches by Tokunaga's numbers: of the network as drawn, and of the tree it was grown from.
+ordered_json tokunaga_object(Terrain const& t) {
+    ordered_json out{{"drawn", streams_object(t.streams)}};
+    if (t.story.tokunaga && !t.recipe.network->tokunaga.strokes.empty()) { // each has a tree and lambda of its own
+        out["grown"] = {{"links", t.story.tokunaga->placed + t.story.tokunaga->dropped}};
+    } else if (t.story.tokunaga) {
+        network::TokunagaLaws const laws = network::tokunaga_laws(t.recipe.network->tokunaga.generator);
+        out["grown"] = streams_object(t.story.tokunaga->tree);
+        out["asked"] = {{"a", laws.a}, {"c", laws.c}, {"bifurcation", laws.bifurcation}};
+    }
+    if (t.story.tokunaga) {
+        out["placed"] = t.story.tokunaga->placed;
+        out["dropped"] = t.story.tokunaga->dropped;
+    }
+    return out;
+}
+
+ordered_json laws_object(measure::NetworkLaws const& laws) {
+    ordered_json out = ordered_json::object();
+    for (LawRow const& row : law_rows(laws)) {
+        ordered_json& law = out[row.key];
+        law = {{"value", row.value ? ordered_json(*row.value) : ordered_json(nullptr)}, {"unit", row.unit}};
+        for (auto const& [name, figure] : row.details) {
+            law[name] = figure;
+        }
+        if (row.nature != nullptr) {
+            law["range"] = {row.nature->low, row.nature->high};
+            law["source"] = row.nature->source;
+        }
+    }
+    return out;
+}
+
+ordered_json dem_laws_object(DemLaws const& found) {
+    ordered_json out = laws_object(found.laws);
+    out["support"] = {
+        {"cells", found.support_cells}, {"area_m2", found.support_m2}, {"as_dense_as_the_network", found.as_dense}};
+    return out;
+}
+
+ordered_json network_object(Terrain const& t) {
+    StreamNetwork const& plan = t.network.plan;
+    NetworkIndex const index(plan);
+    double length = 0.0;
+    for (double const l : index.length_m) {
+        length += l;
+    }
+    int strahler = 0;
+    for (int const s : t.orders.strahler) {
+        strahler = std::max(strahler, s);
+    }
+    auto const arcs = static_cast<std::int64_t>(index.arcs.size());
+    network::HeightReport const& h = t.story.heights;
+    return {{"arcs", arcs},
+            {"nodes", boost::num_vertices(plan)},
+            {"outlets", index.outlets.size()},
+            {"strahler", strahler},
+            {"length_m", length},
+            {"traced", t.story.arcs_traced},
+            {"pruned", t.story.arcs_traced - t.story.arcs_kept},
+            {"particles", t.story.particles},
+            {"walkers", t.story.walkers},
+            {"stopped_at", t.story.particles == 0 ? ""
+                           : t.story.full         ? "full"
+                           : t.story.cut          ? "margin"
+                           : t.story.wide         ? "radius"
+                                                  : "particles"},
+            {"uphill_before_repair",
+             {{"arcs", h.uphill_arcs}, {"length_m", h.uphill_length_m}, {"max_rise_m", h.max_rise_m}}},
+            {"lifted", {{"count", h.lifted}, {"max_m", h.max_lift_m}, {"rms_m", h.rms_lift_m}}},
+            {"lowered_cells", {{"count", t.story.lowered_cells}, {"max_m", t.story.max_lowered_m}}},
+            {"area_from", t.areas.source},
+            {"horton", horton(t.laws.network ? t.laws.network->horton : measure::HortonLaws{})},
+            {"tokunaga", tokunaga_object(t)},
+            {"laws", t.laws.network ? laws_object(*t.laws.network) : ordered_json(nullptr)}};
+}
+
+ordered_json agreements_object(measure::Agreements const& agreements) {
+    ordered_json out = ordered_json::array();
+    for (std::size_t k = 0; k < agreements.size(); ++k) {
+        measure::Agreement const& a = agreements[k];
+        out.push_back({{"within_cells", k}, {"precision", a.precision}, {"recall", a.recall}, {"f", a.f()}});
+    }
+    return out;
+}
+
+ordered_json certificate_object(measure::Certificate const& c) {
+    double const cells = static_cast<double>(std::max<std::int64_t>(c.river_cells, 1));
+    return {{"depressions",
+             {{"count", c.depressions},
+              {"cells", c.pit_cells},
+              {"max_depth_m", c.max_depth_m},
+              {"volume_m3", c.pit_volume_m3}}},
+            {"river_cells", c.river_cells},
+            {"following_share", static_cast<double>(c.following_cells) / cells},
+            {"border_cells", c.border_cells},
+            {"lake_cells", c.lake_cells},
+            {"waived_cells", c.waived_cells},
+            {"sources", c.sources},
+            {"sources_arriving", c.arriving_sources},
+            {"traced", agreements_object(c.traced)},
+            {"extracted", {{"area_cells", c.threshold_cells}, {"agreement", agreements_object(c.extracted)}}},
+            {"areas",
+             {{"compared", c.compared_areas},
+              {"within_5_percent", c.close_areas},
+              {"max_difference", c.max_area_difference}}}};
+}
+
+ordered_json change_object(surface::LandChange const& c) {
+    return {{"raised_cells", c.raised_cells}, {"cut_cells", c.cut_cells}, {"max_raise_m", c.max_raise_m},
+            {"max_cut_m", c.max_cut_m},       {"raised_m3", c.raised_m3}, {"cut_m3", c.cut_m3}};
+}
+
+ordered_json statistics_object(detail::Projection const& p) {
+    ordered_json residuals = ordered_json::array();
+    for (detail::Residual const& r : p.residuals) {
+        residuals.push_back({{"name", r.name}, {"asked", r.asked}, {"got", r.got}, {"error", r.error}});
+    }
+    return {{"converged", p.converged},
+            {"iterations", p.iterations},
+            {"limited_cells", p.limited_cells},
+            {"residuals", residuals}};
+}
+
+/// From the increments as the recipe names them to those used.
+double metres_per_unit(Terrain const& t) {
+    std::vector<double> const& used = t.surface->increments;
+    std::vector<double> const named =
+        surface::increments(static_cast<std::int64_t>(used.size()), t.recipe.surface->dilate.increment);
+    auto const greatest =
+        std::max_element(named.begin(), named.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); });
+    return greatest == named.end() || *greatest == 0.0
+               ? 1.0
+               : used[static_cast<std::size_t>(greatest - named.begin())] / *greatest;
+}
+
+} // namespace
+
+std::string version() {
+    return THALWEG_VERSION;
+}
+
+std::string write_report(Terrain const& t, std::vector<std::string> const& files) {
+    ordered_json timings = ordered_json::object();
+    for (auto const& [stage, seconds] : t.timings_s) {
+        timings[stage] = seconds;
+    }
+    ordered_json report{{"version", version()},
+                        {"recipe", recipe_object(t.recipe)},
+                        {"timings_s", timings},
+                        {"peak_rss_mb", static_cast<double>(peak_memory_bytes()) / 1e6}};
+    if (t.recipe.network) {
+        report["network"] = network_object(t);
+        report["network"]["secondary"] = secondary_of(t).size();
+        report["shortened_fields"] = ordered_json::array();
+        for (io::ShortenedName const& one : shortened_names(t)) {
+            report["shortened_fields"].push_back({{"field", one.name}, {"in_shapefile", one.in_shapefile}});
+        }
+    }
+    if (t.statistics) {
+        report["dem"] = dem(*t.statistics);
+        report["dem"]["hypsometric_integral"] = t.hypsometry->integral;
+        if (!t.surface->increments.empty()) {
+            report["dem"]["flat_share"] = t.surface->flat_share;
+            report["dem"]["levels"] = t.surface->levels;
+            report["dem"]["metres_per_unit"] = metres_per_unit(t);
+        }
+        report["dem"]["pit_cells"] = t.pits;
+        report["dem"]["pit_volume_m3"] = t.pit_volume_m3;
+        if (t.laws.dem) {
+            report["dem"]["laws"] = dem_laws_object(*t.laws.dem);
+        }
+        if (t.relief) {
+            report["dem"]["relief"] = ordered_json::parse(relief_json(*t.relief));
+        }
+    }
+    if (t.drained) {
+        report["drained"] = {{"banks", change_object(t.drained->banks)},
+                             {"depressions", change_object(t.drained->depressions)}};
+    }
+    if (t.certificate) {
+        report["certificate"] = certificate_object(*t.certificate);
+    }
+    if (t.catchments) {
+        auto const& cells = t.catchments->cells;
+        report["catchments"] = {{"count", std::count_if(cells.begin(), cells.end(), [](auto n) { return n > 0; })},
+                                {"cells_without", t.catchments->without}};
+    }
+    if (t.tin) {
+        report["tin"] = {{"vertices", t.tin->vertices.size()}, {"triangles", t.tin->triangles.size()}};
+    }
+    if (!t.ridges.lines.empty()) {
+        report["ridges"] = {{"count", t.ridges.lines.size()}};
+        if (t.surface_ridges) {
+            report["ridges"]["cells"] = t.surface_ridges->ridge_cells;
+            report["ridges"]["extracted"] = {{"area_cells", t.surface_ridges->threshold_cells},
+                                             {"agreement", agreements_object(t.surface_ridges->extracted)}};
+        }
+    }
+    if (t.equilibrium) {
+        EquilibriumStory const& e = *t.equilibrium;
+        report["equilibrium"] = {{"channel_cells", e.channel_cells},
+                                 {"lakes", t.lakes},
+                                 {"shortened_cells", e.shortened_cells},
+                                 {"walled_cells", e.walled_cells},
+                                 {"lowered", {{"max_m", e.max_lowered_m}, {"p95_m", e.p95_lowered_m}}},
+                                 {"rise", e.rise},
+                                 {"side_valleys", e.side_valleys},
+                                 {"side_valleys_left_out", e.side_valleys_left_out}};
+    }
+    if (t.diffusion) {
+        report["diffusion"] = {{"iterations", t.diffusion->iterations}, {"residual", t.diffusion->residual}};
+    }
+    for (PatchStory const& p : t.patches) {
+        report["patches"].push_back(
+            {{"cells", p.cells}, {"kept", p.kept}, {"seam_max_m", p.seam_max_m}, {"seam_rms_m", p.seam_rms_m}});
+    }
+    if (t.projection) {
+        report["statistics"] = statistics_object(*t.projection);
+        report["statistics"]["fine_forms_cells"] = t.fine_forms_cells;
+    }
+    report["checks"] = checks_array(t.checks);
+    report["findings"] = findings_array(t.findings);
+    report["repairs"] = findings_array(t.story.repairs);
+    report["files"] = files;
+    return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string checks_json(std::vector<Check> const& checks) {
+    return checks_array(checks).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+std::vector<std::string> files_of_report(std::string const& json) {
+    std::vector<std::string> files;
+    ordered_json const report = ordered_json::parse(json, nullptr, false);
+    if (!report.is_object() || !report.contains("files") || !report["files"].is_array()) {
+        return files;
+    }
+    for (auto const& name : report["files"]) {
+        if (name.is_string()) {
+            files.push_back(name.get<std::string>());
+        }
+    }
+    return files;
+}
+
+std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws, LandRelief const* relief) {
+    ordered_json out = dem(statistics);
+    if (laws != nullptr) {
+        out["laws"] = dem_laws_object(*laws);
+    }
+    if (relief != nullptr) {
+        out["relief"] = ordered_json::parse(relief_json(*relief));
+    }
+    return out.dump() + "\n";
+}
+
+std::string as_json(CheckedFiles const& checked) {
+    ordered_json out{{"ok", checked.ok()},
+                     {"arcs", checked.arcs},
+                     {"nodes", checked.nodes},
+                     {"schema", checked.schema},
+                     {"checks", checks_array(checked.checks)},
+                     {"findings", findings_array(checked.findings)},
+                     {"notes", findings_array(checked.notes)},
+                     {"mended", findings_array(checked.mended)},
+                     {"written", checked.written}};
+    if (checked.certificate) {
+        out["certificate"] = certificate_object(*checked.certificate);
+    }
+    return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+} // namespace thalweg::pipeline

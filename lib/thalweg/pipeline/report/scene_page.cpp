@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/report/internal/scene_page.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/measure/topology/topology.hpp>
+#include <thalweg/pipeline/report/internal/page.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+/// Whether every vertex of the network lies on the DEM's grid, as areas by its drainage need.
+bool lies_on(RaisedNetwork const& network, Grid const& grid) {
+    for (auto const& arc : boost::make_iterator_range(boost::edges(network.plan))) {
+        auto const& line = network.plan[arc].line;
+        if (!std::all_of(line.begin(), line.end(), [&](Vec2 p) { return grid.contains(grid.cell_of(p)); })) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+std::string scene_page(Scene const& scene, std::vector<std::string> const& notes, std::string const& command,
+                       Run const& run) {
+    if (!scene.dem) {
+        throw BadInput("pipeline.scene_page: there is no DEM to show");
+    }
+    Terrain terrain;
+    terrain.recipe.output.title = scene.title;
+    terrain.grid = scene.dem->grid();
+    terrain.surface.emplace();
+    terrain.surface->dem = *scene.dem;
+    terrain.statistics = measure::statistics(*scene.dem, run);
+    terrain.hypsometry = measure::hypsometry(*scene.dem, run);
+    measure::Drainage const drainage = measure::drain(*scene.dem, run);
+    terrain.pits = drainage.pits;
+    terrain.pit_volume_m3 = drainage.pit_volume_m3;
+    if (scene.network) {
+        terrain.network = *scene.network;
+        terrain.orders = scene.orders;
+        std::size_t const arcs = boost::num_edges(terrain.network.plan);
+        if (lies_on(terrain.network, terrain.grid)) {
+            terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
+        } else {
+            terrain.areas.us_area_m2.assign(arcs, 0.0);
+            terrain.areas.ds_area_m2.assign(arcs, 0.0);
+            terrain.areas.node_m2.assign(boost::num_vertices(terrain.network.plan), 0.0);
+        }
+        auto const topology = measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run);
+        terrain.checks = topology.checks;
+        terrain.findings = topology.findings;
+    }
+    terrain.laws = laws_of_terrain(terrain, &drainage, run);
+    terrain.relief = relief_of_dem(*scene.dem, run);
+    double const relief = terrain.statistics->max.z - terrain.statistics->min.z;
+    PageParams params;
+    params.contour_interval_m = scene.contour_interval_m > 0.0 ? scene.contour_interval_m : round_interval(relief);
+    params.command = command;
+    params.notes = notes;
+    return page(terrain, params, run);
+}
+
+} // namespace thalweg::pipeline

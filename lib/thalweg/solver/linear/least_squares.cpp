@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/solver/linear/least_squares.hpp>
+
+#include <thalweg/core/run/error.hpp>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace thalweg::solver {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double ridge_share = 1e-10;
+
+MatrixXd matrix_of(Matrix const& a) {
+    return Eigen::Map<MatrixXd const>(a.values.data(), static_cast<Index>(a.rows), static_cast<Index>(a.columns));
+}
+
+void demand(Matrix const& a, std::vector<double> const& b) {
+    if (a.rows != b.size() || a.columns == 0 || a.values.size() != a.rows * a.columns) {
+        throw BadInput(fmt::format("solver.least_squares: {} x {} matrix with {} values for {} right sides", a.rows,
+                                   a.columns, a.values.size(), b.size()));
+    }
+    auto const finite = [](double v) { return std::isfinite(v); };
+    if (!std::all_of(a.values.begin(), a.values.end(), finite) || !std::all_of(b.begin(), b.end(), finite)) {
+        throw BadInput("solver.least_squares: matrix or right side holds a value that is not a number");
+    }
+}
+
+Solution finished(MatrixXd const& a, VectorXd const& b, VectorXd const& x, Index rank) {
+    double const squares = (a * x - b).squaredNorm();
+    return {{x.begin(), x.end()},
+            static_cast<std::size_t>(rank),
+            a.rows() > 0 ? std::sqrt(squares / static_cast<double>(a.rows())) : 0.0};
+}
+
+/// y of length tau that makes y' S y - 2 g' y least, S symmetric.
+VectorXd least_on_sphere(MatrixXd const& s, VectorXd const& g, double tau) {
+    Eigen::SelfAdjointEigenSolver<MatrixXd> const eigen(s);
+    VectorXd const& w = eigen.eigenvalues(); // ascending
+    VectorXd const h = eigen.eigenvectors().transpose() * g;
+    double const size = std::max(std::fabs(w[0]), std::fabs(w[w.size() - 1])) + g.norm() / tau;
+    auto const length = [&](double lambda) { return (h.array() / (w.array() + lambda)).matrix().norm(); };
+    // lambda = -w_min + gap. At the largest gap the vector is shorter than tau.
+    double low = 0.0;
+    double high = h.norm() / tau * (1.0 + 1e-9) + size * 1e-15;
+    double const tiny = size * 1e-14;
+    VectorXd y;
+    if (length(-w[0] + tiny) < tau) {
+        // The hard case: even next to the pole the vector is too short.
+        VectorXd part = VectorXd::Zero(w.size());
+        for (Index i = 0; i < w.size(); ++i) {
+            part[i] = w[i] - w[0] > tiny ? h[i] / (w[i] - w[0]) : 0.0;
+        }
+        double const missing = tau * tau - part.squaredNorm();
+        part[0] += (h[0] < 0.0 ? -1.0 : 1.0) * std::sqrt(std::max(0.0, missing));
+        y = eigen.eigenvectors() * part;
+    } else {
+        for (int step = 0; step < 2000 && high - low > 1e-16 * high; ++step) {
+            double const middle = low + 0.5 * (high - low);
+            (length(-w[0] + middle) > tau ? low : high) = middle;
+        }
+        y = eigen.eigenvectors() * (h.array() / (w.array() - w[0] + high)).matrix();
+    }
+    return y * (tau / y.norm()); // what rounding left
+}
+
+} // namespace
+
+Solution least_squares(Matrix const& a, std::vector<double> const& b) {
+    demand(a, b);
+    MatrixXd const m = matrix_of(a);
+    VectorXd const right = Eigen::Map<VectorXd const>(b.data(), static_cast<Index>(b.size()));
+    Eigen::ColPivHouseholderQR<MatrixXd> const qr(m);
+    if (qr.rank() == m.cols()) {
+        return finished(m, right, qr.solve(right), qr.rank());
+    }
+    double const largest = m.colwise().squaredNorm().maxCoeff();
+    double const ridge = std::sqrt(ridge_share * (largest > 0.0 ? largest : 1.0));
+    MatrixXd stacked(m.rows() + m.cols(), m.cols());
+    stacked << m, ridge * MatrixXd::Identity(m.cols(), m.cols());
+    VectorXd wanted = VectorXd::Zero(stacked.rows());
+    wanted.head(m.rows()) = right;
+    return finished(m, right, Eigen::ColPivHouseholderQR<MatrixXd>(stacked).solve(wanted), qr.rank());
+}
+
+Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, Sphere const& sphere) {
+    demand(a, b);
+    auto const p = static_cast<Index>(sphere.unknowns.size());
+    if (!(sphere.tau > 0.0) || p == 0 || sphere.form.rows != sphere.unknowns.size() ||
+        sphere.form.columns != sphere.unknowns.size()) {
+        throw BadParameter(fmt::format("solver.least_squares_on_sphere: {} unknowns with a {} x {} form and tau {}", p,
+                                       sphere.form.rows, sphere.form.columns, sphere.tau));
+    }
+    MatrixXd const all = matrix_of(a);
+    VectorXd const right = Eigen::Map<VectorXd const>(b.data(), static_cast<Index>(b.size()));
+    std::vector<bool> bound(a.columns, false);
+    MatrixXd with(all.rows(), p);
+    for (Index i = 0; i < p; ++i) {
+        std::size_t const column = sphere.unknowns[static_cast<std::size_t>(i)];
+        if (column >= a.columns || bound[column]) {
+            throw BadParameter(fmt::format("solver.least_squares_on_sphere: column {} of {}", column, a.columns));
+        }
+        bound[column] = true;
+        with.col(i) = all.col(static_cast<Index>(column));
+    }
+    std::vector<Index> others;
+    for (std::size_t c = 0; c < a.columns; ++c) {
+        if (!bound[c]) {
+            others.push_back(static_cast<Index>(c));
+        }
+    }
+    MatrixXd const free = all(Eigen::all, others);
+    Eigen::ColPivHouseholderQR<MatrixXd> qr;
+    MatrixXd rest = with; // what the free unknowns cannot explain
+    VectorXd rest_right = right;
+    if (!others.empty()) {
+        qr.compute(free);
+        if (qr.rank() < free.cols()) {
+            throw BadInput(fmt::format("solver.least_squares_on_sphere: the {} free columns have rank {}", free.cols(),
+                                       qr.rank()));
+        }
+        MatrixXd const explained = qr.solve(with);
+        rest -= free.lazyProduct(explained);
+        rest_right -= free * qr.solve(right);
+    }
+    Eigen::LLT<MatrixXd> const form(matrix_of(sphere.form));
+    if (form.info() != Eigen::Success) {
+        throw BadParameter("solver.least_squares_on_sphere: the form is not positive definite");
+    }
+    // With u = L' y the condition is |u| = tau.
+    auto const l = form.matrixL();
+    // Lazy products: the blocks of others follow the processor's caches, and with them the order of sums.
+    MatrixXd const gram = rest.transpose().lazyProduct(rest);
+    MatrixXd const half = l.solve(gram);
+    MatrixXd s = l.solve(half.transpose());
+    s = 0.5 * (s + s.transpose().eval());
+    VectorXd const pull = rest.transpose().lazyProduct(rest_right);
+    VectorXd const u = least_on_sphere(s, l.solve(pull), sphere.tau);
+    VectorXd const y = l.transpose().solve(u);
+    VectorXd x(all.cols());
+    for (Index i = 0; i < p; ++i) {
+        x[static_cast<Index>(sphere.unknowns[static_cast<std::size_t>(i)])] = y[i];
+    }
+    if (!others.empty()) {
+        VectorXd const z = qr.solve(right - with * y);
+        for (std::size_t k = 0; k < others.size(); ++k) {
+            x[others[k]] = z[static_cast<Index>(k)];
+        }
+    }
+    return finished(all, right, x, Eigen::ColPivHouseholderQR<MatrixXd>(all).rank());
+}
+
+} // namespace thalweg::solver

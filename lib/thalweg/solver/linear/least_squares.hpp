@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <thalweg/solver/linear/matrix.hpp>
+
+namespace thalweg::solver {
+
+struct Solution {
+    std::vector<double> x;
+    std::size_t rank = 0; ///< of the matrix; below its columns, x is the solution of a problem with a small ridge
+    double rms = 0.0;     ///< root of the mean squared residual
+};
+
+/// The x that makes |A x - b| least, by QR with column pivoting.
+/// Takes: as many rows as b, at least one column. Gives: with full rank the one minimum; else the minimum of
+/// |A x - b|^2 + ridge |x|^2 with ridge 1e-10 of the largest squared column norm.
+/// Throws: BadInput when sizes do not match or a number is not finite.
+Solution least_squares(Matrix const& a, std::vector<double> const& b);
+
+/// A quadratic side condition on some of the unknowns: y' Q y = tau^2.
+struct Sphere {
+    std::vector<std::size_t> unknowns; ///< columns that form y, each once
+    Matrix form;                       ///< Q: symmetric, positive definite
+    double tau = 0.0;                  ///< > 0
+};
+
+/// The x that makes |A x - b| least among those that hold the side condition: the global minimum, by the secular
+/// equation sum (h_i / (w_i + lambda))^2 = tau^2 with lambda > -w_min; in the hard case (no part of b along the weakest
+/// direction) the missing length is added along it.
+/// Gives: |y' Q y - tau^2| <= 1e-10 tau^2. Throws: as least_squares; BadParameter when tau is not positive or Q is not
+/// positive definite; BadInput when the columns that are not in y lose rank.
+/// Source: Golub and von Matt 1991 (quadratically constrained least squares).
+Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, Sphere const& sphere);
+
+} // namespace thalweg::solver

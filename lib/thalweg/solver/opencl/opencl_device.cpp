@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/solver/opencl/internal/opencl_device.hpp>
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/solver/opencl/devices.hpp>
+#include <thalweg/solver/opencl/internal/device_queue.hpp>
+
+namespace thalweg::solver {
+
+namespace {
+
+constexpr char const* variable = "THALWEG_OPENCL_DEVICE";
+
+struct Found {
+    cl_device_id id = nullptr;
+    cl_platform_id platform = nullptr;
+    std::string number; ///< "0:0"
+    std::string name;
+    std::string platform_name;
+    cl_device_type type = 0;
+    std::string fault; ///< why it cannot be used; "" when it can
+};
+
+template <class T> T number_of(cl_device_id id, cl_device_info what) {
+    T value{};
+    clGetDeviceInfo(id, what, sizeof value, &value, nullptr);
+    return value;
+}
+
+template <class Ask> std::string text_of(Ask ask) {
+    std::size_t size = 0;
+    ask(std::size_t{0}, nullptr, &size);
+    std::string text(size, '\0');
+    ask(size, text.data(), nullptr);
+    while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) {
+        text.pop_back();
+    }
+    return text;
+}
+
+std::string fault_of(cl_device_id id) {
+    if (number_of<cl_bool>(id, CL_DEVICE_AVAILABLE) == CL_FALSE) {
+        return "it is not available";
+    }
+    if (number_of<cl_bool>(id, CL_DEVICE_COMPILER_AVAILABLE) == CL_FALSE) {
+        return "its driver has no compiler";
+    }
+    if (number_of<cl_device_fp_config>(id, CL_DEVICE_DOUBLE_FP_CONFIG) == 0) {
+        return "it has no 64-bit floating point (fp64)";
+    }
+    if (number_of<std::size_t>(id, CL_DEVICE_MAX_WORK_GROUP_SIZE) < DeviceQueue::group) {
+        return fmt::format("its work groups are smaller than {}", DeviceQueue::group);
+    }
+    return "";
+}
+
+/// No platform is no error here: the list is empty then.
+std::vector<Found> find_devices() {
+    cl_uint platform_count = 0;
+    if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS || platform_count == 0) {
+        return {};
+    }
+    std::vector<cl_platform_id> platforms(platform_count);
+    clGetPlatformIDs(platform_count, platforms.data(), nullptr);
+    std::vector<Found> all;
+    for (std::size_t p = 0; p < platforms.size(); ++p) {
+        std::string const platform_name = text_of([&](std::size_t size, char* text, std::size_t* needed) {
+            clGetPlatformInfo(platforms[p], CL_PLATFORM_NAME, size, text, needed);
+        });
+        cl_uint count = 0;
+        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS) {
+            continue;
+        }
+        std::vector<cl_device_id> ids(count);
+        clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, count, ids.data(), nullptr);
+        for (std::size_t d = 0; d < ids.size(); ++d) {
+            Found found;
+            found.id = ids[d];
+            found.platform = platforms[p];
+            found.number = fmt::format("{}:{}", p, d);
+            found.name = text_of([&](std::size_t size, char* text, std::size_t* needed) {
+                clGetDeviceInfo(ids[d], CL_DEVICE_NAME, size, text, needed);
+            });
+            found.platform_name = platform_name;
+            found.type = number_of<cl_device_type>(ids[d], CL_DEVICE_TYPE);
+            found.fault = fault_of(ids[d]);
+            all.push_back(std::move(found));
+        }
+    }
+    return all;
+}
+
+std::string line_of(Found const& found) {
+    return fmt::format("{} {} ({}){}", found.number, found.name, found.platform_name,
+                       found.fault.empty() ? "" : ": " + found.fault);
+}
+
+std::string lines_of(std::vector<Found> const& all) {
+    std::string text;
+    for (Found const& found : all) {
+        text += (text.empty() ? "" : "; ") + line_of(found);
+    }
+    return text;
+}
+
+Found choose(std::vector<Found> const& all) {
+    if (all.empty()) {
+        throw BadParameter("solver.opencl_device: --device opencl: no OpenCL platform with a device was found; install "
+                           "an OpenCL driver "
+                           "(Debian: pocl-opencl-icd) or leave --device out");
+    }
+    if (char const* const wanted = std::getenv(variable); wanted != nullptr) {
+        for (Found const& found : all) {
+            if (found.number != wanted) {
+                continue;
+            }
+            if (!found.fault.empty()) {
+                throw BadParameter(fmt::format("solver.opencl_device: --device opencl: {}={}, {}, cannot be used: {}",
+                                               variable, wanted, found.name, found.fault));
+            }
+            return found;
+        }
+        throw BadParameter(fmt::format(
+            "solver.opencl_device: --device opencl: {}='{}' names no device: write platform:device as in {}", variable,
+            wanted, lines_of(all)));
+    }
+    for (cl_device_type const type : {cl_device_type{CL_DEVICE_TYPE_GPU}, cl_device_type{CL_DEVICE_TYPE_ACCELERATOR},
+                                      cl_device_type{CL_DEVICE_TYPE_CPU}, cl_device_type{CL_DEVICE_TYPE_ALL}}) {
+        for (Found const& found : all) {
+            if (found.fault.empty() && (found.type & type) != 0) {
+                return found;
+            }
+        }
+    }
+    throw BadParameter(fmt::format(
+        "solver.opencl_device: --device opencl: no device can be used: {}; leave --device out", lines_of(all)));
+}
+
+} // namespace
+
+std::vector<std::string> opencl_devices() {
+    std::vector<std::string> lines;
+    for (Found const& found : find_devices()) {
+        lines.push_back(line_of(found));
+    }
+    return lines;
+}
+
+std::string opencl_device_name() {
+    return choose(find_devices()).name;
+}
+
+OpenClDevice const& opencl_device() {
+    static std::mutex one_at_a_time;
+    // Never freed: when statics are, a driver may be gone already.
+    static auto& ready = *new std::map<cl_device_id, OpenClDevice>;
+    Found const found = choose(find_devices());
+    std::scoped_lock const lock(one_at_a_time);
+    if (auto const at = ready.find(found.id); at != ready.end()) {
+        return at->second;
+    }
+    std::array<cl_context_properties, 3> const properties{CL_CONTEXT_PLATFORM,
+                                                          reinterpret_cast<cl_context_properties>(found.platform), 0};
+    cl_int code = CL_SUCCESS;
+    cl_context const context = clCreateContext(properties.data(), 1, &found.id, nullptr, nullptr, &code);
+    if (code != CL_SUCCESS) {
+        throw IoError(
+            fmt::format("solver.opencl_device: --device opencl: {} cannot create a context: {}; leave --device out",
+                        found.name, opencl_error_name(code)));
+    }
+    OpenClDevice device;
+    device.device = found.id;
+    device.context = context;
+    device.name = found.name;
+    device.memory_bytes = static_cast<std::int64_t>(number_of<cl_ulong>(found.id, CL_DEVICE_GLOBAL_MEM_SIZE));
+    device.largest_block_bytes = static_cast<std::int64_t>(number_of<cl_ulong>(found.id, CL_DEVICE_MAX_MEM_ALLOC_SIZE));
+    return ready.emplace(found.id, std::move(device)).first->second;
+}
+
+std::string opencl_error_name(int code) {
+    constexpr std::array<std::pair<int, char const*>, 12> names{{
+        {CL_DEVICE_NOT_AVAILABLE, "CL_DEVICE_NOT_AVAILABLE"},
+        {CL_MEM_OBJECT_ALLOCATION_FAILURE, "CL_MEM_OBJECT_ALLOCATION_FAILURE"},
+        {CL_OUT_OF_RESOURCES, "CL_OUT_OF_RESOURCES"},
+        {CL_OUT_OF_HOST_MEMORY, "CL_OUT_OF_HOST_MEMORY"},
+        {CL_BUILD_PROGRAM_FAILURE, "CL_BUILD_PROGRAM_FAILURE"},
+        {CL_INVALID_VALUE, "CL_INVALID_VALUE"},
+        {CL_INVALID_BUFFER_SIZE, "CL_INVALID_BUFFER_SIZE"},
+        {CL_INVALID_KERNEL_NAME, "CL_INVALID_KERNEL_NAME"},
+        {CL_INVALID_KERNEL_ARGS, "CL_INVALID_KERNEL_ARGS"},
+        {CL_INVALID_ARG_SIZE, "CL_INVALID_ARG_SIZE"},
+        {CL_INVALID_WORK_GROUP_SIZE, "CL_INVALID_WORK_GROUP_SIZE"},
+        {CL_INVALID_CONTEXT, "CL_INVALID_CONTEXT"},
+    }};
+    for (auto const& [number, name] : names) {
+        if (number == code) {
+            return name;
+        }
+    }
+    return fmt::format("OpenCL's error {}", code);
+}
+
+void check_device_memory(OpenClDevice const& device, char const* stage, std::int64_t bytes,
+                         std::int64_t largest_bytes) {
+    if (bytes <= device.memory_bytes && largest_bytes <= device.largest_block_bytes) {
+        return;
+    }
+    auto const gigabytes = [](std::int64_t b) { return static_cast<double>(b) / 1e9; };
+    throw IoError(
+        fmt::format("{}: the grid needs {:.1f} GB in blocks of up to {:.1f} GB on the OpenCL device {}, which "
+                    "has {:.1f} GB in blocks of up to {:.1f} GB: make the grid smaller or leave --device out",
+                    stage, gigabytes(bytes), gigabytes(largest_bytes), device.name, gigabytes(device.memory_bytes),
+                    gigabytes(device.largest_block_bytes)));
+}
+
+} // namespace thalweg::solver

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/solver/statistics/lags.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <thalweg/core/numbers/sum_rows.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/solver/spectral/fft.hpp>
+
+namespace thalweg::solver {
+
+namespace {
+
+using Line = std::vector<Complex>;
+
+// Two real lines make one complex one, and so many pairs are read at once that a row's part fills a cache line.
+constexpr std::int64_t lines_at_once = 16;
+// Bundles are added up in so many blocks, in this order whatever the number of threads.
+constexpr std::int64_t most_blocks = 64;
+// A few weights are cheaper added one by one.
+constexpr std::size_t few_weights = 16;
+
+/// A DEM as lines along an axis.
+struct LinesOfDem {
+    Raster<float> const& dem;
+    double datum;
+    Axis axis;
+
+    std::int64_t count() const { return axis == Axis::rows ? dem.height() : dem.width(); }
+    std::int64_t length() const { return axis == Axis::rows ? dem.width() : dem.height(); }
+    std::int64_t index(std::int64_t line, std::int64_t i) const {
+        return axis == Axis::rows ? line * dem.width() + i : i * dem.width() + line;
+    }
+
+    /// Heights less the datum, 0 where there are none, of the lines from first on, by twos as real and imaginary parts.
+    void heights(std::int64_t first, std::vector<Line>& pairs) const {
+        read(first, pairs, [&](float z) { return std::isnan(z) ? 0.0 : z - datum; });
+    }
+    /// 1 where there are heights, 0 where there are none.
+    void presence(std::int64_t first, std::vector<Line>& pairs) const {
+        read(first, pairs, [](float z) { return std::isnan(z) ? 0.0 : 1.0; });
+    }
+    template <class Value> void read(std::int64_t first, std::vector<Line>& pairs, Value const& value) const {
+        for (Line& pair : pairs) {
+            std::fill(pair.begin(), pair.end(), Complex{});
+        }
+        std::int64_t const beyond = std::min(first + lines_at_once, count());
+        auto const take = [&](std::int64_t line, std::int64_t i) {
+            Complex& number = pairs[static_cast<std::size_t>((line - first) / 2)][static_cast<std::size_t>(i)];
+            double const v = value(dem[index(line, i)]);
+            number = (line - first) % 2 == 0 ? Complex{v, number.imag()} : Complex{number.real(), v};
+        };
+        if (axis == Axis::rows) {
+            for (std::int64_t line = first; line < beyond; ++line) {
+                for (std::int64_t i = 0; i < length(); ++i) {
+                    take(line, i);
+                }
+            }
+        } else {
+            for (std::int64_t i = 0; i < length(); ++i) {
+                for (std::int64_t line = first; line < beyond; ++line) {
+                    take(line, i);
+                }
+            }
+        }
+    }
+};
+
+std::vector<Line> empty_pairs(std::int64_t length) {
+    return std::vector<Line>(lines_at_once / 2, Line(static_cast<std::size_t>(length)));
+}
+
+struct Power {
+    std::vector<double> values;
+    Power& operator+=(Power const& other) {
+        values.resize(other.values.size(), 0.0);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i] += other.values[i];
+        }
+        return *this;
+    }
+};
+
+/// Sums of products at the lags [0, lags] of what read(first, pairs) gives: the spectra's squares, added up and
+/// transformed back once. Of a + ib the real part holds the products of a with a and of b with b.
+template <class Read>
+std::vector<double> lagged(LinesOfDem const& lines, std::int64_t lags, Run const& run, Read const& read) {
+    std::int64_t const size = good_size(lines.length() + lags);
+    LineTransform const prepared(size, Direction::forward);
+    std::int64_t const bundles = (lines.count() + lines_at_once - 1) / lines_at_once;
+    std::int64_t const blocks = std::min(bundles, most_blocks);
+    Power const power = sum_rows(run, blocks, [&](std::int64_t block) {
+        LineTransform transform = prepared;
+        std::vector<Line> pairs = empty_pairs(size);
+        Line spectrum(static_cast<std::size_t>(size));
+        Power part{std::vector<double>(spectrum.size(), 0.0)};
+        for (std::int64_t b = block; b < bundles; b += blocks) {
+            run.check();
+            read(b * lines_at_once, pairs);
+            for (Line const& pair : pairs) {
+                transform(pair.data(), spectrum.data());
+                for (std::size_t i = 0; i < spectrum.size(); ++i) {
+                    part.values[i] += std::norm(spectrum[i]);
+                }
+            }
+        }
+        return part;
+    });
+    Line spectrum(power.values.begin(), power.values.end());
+    Line sums(spectrum.size());
+    LineTransform(size, Direction::inverse)(spectrum.data(), sums.data());
+    std::vector<double> result(static_cast<std::size_t>(lags + 1));
+    for (std::size_t k = 0; k < result.size(); ++k) {
+        result[k] = sums[k].real() / static_cast<double>(size);
+    }
+    return result;
+}
+
+void weigh_few(LinesOfDem const& lines, std::vector<double> const& weights, Raster<double>& sums, Run const& run) {
+    std::int64_t const step = lines.axis == Axis::rows ? 1 : lines.dem.width();
+    std::int64_t const width = lines.dem.width();
+    parallel_ranges(run, lines.dem.height(), 8, [&](std::int64_t begin, std::int64_t end) {
+        run.check();
+        for (std::int64_t i = begin * width; i < end * width; ++i) {
+            std::int64_t const place = lines.axis == Axis::rows ? i % width : i / width;
+            auto const add = [&](std::int64_t k, double weight) {
+                for (std::int64_t const there : {place - k, place + k}) {
+                    if (there >= 0 && there < lines.length()) {
+                        float const z = lines.dem[i + (there - place) * step];
+                        sums[i] += std::isnan(z) ? 0.0 : weight * (z - lines.datum);
+                    }
+                }
+            };
+            for (std::size_t k = 0; k < weights.size() && !std::isnan(lines.dem[i]); ++k) {
+                if (weights[k] != 0.0) {
+                    add(static_cast<std::int64_t>(k) + 1, weights[k]);
+                }
+            }
+        }
+    });
+}
+
+void weigh_many(LinesOfDem const& lines, std::vector<double> const& weights, Raster<double>& sums, Run const& run) {
+    std::int64_t const size = good_size(lines.length() + static_cast<std::int64_t>(weights.size()));
+    LineTransform const there(size, Direction::forward);
+    LineTransform const back(size, Direction::inverse);
+    Line kernel(static_cast<std::size_t>(size));
+    for (std::size_t k = 1; k <= weights.size(); ++k) {
+        kernel[k] += weights[k - 1];
+        kernel[kernel.size() - k] += weights[k - 1];
+    }
+    Line spectrum(kernel.size());
+    LineTransform(size, Direction::forward)(kernel.data(), spectrum.data());
+    std::int64_t const bundles = (lines.count() + lines_at_once - 1) / lines_at_once;
+    parallel_ranges(run, bundles, 1, [&](std::int64_t begin, std::int64_t end) {
+        LineTransform forward = there;
+        LineTransform inverse = back;
+        std::vector<Line> pairs = empty_pairs(size);
+        Line line(static_cast<std::size_t>(size));
+        for (std::int64_t b = begin; b < end; ++b) {
+            run.check();
+            std::int64_t const first = b * lines_at_once;
+            lines.heights(first, pairs);
+            for (Line& pair : pairs) {
+                forward(pair.data(), line.data());
+                for (std::size_t i = 0; i < line.size(); ++i) {
+                    line[i] *= spectrum[i].real() / static_cast<double>(size); // even weights: a real spectrum
+                }
+                inverse(line.data(), pair.data());
+            }
+            std::int64_t const beyond = std::min(first + lines_at_once, lines.count());
+            for (std::int64_t i = 0; i < lines.length(); ++i) {
+                for (std::int64_t l = first; l < beyond; ++l) {
+                    Complex const& number =
+                        pairs[static_cast<std::size_t>((l - first) / 2)][static_cast<std::size_t>(i)];
+                    std::int64_t const cell = lines.index(l, i);
+                    sums[cell] = std::isnan(lines.dem[cell]) ? 0.0
+                                 : (l - first) % 2 == 0      ? number.real()
+                                                             : number.imag();
+                }
+            }
+        }
+    });
+}
+
+} // namespace
+
+LagSums lag_sums(Raster<float> const& dem, double datum, Axis axis, std::int64_t lags, Run const& run) {
+    LinesOfDem const lines{dem, datum, axis};
+    LagSums sums;
+    sums.products =
+        lagged(lines, lags, run, [&](std::int64_t first, std::vector<Line>& pairs) { lines.heights(first, pairs); });
+    auto const values = dem.values();
+    bool const holes = std::any_of(values.begin(), values.end(), [](float z) { return std::isnan(z); });
+    if (holes) {
+        sums.pairs = lagged(lines, lags, run,
+                            [&](std::int64_t first, std::vector<Line>& pairs) { lines.presence(first, pairs); });
+        for (double& count : sums.pairs) {
+            count = std::floor(count + 0.5);
+        }
+    } else {
+        for (std::int64_t k = 0; k <= lags; ++k) {
+            sums.pairs.push_back(static_cast<double>((lines.length() - k) * lines.count()));
+        }
+    }
+    return sums;
+}
+
+Raster<double> weigh_lags(Raster<float> const& dem, double datum, Axis axis, std::vector<double> const& weights,
+                          Run const& run) {
+    LinesOfDem const lines{dem, datum, axis};
+    Raster<double> sums(dem.grid());
+    auto const zeros = static_cast<std::size_t>(std::count(weights.begin(), weights.end(), 0.0));
+    if (weights.size() - zeros <= few_weights) {
+        weigh_few(lines, weights, sums, run);
+    } else {
+        weigh_many(lines, weights, sums, run);
+    }
+    return sums;
+}
+
+} // namespace thalweg::solver

@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/dilation/dilate.hpp>
+
+#include <thalweg/core/cells/nearest_cells.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/surface/dilation/internal/flat_share.hpp>
+#include <thalweg/surface/dilation/separable.hpp>
+#include <thalweg/surface/drainage/internal/check_valley.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace thalweg::surface {
+namespace {
+
+constexpr float nan_height = std::numeric_limits<float>::quiet_NaN();
+
+void check_dilate_params(DilateParams const& params) {
+    if (!(params.relief_m >= 0.0 && std::isfinite(params.relief_m))) {
+        throw BadParameter(fmt::format("surface.dilate: relief is {} m; give a finite height above 0, or 0 for the "
+                                       "units of Cao, Long and Lü (2009)",
+                                       params.relief_m));
+    }
+    increments(0, params.increment); // what cannot be read is refused before the work
+}
+
+/// Factor from the papers' units to metres, where `top` is the greatest sum of increments on the grid.
+double metres_per_unit(double top, DilateParams const& params, Grid const& grid) {
+    if (params.relief_m == 0.0) {
+        return grid.cell_m;
+    }
+    if (!(top > 0.0)) {
+        throw BadParameter(
+            fmt::format("surface.dilate: the increments '{}' never rise above the valley, so no factor gives "
+                        "a relief of {} m; choose others, or relief 0",
+                        params.increment.increment, params.relief_m));
+    }
+    return params.relief_m / top;
+}
+
+/// Throws where a surface over valley heights up to `greatest` would leave the range of a float.
+void check_reach(std::vector<double> const& above_valley, double greatest) {
+    for (std::size_t d = 0; d < above_valley.size(); ++d) {
+        if (!(std::fabs(above_valley[d]) + greatest < static_cast<double>(std::numeric_limits<float>::max()))) {
+            throw BadParameter(fmt::format(
+                "surface.dilate: heights pass what a float holds after {} dilations; choose smaller increments", d));
+        }
+    }
+}
+
+/// Scales the increments to metres and gives their sums, d = 0 .. levels. top: as in metres_per_unit.
+std::vector<double> to_metres(std::vector<double>& dh, double top, double greatest, DilateParams const& params,
+                              Grid const& grid) {
+    if (!dh.empty()) {
+        double const factor = metres_per_unit(top, params, grid);
+        std::transform(dh.begin(), dh.end(), dh.begin(), [&](double units) { return units * factor; });
+    }
+    std::vector<double> above_valley = heights_above_valley(dh);
+    check_reach(above_valley, greatest);
+    return above_valley;
+}
+
+/// The same where every level from 0 to the last occurs.
+std::vector<double> use_increments(Dilated& dilated, double greatest, DilateParams const& params) {
+    dilated.increments = increments(dilated.levels, params.increment);
+    std::vector<double> const units = heights_above_valley(dilated.increments);
+    std::vector<double> sums = to_metres(dilated.increments, *std::max_element(units.begin(), units.end()), greatest,
+                                         params, dilated.dem.grid());
+    dilated.rise_m = *std::max_element(sums.begin(), sums.end());
+    return sums;
+}
+
+double greatest_of_valley(Raster<float> const& valley) {
+    float greatest = 0.0F;
+    for (float const z : valley.values()) {
+        greatest = std::fabs(z) > greatest ? std::fabs(z) : greatest;
+    }
+    return static_cast<double>(greatest);
+}
+
+/// Whether every dilation rises by more than a float's spacing up there: then no cell can be flat.
+bool surely_drained(std::vector<double> const& used, std::vector<double> const& above_valley, double greatest) {
+    double reach = greatest;
+    for (double const h : above_valley) {
+        reach = std::max(reach, std::fabs(h) + greatest);
+    }
+    return std::all_of(used.begin(), used.end(), [&](double dh) { return dh > reach * 0x1p-22; });
+}
+
+/// Sets flat_share; every cell stands dh above a neighbour, so that it need be counted only where dh can vanish.
+void report_flats(Dilated& dilated, Valley const& valley, std::vector<double> const& above_valley, double greatest,
+                  Run const& run) {
+    if (!surely_drained(dilated.increments, above_valley, greatest)) {
+        dilated.flat_share = flat_share(valley, dilated.dem, run);
+    }
+}
+
+template <class Level> Dilated dilate_closed(Valley const& valley, DilateParams const& params, Run const& run) {
+    separable::Lanes const lanes = separable::widest_lanes();
+    Dilated dilated;
+    dilated.dem = Raster<float>(valley.z.grid());
+    auto const swept = separable::sweep_down<Level>(valley, dilated.dem, lanes, run);
+    if (!separable::usable(swept)) {
+        check_heights(valley.z);
+    }
+    run.at(0.6, "dilate");
+    dilated.levels = swept.levels;
+    double const greatest = static_cast<double>(swept.greatest);
+    std::vector<double> const above_valley = use_increments(dilated, greatest, params);
+    separable::sweep_up(swept, dilated.dem, above_valley, lanes, run);
+    run.at(0.9, "dilate");
+    report_flats(dilated, valley, above_valley, greatest, run);
+    run.at(1.0, "dilate");
+    return dilated;
+}
+
+Dilated dilate_masked(Valley const& valley, Mask const& inside, DilateParams const& params, Run const& run) {
+    Expansion expansion = expand_frontier(valley, inside, run);
+    run.at(0.8, "dilate");
+    Raster<std::int32_t> const& level = expansion.level;
+    Dilated dilated;
+    dilated.dem = std::move(expansion.base);
+    dilated.levels = *std::max_element(level.values().begin(), level.values().end());
+    double const greatest = greatest_of_valley(dilated.dem);
+    std::vector<double> const above_valley = use_increments(dilated, greatest, params);
+    for (std::int64_t i = 0; i < level.cells(); ++i) {
+        if (level[i] > 0) {
+            double const base = static_cast<double>(dilated.dem[i]);
+            dilated.dem[i] = static_cast<float>(base + above_valley[static_cast<std::size_t>(level[i])]);
+        }
+    }
+    report_flats(dilated, valley, above_valley, greatest, run);
+    run.at(1.0, "dilate");
+    return dilated;
+}
+
+/// Sum of increments up to a distance between two dilations.
+double sum_at(double distance, std::vector<double> const& dh, std::vector<double> const& sums) {
+    double const whole = std::floor(distance);
+    auto const level = static_cast<std::size_t>(whole);
+    return distance == whole ? sums[level] : sums[level] + (distance - whole) * dh[level];
+}
+
+double distance_cells(Grid const& grid, std::int64_t from, std::int64_t to) {
+    Cell const a = grid.at(from);
+    Cell const b = grid.at(to);
+    std::int64_t const square = (a.col - b.col) * (a.col - b.col) + (a.row - b.row) * (a.row - b.row);
+    return std::sqrt(static_cast<double>(square));
+}
+
+Dilated dilate_euclid(Valley valley, Mask const& inside, DilateParams const& params, Run const& run) {
+    Grid const grid = valley.z.grid();
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (inside[i] == 0) {
+            valley.z[i] = nan_height;
+        }
+    }
+    check_heights(valley.z);
+    Mask rivers(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        rivers[i] = std::isnan(valley.z[i]) ? 0 : 1;
+    }
+    Raster<std::int64_t> const nearest = nearest_cells(rivers, run);
+    run.at(0.6, "dilate");
+    double farthest = 0.0;
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (inside[i] != 0) {
+            farthest = std::max(farthest, distance_cells(grid, i, nearest[i]));
+        }
+    }
+    Dilated dilated;
+    dilated.levels = static_cast<std::int64_t>(std::ceil(farthest));
+    dilated.increments = increments(dilated.levels, params.increment);
+    std::vector<double> const units = heights_above_valley(dilated.increments);
+    double top = 0.0;
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (inside[i] != 0) {
+            top = std::max(top, sum_at(distance_cells(grid, i, nearest[i]), dilated.increments, units));
+        }
+    }
+    std::vector<double> const sums = to_metres(dilated.increments, top, greatest_of_valley(valley.z), params, grid);
+    dilated.rise_m = farthest > 0.0 ? top * metres_per_unit(top, params, grid) : 0.0;
+    dilated.dem = valley.z;
+    parallel_ranges(run, grid.height, 64, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first * grid.width; i < last * grid.width; ++i) {
+            if (inside[i] != 0 && nearest[i] != i) {
+                double const base = static_cast<double>(valley.z[nearest[i]]);
+                double const above = sum_at(distance_cells(grid, i, nearest[i]), dilated.increments, sums);
+                dilated.dem[i] = static_cast<float>(base + above);
+            }
+        }
+    });
+    run.at(0.9, "dilate");
+    dilated.flat_share = flat_share(valley, dilated.dem, run);
+    run.at(1.0, "dilate");
+    return dilated;
+}
+
+} // namespace
+
+Dilated dilate(Valley const& valley, DilateParams const& params, Run const& run) {
+    Grid const& grid = valley.z.grid();
+    check_dilate_params(params);
+    check_frame(grid);
+    run.at(0.0, "dilate");
+    if (params.metric == Metric::euclid) {
+        return dilate_euclid(valley, Mask(grid, 1), params, run);
+    }
+    return separable::fits16(grid) ? dilate_closed<std::uint16_t>(valley, params, run)
+                                   : dilate_closed<std::int32_t>(valley, params, run);
+}
+
+Dilated dilate(Valley const& valley, Mask const& inside, DilateParams const& params, Run const& run) {
+    check_dilate_params(params);
+    check_frame(valley.z.grid());
+    check_mask(valley.z.grid(), inside.grid());
+    run.at(0.0, "dilate");
+    if (params.metric == Metric::euclid) {
+        return dilate_euclid(valley, inside, params, run);
+    }
+    bool const open = std::none_of(inside.values().begin(), inside.values().end(), [](auto cell) { return cell == 0; });
+    return open ? dilate(valley, params, run) : dilate_masked(valley, inside, params, run);
+}
+
+} // namespace thalweg::surface

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/valley.hpp>
+#include <thalweg/surface/dilation/dilate.hpp>
+
+namespace thalweg::surface {
+
+/// Draws the surface E = base + H(d): slopes rise from a land laid through the valley instead of from its cells.
+/// Takes: base: of the valley's frame, heights there are not read in valley cells; inside: as for dilate.
+/// Gives: valley cells exact; every other cell its base and the increments of its distance to the valley; NaN where the
+/// base has no height or no dilation came. A base without steps leaves none where two valleys' slopes meet.
+/// Throws: as dilate; BadInput when the base has another frame. Source: specification 0.4, base = harmonic.
+Dilated dilate_over(Valley const& valley, Raster<float> const& base, DilateParams const& params = {},
+                    Run const& run = {});
+Dilated dilate_over(Valley const& valley, Raster<float> const& base, Mask const& inside,
+                    DilateParams const& params = {}, Run const& run = {});
+
+} // namespace thalweg::surface

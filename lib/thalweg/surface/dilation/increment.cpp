@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/dilation/increment.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/suggest.hpp>
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+namespace thalweg::surface {
+namespace {
+
+struct Named {
+    std::string_view name;
+    double (*at)(double x);
+};
+
+// Hundredths are divided once, so that each value is the double nearest to the paper's.
+constexpr std::array<Named, 3> table_1{{
+    {"uniform", [](double) { return 0.1; }},
+    {"decreasing", [](double x) { return x < 300.0 ? (300.0 - x) / 100.0 : 0.0; }},
+    {"rise_fall", [](double x) { return x <= 150.0 ? 3.0 * x / 100.0 : (600.0 - x) / 100.0; }},
+}};
+
+constexpr int halvings = 40;
+constexpr double least_jump = 0.01; // of the greatest increment
+constexpr std::size_t longest_expression = 1000;
+constexpr std::string_view choices = "(uniform, decreasing, rise_fall, or an expression in x such as 3-0.01*x)";
+
+[[noreturn]] void refuse(std::string const& text, std::string_view why) {
+    std::vector<std::string> names;
+    for (Named const& named : table_1) {
+        names.emplace_back(named.name);
+    }
+    std::string hint = did_you_mean(text, names);
+    if (hint.empty() && !why.empty()) {
+        hint = fmt::format(" As an expression: {}.", why);
+    }
+    throw BadParameter(fmt::format("surface.increments: '{}' is not an increment.{} {}", text, hint, choices));
+}
+
+bool assigns(std::string_view text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '=') {
+            continue;
+        }
+        if (i + 1 < text.size() && text[i + 1] == '=') {
+            ++i;
+        } else if (i == 0 || std::string_view("<>!").find(text[i - 1]) == std::string_view::npos) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// libm inside muParser differs between machines in the last bits: 2^-32, but never more than 36 significant bits, hides
+// them.
+double tamed(double value) {
+    double scale = 0x1p32;
+    while (std::fabs(value) * scale >= 0x1p36) {
+        scale *= 0.5;
+    }
+    return std::floor(value * scale + 0.5) / scale;
+}
+
+std::vector<double> tabulate(std::string const& text, std::int64_t levels) {
+    if (text.size() > longest_expression) {
+        throw BadParameter(fmt::format("surface.increments: the expression has {} characters; write it in at most {}",
+                                       text.size(), longest_expression));
+    }
+    auto const odd = std::find_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; });
+    if (odd != text.end()) {
+        throw BadParameter(
+            fmt::format("surface.increments: character {} of the expression is not printable ASCII; use {}",
+                        odd - text.begin() + 1, choices));
+    }
+    if (assigns(text)) {
+        refuse(text, "it assigns; compare with ==");
+    }
+    std::vector<double> values(static_cast<std::size_t>(levels));
+    try {
+        double x = 1.0;
+        mu::Parser parser;
+        parser.DefineVar("x", &x);
+        parser.SetExpr(text);
+        int results = 0;
+        parser.Eval(results);
+        if (results != 1) {
+            refuse(text, "it has more than one value");
+        }
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            x = static_cast<double>(i + 1);
+            double const value = parser.Eval();
+            if (!std::isfinite(value)) {
+                throw BadParameter(fmt::format(
+                    "surface.increments: '{}' is not finite at x = {}; choose an expression that is, for x = 1 to {}",
+                    text, i + 1, levels));
+            }
+            values[i] = tamed(value);
+        }
+    } catch (mu::Parser::exception_type const& e) {
+        refuse(text, e.GetMsg());
+    }
+    return values;
+}
+
+} // namespace
+
+std::vector<double> increments(std::int64_t levels, IncrementParams const& params) {
+    if (levels < 0) {
+        throw BadParameter(fmt::format("surface.increments: {} levels; ask for none or more", levels));
+    }
+    std::vector<double> values;
+    auto const named = std::find_if(table_1.begin(), table_1.end(),
+                                    [&](Named const& candidate) { return candidate.name == params.increment; });
+    if (named == table_1.end()) {
+        values = tabulate(params.increment, levels);
+    } else {
+        values.reserve(static_cast<std::size_t>(levels));
+        for (std::int64_t x = 1; x <= levels; ++x) {
+            values.push_back(named->at(static_cast<double>(x)));
+        }
+    }
+    if (!params.allow_negative) {
+        for (double& value : values) {
+            value = std::max(value, 0.0);
+        }
+    }
+    return values;
+}
+
+std::vector<IncrementJump> increment_jumps(std::int64_t levels, IncrementParams const& params) {
+    std::vector<double> const values = increments(levels, params);
+    bool const named = std::any_of(table_1.begin(), table_1.end(),
+                                   [&](Named const& candidate) { return candidate.name == params.increment; });
+    std::vector<IncrementJump> jumps;
+    if (named || values.size() < 2) { // those of the table are continuous
+        return jumps;
+    }
+    double greatest = 0.0;
+    for (double const v : values) {
+        greatest = std::max(greatest, std::fabs(v));
+    }
+    double x = 1.0;
+    mu::Parser parser;
+    parser.DefineVar("x", &x);
+    parser.SetExpr(params.increment);
+    auto const at = [&](double where) {
+        x = where;
+        double const value = parser.Eval();
+        return params.allow_negative ? value : std::max(value, 0.0);
+    };
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        IncrementJump jump{static_cast<double>(i), values[i - 1], values[i]};
+        double end = static_cast<double>(i + 1);
+        for (int half = 0; half < halvings && std::fabs(jump.to - jump.from) > least_jump * greatest; ++half) {
+            double const middle = 0.5 * (jump.x + end);
+            double const value = at(middle);
+            if (!(std::fabs(value - jump.from) <= std::fabs(jump.to - value))) {
+                end = middle;
+                jump.to = value;
+            } else {
+                jump.x = middle;
+                jump.from = value;
+            }
+        }
+        if (!(std::fabs(jump.to - jump.from) <= least_jump * greatest)) {
+            jumps.push_back(jump);
+        }
+    }
+    return jumps;
+}
+
+std::vector<double> heights_above_valley(std::vector<double> const& increments) {
+    std::vector<double> sums(increments.size() + 1, 0.0);
+    std::partial_sum(increments.begin(), increments.end(), sums.begin() + 1);
+    return sums;
+}
+
+} // namespace thalweg::surface

@@ -1,0 +1,317 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/equilibrium/equilibrium.hpp>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/surface/equilibrium/internal/check_equilibrium.hpp>
+#include <thalweg/surface/equilibrium/internal/cover_cells.hpp>
+#include <thalweg/surface/equilibrium/internal/edge_heights.hpp>
+#include <thalweg/surface/equilibrium/internal/equilibrium_law.hpp>
+#include <thalweg/surface/equilibrium/internal/flood_land.hpp>
+#include <thalweg/surface/equilibrium/internal/give_up_tips.hpp>
+#include <thalweg/surface/equilibrium/internal/jitter.hpp>
+#include <thalweg/surface/equilibrium/internal/keep_to_receivers.hpp>
+#include <thalweg/surface/equilibrium/internal/nearest_river.hpp>
+#include <thalweg/surface/equilibrium/internal/order_cells.hpp>
+#include <thalweg/surface/equilibrium/internal/perched_rivers.hpp>
+#include <thalweg/surface/equilibrium/internal/relax_given_rivers.hpp>
+#include <thalweg/surface/equilibrium/internal/relax_land.hpp>
+#include <thalweg/surface/equilibrium/internal/relax_rivers.hpp>
+#include <thalweg/surface/equilibrium/internal/rise_of.hpp>
+#include <thalweg/surface/equilibrium/internal/rock.hpp>
+#include <thalweg/surface/equilibrium/internal/slide_land.hpp>
+#include <thalweg/surface/equilibrium/internal/start_land.hpp>
+#include <thalweg/surface/equilibrium/internal/steepest_ways.hpp>
+#include <thalweg/surface/equilibrium/internal/valley_floors.hpp>
+#include <thalweg/surface/equilibrium/internal/widen.hpp>
+#include <thalweg/surface/equilibrium/internal/written_land.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace thalweg::surface {
+
+namespace {
+
+constexpr int fine_rounds = 6;
+constexpr int coarse_rounds = 30;
+constexpr float of_perched = 3.0F; // times what counts as perched at last: what will not come down by itself
+constexpr int floors_after = 2;    // rounds: areas are near enough by then
+
+/// What lies in the frame of a level, before it is solved.
+struct Plan {
+    std::int64_t width;  ///< without the frame
+    std::int64_t height; ///< without the frame
+    RiverCells rivers;
+    Mask land;
+};
+
+/// Levels from the finest to one of about forty cells a side.
+std::vector<Plan> plans(WidenedLand& land) {
+    constexpr std::int64_t short_side = 8;
+    constexpr std::int64_t long_side = 40;
+    std::vector<Plan> levels;
+    levels.push_back({land.grid.width, land.grid.height, std::move(land.rivers), std::move(land.land)});
+    for (;;) {
+        Plan const& fine = levels.back();
+        Plan coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}, {}};
+        if (std::min(coarse.width, coarse.height) < short_side || std::max(coarse.width, coarse.height) < long_side) {
+            return levels;
+        }
+        coarse.rivers = coarsened(fine.rivers, fine.width + 2, coarse.width + 2, coarse.height + 2);
+        coarse.land = fine.land.cells() == 0 ? Mask{} : coarsened(fine.land);
+        levels.push_back(std::move(coarse));
+    }
+}
+
+/// Everything that a level's rounds need, before the first.
+LandLevel prepared(Plan&& plan, std::size_t number, LandLevel const& coarser, RockFields const& fields,
+                   EquilibriumParams const& params, Run const& run) {
+    LandLevel level;
+    level.width = plan.width + 2;
+    level.height = plan.height + 2;
+    level.side = static_cast<float>(std::int64_t{1} << number);
+    level.rivers = std::move(plan.rivers);
+    cover_cells(level, plan.land, params.edge, number == 0 ? RiverBanks::kept : RiverBanks::none);
+    set_rock(level, fields, params, run);
+    jitter(level, params.seed, run);
+    if (coarser.z.empty()) {
+        start_from_nothing(level, nearest_river(level), params.seed, run);
+    } else {
+        start_from(level, coarser, params.seed, run);
+    }
+    start_rivers(level);
+    return level;
+}
+
+void check_drained(LandLevel const& level, Mask const& land, std::int64_t margin, Grid const& grid) {
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        Cell const c = grid.at(i);
+        bool const dry = land.cells() == 0 || land[i] != 0;
+        auto const at = static_cast<std::size_t>((c.row + margin + 1) * level.width + c.col + margin + 1);
+        if (dry && level.cover[at] == Cover::outside) {
+            throw BadInput(fmt::format("surface.equilibrium: no river drains the closed land at column {}, row {}; let "
+                                       "one run there, or leave the edge open",
+                                       c.col, c.row));
+        }
+    }
+}
+
+/// Leaves what the next level or the written land need.
+void drop_what_is_done(LandLevel& level) {
+    level.erodibility = {};
+    level.cap = {};
+    level.uplift = {};
+    level.shift = {};
+    level.area = {};
+}
+
+/// The heights of a level, from those of the coarser one.
+class Solver {
+public:
+    Solver(EquilibriumParams const& params, Channels const& rivers, Window const& window, Run const& run)
+        : params_(params), rivers_(rivers), window_(window), run_(run), law_(params),
+          per_length_(jittered_per_length()) {}
+
+    void solve(LandLevel& level, std::size_t number, std::size_t levels) {
+        EdgeCells const edge = goes_on(params_.edge) ? edge_cells(level, nearest_river(level)) : EdgeCells{};
+        set_edge_heights(level, edge);
+        flood_land(level);
+        int const rounds = rounds_of(number, levels);
+        bool const given = !level.rivers.asked.empty();
+        for (int round = 0; round < rounds; ++round) {
+            run_.at(share_done(number, round, rounds), "fill");
+            if (round > 0) {
+                set_edge_heights(level, edge);
+                if (!shortened_.empty()) {
+                    slide_land(level);
+                }
+                steepest_ways(level, per_length_, run_);
+            }
+            if (number == 0 && round == floors_after && params_.floor_width > 0.0) {
+                valley_floors(level, params_.floor_width, params_.seed);
+            }
+            order_cells(level);
+            if (given) {
+                relax_given_rivers(level, law_, params_.heights);
+            } else if (number > 0) {
+                relax_rivers(level, law_);
+            } else {
+                relax_finest_rivers(level, rounds - round);
+            }
+            relax_land(level, law_);
+        }
+    }
+
+    std::vector<std::int64_t> const& shortened() const { return shortened_; }
+
+private:
+    /// From few at the finest level to many at the coarsest.
+    static int rounds_of(std::size_t number, std::size_t levels) {
+        return levels == 1 ? coarse_rounds
+                           : fine_rounds + (coarse_rounds - fine_rounds) * static_cast<int>(number) /
+                                               static_cast<int>(levels - 1);
+    }
+
+    /// A level takes a quarter of what the finer one takes.
+    static double share_done(std::size_t number, int round, int rounds) {
+        double below = 1.0;
+        for (std::size_t k = 0; k < number; ++k) {
+            below *= 0.25;
+        }
+        return below * (0.25 + 0.75 * static_cast<double>(round) / static_cast<double>(rounds));
+    }
+
+    /// With what only the grid's own rivers ask for: no perched head, and water that keeps to them.
+    void relax_finest_rivers(LandLevel& level, int rounds_left) {
+        constexpr int to_come_down = 3; // rounds that land takes where a river was given up
+        if (rounds_left == to_come_down || rounds_left == to_come_down + 1) {
+            give_up(level);
+        }
+        relax_rivers(level, law_);
+        if (rounds_left <= to_come_down) {
+            lower_perched(level, perched_, least_tangent);
+        }
+        keep_to_receivers(level);
+    }
+
+    void give_up(LandLevel& level) {
+        Raise const raise = raise_for(level, rivers_, window_, params_);
+        perched_ = static_cast<float>(raise.mean_tangent * window_.grid.cell_m / raise.metres);
+        auto const numbers = give_up_tips(level, of_perched * perched_, TipBanks::rise);
+        shortened_.insert(shortened_.end(), numbers.begin(), numbers.end());
+    }
+
+    EquilibriumParams const& params_;
+    Channels const& rivers_;
+    Window const& window_;
+    Run const& run_;
+    EquilibriumLaw law_;
+    JitteredPerLength per_length_;
+    float perched_ = 0.0F; ///< tangent above which river cells count as perched, in the solver's units
+    std::vector<std::int64_t> shortened_;
+};
+
+struct Solved {
+    LandLevel level;
+    std::vector<std::int64_t> shortened;
+    std::int64_t margin = 0;
+};
+
+/// The finest level, with heights of rivers in its own units or none.
+Solved solved(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+              Run const& run) {
+    WidenedLand land = widened(rivers, fields, params);
+    std::vector<Plan> levels = plans(land);
+    Window const window{rivers.grid, fields.land, land.margin};
+    Solver solver(params, rivers, window, run);
+    LandLevel level;
+    for (std::size_t number = levels.size(); number-- > 0;) {
+        level = prepared(std::move(levels[number]), number, level, land.fields, params, run);
+        solver.solve(level, number, levels.size());
+        drop_what_is_done(level);
+    }
+    check_drained(level, fields.land, land.margin, rivers.grid);
+    return {std::move(level), solver.shortened(), land.margin};
+}
+
+bool asks_heights(Channels const& rivers, EquilibriumParams const& params) {
+    return params.heights != RiverHeights::graded &&
+           std::any_of(rivers.z.begin(), rivers.z.end(), [](float z) { return !std::isnan(z); });
+}
+
+/// Height 0 of the solver where heights are given: the sea, or else the lowest of them.
+float base_of(Channels const& rivers, Edge edge) {
+    float low = std::numeric_limits<float>::infinity();
+    for (float const z : rivers.z) {
+        low = z < low ? z : low;
+    }
+    return edge == Edge::coast || edge == Edge::mainland ? 0.0F : low;
+}
+
+/// A land around given heights and the metres of the solver's unit.
+struct Held {
+    Solved land;
+    double metres = 0.0;
+};
+
+Held held_land(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params, double metres,
+               Run const& run) {
+    Channels drawn = rivers;
+    double const base_m = base_of(rivers, params.edge);
+    for (float& z : drawn.z) {
+        z = static_cast<float>((static_cast<double>(z) - base_m) / metres);
+    }
+    return {solved(drawn, fields, params, run), metres};
+}
+
+/// The same, solved again with other metres until the land has what is asked of it; the nearest that was found.
+Held land_at_target(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+                    double metres, Run const& run) {
+    constexpr int most_solves = 6;
+    constexpr double near_enough = 0.01;
+    constexpr double widest = 2.0;              // [log] of one step
+    auto const off_by = [&](Held const& held) { // [log]
+        Window const window{rivers.grid, fields.land, held.land.margin};
+        double const share = share_of_target(held.land.level, window, held.metres, params);
+        return exact::log(std::max(share, 1e-6));
+    };
+    Held best = held_land(rivers, fields, params, metres, run);
+    double best_off = off_by(best);
+    double at = exact::log(metres);
+    double off = best_off;
+    double step = -1.5 * off;
+    for (int solve = 1; solve < most_solves && std::fabs(best_off) > near_enough; ++solve) {
+        step = std::clamp(step, -widest, widest);
+        Held next = held_land(rivers, fields, params, exact::exp(at + step), run);
+        double const next_off = off_by(next);
+        double const per_step = (next_off - off) / step;
+        at += step;
+        off = next_off;
+        if (std::fabs(off) < std::fabs(best_off)) {
+            best = std::move(next);
+            best_off = off;
+        }
+        constexpr double flat = 0.05; // the rivers alone decide what comes out
+        if (!(per_step > flat)) {
+            break;
+        }
+        step = -off / per_step;
+    }
+    return best;
+}
+
+} // namespace
+
+EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+                            Run const& run) {
+    check_equilibrium(rivers, fields, params);
+    run.check();
+    Channels drawn = rivers;
+    drawn.z.clear();
+    Solved graded = solved(drawn, fields, params, run);
+    Window const window{rivers.grid, fields.land, graded.margin};
+    Raise const raise = raise_for(graded.level, rivers, window, params);
+    if (!asks_heights(rivers, params)) {
+        EquilibriumLand land =
+            written_land(std::move(graded.level), rivers, window, raise, std::move(graded.shortened), run);
+        land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
+        return land;
+    }
+    // How high the land stands in all is known only now: what is given in metres can be put into it.
+    graded = {};
+    Held held = params.bring_to_target ? land_at_target(rivers, fields, params, raise.metres, run)
+                                       : held_land(rivers, fields, params, raise.metres, run);
+    Raise const given{held.metres, static_cast<double>(base_of(rivers, params.edge)), raise.mean_tangent};
+    EquilibriumLand land = written_given_land(std::move(held.land.level), rivers, window, given, params.heights, run);
+    land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
+    return land;
+}
+
+} // namespace thalweg::surface

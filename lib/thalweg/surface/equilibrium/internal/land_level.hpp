@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/run/large_pages.hpp>
+#include <thalweg/surface/equilibrium/internal/river_cells.hpp>
+
+/// Private to this room.
+namespace thalweg::surface {
+
+template <class T> using Cells = std::vector<T, LargePages<T>>;
+
+/// What a cell is to the solver.
+enum class Cover : std::uint8_t {
+    land,
+    rim,      ///< land beside outside: creep goes to fewer neighbours
+    bank,     ///< land beside a river, at the finest level
+    rim_bank, ///< both
+    river,
+    edge,   ///< water leaves, at a height that is set
+    sea,    ///< water leaves, at 0
+    outside ///< nothing is there: infinitely high
+};
+
+inline bool is_land(Cover c) {
+    return c <= Cover::rim_bank;
+}
+inline bool is_bank(Cover c) {
+    return c == Cover::bank || c == Cover::rim_bank;
+}
+
+inline constexpr std::int8_t no_way = -1;
+
+/// Lengths of the D8 steps [cells].
+inline constexpr std::array<float, 8> step_lengths = {1.0F, 1.41421356F, 1.0F, 1.41421356F,
+                                                      1.0F, 1.41421356F, 1.0F, 1.41421356F};
+
+/// The least tangent of a cell towards its receiver: far above what a float can lose, far below what is seen.
+inline constexpr float least_tangent = 0.002F;
+/// The steepest slope that uplift keeps up in rock of the common erodibility.
+inline constexpr float steepest_tangent = 0.3F;
+inline constexpr float bank_step = least_tangent;
+
+/// One level of the grid, in a frame one cell wide, so that every inner cell has eight neighbours. Lengths and heights
+/// are in cells of the finest level.
+struct LandLevel {
+    std::int64_t width = 0;  ///< with the frame
+    std::int64_t height = 0; ///< with the frame
+    float side = 1.0F;       ///< of a cell
+    RiverCells rivers;
+    Cells<Cover> cover;
+    Cells<float> z;
+    Cells<float> erodibility;
+    Cells<float> cap;           ///< greatest tangent towards the receiver
+    Cells<float> uplift;        ///< empty: 1 everywhere
+    Cells<std::int8_t> way;     ///< to the receiver, as d8_steps, or no_way
+    Cells<std::uint8_t> shift;  ///< where in its cell a node lies: code of jitter.hpp
+    Cells<std::uint32_t> area;  ///< [cells of this level]
+    Cells<std::uint32_t> order; ///< land cells, receivers last
+
+    std::int64_t cells() const { return width * height; }
+    std::array<std::int64_t, 8> offsets() const {
+        std::array<std::int64_t, 8> out{};
+        for (std::size_t k = 0; k < out.size(); ++k) {
+            out[k] = d8_steps[k].row * width + d8_steps[k].col;
+        }
+        return out;
+    }
+};
+
+/// Calls visit(cell) for the cells inside the frame, row by row.
+template <class Visit> void each_inner(LandLevel const& level, Visit visit) {
+    for (std::int64_t row = 1; row + 1 < level.height; ++row) {
+        for (std::int64_t i = row * level.width + 1; i + 1 < (row + 1) * level.width; ++i) {
+            visit(static_cast<std::size_t>(i));
+        }
+    }
+}
+
+inline std::size_t moved(std::size_t cell, std::int64_t offset) {
+    return static_cast<std::size_t>(static_cast<std::int64_t>(cell) + offset);
+}
+
+} // namespace thalweg::surface

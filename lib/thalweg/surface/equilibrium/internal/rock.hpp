@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <thalweg/surface/equilibrium/equilibrium.hpp>
+#include <thalweg/surface/equilibrium/internal/land_level.hpp>
+
+/// Private to this room.
+namespace thalweg::surface {
+
+/// Fields inside the frame of the finest level, each divided by its mean over the land; without cells for none.
+struct RockFields {
+    Raster<float> uplift;
+    Raster<float> erodibility;
+    std::int64_t margin = 0; ///< [cells] by which they go beyond the caller's grid on each side
+};
+
+/// Sets erodibility, the cap on slopes and uplift of a level's cells: the given fields' means over each cell, and noise
+/// on land (rivers go their even way). The less erodible, the steeper rock may stand.
+void set_rock(LandLevel& level, RockFields const& fields, EquilibriumParams const& params, Run const& run);
+
+} // namespace thalweg::surface

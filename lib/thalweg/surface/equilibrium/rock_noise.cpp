@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/equilibrium/internal/rock_noise.hpp>
+
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/parallel.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace thalweg::surface {
+
+namespace {
+
+constexpr std::uint64_t rock_stage = 0x726f636b; // "rock"
+constexpr double shortest_wave = 2.0;
+// Eased between four uniform numbers, the variance is about that of one, a twelfth, times a half.
+constexpr double to_unit_variance = 5.0;
+
+/// One octave: its lattice turned and moved against the grid, and the numbers at the nodes that the grid needs.
+class Octave {
+public:
+    Octave(LandLevel const& level, RockNoise const& params, std::uint64_t number, double wave, Run const& run)
+        : per_col_(exact::cos(angle(number)) * level.side / wave),
+          per_row_(exact::sin(angle(number)) * level.side / wave) {
+        double const first = (0.5 * level.side - level.side - params.margin) / wave; // centre of the frame's corner
+        double const cos = exact::cos(angle(number));
+        double const sin = exact::sin(angle(number));
+        x0_ = cos * first - sin * first + 17.3 * static_cast<double>(number);
+        y0_ = sin * first + cos * first + 91.7 * static_cast<double>(number);
+        auto const across = static_cast<double>(level.width);
+        auto const down = static_cast<double>(level.height);
+        double const left =
+            std::floor(x0_ + std::min({0.0, per_col_ * across, -per_row_ * down, per_col_ * across - per_row_ * down}));
+        double const top =
+            std::floor(y0_ + std::min({0.0, per_row_ * across, per_col_ * down, per_row_ * across + per_col_ * down}));
+        double const reach_x = std::fabs(per_col_) * across + std::fabs(per_row_) * down;
+        double const reach_y = std::fabs(per_row_) * across + std::fabs(per_col_) * down;
+        width_ = static_cast<std::int64_t>(reach_x) + 4;
+        auto const rows = static_cast<std::int64_t>(reach_y) + 4;
+        nodes_.resize(static_cast<std::size_t>(width_ * rows));
+        draw(params.seed, number, static_cast<std::int64_t>(left), static_cast<std::int64_t>(top), rows, run);
+        x0_ -= left;
+        y0_ -= top;
+    }
+
+    void add_to_row(std::int64_t row, double weight, float* out, std::int64_t count) const {
+        double const x = x0_ - per_row_ * static_cast<double>(row);
+        double const y = y0_ + per_col_ * static_cast<double>(row);
+        auto const w = static_cast<float>(weight);
+        for (std::int64_t col = 0; col < count; ++col) {
+            double const at_x = x + per_col_ * static_cast<double>(col);
+            double const at_y = y + per_row_ * static_cast<double>(col);
+            auto const ix = static_cast<std::int32_t>(at_x);
+            auto const iy = static_cast<std::int32_t>(at_y);
+            float const u = eased(static_cast<float>(at_x - ix));
+            float const v = eased(static_cast<float>(at_y - iy));
+            float const* const n = &nodes_[static_cast<std::size_t>(iy * width_ + ix)];
+            float const upper = n[0] + (n[1] - n[0]) * u;
+            float const lower = n[width_] + (n[width_ + 1] - n[width_]) * u;
+            out[col] += w * (upper + (lower - upper) * v);
+        }
+    }
+
+private:
+    static double angle(std::uint64_t number) { return 0.7 * static_cast<double>(number) + 0.3; }
+    static float eased(float t) { return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F); }
+
+    void draw(std::uint64_t seed, std::uint64_t number, std::int64_t left, std::int64_t top, std::int64_t rows,
+              Run const& run) {
+        constexpr std::int64_t a_block = 8;
+        parallel_ranges(run, rows, 16, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t row = begin; row < end; ++row) {
+                std::array<std::uint64_t, 4> words{};
+                std::int64_t held = -1;
+                for (std::int64_t col = 0; col < width_; ++col) {
+                    // Counted from far to the left, so that blocks lie where they lie for any grid.
+                    std::int64_t const at = left + col + (std::int64_t{1} << 40);
+                    if (at / a_block != held) {
+                        held = at / a_block;
+                        words = chance_block(seed, rock_stage, number, static_cast<std::uint64_t>(top + row),
+                                             static_cast<std::uint64_t>(held));
+                    }
+                    auto const k = static_cast<std::uint64_t>(at % a_block);
+                    auto const half = static_cast<std::uint32_t>(words[k / 2] >> (32 * (k % 2)));
+                    nodes_[static_cast<std::size_t>(row * width_ + col)] =
+                        static_cast<float>(static_cast<double>(half) * 0x1p-32 - 0.5);
+                }
+            }
+        });
+    }
+
+    double per_col_;
+    double per_row_;
+    double x0_ = 0.0;
+    double y0_ = 0.0;
+    std::int64_t width_ = 0;
+    Cells<float> nodes_;
+};
+
+} // namespace
+
+Cells<float> rock_noise(LandLevel const& level, RockNoise const& params, Run const& run) {
+    Cells<float> noise(static_cast<std::size_t>(level.cells()));
+    std::uint64_t octaves = 0;
+    for (double wave = params.longest_wave; wave >= shortest_wave; wave /= 2.0) {
+        ++octaves;
+    }
+    double const weight = to_unit_variance / std::sqrt(static_cast<double>(octaves));
+    double wave = params.longest_wave;
+    for (std::uint64_t number = 0; number < octaves && wave >= 1.5 * level.side; ++number, wave /= 2.0) {
+        Octave const octave(level, params, number, wave, run);
+        parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t row = begin; row < end; ++row) {
+                octave.add_to_row(row, weight, &noise[static_cast<std::size_t>(row * level.width)], level.width);
+            }
+        });
+    }
+    return noise;
+}
+
+} // namespace thalweg::surface

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/equilibrium/internal/written_land.hpp>
+
+#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/surface/equilibrium/internal/give_up_tips.hpp>
+#include <thalweg/surface/equilibrium/internal/perched_rivers.hpp>
+#include <thalweg/surface/equilibrium/internal/rise_of.hpp>
+#include <thalweg/surface/equilibrium/internal/settle_land.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace thalweg::surface {
+
+namespace {
+
+constexpr std::int8_t leaves = -1;
+constexpr std::int8_t at_sea = -2;
+
+/// Copies the caller's grid out of the level; NaN at sea.
+Raster<float> cropped(LandLevel const& level, Window const& window) {
+    Raster<float> dem(window.grid);
+    Mask const& land = window.land;
+    std::int64_t const margin = window.margin;
+    for (std::int64_t row = 0; row < dem.height(); ++row) {
+        for (std::int64_t col = 0; col < dem.width(); ++col) {
+            auto const i = static_cast<std::size_t>((row + margin + 1) * level.width + col + margin + 1);
+            bool const dry = land.cells() == 0 || land[Cell{col, row}] != 0;
+            dem[Cell{col, row}] = dry ? level.z[i] : std::numeric_limits<float>::quiet_NaN();
+        }
+    }
+    return dem;
+}
+
+/// The lowest height at which a river ends on the caller's grid.
+float lowest_end(Raster<float> const& dem, Channels const& rivers) {
+    float low = std::numeric_limits<float>::infinity();
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        if (rivers.receiver[n] < 0) {
+            low = std::min(low, dem[rivers.cell[n]]);
+        }
+    }
+    return low;
+}
+
+std::int8_t steepest_descent(Raster<float> const& dem, Cell c) {
+    float const z = dem[c];
+    if (std::isnan(z)) {
+        return at_sea;
+    }
+    double best = 0.0;
+    std::int8_t way = leaves;
+    for (std::size_t k = 0; k < d8_steps.size(); ++k) {
+        Cell const n{c.col + d8_steps[k].col, c.row + d8_steps[k].row};
+        if (!dem.grid().contains(n)) {
+            continue;
+        }
+        double const slope = (static_cast<double>(z) - static_cast<double>(dem[n])) * d8_per_length[k];
+        if (slope > best) { // never towards NaN
+            best = slope;
+            way = static_cast<std::int8_t>(k);
+        }
+    }
+    return way;
+}
+
+Raster<std::int8_t> directions(Raster<float> const& dem, Channels const& rivers,
+                               std::vector<std::int64_t> const& shortened, Run const& run) {
+    Raster<std::int8_t> out(dem.grid());
+    parallel_ranges(run, dem.height(), 16, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            for (std::int64_t col = 0; col < dem.width(); ++col) {
+                out[Cell{col, row}] = steepest_descent(dem, {col, row});
+            }
+        }
+    });
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        std::int64_t const r = rivers.receiver[n];
+        if (std::binary_search(shortened.begin(), shortened.end(), static_cast<std::int64_t>(n))) {
+            continue;
+        }
+        if (r < 0) {
+            out[rivers.cell[n]] = leaves;
+            continue;
+        }
+        Cell const from = dem.grid().at(rivers.cell[n]);
+        Cell const to = dem.grid().at(rivers.cell[static_cast<std::size_t>(r)]);
+        for (std::size_t k = 0; k < d8_steps.size(); ++k) {
+            if (d8_steps[k] == Cell{to.col - from.col, to.row - from.row}) {
+                out[rivers.cell[n]] = static_cast<std::int8_t>(k);
+            }
+        }
+    }
+    return out;
+}
+
+float perched_height(Raise const& raise, Grid const& grid) {
+    return static_cast<float>(raise.mean_tangent * grid.cell_m);
+}
+
+void to_metres(LandLevel& level, Raise const& raise) {
+    for (float& z : level.z) {
+        z = static_cast<float>(raise.base_m + static_cast<double>(z) * raise.metres);
+    }
+}
+
+/// Less than the solver keeps, so that nothing is touched but what floats have lost.
+float settled_step(Raise const& raise) {
+    return static_cast<float>(0.25 * static_cast<double>(least_tangent) * raise.metres);
+}
+
+void tell_lowered(Raster<float> const& dem, Channels const& rivers, EquilibriumLand& out) {
+    std::vector<double> lowered;
+    for (std::size_t n = 0; n < rivers.z.size(); ++n) {
+        if (!std::isnan(rivers.z[n])) {
+            double const depth = static_cast<double>(rivers.z[n]) - static_cast<double>(dem[rivers.cell[n]]);
+            lowered.push_back(std::max(0.0, depth));
+        }
+    }
+    std::sort(lowered.begin(), lowered.end());
+    out.max_lowered_m = lowered.back();
+    out.p95_lowered_m = lowered[(lowered.size() - 1) * 95 / 100];
+}
+
+} // namespace
+
+Raise raise_for(LandLevel const& level, Channels const& rivers, Window const& window, EquilibriumParams const& params) {
+    Raster<float> const dem = cropped(level, window);
+    Rise const rise = rise_of(dem, params);
+    double const metres = rise.factor * window.grid.cell_m;
+    return {metres, -static_cast<double>(lowest_end(dem, rivers)) * metres, rise.mean_tangent};
+}
+
+double share_of_target(LandLevel const& level, Window const& window, double metres, EquilibriumParams const& params) {
+    return share_of_target(cropped(level, window), metres / window.grid.cell_m, params);
+}
+
+EquilibriumLand written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
+                             std::vector<std::int64_t> shortened, Run const& run) {
+    EquilibriumLand out;
+    out.rise = raise.metres / window.grid.cell_m;
+    to_metres(level, raise);
+    // A little lower than what counts as perched, for what is settled afterwards.
+    lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
+    raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
+    settle_land(level, settled_step(raise), RiverHeights::graded);
+    out.dem = cropped(level, window);
+    auto const perched = give_up_tips(level, perched_height(raise, window.grid), TipBanks::stay);
+    shortened.insert(shortened.end(), perched.begin(), perched.end());
+    std::sort(shortened.begin(), shortened.end());
+    out.shortened = std::move(shortened);
+    level = {};
+    out.direction = directions(out.dem, rivers, out.shortened, run);
+    return out;
+}
+
+EquilibriumLand written_given_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
+                                   RiverHeights heights, Run const& run) {
+    EquilibriumLand out;
+    out.rise = raise.metres / window.grid.cell_m;
+    to_metres(level, raise);
+    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+        std::int64_t const number = level.rivers.number[n];
+        float const asked = number < 0 ? std::nanf("") : rivers.z[static_cast<std::size_t>(number)];
+        if (!std::isnan(asked)) {
+            float& z = level.z[level.rivers.cell[n]];
+            z = heights == RiverHeights::fixed ? asked : std::min(z, asked);
+        }
+    }
+    if (heights == RiverHeights::soft) { // as graded rivers are
+        lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
+        raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
+    }
+    settle_land(level, settled_step(raise), heights);
+    out.dem = cropped(level, window);
+    out.walled = perched_cells(level, perched_height(raise, window.grid));
+    level = {};
+    out.direction = directions(out.dem, rivers, {}, run);
+    tell_lowered(out.dem, rivers, out);
+    return out;
+}
+
+} // namespace thalweg::surface

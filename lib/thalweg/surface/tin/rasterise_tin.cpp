@@ -1,0 +1,370 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/tin/rasterise_tin.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/geometry/height_on_plane.hpp>
+#include <thalweg/geometry/side_of_line.hpp>
+#include <thalweg/surface/tin/internal/extend_tin.hpp>
+
+namespace thalweg::surface {
+namespace {
+
+// Few enough that a band of a wide raster stays in the cache, enough that few triangles lie in two.
+constexpr std::int64_t band_rows = 32;
+
+// The grid's centres as doubles, which the tests below take for exact.
+struct Centres {
+    explicit Centres(Grid const& frame) : grid(frame) {
+        for (std::int64_t c = 0; c < grid.width; ++c) {
+            x.push_back(grid.centre({c, 0}).x);
+        }
+        for (std::int64_t r = 0; r < grid.height; ++r) {
+            y.push_back(grid.centre({0, r}).y);
+        }
+    }
+    Grid const& grid;
+    std::vector<double> x;
+    std::vector<double> y;
+};
+
+// A whole number near v, within [low, high]; v may be anything. (std::floor is a call where SSE4 is not asked for.)
+std::int64_t clamped(double v, std::int64_t low, std::int64_t high) {
+    return v >= static_cast<double>(high) ? high : v <= static_cast<double>(low) ? low : static_cast<std::int64_t>(v);
+}
+
+// Bands of rows a triangle may touch: a row more than rounding could miss.
+struct Bands {
+    std::int32_t first = 0;
+    std::int32_t last = -1;
+};
+
+Bands bands_of(double south, double north, Grid const& grid) {
+    double const per_m = 1.0 / grid.cell_m;
+    auto const row = [&](double y) { return (grid.north - y) * per_m - 0.5; };
+    double const top = row(north) - 1.0;
+    double const bottom = row(south) + 1.0;
+    if (!(bottom >= 0.0) || !(top < static_cast<double>(grid.height))) {
+        return {};
+    }
+    std::int64_t const last_row = grid.height - 1;
+    return {static_cast<std::int32_t>(clamped(top, 0, last_row) / band_rows),
+            static_cast<std::int32_t>(clamped(bottom, 0, last_row) / band_rows)};
+}
+
+void require_sound(Tin const& tin, Run const& run) {
+    for (std::size_t i = 0; i < tin.vertices.size(); ++i) {
+        Vec3 const& v = tin.vertices[i];
+        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
+            throw BadInput(
+                fmt::format("surface.rasterise_tin: vertex {} is not finite: ({}, {}, {})", i + 1, v.x, v.y, v.z));
+        }
+    }
+    parallel_ranges(run, static_cast<std::int64_t>(tin.triangles.size()), 1 << 15, [&](std::int64_t b, std::int64_t e) {
+        for (std::int64_t i = b; i < e; ++i) {
+            auto const& t = tin.triangles[static_cast<std::size_t>(i)];
+            if (std::max({t[0], t[1], t[2]}) >= tin.vertices.size()) {
+                throw BadInput(fmt::format("surface.rasterise_tin: triangle {} has vertex {} of {}", i + 1,
+                                           std::max({t[0], t[1], t[2]}) + 1, tin.vertices.size()));
+            }
+        }
+    });
+}
+
+// Vertices may lie anywhere in memory: to ask for them some triangles ahead hides most of the wait.
+constexpr std::size_t ahead = 12;
+
+void fetch(Tin const& tin, std::size_t triangle) {
+    for (std::uint32_t const v : tin.triangles[triangle]) {
+        __builtin_prefetch(&tin.vertices[v]);
+    }
+}
+
+// The triangles of each band, by number.
+struct Binned {
+    std::vector<std::size_t> begin; // by band, and the end
+    std::vector<std::uint32_t> triangles;
+};
+
+Binned bin(Tin const& tin, Grid const& grid, Run const& run) {
+    auto const count = static_cast<std::int64_t>(tin.triangles.size());
+    std::vector<Bands> bands(tin.triangles.size());
+    parallel_ranges(run, count, 1 << 14, [&](std::int64_t begin, std::int64_t end) {
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+            fetch(tin, std::min(i + ahead, bands.size() - 1));
+            auto const& t = tin.triangles[i];
+            auto const [south, north] = std::minmax({tin.vertices[t[0]].y, tin.vertices[t[1]].y, tin.vertices[t[2]].y});
+            bands[i] = bands_of(south, north, grid);
+        }
+    });
+    Binned binned;
+    binned.begin.assign(static_cast<std::size_t>((grid.height + band_rows - 1) / band_rows) + 1, 0);
+    for (Bands const& b : bands) {
+        for (std::int32_t k = b.first; k <= b.last; ++k) {
+            ++binned.begin[static_cast<std::size_t>(k) + 1];
+        }
+    }
+    for (std::size_t k = 1; k < binned.begin.size(); ++k) {
+        binned.begin[k] += binned.begin[k - 1];
+    }
+    binned.triangles.resize(binned.begin.back());
+    std::vector<std::size_t> next = binned.begin;
+    for (std::size_t i = 0; i < bands.size(); ++i) {
+        for (std::int32_t k = bands[i].first; k <= bands[i].last; ++k) {
+            binned.triangles[next[static_cast<std::size_t>(k)]++] = static_cast<std::uint32_t>(i);
+        }
+    }
+    return binned;
+}
+
+// A side of a triangle from its lower to its upper end.
+struct Side {
+    Vec2 from;
+    Vec2 to;
+    double column = 0.0; // of its lower end
+    double slope = 0.0;  // [columns/m] to the east as it goes north
+};
+
+struct Column {
+    std::int64_t first = 0; // whose centre lies on the side or east of it
+    bool is_on = false;     // its centre lies on the side
+};
+
+// The heights of one band, and the centres on sides that nobody may own: those of the TIN's own edge.
+class Band {
+public:
+    Band(Tin const& tin, Centres const& centres, double reach_columns, std::int64_t first_row, std::int64_t end_row,
+         Raster<float>& dem)
+        : tin_(tin), centres_(centres), per_m_(1.0 / centres.grid.cell_m), reach_(reach_columns), first_row_(first_row),
+          end_row_(end_row), dem_(dem) {}
+
+    void draw(std::uint32_t triangle) {
+        auto const& t = tin_.triangles[triangle];
+        Vec3 a = tin_.vertices[t[0]];
+        Vec3 b = tin_.vertices[t[1]];
+        Vec3 c = tin_.vertices[t[2]];
+        double const forward = (b.x - a.x) * (c.y - a.y);
+        double const back = (c.x - a.x) * (b.y - a.y);
+        double const area = forward - back;
+        // Where so little is left of the products, rounding has its share in it.
+        bool const is_sliver = !(area > 1e-9 * (std::fabs(forward) + std::fabs(back)));
+        if (is_sliver && geometry::side_of_line(plan(a), plan(b), plan(c)) <= 0) {
+            throw BadInput(fmt::format("surface.rasterise_tin: triangle {} at ({}, {}) does not run counterclockwise",
+                                       triangle + 1, a.x, a.y));
+        }
+        sliver_ = is_sliver ? &t : nullptr;
+        double const by_area = is_sliver ? 0.0 : 1.0 / area;
+        plane_ = {a, ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) * by_area,
+                  ((b.x - a.x) * (c.z - a.z) - (c.x - a.x) * (b.z - a.z)) * by_area, std::min({a.z, b.z, c.z}),
+                  std::max({a.z, b.z, c.z})};
+        // From south to north, b in the middle: west of the long side a-c after an odd number of swaps.
+        bool b_is_west = false;
+        auto const order = [&](Vec3& p, Vec3& q) {
+            if (p.y > q.y) {
+                std::swap(p, q);
+                b_is_west = !b_is_west;
+            }
+        };
+        order(a, b);
+        order(b, c);
+        order(a, b);
+        auto [row, end] = rows(a.y, c.y);
+        if (row > first_row_ && centres_.y[static_cast<std::size_t>(row - 1)] == c.y) {
+            claim_top(row - 1, b.y == c.y ? std::min(b.x, c.x) : c.x, b.y == c.y ? std::max(b.x, c.x) : c.x);
+        }
+        if (row == end) {
+            return;
+        }
+        Side const whole = side(a, c);
+        if (b.y < c.y) {
+            Side const upper = side(b, c);
+            for (; row < end && centres_.y[static_cast<std::size_t>(row)] >= b.y; ++row) {
+                draw_row(row, b_is_west ? upper : whole, b_is_west ? whole : upper);
+            }
+        }
+        if (row < end) {
+            Side const lower = side(a, b);
+            for (; row < end; ++row) {
+                draw_row(row, b_is_west ? lower : whole, b_is_west ? whole : lower);
+            }
+        }
+    }
+
+    // The edge of the TIN belongs to it.
+    void settle() {
+        for (auto const& [cell, z] : claims_) {
+            if (std::isnan(dem_[cell])) {
+                dem_[cell] = z;
+            }
+        }
+    }
+
+private:
+    Side side(Vec3 const& low, Vec3 const& high) const {
+        return {plan(low), plan(high), (low.x - centres_.grid.west) * per_m_ - 0.5,
+                (high.x - low.x) / (high.y - low.y) * per_m_};
+    }
+
+    // Rows of this band whose centres lie in [south, north).
+    std::pair<std::int64_t, std::int64_t> rows(double south, double north) const {
+        Grid const& grid = centres_.grid;
+        auto const y = [&](std::int64_t r) { return centres_.y[static_cast<std::size_t>(r)]; };
+        std::int64_t first = clamped((grid.north - north) * per_m_ - 0.5, first_row_, end_row_);
+        while (first > first_row_ && y(first - 1) < north) {
+            --first;
+        }
+        while (first < end_row_ && y(first) >= north) {
+            ++first;
+        }
+        std::int64_t end = clamped((grid.north - south) * per_m_ + 0.5, first, end_row_);
+        while (end > first && y(end - 1) < south) {
+            --end;
+        }
+        while (end < end_row_ && y(end) >= south) {
+            ++end;
+        }
+        return {first, end};
+    }
+
+    Column column(Side const& side, std::int64_t row) const {
+        double const y = centres_.y[static_cast<std::size_t>(row)];
+        double const past_west = side.column + (y - side.from.y) * side.slope + 1.0; // columns from -1 on
+        std::int64_t const width = centres_.grid.width;
+        std::int64_t const c = clamped(past_west, 0, width);
+        double const past = past_west - static_cast<double>(c);
+        if ((past > reach_ && past < 1.0 - reach_) || past < -reach_ || past > 1.0 + reach_) {
+            return {c, false};
+        }
+        return exact_column(side, c, y);
+    }
+
+    // From a guess.
+    Column exact_column(Side const& side, std::int64_t c, double y) const {
+        std::int64_t const width = centres_.grid.width;
+        auto const turn = [&](std::int64_t col) {
+            return geometry::side_of_line(side.from, side.to, {centres_.x[static_cast<std::size_t>(col)], y});
+        };
+        while (c > 0 && turn(c - 1) <= 0) {
+            --c;
+        }
+        while (c < width && turn(c) > 0) {
+            ++c;
+        }
+        return {c, c < width && turn(c) == 0};
+    }
+
+    float height(double x, double base) const {
+        double const z = base + plane_.east * (x - plane_.at.x);
+        return static_cast<float>(z > plane_.highest ? plane_.highest : z < plane_.lowest ? plane_.lowest : z);
+    }
+    double base(std::int64_t row) const {
+        return plane_.at.z + plane_.north * (centres_.y[static_cast<std::size_t>(row)] - plane_.at.y);
+    }
+
+    float height_in_sliver(std::int64_t row, std::int64_t col) const {
+        auto const& t = *sliver_;
+        return static_cast<float>(geometry::height_on_plane(
+            tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]],
+            {centres_.x[static_cast<std::size_t>(col)], centres_.y[static_cast<std::size_t>(row)]}));
+    }
+
+    void draw_row(std::int64_t row, Side const& west, Side const& east) {
+        Column const begin = column(west, row);
+        Column const end = column(east, row);
+        double const at_a = base(row);
+        float* const cells = dem_.row(row).data();
+        double const* const x = centres_.x.data();
+        for (std::int64_t c = begin.first; c < end.first; ++c) {
+            cells[c] = sliver_ == nullptr ? height(x[c], at_a) : height_in_sliver(row, c);
+        }
+        if (end.is_on) {
+            claim(row, end.first);
+        }
+    }
+
+    void claim(std::int64_t row, std::int64_t col) {
+        claims_.emplace_back(dem_.grid().index({col, row}),
+                             sliver_ == nullptr ? height(centres_.x[static_cast<std::size_t>(col)], base(row))
+                                                : height_in_sliver(row, col));
+    }
+
+    void claim_top(std::int64_t row, double west, double east) {
+        auto const first = std::lower_bound(centres_.x.begin(), centres_.x.end(), west);
+        for (auto x = first; x != centres_.x.end() && *x <= east; ++x) {
+            claim(row, x - centres_.x.begin());
+        }
+    }
+
+    struct Plane {
+        Vec3 at;
+        double east = 0.0; // rise [m/m]
+        double north = 0.0;
+        double lowest = 0.0;
+        double highest = 0.0;
+    };
+    Tin const& tin_;
+    Centres const& centres_;
+    double per_m_; // cells a metre
+    double reach_;
+    std::int64_t first_row_;
+    std::int64_t end_row_;
+    Raster<float>& dem_;
+    Plane plane_;
+    std::array<std::uint32_t, 3> const* sliver_ = nullptr; // the triangle in hand, where it is one
+    std::vector<std::pair<std::int64_t, float>> claims_;
+};
+
+// How far [columns] rounding can carry the crossing of a row and a side from its true place.
+double reach_of(Tin const& tin, Grid const& grid) {
+    double greatest =
+        std::max({std::fabs(grid.west), std::fabs(grid.east()), std::fabs(grid.north), std::fabs(grid.south())});
+    for (Vec3 const& v : tin.vertices) {
+        greatest = std::max({greatest, std::fabs(v.x), std::fabs(v.y)});
+    }
+    return 64.0 * 0x1p-53 * greatest / grid.cell_m;
+}
+
+} // namespace
+
+Raster<float> rasterise_tin(Tin const& tin, Grid const& grid, RasteriseTinParams const& params, Run const& run) {
+    require_sound(tin, run);
+    Raster<float> dem(grid, std::numeric_limits<float>::quiet_NaN());
+    if (dem.cells() == 0) {
+        return dem;
+    }
+    Centres const centres(grid);
+    double const reach = reach_of(tin, grid);
+    Binned const binned = bin(tin, grid, run);
+    // One band a call: what a band holds must not depend on how they are shared out.
+    parallel_ranges(run, static_cast<std::int64_t>(binned.begin.size()) - 1, 1, [&](std::int64_t b, std::int64_t e) {
+        for (std::int64_t k = b; k < e; ++k) {
+            run.check();
+            Band band(tin, centres, reach, k * band_rows, std::min((k + 1) * band_rows, grid.height), dem);
+            std::size_t const end = binned.begin[static_cast<std::size_t>(k) + 1];
+            for (std::size_t i = binned.begin[static_cast<std::size_t>(k)]; i < end; ++i) {
+                fetch(tin, binned.triangles[std::min(i + ahead, end - 1)]);
+                band.draw(binned.triangles[i]);
+            }
+            band.settle();
+        }
+    });
+    if (params.outside == RasteriseTinParams::Outside::nearest) {
+        extend_tin(tin, dem, run);
+    }
+    return dem;
+}
+
+} // namespace thalweg::surface

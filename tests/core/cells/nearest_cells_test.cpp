@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/core/cells/nearest_cells.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <thalweg/core/cells/cells_around.hpp>
+
+namespace {
+
+using namespace thalweg;
+
+Grid frame(std::int64_t width, std::int64_t height) {
+    Grid grid;
+    grid.width = width;
+    grid.height = height;
+    grid.cell_m = 10.0;
+    return grid;
+}
+
+} // namespace
+
+TEST(NearestCells, OneMarkedCell) {
+    Mask marked(frame(4, 3));
+    marked[Cell{1, 2}] = 1;
+    Raster<std::int64_t> const found = nearest_cells(marked, {});
+    for (std::int64_t const nearest : found.values()) {
+        EXPECT_EQ(nearest, 9);
+    }
+}
+
+TEST(NearestCells, AreThoseOfASearchOverAll) {
+    ASSERT_TRUE(rc::check("least squared distance, of equals the lowest index; for any number of threads", [] {
+        auto const width = *rc::gen::inRange<std::int64_t>(1, 30);
+        auto const height = *rc::gen::inRange<std::int64_t>(1, 30);
+        Grid const grid = frame(width, height);
+        auto const cells =
+            *rc::gen::container<std::vector<std::int64_t>>(rc::gen::inRange<std::int64_t>(0, grid.cells()));
+        RC_PRE(!cells.empty());
+        Mask marked(grid);
+        for (std::int64_t const cell : cells) {
+            marked[cell] = 1;
+        }
+        thalweg::Run run;
+        run.threads = *rc::gen::inRange(1, 4);
+        Raster<std::int64_t> const found = nearest_cells(marked, run);
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            std::int64_t best = -1;
+            for (std::int64_t k = 0; k < grid.cells(); ++k) {
+                bool const nearer =
+                    best < 0 || squared_cells(grid.at(i), grid.at(k)) < squared_cells(grid.at(i), grid.at(best));
+                best = marked[k] != 0 && nearer ? k : best;
+            }
+            RC_ASSERT(found[i] == best);
+        }
+    }));
+}

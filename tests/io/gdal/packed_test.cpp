@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/gdal/packed.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/error.hpp>
+
+#include "unpacked.hpp"
+
+using namespace thalweg;
+using Bytes = std::vector<std::uint8_t>;
+
+TEST(Packed, NothingIsAStreamOfNothing) {
+    std::string const text = io::packed({});
+    EXPECT_FALSE(text.empty());
+    EXPECT_TRUE(unpacked(text).empty());
+}
+
+TEST(Packed, ByteByByteTheSameAgain) {
+    ASSERT_TRUE(rc::check("unpacked(packed(bytes)) == bytes", [] {
+        auto const bytes = *rc::gen::container<Bytes>(rc::gen::arbitrary<std::uint8_t>());
+        RC_ASSERT(unpacked(io::packed(bytes)) == bytes);
+    }));
+}
+
+TEST(Packed, MoreThanOnePieceOfBase64) {
+    Bytes noise(10'000'001);
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+        noise[i] = static_cast<std::uint8_t>(chance(7, i));
+    }
+    std::string const text = io::packed(noise);
+    EXPECT_GT(text.size(), noise.size());
+    EXPECT_TRUE(unpacked(text) == noise);
+    Bytes const plain(noise.size(), 3);
+    EXPECT_LT(io::packed(plain).size(), noise.size() / 100);
+}
+
+TEST(Packed, BeyondTwoGibibytesIsRefused) {
+    std::uint8_t const one = 0;
+    std::span<std::uint8_t const> const too_many(&one, std::size_t{1} << 31U); // refused before a byte is read
+    EXPECT_THROW(io::packed(too_many), BadInput);
+}

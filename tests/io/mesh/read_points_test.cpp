@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/mesh/read_points.hpp>
+
+#include <fstream>
+#include <string>
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/files/output_file.hpp>
+#include <thalweg/io/gdal/content_of.hpp>
+#include <thalweg/io/gdal/driver.hpp>
+
+#include "scratch_folder.hpp"
+
+using namespace thalweg;
+using io::FileContent;
+using io::read_points;
+
+namespace {
+
+std::string text_file(ScratchFolder const& folder, std::string const& name, std::string const& text) {
+    std::ofstream(folder / name, std::ios::binary) << text;
+    return folder / name;
+}
+
+std::string refusal(io::ReadPointsParams const& params) {
+    try {
+        read_points(params);
+    } catch (Error const& e) {
+        return e.what();
+    }
+    return "taken";
+}
+
+bool says(std::string const& text, std::string const& part) {
+    return text.find(part) != std::string::npos;
+}
+
+/// What a text file is refused for.
+std::string refusal_of(std::string const& text) {
+    ScratchFolder const folder;
+    return refusal({text_file(folder, "p.csv", text)});
+}
+
+std::vector<Vec3> points_of(std::string const& name, std::string const& text) {
+    ScratchFolder const folder;
+    return read_points({text_file(folder, name, text)}).points;
+}
+
+/// A layer of WKT shapes, with a text or real field where one is named.
+std::string layer(ScratchFolder const& folder, std::vector<std::pair<std::string, std::string>> const& shapes, int epsg,
+                  char const* field = nullptr, OGRFieldType type = OFTReal) {
+    std::string const path = folder / "p.gpkg";
+    io::Driver const driver;
+    auto* const maker = GetGDALDriverManager()->GetDriverByName("GPKG");
+    GDALDatasetUniquePtr const data(maker->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    OGRSpatialReference crs;
+    if (epsg != 0) {
+        crs.importFromEPSG(epsg);
+        crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    }
+    auto* const out = data->CreateLayer("spots", epsg != 0 ? &crs : nullptr, wkbUnknown, nullptr);
+    if (field != nullptr) {
+        OGRFieldDefn definition(field, type);
+        out->CreateField(&definition);
+    }
+    for (auto const& [wkt, value] : shapes) {
+        OGRFeature feature(out->GetLayerDefn());
+        if (field != nullptr && !value.empty()) {
+            feature.SetField(field, value.c_str());
+        }
+        OGRGeometry* geometry = nullptr;
+        OGRGeometryFactory::createFromWkt(wkt.c_str(), nullptr, &geometry);
+        feature.SetGeometryDirectly(geometry);
+        EXPECT_EQ(out->CreateFeature(&feature), OGRERR_NONE);
+    }
+    return path;
+}
+
+} // namespace
+
+TEST(ReadPoints, TextInEveryManner) {
+    std::vector<Vec3> const wanted{{1.5, -2, 3e2}, {0.1, 4, 5}};
+    EXPECT_EQ(points_of("a.csv", "x,y,z\n1.5,-2,3e2\n0.1,4,5\n"), wanted);
+    EXPECT_EQ(points_of("a.csv", "\xEF\xBB\xBFid;Z;\"Y\";X\r\n7;3e2;-2;1.5\r\n8; 5 ;4;+0.1"), wanted);
+    EXPECT_EQ(points_of("a.csv", "1.5,-2,3e2\n\n# a remark\n0.1,4,5,9\n"), wanted);
+    EXPECT_EQ(points_of("a.xyz", "  1.5\t-2   300 17\n0.1 4 5\n"), wanted);
+    EXPECT_EQ(points_of("a.TXT", "x y z\n1.5 -2 300\n0.1 4 5\n"), wanted);
+}
+
+TEST(ReadPoints, BadTextNamesItsLine) {
+    EXPECT_TRUE(says(refusal_of(""), "p.csv holds no points"));
+    EXPECT_TRUE(says(refusal_of("x,y,z\n"), "holds no points"));
+    EXPECT_TRUE(says(refusal_of("x,y,h\n1,2,3\n"), "first line: no column 'z'"));
+    EXPECT_TRUE(says(refusal_of("x,y,z\n1,2,3\n1,2,three\n"), "line 3: z is 'three'"));
+    EXPECT_TRUE(says(refusal_of("1,2,3\n1,nan,3\n"), "line 2: y is 'nan'"));
+    EXPECT_TRUE(says(refusal_of("1,2,3\n#\n-inf,2,3\n"), "line 3: x is '-inf'"));
+    EXPECT_TRUE(says(refusal_of("1,2,3\n1,2,1e999\n"), "line 2: z is '1e999'"));
+    EXPECT_TRUE(says(refusal_of("1,2,3\n1,2\n"), "line 2: 2 of the columns, z is missing"));
+    EXPECT_TRUE(says(refusal_of("1,2,3\n1,,3\n"), "line 2: y is ''"));
+    EXPECT_TRUE(says(refusal({"nowhere.csv"}), "does not exist"));
+}
+
+TEST(ReadPoints, TextTakesTheCrsAsked) {
+    ScratchFolder const folder;
+    std::string const path = text_file(folder, "a.xyz", "1 2 3\n");
+    EXPECT_EQ(read_points({path}).crs, "");
+    EXPECT_EQ(read_points({path, {}, "z", "EPSG:32632"}).crs, "EPSG:32632");
+    EXPECT_TRUE(says(refusal({path, {}, "z", "EPSG:4326"}), "4326"));
+}
+
+TEST(ReadPoints, LayersGiveTheirZ) {
+    ScratchFolder const folder;
+    auto const read =
+        read_points({layer(folder, {{"POINT Z (1.25 2 3)", ""}, {"MULTIPOINT Z (4 5 6, 7 8 9)", ""}}, 32631)});
+    EXPECT_EQ(read.points, (std::vector<Vec3>{{1.25, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
+    EXPECT_EQ(read.crs, "EPSG:32631");
+}
+
+TEST(ReadPoints, LayersGiveTheirField) {
+    for (OGRFieldType const type : {OFTReal, OFTString}) {
+        ScratchFolder const folder;
+        auto const read =
+            read_points({layer(folder, {{"POINT (1 2)", "3.5"}, {"POINT (4 5)", "-6"}}, 32631, "z", type)});
+        EXPECT_EQ(read.points, (std::vector<Vec3>{{1, 2, 3.5}, {4, 5, -6}}));
+    }
+}
+
+TEST(ReadPoints, GeographicOnesAreProjected) {
+    ScratchFolder const folder;
+    std::string const path = layer(folder, {{"POINT Z (3 0 7)", ""}, {"POINT Z (3 0.001 8)", ""}}, 4326);
+    auto const read = read_points({path});
+    EXPECT_EQ(read.crs, "EPSG:32631");
+    EXPECT_EQ(read.points[0], (Vec3{500000, 0, 7}));
+    EXPECT_NEAR(read.points[1].y, 110.53, 0.02);
+    EXPECT_EQ(read_points({path, {}, "z", "EPSG:32632"}).crs, "EPSG:32632");
+}
+
+TEST(ReadPoints, BadLayersNameTheFeature) {
+    using Shapes = std::vector<std::pair<std::string, std::string>>;
+    auto const why = [](Shapes const& shapes, int epsg = 32631, char const* field = nullptr,
+                        OGRFieldType type = OFTReal) {
+        ScratchFolder const folder;
+        return refusal({layer(folder, shapes, epsg, field, type)});
+    };
+    EXPECT_TRUE(says(why({}), "holds no points"));
+    EXPECT_TRUE(says(why({{"POINT (1 2)", ""}}), "feature 1 of p.gpkg has no height: neither Z nor a field 'z'"));
+    EXPECT_TRUE(
+        says(why({{"POINT (1 2)", "5"}, {"POINT (1 2)", ""}}, 32631, "z"), "feature 2 of p.gpkg has no height"));
+    EXPECT_TRUE(says(why({{"POINT (1 2)", "high"}}, 32631, "z", OFTString), "z is 'high', not a number"));
+    EXPECT_TRUE(says(why({{"LINESTRING (1 2, 3 4)", "5"}}, 32631, "z"), "is Line String, not a point"));
+    EXPECT_TRUE(says(why({{"POINT EMPTY", "5"}}, 32631, "z"), "is empty"));
+    EXPECT_TRUE(says(why({{"POINT Z (1 2 3)", ""}}, 0), "has no CRS"));
+    EXPECT_TRUE(says(refusal({"nowhere.gpkg"}), "does not exist"));
+    ScratchFolder const folder;
+    EXPECT_TRUE(says(refusal({layer(folder, {}, 0), "other"}), "no layer of points named 'other' (spots)"));
+}
+
+TEST(ReadPoints, InPlanTheyNeedNoHeights) {
+    ScratchFolder const folder;
+    thalweg::io::ReadPointsParams params;
+    params.heights = thalweg::io::PointHeights::passed_over;
+    params.path = text_file(folder, "a.csv", "y,x\n2,1\n5,4\n");
+    std::vector<Vec3> const wanted{{1, 2, 0}, {4, 5, 0}};
+    EXPECT_EQ(read_points(params).points, wanted);
+    params.path = text_file(folder, "a.xyz", "1 2 3\n4 5 high\n");
+    EXPECT_EQ(read_points(params).points, wanted);
+    params.path = layer(folder, {{"POINT (1 2)", ""}, {"POINT Z (4 5 6)", ""}}, 32631);
+    EXPECT_EQ(read_points(params).points, wanted);
+    params.path = text_file(folder, "b.csv", "1\n");
+    EXPECT_TRUE(says(refusal(params), "line 1: 1 of the columns, y is missing"));
+}
+
+TEST(ReadPoints, AFileWithoutCrsTakesTheOneAsked) {
+    ScratchFolder const folder;
+    auto const read = read_points({layer(folder, {{"POINT Z (1 2 3)", ""}}, 0), {}, "z", "EPSG:32632"});
+    EXPECT_EQ(read.crs, "EPSG:32632");
+    EXPECT_EQ(read.points[0], (Vec3{1, 2, 3}));
+}
+
+TEST(ContentOf, TellsWhatAFileHolds) {
+    ScratchFolder const folder;
+    EXPECT_EQ(io::content_of(text_file(folder, "a.xyz", "")).kind, FileContent::Kind::points);
+    EXPECT_EQ(io::content_of(text_file(folder, "a.pgm", "P5 1 1 255\na")).kind, FileContent::Kind::raster);
+    EXPECT_EQ(io::content_of(layer(folder, {{"POINT (1 2)", ""}}, 0)).kind, FileContent::Kind::points);
+    ScratchFolder const other;
+    EXPECT_EQ(io::content_of(layer(other, {{"LINESTRING (1 2, 3 4)", ""}}, 0)).kind, FileContent::Kind::lines);
+    EXPECT_THROW(io::content_of(other.path().string()), BadInput); // no network.gpkg in it
+    EXPECT_THROW(io::content_of("nowhere.csv"), BadInput);
+    EXPECT_THROW(io::content_of(text_file(folder, "a.tif", "no raster")), BadInput);
+    ScratchFolder const areas;
+    EXPECT_THROW(io::content_of(layer(areas, {{"POLYGON ((0 0, 1 0, 0 1, 0 0))", ""}}, 0)), BadInput);
+}
+
+TEST(OutputFile, AppearsWholeOrNotAtAll) {
+    ScratchFolder const folder;
+    {
+        io::OutputFile const file(folder / "a.txt");
+        std::ofstream(file.staging()) << "half";
+        EXPECT_EQ(folder.entries(), 1);
+    }
+    EXPECT_EQ(folder.entries(), 0);
+    {
+        io::OutputFile file(folder / "a.txt");
+        std::ofstream(file.staging()) << "whole";
+        file.commit();
+    }
+    EXPECT_EQ(bytes_of(folder / "a.txt"), "whole");
+    EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(OutputFile, ReplacesOnlyWhenAsked) {
+    ScratchFolder const folder;
+    text_file(folder, "a.txt", "old");
+    EXPECT_THROW(io::OutputFile(folder / "a.txt"), BadInput);
+    {
+        io::OutputFile file(folder / "a.txt", io::Existing::replace);
+        std::ofstream(file.staging()) << "new";
+        EXPECT_EQ(bytes_of(folder / "a.txt"), "old");
+        file.commit();
+    }
+    EXPECT_EQ(bytes_of(folder / "a.txt"), "new");
+    io::OutputFile late(folder / "b.txt");
+    std::ofstream(late.staging()) << "late";
+    text_file(folder, "b.txt", "early");
+    EXPECT_THROW(late.commit(), BadInput);
+    EXPECT_EQ(bytes_of(folder / "b.txt"), "early");
+}
+
+TEST(OutputFile, BadPlacesAreRefused) {
+    ScratchFolder const folder;
+    EXPECT_THROW(io::OutputFile(""), BadParameter);
+    EXPECT_THROW(io::OutputFile(folder / ""), BadParameter);
+    EXPECT_THROW(io::OutputFile(folder / "none/a.txt"), BadInput);
+    EXPECT_THROW(io::OutputFile(folder.path().string(), io::Existing::replace), BadInput);
+    std::filesystem::create_symlink("elsewhere", folder / "link");
+    EXPECT_THROW(io::OutputFile(folder / "link", io::Existing::replace), BadInput);
+}

@@ -1,0 +1,528 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/network/read_network.hpp>
+
+#include <cmath>
+#include <set>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/network/write_network.hpp>
+
+#include "sample_networks.hpp"
+#include "vector_files.hpp"
+
+using namespace thalweg;
+
+// Every name and value of the files stands here as their owners write them, not by the table under test.
+
+namespace {
+
+// Two sources, at (50, 200) and (150, 200), meet at (100, 100); the outlet is at (100, 0).
+ForeignLayer taudem() {
+    return {.name = "net",
+            .type = wkbMultiLineString,
+            .fields = {{"LINKNO", OFTInteger},
+                       {"DSLINKNO", OFTInteger},
+                       {"USLINKNO1", OFTInteger},
+                       {"USLINKNO2", OFTInteger},
+                       {"DSNODEID", OFTInteger},
+                       {"strmOrder", OFTInteger},
+                       {"Length", OFTReal},
+                       {"Magnitude", OFTInteger},
+                       {"DSContArea", OFTReal},
+                       {"strmDrop", OFTReal},
+                       {"Slope", OFTReal},
+                       {"StraightL", OFTReal},
+                       {"USContArea", OFTReal},
+                       {"WSNO", OFTInteger},
+                       {"DOUTEND", OFTReal},
+                       {"DOUTSTART", OFTReal},
+                       {"DOUTMID", OFTReal}},
+            .rows = {{"MULTILINESTRING ((100 0, 100 50), (100 50, 100 100))",
+                      {"0", "-1", "1", "2", "-1", "2", "100", "2", "9000", "1", ".01", "100", "7000", "0", "0", "100",
+                       "50"}},
+                     {"MULTILINESTRING ((100 100, 50 200))",
+                      {"1", "0", "-1", "-1", "-1", "1", "111.8", "1", "4000", "2", ".02", "111.8", "100", "1", "100",
+                       "211.8", "155.9"}},
+                     {"MULTILINESTRING ((100 100, 120 150), (120 150, 150 200))",
+                      {"2", "0", "-1", "-1", "-1", "1", "112.2", "1", "3000", "2", ".02", "111.8", "200", "2", "100",
+                       "212.2", "156.1"}}}};
+}
+
+ForeignLayer hydrorivers() {
+    return {.name = "HydroRIVERS_v10_eu",
+            .fields = {{"HYRIV_ID", OFTInteger},
+                       {"NEXT_DOWN", OFTInteger},
+                       {"MAIN_RIV", OFTInteger},
+                       {"LENGTH_KM", OFTReal},
+                       {"DIST_DN_KM", OFTReal},
+                       {"DIST_UP_KM", OFTReal},
+                       {"CATCH_SKM", OFTReal},
+                       {"UPLAND_SKM", OFTReal},
+                       {"ENDORHEIC", OFTInteger},
+                       {"DIS_AV_CMS", OFTReal},
+                       {"ORD_STRA", OFTInteger},
+                       {"ORD_CLAS", OFTInteger},
+                       {"ORD_FLOW", OFTInteger},
+                       {"HYBAS_L12", OFTInteger64}},
+            .rows = {{"LINESTRING (50 200, 100 100)",
+                      {"20000001", "20000003", "20000003", "0.11", "0.1", "0.11", "1.5", "1.5", "0", "0.1", "1", "2",
+                       "8", "2120000001"}},
+                     {"LINESTRING (150 200, 100 100)",
+                      {"20000002", "20000003", "20000003", "0.11", "0.1", "0.11", "2.5", "2.5", "0", "0.1", "1", "1",
+                       "8", "2120000001"}},
+                     {"LINESTRING (100 100, 100 0)",
+                      {"20000003", "0", "20000003", "0.1", "0", "0.21", "1", "5", "0", "0.1", "2", "1", "8",
+                       "2120000001"}}}};
+}
+
+// NHDPlus HR: its ids have 14 digits and are doubles.
+ForeignLayer nhdplus_hr() {
+    return {.name = "NHDFlowline",
+            .type = wkbMultiLineStringZM,
+            .fields = {{"NHDPlusID", OFTReal},
+                       {"LengthKM", OFTReal},
+                       {"StreamOrde", OFTInteger},
+                       {"FromNode", OFTReal},
+                       {"ToNode", OFTReal},
+                       {"HydroSeq", OFTReal},
+                       {"DnHydroSeq", OFTReal},
+                       {"TerminalPa", OFTReal},
+                       {"AreaSqKm", OFTReal},
+                       {"TotDASqKm", OFTReal},
+                       {"MaxElevSmo", OFTReal},
+                       {"MinElevSmo", OFTReal}},
+            .rows = {{"MULTILINESTRING ZM ((50 200 0 0, 100 100 0 100))",
+                      {"55000800000011", "0.1118", "1", "7001", "7003", "55000500000012", "55000500000010",
+                       "55000500000010", "0.25", "0.25", "-9998", "-9998"}},
+                     {"MULTILINESTRING ZM ((150 200 0 0, 100 100 0 100))",
+                      {"55000800000012", "0.1118", "1", "7002", "7003", "55000500000011", "55000500000010",
+                       "55000500000010", "0.5", "0.5", "900", "400"}},
+                     {"MULTILINESTRING ZM ((100 100 0 0, 100 0 0 100))",
+                      {"55000800000013", "0.1", "2", "7003", "7004", "55000500000010", "0", "55000500000010", "0.125",
+                       "0.875", "400", "100"}}}};
+}
+
+ForeignLayer grass_order() {
+    return {.name = "streams_o",
+            .fields = {{"cat", OFTInteger},
+                       {"stream", OFTInteger},
+                       {"next_stream", OFTInteger},
+                       {"prev_str01", OFTInteger},
+                       {"prev_str02", OFTInteger},
+                       {"strahler", OFTInteger},
+                       {"horton", OFTInteger},
+                       {"shreve", OFTInteger},
+                       {"hack", OFTInteger},
+                       {"topo_dim", OFTInteger},
+                       {"length", OFTReal},
+                       {"stright", OFTReal},
+                       {"source_elev", OFTReal},
+                       {"outlet_elev", OFTReal}},
+            .rows = {{"LINESTRING (50 200, 100 100)",
+                      {"2", "2", "6", "0", "0", "1", "1", "1", "2", "2", "111.8", "111.8", "9", "4"}},
+                     {"LINESTRING (150 200, 100 100)",
+                      {"4", "4", "6", "0", "0", "1", "2", "1", "1", "2", "111.8", "111.8", "8", "4"}},
+                     {"LINESTRING (100 100, 100 0)",
+                      {"6", "6", "-1", "2", "4", "2", "2", "2", "1", "1", "100", "100", "4", "1"}}}};
+}
+
+using Flow = std::set<std::pair<std::int64_t, std::int64_t>>;
+
+Flow flow_of(NetworkFile const& file) {
+    Flow flow;
+    for (auto const& arc : file.arcs) {
+        flow.insert({arc.id, arc.ds_arc});
+    }
+    return flow;
+}
+
+// Arcs join at nodes that lie where the arcs end, and follow one another.
+testing::AssertionResult hangs_together(NetworkFile const& file) {
+    for (auto const& arc : file.arcs) {
+        auto const at = [&](std::int64_t id) {
+            auto const node = std::ranges::find(file.nodes, id, &NetworkFile::FileNode::id);
+            return node == file.nodes.end() ? Vec2{NAN, NAN} : Vec2{node->at.x, node->at.y};
+        };
+        if (at(arc.from_node) != Vec2{arc.line.front().x, arc.line.front().y} ||
+            at(arc.to_node) != Vec2{arc.line.back().x, arc.line.back().y}) {
+            return testing::AssertionFailure() << "arc " << arc.id << " does not end at its nodes";
+        }
+        auto const below = std::ranges::find(file.arcs, arc.ds_arc, &NetworkFile::FileArc::id);
+        if (arc.ds_arc != 0 && (below == file.arcs.end() || below->from_node != arc.to_node)) {
+            return testing::AssertionFailure() << "arc " << arc.id << " does not reach the one downstream";
+        }
+    }
+    return testing::AssertionSuccess();
+}
+
+std::string refusal(std::string const& path, io::ReadNetworkParams const& params = {}) {
+    try {
+        io::read_network(path, params);
+    } catch (BadInput const& error) {
+        return error.what();
+    }
+    return "";
+}
+
+testing::AssertionResult says(std::string const& message, std::string const& words) {
+    return message.find(words) != std::string::npos ? testing::AssertionSuccess()
+                                                    : testing::AssertionFailure() << "'" << message << "'";
+}
+
+} // namespace
+
+TEST(ForeignNetwork, TauDemIsTurnedAndCountedFromOne) {
+    ScratchFolder const folder;
+    NetworkFile const file =
+        io::read_network(written(folder, "net.shp", "ESRI Shapefile", {taudem()}), io::ReadNetworkParams{});
+    EXPECT_EQ(file.schema, "taudem");
+    EXPECT_EQ(file.id_shift, 1);
+    EXPECT_EQ(flow_of(file), (Flow{{1, 0}, {2, 1}, {3, 1}}));
+    EXPECT_EQ(file.arcs[0].feature, 1);
+    EXPECT_EQ(file.arcs[2].feature, 3);
+    ASSERT_EQ(file.arcs[2].line.size(), 3U);
+    EXPECT_EQ(file.arcs[2].line[0].x, 150.0);
+    EXPECT_EQ(file.arcs[2].line[2].y, 100.0);
+    EXPECT_EQ(file.arcs[0].line.back().y, 0.0);
+    EXPECT_EQ(file.arcs[0].strahler, 2);
+    EXPECT_EQ(file.arcs[0].shreve, 2);
+    EXPECT_EQ(file.arcs[0].ds_area_m2, 9000.0);
+    EXPECT_EQ(file.arcs[0].us_area_m2, 7000.0);
+    EXPECT_EQ(file.nodes.size(), 4U);
+    EXPECT_TRUE(hangs_together(file));
+    EXPECT_FALSE(file.says.nodes);
+    EXPECT_FALSE(file.says.ends);
+    EXPECT_TRUE(file.says.downstream);
+    EXPECT_TRUE(file.says.strahler && file.says.shreve && file.says.areas);
+    EXPECT_FALSE(file.says.basin);
+    EXPECT_FALSE(file.says.heights);
+    EXPECT_TRUE(std::isnan(file.arcs[0].line[0].z));
+    EXPECT_EQ(file.crs, "EPSG:32631");
+    EXPECT_EQ(count_of(file, "multi_part"), 0); // every segment is a part there
+    EXPECT_EQ(count_of(file, "turned"), 0);
+}
+
+TEST(ForeignNetwork, OlderTauDemHasOtherNames) {
+    ForeignLayer layer = taudem();
+    layer.fields[5].first = "Order";
+    layer.fields[9].first = "Drop";
+    ScratchFolder const folder;
+    NetworkFile const file =
+        io::read_network(written(folder, "net.shp", "ESRI Shapefile", {layer}), io::ReadNetworkParams{});
+    EXPECT_EQ(file.arcs[0].strahler, 2);
+}
+
+TEST(ForeignNetwork, TauDemDrawnDownstreamIsLeftAndSaid) {
+    ForeignLayer layer = taudem();
+    layer.rows[0].first = "MULTILINESTRING ((100 100, 100 0))";
+    layer.rows[1].first = "MULTILINESTRING ((50 200, 100 100))";
+    layer.rows[2].first = "MULTILINESTRING ((150 200, 100 100))";
+    ScratchFolder const folder;
+    NetworkFile const file = io::read_network(written(folder, "net.gpkg", "GPKG", {layer}), io::ReadNetworkParams{});
+    EXPECT_EQ(file.arcs[0].line.back().y, 0.0);
+    EXPECT_EQ(finding_of(file, "turned").amount, 3.0);
+    EXPECT_TRUE(hangs_together(file));
+}
+
+TEST(ForeignNetwork, OneLineDrawnTheOtherWayIsLeftForTheCheck) {
+    ForeignLayer layer = taudem();
+    for (int i = 0; i < 3; ++i) { // a longer stem, so that most are as they should be
+        std::string const y = std::to_string(-100 * i);
+        std::string const below = std::to_string(-100 * (i + 1));
+        layer.rows.push_back({"MULTILINESTRING ((100 " + below + ", 100 " + y + "))",
+                              {std::to_string(3 + i), i == 2 ? "-1" : std::to_string(4 + i), "0", "-1", "-1", "2"}});
+    }
+    layer.rows[0].second[1] = "3";
+    layer.rows[1].first = "MULTILINESTRING ((50 200, 100 100))";
+    ScratchFolder const folder;
+    NetworkFile const file = io::read_network(written(folder, "net.gpkg", "GPKG", {layer}), io::ReadNetworkParams{});
+    EXPECT_EQ(file.arcs[1].line.front().y, 100.0);
+    EXPECT_EQ(file.arcs[1].ds_arc, 1);
+    EXPECT_EQ(file.arcs[2].line.front().y, 200.0);
+    EXPECT_EQ(count_of(file, "turned"), 0);
+}
+
+TEST(ForeignNetwork, NhdPlusIsLinkedByHydroseq) {
+    ScratchFolder const folder;
+    NetworkFile const file =
+        io::read_network(written(folder, "hr.gpkg", "GPKG", {nhdplus_hr()}), io::ReadNetworkParams{});
+    EXPECT_EQ(file.schema, "nhdplus");
+    EXPECT_EQ(flow_of(file),
+              (Flow{{55000800000011, 55000800000013}, {55000800000012, 55000800000013}, {55000800000013, 0}}));
+    EXPECT_EQ(file.arcs[0].from_node, 7001);
+    EXPECT_EQ(file.arcs[0].to_node, 7003);
+    EXPECT_EQ(file.nodes.size(), 4U);
+    EXPECT_EQ(file.nodes[2].id, 7003);
+    EXPECT_EQ(file.nodes[2].at.x, 100.0);
+    EXPECT_TRUE(hangs_together(file));
+    EXPECT_EQ(file.arcs[2].ds_area_m2, 875000.0);
+    EXPECT_EQ(file.arcs[2].us_area_m2, 750000.0);
+    EXPECT_EQ(file.arcs[2].basin, 55000500000010);
+    EXPECT_EQ(file.arcs[2].feature, 3);
+    EXPECT_EQ(std::get<double>(file.attributes.rows[2][0]), 55000800000013.0);
+    EXPECT_TRUE(file.says.ends && file.says.downstream && file.says.strahler && file.says.basin);
+    EXPECT_FALSE(file.says.nodes || file.says.shreve);
+    EXPECT_FALSE(file.says.heights); // a Z that is 0 everywhere
+    EXPECT_EQ(finding_of(file, "measures").amount, 3.0);
+}
+
+TEST(ForeignNetwork, WalkerCreekIsATree) {
+    NetworkFile const file =
+        io::read_network(THALWEG_SOURCE_DIR "/samples/walker_nhdplus.gpkg", io::ReadNetworkParams{});
+    EXPECT_EQ(file.schema, "nhdplus");
+    EXPECT_EQ(file.crs, "EPSG:32610");
+    EXPECT_EQ(file.arcs.size(), 62U);
+    EXPECT_EQ(file.nodes.size(), 63U);
+    EXPECT_TRUE(hangs_together(file));
+    EXPECT_EQ(std::ranges::count(file.arcs, 0, &NetworkFile::FileArc::ds_arc), 1);
+    EXPECT_EQ(file.arcs[0].id, 5329303);
+    EXPECT_EQ(file.arcs[0].ds_arc, 0);
+    EXPECT_EQ(file.arcs[0].strahler, 4);
+    EXPECT_NEAR(file.arcs[0].ds_area_m2, 193.9473e6, 1.0);
+    double length = 0.0;
+    for (std::size_t i = 1; i < file.arcs[0].line.size(); ++i) {
+        Vec3 const& a = file.arcs[0].line[i - 1];
+        Vec3 const& b = file.arcs[0].line[i];
+        length += distance({a.x, a.y}, {b.x, b.y});
+    }
+    EXPECT_NEAR(length, 1195.0, 40.0); // LENGTHKM; the sample has 3 vertices of the line
+    Finding const cut = finding_of(file, "cut_below");
+    EXPECT_EQ(cut.feature, 5329303);
+    EXPECT_EQ(cut.amount, 10001330.0);
+    EXPECT_NEAR(cut.where.x, file.arcs[0].line.front().x, 0.0);
+    EXPECT_EQ(count_of(file, "reprojected"), 1);
+}
+
+TEST(ForeignNetwork, HydroRiversInDegreesComesIntoItsZone) {
+    ForeignLayer layer = hydrorivers();
+    layer.epsg = 4326;
+    layer.rows[0].first = "LINESTRING (9.50 47.20, 9.55 47.10)";
+    layer.rows[1].first = "LINESTRING (9.60 47.20, 9.55 47.10)";
+    layer.rows[2].first = "LINESTRING (9.55 47.10, 9.55 47.00)";
+    ScratchFolder const folder;
+    NetworkFile const file =
+        io::read_network(written(folder, "rivers.shp", "ESRI Shapefile", {layer}), io::ReadNetworkParams{});
+    EXPECT_EQ(file.schema, "hydrorivers");
+    EXPECT_EQ(file.crs, "EPSG:32632");
+    EXPECT_EQ(flow_of(file), (Flow{{20000001, 20000003}, {20000002, 20000003}, {20000003, 0}}));
+    EXPECT_TRUE(hangs_together(file));
+    EXPECT_EQ(file.nodes.size(), 4U);
+    // A tenth of a degree of the meridian there is 11.119 km.
+    Vec3 const up = file.arcs[2].line.front();
+    Vec3 const down = file.arcs[2].line.back();
+    EXPECT_NEAR(distance({up.x, up.y}, {down.x, down.y}), 11119.0, 11.0);
+    EXPECT_EQ(file.arcs[2].ds_area_m2, 5e6);
+    EXPECT_EQ(file.arcs[2].us_area_m2, 4e6);
+    EXPECT_EQ(file.arcs[1].strahler, 1);
+    EXPECT_EQ(file.arcs[1].basin, 20000003);
+    EXPECT_TRUE(file.says.basin);
+}
+
+TEST(ForeignNetwork, AnExtractEndsAtOutlets) {
+    ForeignLayer layer = hydrorivers();
+    layer.rows.pop_back();
+    ScratchFolder const folder;
+    NetworkFile const file =
+        io::read_network(written(folder, "rivers.fgb", "FlatGeobuf", {layer}), io::ReadNetworkParams{});
+    EXPECT_EQ(flow_of(file), (Flow{{20000001, 0}, {20000002, 0}}));
+    EXPECT_EQ(count_of(file, "cut_below"), 2);
+    EXPECT_EQ(finding_of(file, "cut_below").amount, 20000003.0);
+    EXPECT_FALSE(file.says.basin); // both name a river that is not there
+}
+
+TEST(ForeignNetwork, GrassStreamOrder) {
+    ScratchFolder const folder;
+    for (auto const& [name, driver] : {std::pair("streams.gpkg", "GPKG"), std::pair("streams.shp", "ESRI Shapefile")}) {
+        ForeignLayer layer = grass_order();
+        if (std::string(driver) == "ESRI Shapefile") { // as they are shortened there
+            layer.fields[2].first = "next_strea";
+            layer.fields[12].first = "source_ele";
+            layer.fields[13].first = "outlet_ele";
+        }
+        NetworkFile const file = io::read_network(written(folder, name, driver, {layer}), io::ReadNetworkParams{});
+        EXPECT_EQ(file.schema, "grass") << name;
+        EXPECT_EQ(flow_of(file), (Flow{{2, 6}, {4, 6}, {6, 0}})) << name;
+        EXPECT_EQ(file.arcs[2].strahler, 2);
+        EXPECT_EQ(file.arcs[2].shreve, 2);
+        EXPECT_TRUE(hangs_together(file));
+        EXPECT_TRUE(file.says.downstream && !file.says.areas && !file.says.basin);
+    }
+}
+
+TEST(ForeignNetwork, GrassExtractIsLinkedByPlaces) {
+    ForeignLayer const layer{
+        .name = "streams",
+        .type = wkbUnknown,
+        .fields = {{"cat", OFTInteger}, {"stream_type", OFTString}, {"type_code", OFTInteger}, {"network", OFTInteger}},
+        .rows = {{"POINT (50 200)", {"1", "start", "0", "1"}},
+                 {"LINESTRING (50 200, 100 100)", {"1", "start", "0", "1"}},
+                 {"POINT (150 200)", {"2", "start", "0", "1"}},
+                 {"LINESTRING (150 200, 100 100)", {"2", "start", "0", "1"}},
+                 {"LINESTRING (100 100, 100 0)", {"3", "intermediate", "1", "1"}}}};
+    ScratchFolder const folder;
+    NetworkFile const file = io::read_network(written(folder, "s.gpkg", "GPKG", {layer}), io::ReadNetworkParams{});
+    EXPECT_EQ(file.schema, "grass");
+    EXPECT_FALSE(file.says.downstream || file.says.strahler);
+    EXPECT_TRUE(file.says.basin);
+    EXPECT_EQ(flow_of(file), (Flow{{1, 3}, {2, 3}, {3, 0}}));
+    Finding const points = finding_of(file, "not_a_line");
+    EXPECT_EQ(points.amount, 2.0);
+    EXPECT_TRUE(says(points.text, "feature 1 is not a line, but a POINT"));
+}
+
+TEST(ForeignNetwork, FieldsThatAUserNamesAreEnough) {
+    ForeignLayer const layer{.name = "gewaesser",
+                             .fields = {{"Nummer", OFTInteger}, {"nach", OFTInteger}, {"ordnung", OFTInteger}},
+                             .rows = {{"LINESTRING (50 200, 100 100)", {"11", "13", "1"}},
+                                      {"LINESTRING (150 200, 100 100)", {"12", "13", "1"}},
+                                      {"LINESTRING (100 100, 100 0)", {"13", "", "2"}}}};
+    ScratchFolder const folder;
+    std::string const path = written(folder, "g.gpkg", "GPKG", {layer});
+    NetworkFile const file =
+        io::read_network(path, {.fields = {{"arc_id", "nummer"}, {"ds_arc", "nach"}, {"strahler", "ordnung"}}});
+    EXPECT_EQ(file.schema, "mapped");
+    EXPECT_EQ(flow_of(file), (Flow{{11, 13}, {12, 13}, {13, 0}}));
+    EXPECT_EQ(file.arcs[2].strahler, 2);
+    EXPECT_TRUE(file.says.downstream && file.says.strahler && !file.says.shreve && !file.says.ends);
+    EXPECT_EQ(count_of(file, "null_number"), 0); // no arc downstream
+
+    std::string const unknown = refusal(path);
+    EXPECT_TRUE(says(unknown, "Nummer, nach, ordnung"));
+    EXPECT_TRUE(says(unknown, "taudem: linkno, dslinkno"));
+    EXPECT_TRUE(says(unknown, "native: arc_id, from_node, to_node, ds_arc"));
+    EXPECT_TRUE(says(refusal(path, {.fields = {{"arc_id", "nummer"}}}), "taudem: linkno"));
+    EXPECT_TRUE(says(refusal(path, {.fields = {{"arc_id", "numer"}, {"ds_arc", "nach"}}}),
+                     "no field numer. Did you mean 'Nummer'?"));
+    EXPECT_TRUE(says(refusal(path, {.fields = {{"arcid", "nummer"}}}), "Did you mean 'arc_id'?"));
+    EXPECT_TRUE(says(refusal(path, {.schema = io::Schema::hydrorivers}), "no field HYRIV_ID"));
+}
+
+TEST(ForeignNetwork, AFieldMayBeMappedWithinASchema) {
+    ForeignLayer layer = hydrorivers();
+    layer.fields[0].first = "REACH";
+    ScratchFolder const folder;
+    std::string const path = written(folder, "r.gpkg", "GPKG", {layer});
+    EXPECT_TRUE(says(refusal(path), "no schema"));
+    NetworkFile const file =
+        io::read_network(path, {.schema = io::Schema::hydrorivers, .fields = {{"arc_id", "reach"}}});
+    EXPECT_EQ(file.arcs[2].id, 20000003);
+    EXPECT_EQ(file.arcs[2].ds_area_m2, 5e6); // in km2 as the schema has it
+}
+
+TEST(ForeignNetwork, TheFeatureIdMayBeTheArcId) {
+    ForeignLayer const layer{.name = "edges",
+                             .fields = {{"source", OFTInteger}, {"target", OFTInteger}},
+                             .rows = {{"LINESTRING (50 200, 100 100)", {"5", "7"}},
+                                      {"LINESTRING (150 200, 100 100)", {"6", "7"}},
+                                      {"LINESTRING (100 100, 100 0)", {"7", "8"}}}};
+    ScratchFolder const folder;
+    NetworkFile const file =
+        io::read_network(written(folder, "e.gpkg", "GPKG", {layer}),
+                         {.fields = {{"arc_id", "fid"}, {"from_node", "source"}, {"to_node", "target"}}});
+    EXPECT_EQ(flow_of(file), (Flow{{1, 3}, {2, 3}, {3, 0}}));
+    EXPECT_TRUE(file.says.ends && !file.says.downstream);
+    EXPECT_TRUE(hangs_together(file));
+}
+
+TEST(ForeignNetwork, AnyLinesAreTakenByTheirFeaturesOnRequest) {
+    // Ways as in OpenStreetMap: no links; the first in two parts that do not meet.
+    ForeignLayer const ways{.name = "ways",
+                            .type = wkbUnknown,
+                            .fields = {{"osm_id", OFTString}, {"waterway", OFTString}, {"name", OFTString}},
+                            .rows = {{"MULTILINESTRING ((50 200, 100 100), (50 300, 60 300))", {"70", "river", "Po"}},
+                                     {"POINT (1 2)", {"71", "", ""}},
+                                     {"LINESTRING (150 200, 100 100)", {"72", "canal", ""}},
+                                     {"LINESTRING (100 100, 100 0)", {"73", "river", "Po"}}}};
+    ScratchFolder const folder;
+    std::string const path = written(folder, "ways.gpkg", "GPKG", {ways});
+    EXPECT_TRUE(says(refusal(path), "osm_id, waterway, name"));
+    NetworkFile const file = io::read_network(path, {.any_lines = true});
+    EXPECT_EQ(file.schema, "lines");
+    EXPECT_EQ(flow_of(file), (Flow{{1, 4}, {1, 0}, {3, 4}, {4, 0}})); // as they meet
+    EXPECT_FALSE(file.says.downstream || file.says.ends || file.says.strahler || file.says.heights);
+    EXPECT_EQ(finding_of(file, "by_feature").amount, 4.0);
+    EXPECT_EQ(file.arcs[2].record, 3);
+    EXPECT_EQ(file.arcs[2].unnatural, "waterway canal");
+    EXPECT_EQ(file.arcs[3].name, "Po");
+    EXPECT_EQ(std::get<std::string>(file.attributes.rows[3][0]), "73");
+    // Fields that a user names are never passed over, and known schemas stay what they are.
+    EXPECT_TRUE(says(refusal(path, {.fields = {{"ds_arc", "osm_id"}}, .any_lines = true}), "no schema"));
+    std::string const known = written(folder, "known.gpkg", "GPKG", {taudem()});
+    EXPECT_EQ(io::read_network(known, {.any_lines = true}).schema, "taudem");
+}
+
+TEST(ForeignNetwork, AnyLinesHaveTheLinksOfTheirFields) {
+    ForeignLayer const eu{.name = "River_Net_l",
+                          .fields = {{"OBJECT_ID", OFTString}, {"NEXTDOWNID", OFTString}, {"STRAHLER", OFTInteger}},
+                          .rows = {{"LINESTRING (50 200, 100 100)", {"RL1", "RL3", "1"}},
+                                   {"LINESTRING (100 100, 150 200)", {"RL2", "RL3", "1"}}, // drawn upstream
+                                   {"LINESTRING (100 100, 100 0)", {"RL3", "RL9", "2"}}}};
+    ScratchFolder const folder;
+    NetworkFile const file = io::read_network(written(folder, "eu.gpkg", "GPKG", {eu}), {.any_lines = true});
+    EXPECT_EQ(flow_of(file), (Flow{{1, 3}, {2, 3}, {3, 0}}));
+    EXPECT_TRUE(file.says.downstream);
+    EXPECT_EQ(file.arcs[2].size, (std::vector<double>{2.0}));
+}
+
+TEST(ForeignNetwork, FieldsOfTwoSchemasAreAmbiguous) {
+    ForeignLayer layer = hydrorivers();
+    layer.fields.emplace_back("LINKNO", OFTInteger);
+    layer.fields.emplace_back("DSLINKNO", OFTInteger);
+    ScratchFolder const folder;
+    std::string const path = written(folder, "r.gpkg", "GPKG", {layer});
+    EXPECT_TRUE(says(refusal(path), "several schemas (taudem, hydrorivers)"));
+    EXPECT_EQ(io::read_network(path, {.schema = io::Schema::hydrorivers}).arcs.size(), 3U);
+}
+
+TEST(ForeignNetwork, TheLayerIsTheOneThatIsUnderstoodOrNamed) {
+    ForeignLayer roads{.name = "roads", .fields = {{"name", OFTString}}, .rows = {{"LINESTRING (0 0, 1 1)", {"A 3"}}}};
+    ScratchFolder const folder;
+    std::string const path = written(folder, "both.gpkg", "GPKG", {roads, taudem()});
+    EXPECT_EQ(io::read_network(path, io::ReadNetworkParams{}).arcs.size(), 3U);
+    EXPECT_TRUE(says(refusal(path, {.arcs_layer = "roads"}), "no schema"));
+    EXPECT_TRUE(says(refusal(path, {.arcs_layer = "rivers"}), "no layer rivers (there are roads, net)"));
+    EXPECT_TRUE(says(refusal(path, {.nodes_layer = "points"}), "no layer points"));
+    ForeignLayer second = taudem();
+    second.name = "other";
+    EXPECT_TRUE(says(refusal(written(folder, "two.gpkg", "GPKG", {taudem(), second})),
+                     "2 layers of lines; name one of them (net, other)"));
+}
+
+TEST(ForeignNetwork, NativeIsNativeInEveryFormat) {
+    ScratchFolder const folder;
+    io::write_geopackage(two_basins().tables(), folder / "n.gpkg");
+    std::unique_ptr<GDALDataset> const source(
+        GDALDataset::Open((folder / "n.gpkg").c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+    for (auto const& [ending, driver] : {std::pair(".fgb", "FlatGeobuf"), std::pair(".geojson", "GeoJSON")}) {
+        for (std::string const layer : {"arcs", "nodes"}) {
+            std::unique_ptr<GDALDataset> const copy(GetGDALDriverManager()->GetDriverByName(driver)->Create(
+                (folder / ("x_" + layer + ending)).c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+            ASSERT_NE(copy->CopyLayer(source->GetLayerByName(layer.c_str()), layer.c_str()), nullptr);
+        }
+    }
+    NetworkFile const original = io::read_network(folder / "n.gpkg");
+    for (std::string const name : {"n.gpkg", "x_arcs.fgb", "x_nodes.fgb"}) {
+        NetworkFile const file = io::read_network(folder / name, io::ReadNetworkParams{});
+        EXPECT_EQ(file.schema, "native") << name;
+        EXPECT_TRUE(file.findings.empty()) << name << ": " << file.findings.front().text;
+        ASSERT_EQ(file.nodes.size(), 8U) << name;
+        ASSERT_EQ(file.arcs.size(), 6U) << name;
+        EXPECT_TRUE(file.says.nodes && file.says.ends && file.says.heights && file.says.areas);
+        for (std::size_t i = 0; i < file.arcs.size(); ++i) {
+            auto const same = std::ranges::find(original.arcs, file.arcs[i].id, &NetworkFile::FileArc::id);
+            ASSERT_NE(same, original.arcs.end());
+            EXPECT_EQ(file.arcs[i].line, same->line);
+            EXPECT_EQ(file.arcs[i].ds_arc, same->ds_arc);
+            EXPECT_EQ(file.arcs[i].ds_area_m2, same->ds_area_m2);
+        }
+    }
+    auto const last = std::ranges::find(original.arcs, 6, &NetworkFile::FileArc::id);
+    EXPECT_EQ(last->type, "Bärenbach");
+    EXPECT_EQ(last->feature, 123456789012345);
+    EXPECT_EQ(last->survives, 20.5);
+    EXPECT_TRUE(std::isinf(original.arcs[0].survives));
+    EXPECT_EQ(original.arcs[0].type, "");
+    EXPECT_EQ(original.arcs[0].us_area_m2, 0.1);
+    EXPECT_EQ(io::read_network(folder / "x_arcs.geojson", io::ReadNetworkParams{}).arcs.size(), 6U);
+}

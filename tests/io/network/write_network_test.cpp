@@ -1,0 +1,524 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/network/write_network.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
+#include <rapidcheck.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/network/read_network.hpp>
+
+#include "full_disk.hpp"
+#include "sample_networks.hpp"
+#include "scratch_folder.hpp"
+
+using namespace thalweg;
+
+namespace {
+
+struct Close {
+    void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using Opened = std::unique_ptr<GDALDataset, Close>;
+
+Opened open(std::string const& path) {
+    GDALAllRegister();
+    return Opened(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR));
+}
+
+std::string message_of(auto&& act) {
+    try {
+        act();
+    } catch (Error const& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// A network in both formats, its layers by name.
+class Written {
+public:
+    explicit Written(SampleNetwork const& sample) {
+        io::write_geopackage(sample.tables(), folder_ / "net.gpkg");
+        io::write_shapefiles(sample.tables(), folder_ / "net");
+    }
+    std::vector<Opened> both(std::string const& layer) const {
+        std::vector<Opened> opened;
+        opened.push_back(open(folder_ / "net.gpkg"));
+        opened.push_back(open(folder_ / ("net_" + layer + ".shp")));
+        return opened;
+    }
+    static OGRLayer& layer(GDALDataset& dataset, std::string const& name) {
+        OGRLayer* const found = dataset.GetLayerByName(name.c_str());
+        return found != nullptr ? *found : *dataset.GetLayer(0);
+    }
+    ScratchFolder const& folder() const { return folder_; }
+
+private:
+    ScratchFolder folder_;
+};
+
+std::string const arc_fields = "arc_id:i from_node:i to_node:i ds_arc:i n_up:i basin_id:i topo_ord:i strahler:i "
+                               "shreve:i hack:i length:r length_3d:r straight:r z_up:r z_down:r dist_out:r slope:r "
+                               "us_area:r ds_area:r survives:r feature:l type:s braided:i given:i ";
+std::string const node_fields = "node_id:i kind:s deg_in:i deg_out:i basin_id:i strahler:i z:r area:r dist_out:r ";
+
+std::string fields_of(OGRLayer& layer) {
+    std::string text;
+    for (int i = 0; i < layer.GetLayerDefn()->GetFieldCount(); ++i) {
+        auto const* field = layer.GetLayerDefn()->GetFieldDefn(i);
+        char const type = field->GetType() == OFTInteger     ? 'i'
+                          : field->GetType() == OFTInteger64 ? 'l'
+                          : field->GetType() == OFTReal      ? 'r'
+                          : field->GetType() == OFTString    ? 's'
+                                                             : '?';
+        text += std::string(field->GetNameRef()) + ":" + type + " ";
+    }
+    return text;
+}
+
+void expect_no_nulls(OGRLayer& layer) {
+    for (auto const& feature : layer) {
+        ASSERT_NE(feature->GetGeometryRef(), nullptr);
+        for (int i = 0; i < feature->GetFieldCount(); ++i) {
+            EXPECT_TRUE(feature->IsFieldSetAndNotNull(i))
+                << layer.GetName() << " " << feature->GetFID() << " " << feature->GetFieldDefnRef(i)->GetNameRef();
+        }
+    }
+}
+
+std::vector<SampleNetwork> samples() {
+    std::vector<SampleNetwork> all;
+    all.push_back(single_arc());
+    all.push_back(y_shape());
+    all.push_back(two_basins());
+    return all;
+}
+
+} // namespace
+
+TEST(WriteNetwork, EmptyNetworkIsRefusedAndLeavesNothing) {
+    ScratchFolder const folder;
+    SampleNetwork sample;
+    sample.settle();
+    EXPECT_THROW(io::write_geopackage(sample.tables(), folder / "net.gpkg"), BadInput);
+    EXPECT_THROW(io::write_shapefiles(sample.tables(), folder / "net"), BadInput);
+    EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(WriteNetwork, NodeWithoutArcsIsNamed) {
+    ScratchFolder const folder;
+    SampleNetwork sample = single_arc();
+    sample.node(7.5, 8.5, 1.0);
+    sample.settle();
+    EXPECT_NE(
+        message_of([&] { io::write_geopackage(sample.tables(), folder / "net.gpkg"); }).find("node 3 at (7.5, 8.5)"),
+        std::string::npos);
+}
+
+TEST(WriteNetwork, ArcAwayFromItsNodeIsNamed) {
+    ScratchFolder const folder;
+    SampleNetwork sample = y_shape();
+    sample.network.arc_z[2].back() = std::nextafter(sample.network.arc_z[2].back(), 0.0);
+    EXPECT_NE(message_of([&] { io::write_shapefiles(sample.tables(), folder / "net"); }).find("arc 3 "),
+              std::string::npos);
+    EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(WriteNetwork, ValuesOfAnotherNetworkAreRefused) {
+    ScratchFolder const folder;
+    SampleNetwork sample = y_shape();
+    sample.us_area_m2.pop_back();
+    EXPECT_THROW(io::write_geopackage(sample.tables(), folder / "net.gpkg"), BadInput);
+}
+
+TEST(WriteNetwork, NumberThatIsNotFiniteIsNamed) {
+    ScratchFolder const folder;
+    SampleNetwork sample = y_shape();
+    sample.ds_area_m2[1] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(
+        message_of([&] { io::write_geopackage(sample.tables(), folder / "net.gpkg"); }).find("arcs 2 has ds_area"),
+        std::string::npos);
+    SampleNetwork high = single_arc();
+    high.network.arc_z[0][1] = std::numeric_limits<double>::infinity();
+    EXPECT_NE(message_of([&] { io::write_shapefiles(high.tables(), folder / "net"); }).find("arcs 1 has"),
+              std::string::npos);
+}
+
+TEST(WriteNetwork, NothingIsOverwritten) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = y_shape();
+    std::ofstream(folder / "net.gpkg") << "mine";
+    std::ofstream(folder / "net_nodes.shp") << "mine";
+    EXPECT_THROW(io::write_geopackage(sample.tables(), folder / "net.gpkg"), IoError);
+    EXPECT_THROW(io::write_shapefiles(sample.tables(), folder / "net"), IoError);
+    EXPECT_EQ(bytes_of(folder / "net.gpkg"), "mine");
+    EXPECT_EQ(bytes_of(folder / "net_nodes.shp"), "mine");
+}
+
+TEST(WriteNetwork, ACrsThatIsLostIsAnError) {
+    ScratchFolder const folder;
+    std::filesystem::create_directory(folder / "net_arcs.prj"); // GDAL then writes none and says nothing
+    EXPECT_NE(
+        message_of([&] { io::write_shapefiles(y_shape().tables(), folder / "net"); }).find("the CRS could not be"),
+        std::string::npos);
+}
+
+TEST(WriteNetwork, MissingFolderIsAnIoErrorThatNamesThePath) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = y_shape();
+    EXPECT_THROW(io::write_geopackage(sample.tables(), folder / "none/net.gpkg"), IoError);
+    EXPECT_NE(message_of([&] { io::write_shapefiles(sample.tables(), folder / "none/net"); }).find("none/net_arcs.shp"),
+              std::string::npos);
+}
+
+TEST(WriteNetwork, FullDiskIsAnIoError) {
+    ScratchFolder const folder;
+    SampleNetwork sample;
+    auto below = sample.node(0.0, 0.0, 0.0);
+    for (int i = 1; i < 1000; ++i) {
+        auto const above = sample.node(i * 1.5, i * 0.5, i);
+        sample.arc(above, below);
+        below = above;
+    }
+    sample.settle();
+    for (rlim_t const bytes : {100U, 5000U, 50000U}) {
+        FullDisk const full(bytes);
+        EXPECT_THROW(io::write_geopackage(sample.tables(), folder / ("net" + std::to_string(bytes))), IoError) << bytes;
+        EXPECT_THROW(io::write_shapefiles(sample.tables(), folder / ("net" + std::to_string(bytes))), IoError) << bytes;
+    }
+}
+
+TEST(WriteNetwork, UnknownCrsIsRefused) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = y_shape();
+    EXPECT_THROW(io::write_geopackage(sample.tables("EPSG:1"), folder / "net.gpkg"), BadInput);
+    EXPECT_THROW(io::write_geopackage(sample.tables("http://example.org/crs"), folder / "net.gpkg"), BadInput);
+}
+
+TEST(WriteNetwork, StopsWhenAsked) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = y_shape();
+    std::stop_source stop;
+    stop.request_stop();
+    thalweg::Run run;
+    run.stop = stop.get_token();
+    EXPECT_THROW(io::write_geopackage(sample.tables(), folder / "net.gpkg", run), Cancelled);
+}
+
+TEST(WriteNetwork, FieldsAreTheSchemasInBothFormats) {
+    Written const written(two_basins());
+    for (auto const& dataset : written.both("arcs")) {
+        OGRLayer& arcs = Written::layer(*dataset, "arcs");
+        EXPECT_EQ(fields_of(arcs), arc_fields); // none is longer than ten characters
+        EXPECT_EQ(arcs.GetGeomType(), wkbLineString25D);
+        EXPECT_STREQ(arcs.GetSpatialRef()->GetAuthorityCode(nullptr), "32631");
+        expect_no_nulls(arcs);
+    }
+    for (auto const& dataset : written.both("nodes")) {
+        OGRLayer& nodes = Written::layer(*dataset, "nodes");
+        EXPECT_EQ(fields_of(nodes), node_fields);
+        EXPECT_EQ(nodes.GetGeomType(), wkbPoint25D);
+        EXPECT_STREQ(nodes.GetSpatialRef()->GetAuthorityCode(nullptr), "32631");
+        expect_no_nulls(nodes);
+    }
+    EXPECT_EQ(bytes_of(written.folder() / "net_arcs.cpg"), "UTF-8");
+    EXPECT_EQ(bytes_of(written.folder() / "net_nodes.cpg"), "UTF-8");
+}
+
+TEST(WriteNetwork, ValuesAreTheNetworksInBothFormats) {
+    for (SampleNetwork const& sample : samples()) {
+        Written const written(sample);
+        NetworkIndex const index(sample.network.plan);
+        for (auto const& dataset : written.both("arcs")) {
+            std::size_t a = 0;
+            for (auto const& feature : Written::layer(*dataset, "arcs")) {
+                auto const whole = [&](char const* name) { return feature->GetFieldAsInteger64(name); };
+                auto const real = [&](char const* name) { return feature->GetFieldAsDouble(name); };
+                Arc const& arc = sample.network.plan[index.arcs[a]];
+                auto const& z = sample.network.arc_z[a];
+                NodeId const from = index.from[a];
+                NodeId const to = index.to[a];
+                EXPECT_EQ(whole("arc_id"), static_cast<std::int64_t>(a) + 1);
+                EXPECT_EQ(whole("from_node"), static_cast<std::int64_t>(from) + 1);
+                EXPECT_EQ(whole("to_node"), static_cast<std::int64_t>(to) + 1);
+                EXPECT_EQ(whole("ds_arc"), index.out[to] + 1);
+                EXPECT_EQ(whole("n_up"), static_cast<std::int64_t>(index.in[from].size()));
+                EXPECT_EQ(whole("basin_id"), sample.orders.arc_basin[a]);
+                EXPECT_EQ(whole("topo_ord"), sample.orders.topological[a]);
+                EXPECT_EQ(whole("strahler"), sample.orders.strahler[a]);
+                EXPECT_EQ(whole("shreve"), sample.orders.shreve[a]);
+                EXPECT_EQ(whole("hack"), sample.orders.hack[a]);
+                EXPECT_EQ(whole("feature"), arc.feature);
+                EXPECT_EQ(whole("braided"), 0);
+                EXPECT_EQ(feature->GetFieldAsString("type"), arc.type.empty() ? "none" : arc.type);
+                EXPECT_NEAR(real("length"), index.length_m[a], 1e-9);
+                EXPECT_NEAR(real("straight"), distance(sample.network.plan[from].at, sample.network.plan[to].at), 1e-9);
+                EXPECT_NEAR(real("z_up"), sample.network.node_z[from], 1e-9);
+                EXPECT_NEAR(real("z_down"), sample.network.node_z[to], 1e-9);
+                EXPECT_NEAR(real("slope"), (z.front() - z.back()) / index.length_m[a], 1e-15);
+                EXPECT_NEAR(real("dist_out"), sample.orders.node_dist_out_m[to], 1e-9);
+                EXPECT_NEAR(real("us_area"), sample.us_area_m2[a], 1e-6);
+                EXPECT_NEAR(real("ds_area"), sample.ds_area_m2[a], 1e-6);
+                EXPECT_EQ(real("survives"), std::isinf(arc.survives) ? -1.0 : arc.survives);
+                EXPECT_GE(real("length_3d"), real("length"));
+                auto const& line = *feature->GetGeometryRef()->toLineString();
+                ASSERT_EQ(static_cast<std::size_t>(line.getNumPoints()), arc.line.size());
+                double along = 0.0;
+                for (int i = 0; i < line.getNumPoints(); ++i) {
+                    auto const k = static_cast<std::size_t>(i);
+                    EXPECT_EQ(line.getX(i), arc.line[k].x);
+                    EXPECT_EQ(line.getY(i), arc.line[k].y);
+                    EXPECT_EQ(line.getZ(i), z[k]);
+                    if (i > 0) {
+                        double const plan = distance(arc.line[k - 1], arc.line[k]);
+                        along += std::sqrt(plan * plan + (z[k] - z[k - 1]) * (z[k] - z[k - 1]));
+                    }
+                }
+                EXPECT_NEAR(real("length_3d"), along, 1e-9);
+                ++a;
+            }
+            EXPECT_EQ(a, index.arcs.size());
+        }
+        for (auto const& dataset : written.both("nodes")) {
+            NodeId n = 0;
+            for (auto const& feature : Written::layer(*dataset, "nodes")) {
+                EXPECT_EQ(feature->GetFieldAsInteger64("node_id"), static_cast<std::int64_t>(n) + 1);
+                EXPECT_STREQ(feature->GetFieldAsString("kind"), name_of(kind_of(sample.network.plan, n)));
+                EXPECT_EQ(feature->GetFieldAsInteger64("deg_in"), static_cast<std::int64_t>(index.in[n].size()));
+                EXPECT_EQ(feature->GetFieldAsInteger64("deg_out"), index.out[n] < 0 ? 0 : 1);
+                EXPECT_EQ(feature->GetFieldAsInteger64("basin_id"), sample.orders.node_basin[n]);
+                EXPECT_EQ(feature->GetFieldAsInteger64("strahler"), sample.orders.node_strahler[n]);
+                EXPECT_NEAR(feature->GetFieldAsDouble("z"), sample.network.node_z[n], 1e-9);
+                EXPECT_NEAR(feature->GetFieldAsDouble("area"), sample.node_area_m2[n], 1e-6);
+                EXPECT_NEAR(feature->GetFieldAsDouble("dist_out"), sample.orders.node_dist_out_m[n], 1e-9);
+                auto const& point = *feature->GetGeometryRef()->toPoint();
+                EXPECT_EQ(point.getX(), sample.network.plan[n].at.x);
+                EXPECT_EQ(point.getY(), sample.network.plan[n].at.y);
+                EXPECT_EQ(point.getZ(), sample.network.node_z[n]);
+                ++n;
+            }
+            EXPECT_EQ(n, boost::num_vertices(sample.network.plan));
+        }
+    }
+}
+
+TEST(WriteNetwork, BraidedArcsAreMarkedInBothFormats) {
+    SampleNetwork const sample = y_shape();
+    std::vector<std::uint8_t> const braided{0, 1, 0};
+    io::NetworkTables tables = sample.tables();
+    tables.braided = &braided;
+    ScratchFolder const folder;
+    io::write_geopackage(tables, folder / "net.gpkg");
+    io::write_shapefiles(tables, folder / "net");
+    for (std::string const name : {"net.gpkg", "net_arcs.shp"}) {
+        auto const dataset = open(folder / name);
+        std::vector<std::uint8_t> found;
+        for (auto const& feature : Written::layer(*dataset, "arcs")) {
+            found.push_back(static_cast<std::uint8_t>(feature->GetFieldAsInteger("braided")));
+        }
+        EXPECT_EQ(found, braided) << name;
+    }
+    std::vector<std::uint8_t> const of_another{1};
+    tables.braided = &of_another;
+    EXPECT_THROW(io::write_geopackage(tables, folder / "other.gpkg"), BadInput);
+}
+
+TEST(WriteNetwork, DistanceToTheOutletCountsFromTheDownstreamEnd) {
+    Written const written(y_shape());
+    auto const dataset = open(written.folder() / "net.gpkg");
+    std::vector<double> dist_out;
+    std::vector<double> length;
+    for (auto const& feature : dataset->GetLayerByName("arcs")) {
+        dist_out.push_back(feature->GetFieldAsDouble("dist_out"));
+        length.push_back(feature->GetFieldAsDouble("length"));
+    }
+    EXPECT_EQ(dist_out, (std::vector<double>{length[1], 0.0, length[1]}));
+}
+
+TEST(WriteNetwork, LargeNumbersFitWithoutAWarning) {
+    SampleNetwork sample;
+    auto const up = sample.node(-3e12, 0.0, 3.3e12);
+    auto const down = sample.node(3e12, 0.0, -3.3e12);
+    sample.arc(up, down);
+    sample.settle();
+    sample.ds_area_m2[0] = 5.5e15;
+    sample.node_area_m2[1] = 5.5e15;
+    ScratchFolder const folder;
+    CPLErrorReset();
+    io::write_shapefiles(sample.tables(), folder / "net");
+    EXPECT_EQ(CPLGetLastErrorType(), CE_None) << CPLGetLastErrorMsg();
+    io::write_geopackage(sample.tables(), folder / "net.gpkg");
+    EXPECT_EQ(CPLGetLastErrorType(), CE_None) << CPLGetLastErrorMsg();
+    auto const dataset = open(folder / "net_arcs.shp");
+    auto const feature = std::unique_ptr<OGRFeature>(dataset->GetLayer(0)->GetNextFeature());
+    EXPECT_EQ(feature->GetFieldAsDouble("ds_area"), 5.5e15);
+    EXPECT_EQ(feature->GetFieldAsDouble("z_down"), -3.3e12);
+    EXPECT_EQ(feature->GetFieldAsDouble("length"), 6e12);
+    sample.ds_area_m2[0] = 5.5e16;
+    EXPECT_THROW(io::write_shapefiles(sample.tables(), folder / "more"), BadInput);
+}
+
+TEST(WriteNetwork, SameBytesEachTime) {
+    SampleNetwork const sample = two_basins();
+    ScratchFolder const one;
+    ScratchFolder const two;
+    std::vector<std::string> const names = {"net.gpkg",      "net_arcs.shp",  "net_arcs.dbf",  "net_arcs.shx",
+                                            "net_arcs.prj",  "net_arcs.cpg",  "net_nodes.shp", "net_nodes.dbf",
+                                            "net_nodes.shx", "net_nodes.prj", "net_nodes.cpg"};
+    for (ScratchFolder const* folder : {&one, &two}) {
+        io::write_geopackage(sample.tables(), *folder / "net");
+        io::write_shapefiles(sample.tables(), *folder / "net");
+        EXPECT_EQ(folder->entries(), static_cast<std::ptrdiff_t>(names.size()));
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    for (std::string const& name : names) {
+        EXPECT_FALSE(bytes_of(one / name).empty()) << name;
+        EXPECT_TRUE(bytes_of(one / name) == bytes_of(two / name)) << name;
+    }
+    // Year, month and day of the last update stand in bytes 1 to 3.
+    EXPECT_EQ(bytes_of(one / "net_arcs.dbf").substr(1, 3), (std::string{100, 1, 1}));
+}
+
+TEST(WriteNetwork, GeoPackageHasRunTableAndSpatialIndex) {
+    Written const written(y_shape());
+    auto const dataset = open(written.folder() / "net.gpkg");
+    ASSERT_EQ(dataset->GetLayerCount(), 3);
+    EXPECT_TRUE(dataset->GetLayerByName("arcs")->TestCapability(OLCFastSpatialFilter));
+    EXPECT_TRUE(dataset->GetLayerByName("nodes")->TestCapability(OLCFastSpatialFilter));
+    OGRLayer& run = *dataset->GetLayerByName("run");
+    EXPECT_EQ(run.GetGeomType(), wkbNone);
+    EXPECT_EQ(fields_of(run), "name:s value:s ");
+    std::string text;
+    for (auto const& feature : run) {
+        text += std::string(feature->GetFieldAsString("name")) + "=" + feature->GetFieldAsString("value") + " ";
+    }
+    EXPECT_EQ(text, "seed=7 version=0.1.0 ");
+}
+
+TEST(WriteNetwork, RidgesAreALayerOfTheGeoPackage) {
+    SampleNetwork const sample = y_shape();
+    RidgeLines const ridges{{{{{0.1, 0.2, 3.5}, {3.1, 4.2, 1.0 / 3.0}, {3.1, 14.2, 9.7}}, 1, 3},
+                             {{{-7.7, 1.1, -2.5}, {-7.7, 1.3, -2.5}}, 2, 12345}}};
+    io::NetworkTables tables = sample.tables();
+    tables.ridges = &ridges;
+    ScratchFolder const folder;
+    io::write_geopackage(tables, folder / "net.gpkg");
+    auto const dataset = open(folder / "net.gpkg");
+    ASSERT_EQ(dataset->GetLayerCount(), 4);
+    OGRLayer& layer = *dataset->GetLayerByName("ridges");
+    EXPECT_EQ(fields_of(layer), "ridge_id:i left:i right:i length:r z_min:r z_max:r ");
+    EXPECT_EQ(layer.GetGeomType(), wkbLineString25D);
+    EXPECT_STREQ(layer.GetSpatialRef()->GetAuthorityCode(nullptr), "32631");
+    expect_no_nulls(layer);
+    std::size_t r = 0;
+    std::vector<double> const length{15.0, 1.3 - 1.1};
+    for (auto const& feature : layer) {
+        ASSERT_LT(r, 2U);
+        auto const& line = ridges.lines[r].line;
+        EXPECT_EQ(feature->GetFieldAsInteger("ridge_id"), static_cast<int>(r) + 1);
+        EXPECT_EQ(feature->GetFieldAsInteger64("left"), ridges.lines[r].left);
+        EXPECT_EQ(feature->GetFieldAsInteger64("right"), ridges.lines[r].right);
+        EXPECT_NEAR(feature->GetFieldAsDouble("length"), length[r], 1e-12);
+        EXPECT_EQ(feature->GetFieldAsDouble("z_min"), r == 0 ? 1.0 / 3.0 : -2.5);
+        EXPECT_EQ(feature->GetFieldAsDouble("z_max"), r == 0 ? 9.7 : -2.5);
+        auto const& drawn = *feature->GetGeometryRef()->toLineString();
+        ASSERT_EQ(drawn.getNumPoints(), static_cast<int>(line.size()));
+        for (int i = 0; Vec3 const& p : line) {
+            EXPECT_EQ((Vec3{drawn.getX(i), drawn.getY(i), drawn.getZ(i)}), p);
+            ++i;
+        }
+        ++r;
+    }
+    EXPECT_EQ(r, 2U);
+    EXPECT_EQ(io::read_network(folder / "net.gpkg").arcs.size(), 3U);
+
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    io::write_geopackage(tables, folder / "again.gpkg");
+    EXPECT_TRUE(bytes_of(folder / "net.gpkg") == bytes_of(folder / "again.gpkg"));
+}
+
+TEST(WriteNetwork, WithoutRidgesThereIsNoLayer) {
+    SampleNetwork const sample = y_shape();
+    RidgeLines ridges;
+    io::NetworkTables tables = sample.tables();
+    tables.ridges = &ridges;
+    ScratchFolder const folder;
+    io::write_geopackage(tables, folder / "net.gpkg");
+    EXPECT_EQ(open(folder / "net.gpkg")->GetLayerByName("ridges"), nullptr);
+    io::write_geopackage(sample.tables(), folder / "none.gpkg");
+    EXPECT_TRUE(bytes_of(folder / "net.gpkg") == bytes_of(folder / "none.gpkg"));
+
+    ridges.lines.push_back({{{0.0, 0.0, 1.0}}, 4, 5});
+    EXPECT_NE(message_of([&] { io::write_geopackage(tables, folder / "bad.gpkg"); }).find("ridge 1 between streams 4"),
+              std::string::npos);
+    ridges.lines[0].line = {{0.0, 0.0, 1.0}, {1.0, 0.0, std::numeric_limits<double>::quiet_NaN()}};
+    EXPECT_NE(message_of([&] { io::write_geopackage(tables, folder / "worse.gpkg"); }).find("ridges 1 has"),
+              std::string::npos);
+}
+
+TEST(WriteNetwork, NetworkWithoutCrs) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = y_shape();
+    io::write_geopackage(sample.tables(""), folder / "net.gpkg");
+    io::write_shapefiles(sample.tables(""), folder / "net");
+    EXPECT_FALSE(std::filesystem::exists(folder / "net_arcs.prj"));
+    EXPECT_EQ(io::read_network(folder / "net.gpkg").arcs.size(), 3U);
+}
+
+TEST(WriteNetwork, LongTypeFitsOrIsNamed) {
+    ScratchFolder const folder;
+    SampleNetwork sample = y_shape();
+    NetworkIndex const index(sample.network.plan);
+    sample.network.plan[index.arcs[2]].type = std::string(254, 'A');
+    io::write_shapefiles(sample.tables(), folder / "net");
+    auto const dataset = open(folder / "net_arcs.shp");
+    auto const feature = std::unique_ptr<OGRFeature>(dataset->GetLayer(0)->GetFeature(2));
+    EXPECT_EQ(feature->GetFieldAsString("type"), std::string(254, 'A'));
+    sample.network.plan[index.arcs[2]].type = std::string(255, 'A');
+    EXPECT_NE(message_of([&] { io::write_shapefiles(sample.tables(), folder / "more"); }).find("arcs 3 has type"),
+              std::string::npos);
+}
+
+// Law: what is written is read back bit for bit, in both formats.
+TEST(WriteNetwork, RoundTripIsExact) {
+    ASSERT_TRUE(rc::check([] {
+        auto const coordinate = rc::gen::map(rc::gen::inRange<std::int64_t>(-1'000'000'000'000, 1'000'000'000'000),
+                                             [](std::int64_t n) { return static_cast<double>(n) / 7.0e5; });
+        auto const place = *rc::gen::container<std::vector<double>>(7, coordinate);
+        SampleNetwork sample;
+        auto const mouth = sample.node(place[0], place[1], 0.0);
+        auto const middle = sample.node(place[0] + 11.1, place[1] + place[6], 1.0 / 3.0);
+        auto const source = sample.node(place[0] + 100.1, place[2], 2.0 / 3.0);
+        sample.arc(source, middle, {{place[3], place[4]}, {place[5], place[6]}});
+        sample.arc(middle, mouth);
+        sample.settle();
+        ScratchFolder const folder;
+        io::write_geopackage(sample.tables(), folder / "net.gpkg");
+        io::write_shapefiles(sample.tables(), folder / "net");
+        for (std::string const name : {"net.gpkg", "net_arcs.shp"}) {
+            NetworkFile const file = io::read_network(folder / name);
+            RC_ASSERT(file.nodes.size() == 3U);
+            RC_ASSERT(file.arcs.size() == 2U);
+            for (std::size_t n = 0; n < 3; ++n) {
+                Vec2 const at = sample.network.plan[n].at;
+                RC_ASSERT(file.nodes[n].id == static_cast<std::int64_t>(n) + 1);
+                RC_ASSERT(file.nodes[n].at == (Vec3{at.x, at.y, sample.network.node_z[n]}));
+            }
+            RC_ASSERT(file.arcs[0].line.size() == 4U);
+            RC_ASSERT(file.arcs[0].line[2] == (Vec3{place[5], place[6], sample.network.arc_z[0][2]}));
+            RC_ASSERT(file.arcs[0].line.front() == file.nodes[2].at);
+            RC_ASSERT(file.arcs[0].line.back() == file.nodes[1].at);
+            RC_ASSERT(file.arcs[0].ds_arc == 2);
+            RC_ASSERT(file.arcs[1].ds_arc == 0);
+        }
+    }));
+}

@@ -1,0 +1,451 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
+#include <rapidcheck.h>
+
+#include <measure/trees.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/network/read_network.hpp>
+#include <thalweg/io/network/write_network.hpp>
+#include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/network/import/from_file.hpp>
+#include <thalweg/network/order/order.hpp>
+#include <thalweg/network/planform/split_confluences.hpp>
+
+#include "sample_networks.hpp"
+#include "scratch_folder.hpp"
+
+using namespace thalweg;
+using io::NetworkFormat;
+using io::Schema;
+
+namespace {
+
+struct Close {
+    void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+
+/// Every feature's fields as text, by name, in small letters.
+using Rows = std::vector<std::map<std::string, std::string>>;
+
+Rows rows_of(std::string const& path) {
+    GDALAllRegister();
+    std::unique_ptr<GDALDataset, Close> const dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR));
+    Rows rows;
+    for (auto const& feature : *dataset->GetLayer(0)) {
+        auto& row = rows.emplace_back();
+        for (int i = 0; i < feature->GetFieldCount(); ++i) {
+            std::string name = feature->GetFieldDefnRef(i)->GetNameRef();
+            std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+            row[name] = feature->GetFieldAsString(i);
+        }
+        OGRLineString const& line = *feature->GetGeometryRef()->toLineString();
+        row["first_y"] = std::to_string(line.getY(0));
+    }
+    return rows;
+}
+
+std::string message_of(auto&& act) {
+    try {
+        act();
+    } catch (Error const& error) {
+        return error.what();
+    }
+    return "";
+}
+
+std::string name_of_format(NetworkFormat format) {
+    for (auto const& f : io::network_formats()) {
+        if (f.format == format) {
+            return f.ending;
+        }
+    }
+    return "";
+}
+
+/// Two rivers of 5000 and 3000 m that meet at a height of 10 m, 2000 m above the outlet; areas of whole km2.
+SampleNetwork kilometres() {
+    SampleNetwork sample;
+    auto const outlet = sample.node(500000.0, 4000000.0, 2.0);
+    auto const meeting = sample.node(500000.0, 4002000.0, 10.0);
+    auto const left = sample.node(497000.0, 4006000.0, 60.0);
+    auto const right = sample.node(500000.0, 4005000.0, 40.0);
+    sample.arc(left, meeting);
+    sample.arc(right, meeting);
+    sample.arc(meeting, outlet);
+    sample.settle();
+    sample.us_area_m2 = {1e6, 2e6, 12e6};
+    sample.ds_area_m2 = {6e6, 5e6, 14e6};
+    sample.node_area_m2 = {14e6, 12e6, 1e6, 2e6};
+    return sample;
+}
+
+void expect_row(std::map<std::string, std::string> const& row, std::map<std::string, std::string> const& wanted) {
+    for (auto const& [name, value] : wanted) {
+        ASSERT_TRUE(row.contains(name)) << name;
+        std::string const& found = row.at(name);
+        char* end = nullptr;
+        double const number = std::strtod(value.c_str(), &end);
+        if (*end == '\0') {
+            EXPECT_DOUBLE_EQ(std::stod(found), number) << name;
+        } else {
+            EXPECT_EQ(found, value) << name;
+        }
+    }
+}
+
+/// A network of random rivers with areas that grow downstream.
+struct Drawn {
+    RaisedNetwork network;
+    NetworkOrders orders;
+    std::vector<double> us_area_m2;
+    std::vector<double> ds_area_m2;
+    std::vector<double> node_area_m2;
+
+    io::NetworkTables tables() const {
+        return {network, orders, us_area_m2, ds_area_m2, node_area_m2, "EPSG:32631", {}};
+    }
+};
+
+Drawn draw(RaisedNetwork network) {
+    Drawn drawn{std::move(network), {}, {}, {}, {}};
+    NetworkIndex const index(drawn.network.plan);
+    drawn.orders = network::order(drawn.network.plan);
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        drawn.us_area_m2.push_back(static_cast<double>(drawn.orders.shreve[a]) * 1234.5678);
+        drawn.ds_area_m2.push_back(drawn.us_area_m2.back() + 100.0 * index.length_m[a]);
+    }
+    drawn.node_area_m2.assign(index.out.size(), 1.0);
+    return drawn;
+}
+
+} // namespace
+
+TEST(WriteSchemas, TauDemIsDrawnUpstreamAndCountsFromNought) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = kilometres();
+    io::write_network(sample.tables(), folder / "net.gpkg", {.schema = Schema::taudem});
+    Rows const rows = rows_of(folder / "net.gpkg");
+    ASSERT_EQ(rows.size(), 3U);
+    expect_row(rows[0], {{"linkno", "0"},
+                         {"dslinkno", "2"},
+                         {"uslinkno1", "-1"},
+                         {"uslinkno2", "-1"},
+                         {"dsnodeid", "-1"},
+                         {"strmorder", "1"},
+                         {"length", "5000"},
+                         {"magnitude", "1"},
+                         {"dscontarea", "6000000"},
+                         {"strmdrop", "50"},
+                         {"slope", "0.01"},
+                         {"straightl", "5000"},
+                         {"uscontarea", "1000000"},
+                         {"wsno", "0"},
+                         {"doutend", "2000"},
+                         {"doutstart", "7000"},
+                         {"doutmid", "4500"},
+                         {"first_y", "4002000.000000"}});
+    expect_row(rows[2], {{"linkno", "2"},
+                         {"dslinkno", "-1"},
+                         {"uslinkno1", "0"},
+                         {"uslinkno2", "1"},
+                         {"strmorder", "2"},
+                         {"magnitude", "2"},
+                         {"doutend", "0"},
+                         {"first_y", "4000000.000000"}});
+}
+
+TEST(WriteSchemas, NhdPlusHasKilometresAndCentimetres) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = kilometres();
+    io::write_network(sample.tables(), folder / "net.shp", {NetworkFormat::shapefile, Schema::nhdplus});
+    Rows const rows = rows_of(folder / "net.shp");
+    ASSERT_EQ(rows.size(), 3U);
+    expect_row(rows[0], {{"comid", "1"},
+                         {"lengthkm", "5"},
+                         {"streamleve", "1"},
+                         {"streamorde", "1"},
+                         {"fromnode", "3"},
+                         {"tonode", "2"},
+                         {"pathlength", "2"},
+                         {"arbolatesu", "5"},
+                         {"startflag", "1"},
+                         {"terminalfl", "0"},
+                         {"areasqkm", "5"},
+                         {"totdasqkm", "6"},
+                         {"maxelevsmo", "6000"},
+                         {"minelevsmo", "1000"},
+                         {"slope", "0.01"},
+                         {"uphydroseq", "0"},
+                         {"flowdir", "With Digitized"},
+                         {"first_y", "4006000.000000"}});
+    expect_row(rows[2], {{"hydroseq", "1"},
+                         {"dnhydroseq", "0"},
+                         {"levelpathi", "1"},
+                         {"terminalpa", "1"},
+                         {"arbolatesu", "10"},
+                         {"terminalfl", "1"},
+                         {"dnlevel", "0"},
+                         {"dndraincou", "0"}});
+    // The longer river goes on as the main stem: one level path, and the other's is its own.
+    EXPECT_EQ(rows[0].at("levelpathi"), "1");
+    EXPECT_EQ(rows[1].at("levelpathi"), rows[1].at("hydroseq"));
+    EXPECT_EQ(rows[2].at("uphydroseq"), rows[0].at("hydroseq"));
+    EXPECT_EQ(rows[1].at("dnlevelpat"), "1");
+    EXPECT_EQ(rows[1].at("streamleve"), "2");
+}
+
+TEST(WriteSchemas, HydroRiversHasItsLinksAndNothingItCannotKnow) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = kilometres();
+    io::write_network(sample.tables(), folder / "net.gpkg", {.schema = Schema::hydrorivers});
+    Rows const rows = rows_of(folder / "net.gpkg");
+    ASSERT_EQ(rows.size(), 3U);
+    expect_row(rows[1], {{"hyriv_id", "2"},
+                         {"next_down", "3"},
+                         {"main_riv", "3"},
+                         {"length_km", "3"},
+                         {"dist_dn_km", "2"},
+                         {"dist_up_km", "3"},
+                         {"catch_skm", "3"},
+                         {"upland_skm", "5"},
+                         {"endorheic", "0"},
+                         {"dis_av_cms", "-9999"},
+                         {"ord_stra", "1"},
+                         {"ord_clas", "2"}});
+    expect_row(rows[2], {{"next_down", "0"}, {"dist_dn_km", "0"}, {"dist_up_km", "7"}, {"ord_stra", "2"}});
+}
+
+TEST(WriteSchemas, GrassHasItsNames) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = kilometres();
+    io::write_network(sample.tables(), folder / "net.gpkg", {.schema = Schema::grass});
+    Rows const rows = rows_of(folder / "net.gpkg");
+    ASSERT_EQ(rows.size(), 3U);
+    expect_row(rows[1], {{"cat", "2"},
+                         {"stream", "2"},
+                         {"next_stream", "3"},
+                         {"prev_str01", "0"},
+                         {"strahler", "1"},
+                         {"horton", "1"},
+                         {"shreve", "1"},
+                         {"hack", "2"},
+                         {"topo_dim", "2"},
+                         {"length", "3000"},
+                         {"stright", "3000"},
+                         {"sinosoid", "1"},
+                         {"cum_length", "3000"},
+                         {"out_dist", "5000"},
+                         {"source_elev", "40"},
+                         {"outlet_elev", "10"},
+                         {"elev_drop", "30"},
+                         {"gradient", "0.01"}});
+    expect_row(rows[2], {{"next_stream", "-1"},
+                         {"prev_str01", "1"},
+                         {"prev_str02", "2"},
+                         {"prev_str03", "0"},
+                         {"horton", "2"},
+                         {"scheidegger", "4"},
+                         {"drwal_old", "2"}});
+    EXPECT_EQ(rows[0].at("horton"), "2"); // the main stem has the order of its mouth up to its source
+    io::write_network(sample.tables(), folder / "net.shp", {NetworkFormat::shapefile, Schema::grass});
+    EXPECT_EQ(std::stod(rows_of(folder / "net.shp")[2].at("outlet_ele")), 2.0);
+    EXPECT_EQ(std::stod(rows_of(folder / "net.shp")[2].at("next_strea")), -1.0);
+}
+
+TEST(WriteSchemas, WhatNobodyKnowsIsTheSchemasWordForIt) {
+    ScratchFolder const folder;
+    SampleNetwork sample = kilometres();
+    sample.us_area_m2.assign(3, -1.0);
+    sample.ds_area_m2.assign(3, -1.0);
+    io::NetworkTables tables = sample.tables();
+    tables.heights = false;
+    io::write_network(tables, folder / "nhd.gpkg", {.schema = Schema::nhdplus});
+    expect_row(rows_of(folder / "nhd.gpkg")[0], {{"maxelevsmo", "-9998"}, {"slope", "-9998"}, {"areasqkm", "-1"}});
+    io::write_network(tables, folder / "tau.gpkg", {.schema = Schema::taudem});
+    expect_row(rows_of(folder / "tau.gpkg")[0], {{"dscontarea", "-1"}});
+}
+
+TEST(WriteSchemas, MoreRiversThanASchemaCanNameAreRefusedWithTheRemedy) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = two_basins();
+    std::string const message =
+        message_of([&] { io::write_network(sample.tables(), folder / "net.gpkg", {.schema = Schema::taudem}); });
+    EXPECT_NE(message.find("3 rivers meet at (0.7, 100.1)"), std::string::npos) << message;
+    EXPECT_NE(message.find("--max-upstream 2"), std::string::npos) << message;
+    EXPECT_EQ(folder.entries(), 0);
+    EXPECT_NO_THROW(io::write_network(sample.tables(), folder / "net.gpkg", {.schema = Schema::grass}));
+}
+
+TEST(WriteSchemas, GeoJsonNeedsACode) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = y_shape();
+    EXPECT_THROW(io::write_network(sample.tables(""), folder / "net.geojson", {NetworkFormat::geojson}), BadInput);
+    EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(WriteSchemas, FormatsAreKnownByEndingAndName) {
+    EXPECT_EQ(io::network_format("", "a.FGB"), NetworkFormat::flatgeobuf);
+    EXPECT_EQ(io::network_format("graphml", "a.xml"), NetworkFormat::graphml);
+    EXPECT_THROW(io::network_format("", "a.kml"), BadParameter);
+    EXPECT_THROW(io::network_format("kml", "a.gpkg"), BadParameter);
+    EXPECT_EQ(io::network_files("x/a.fgb", {NetworkFormat::flatgeobuf}),
+              (std::vector<std::string>{"a_arcs.fgb", "a_nodes.fgb"}));
+    EXPECT_EQ(io::network_files("x/a.fgb", {NetworkFormat::flatgeobuf, Schema::grass}),
+              (std::vector<std::string>{"a.fgb"}));
+}
+
+TEST(WriteSchemas, SameBytesEachTimeAndNoFileButThoseAnnounced) {
+    SampleNetwork const sample = y_shape();
+    for (auto const& format : io::network_formats()) {
+        for (Schema const schema :
+             {Schema::native, Schema::taudem, Schema::nhdplus, Schema::hydrorivers, Schema::grass}) {
+            ScratchFolder const one;
+            ScratchFolder const two;
+            io::WriteNetworkParams const params{format.format, schema, Grid{40, 40, 10.0, -150.0, 250.0, "EPSG:32631"}};
+            std::string const name = std::string("net") + format.ending;
+            CPLErrorReset();
+            io::write_network(sample.tables(), one / name, params);
+            EXPECT_EQ(CPLGetLastErrorType(), CE_None) << format.name << CPLGetLastErrorMsg();
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            io::write_network(sample.tables(), two / name, params);
+            auto const files = io::network_files(name, params);
+            EXPECT_EQ(one.entries(), static_cast<std::ptrdiff_t>(files.size())) << format.name;
+            for (std::string const& file : files) {
+                EXPECT_FALSE(bytes_of(one / file).empty()) << file;
+                EXPECT_TRUE(bytes_of(one / file) == bytes_of(two / file)) << file;
+            }
+        }
+    }
+}
+
+TEST(WriteSchemas, MaskHasTheCellsOfRivers) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = y_shape();
+    Grid const grid{40, 40, 10.0, -150.0, 250.0, "EPSG:32631"};
+    io::write_network(sample.tables(), folder / "net.tif", {NetworkFormat::mask, Schema::native, grid});
+    Raster<float> const mask = io::read_dem(folder / "net.tif");
+    EXPECT_EQ(mask.grid().width, 40);
+    std::int64_t rivers = 0;
+    for (std::int64_t i = 0; i < mask.cells(); ++i) {
+        EXPECT_TRUE(mask[i] == 0.0F || mask[i] == 1.0F);
+        rivers += mask[i] == 1.0F ? 1 : 0;
+    }
+    EXPECT_GT(rivers, 20);
+    for (NodeId n = 0; n < 4; ++n) {
+        EXPECT_EQ(mask[grid.cell_of(sample.network.plan[n].at)], 1.0F);
+    }
+    Grid const small{4, 4, 10.0, -150.0, 250.0, "EPSG:32631"};
+    EXPECT_THROW(io::write_network(sample.tables(), folder / "out.tif", {NetworkFormat::mask, Schema::native, small}),
+                 BadInput);
+}
+
+TEST(WriteSchemas, GraphsHaveNodesEdgesAndTheirText) {
+    SampleNetwork sample = y_shape();
+    NetworkIndex const index(sample.network.plan);
+    sample.network.plan[index.arcs[0]].type = "a <b> & \"c\", 'd' # \x01";
+    ScratchFolder const folder;
+    io::write_network(sample.tables(), folder / "net.graphml", {NetworkFormat::graphml});
+    std::string const graphml = bytes_of(folder / "net.graphml");
+    EXPECT_NE(graphml.find("edgedefault=\"directed\""), std::string::npos);
+    EXPECT_NE(graphml.find("<data key=\"crs\">EPSG:32631</data>"), std::string::npos);
+    EXPECT_NE(graphml.find("<node id=\"1\"><data key=\"x\">0.1</data><data key=\"y\">0.2</data>"), std::string::npos);
+    EXPECT_NE(graphml.find("<edge source=\"3\" target=\"2\">"), std::string::npos);
+    EXPECT_NE(graphml.find("a &lt;b&gt; &amp; &quot;c&quot;, 'd' #  </data>"), std::string::npos);
+    EXPECT_NE(graphml.find("LINESTRING Z (0.3 100.7 4.7, 0.1 0.2 0.3333333333333333)"), std::string::npos);
+
+    io::write_network(sample.tables(), folder / "net.csv", {NetworkFormat::csv});
+    std::string const csv = bytes_of(folder / "net.csv");
+    EXPECT_EQ(csv.substr(0, csv.find("\r\n")).find("from_node,to_node,arc_id,ds_arc,"), 0U);
+    EXPECT_NE(csv.find("\r\n3,2,1,2,"), std::string::npos);
+    EXPECT_NE(csv.find("\"a <b> & \"\"c\"\", 'd' # \x01\""), std::string::npos);
+
+    io::write_network(sample.tables(), folder / "net.edges", {NetworkFormat::edges});
+    std::string const edges = bytes_of(folder / "net.edges");
+    EXPECT_EQ(edges.front(), '#');
+    EXPECT_NE(edges.find("\n3 2 {'arc_id': 1, 'ds_arc': 2, "), std::string::npos);
+    EXPECT_NE(edges.find("'a <b> & \"c\", \\x27d\\x27 \\x23 \\x01'"), std::string::npos);
+}
+
+// Law: what is written in anyone's schema, in any format that holds doubles, is read back: lines and heights bit for
+// bit, arcs in their order, orders and links as they were, areas within the rounding of their unit.
+TEST(WriteSchemas, RoundTripsLoseNothingTheSchemaCanHold) {
+    auto const formats = {NetworkFormat::geopackage, NetworkFormat::shapefile, NetworkFormat::flatgeobuf,
+                          NetworkFormat::geojson};
+    ASSERT_TRUE(rc::check([&] {
+        auto const format = *rc::gen::elementOf(std::vector<NetworkFormat>(formats));
+        auto const schema =
+            *rc::gen::element(Schema::native, Schema::taudem, Schema::nhdplus, Schema::hydrorivers, Schema::grass);
+        RaisedNetwork rivers =
+            random_rivers(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::int64_t>(2, 12),
+                          *rc::gen::inRange<std::int64_t>(2, 12), 1000.0 / 7.0);
+        std::int64_t feature = 0;
+        for (ArcId const arc : NetworkIndex(rivers.plan).arcs) {
+            feature = (7 * feature + 3) % 1000003;
+            rivers.plan[arc].feature = feature;
+        }
+        Drawn const drawn = draw(std::move(rivers));
+        ScratchFolder const folder;
+        std::string const name = "net" + name_of_format(format);
+        CPLErrorReset();
+        io::write_network(drawn.tables(), folder / name, {format, schema});
+        std::string const read_name = io::network_files(name, {format, schema}).front();
+        NetworkFile const file = io::read_network(folder / read_name, io::ReadNetworkParams{});
+        RC_ASSERT(CPLGetLastErrorType() == CE_None);
+        RC_ASSERT(file.schema == io::table_of(schema).name);
+        RC_ASSERT(file.crs == "EPSG:32631");
+        RC_ASSERT(file.arcs.size() == drawn.us_area_m2.size());
+        network::FileNetwork const made = network::from_file(file);
+        NetworkIndex const was(drawn.network.plan);
+        NetworkIndex const is(made.network.plan);
+        NetworkOrders const orders = network::order(made.network.plan);
+        RC_ASSERT(orders.strahler == drawn.orders.strahler);
+        RC_ASSERT(orders.shreve == drawn.orders.shreve);
+        RC_ASSERT(orders.hack == drawn.orders.hack);
+        RC_ASSERT(made.network.arc_z == drawn.network.arc_z);
+        std::vector<std::int64_t> numbers;
+        for (std::size_t a = 0; a < was.arcs.size(); ++a) {
+            RC_ASSERT(made.network.plan[is.arcs[a]].line == drawn.network.plan[was.arcs[a]].line);
+            RC_ASSERT(is.out[is.to[a]] == was.out[was.to[a]]);
+            if (schema != Schema::grass) {
+                RC_ASSERT(std::fabs(made.us_area_m2[a] - drawn.us_area_m2[a]) < 2e-6);
+                RC_ASSERT(std::fabs(made.ds_area_m2[a] - drawn.ds_area_m2[a]) < 2e-6);
+            }
+            numbers.push_back(made.network.plan[is.arcs[a]].feature);
+        }
+        if (schema != Schema::native && format == NetworkFormat::flatgeobuf) { // which orders its features anew
+            std::sort(numbers.begin(), numbers.end());
+        }
+        for (std::size_t a = 0; a < numbers.size(); ++a) {
+            std::int64_t const own = drawn.network.plan[was.arcs[a]].feature;
+            RC_ASSERT(numbers[a] == (schema == Schema::native ? own : static_cast<std::int64_t>(a) + 1));
+        }
+        for (auto const& arc : file.arcs) {
+            auto const a = static_cast<std::size_t>(std::lower_bound(made.arc_ids.begin(), made.arc_ids.end(), arc.id) -
+                                                    made.arc_ids.begin());
+            RC_ASSERT(!file.says.strahler || arc.strahler == drawn.orders.strahler[a]);
+            RC_ASSERT(!file.says.shreve || arc.shreve == drawn.orders.shreve[a]);
+        }
+    }));
+}
+
+TEST(WriteSchemas, SamplesComeBackFromEverySchemaOnceTheyAreSplit) {
+    for (SampleNetwork const& sample : {single_arc(), y_shape(), two_basins()}) {
+        Drawn const drawn = draw(network::split_confluences(sample.network).network);
+        for (auto const& table : io::all_schemas()) {
+            ScratchFolder const folder;
+            io::write_network(drawn.tables(), folder / "net.gpkg", {.schema = table.schema});
+            network::FileNetwork const made =
+                network::from_file(io::read_network(folder / "net.gpkg", io::ReadNetworkParams{}));
+            EXPECT_EQ(made.network.arc_z, drawn.network.arc_z) << table.name;
+            EXPECT_EQ(network::order(made.network.plan).shreve, drawn.orders.shreve) << table.name;
+        }
+    }
+}

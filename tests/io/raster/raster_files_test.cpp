@@ -1,0 +1,470 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/raster/raster_files.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <memory>
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
+#include <rapidcheck.h>
+
+#include <thalweg/core/run/error.hpp>
+
+#include "full_disk.hpp"
+#include "scratch_folder.hpp"
+
+using namespace thalweg;
+
+namespace {
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+using Opened = std::unique_ptr<GDALDataset>;
+
+Opened open(std::string const& path) {
+    GDALAllRegister();
+    return Opened(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR));
+}
+
+Raster<float> raster(std::int64_t width, std::int64_t height, std::function<double(Cell)> const& z) {
+    Raster<float> dem(Grid{width, height, 10.0, 500000.0, 4000000.0, "EPSG:32631"});
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        dem[i] = static_cast<float>(z(dem.grid().at(i)));
+    }
+    return dem;
+}
+
+bool same_bits(std::span<float const> a, std::span<float const> b) {
+    return std::ranges::equal(
+        a, b, [](float p, float q) { return (std::isnan(p) && std::isnan(q)) || std::memcmp(&p, &q, sizeof p) == 0; });
+}
+
+template <class Failure = BadInput> std::string refusal(std::string const& path) {
+    try {
+        io::read_dem(path);
+    } catch (Failure const& error) {
+        return error.what();
+    }
+    return "";
+}
+
+testing::AssertionResult says(std::string const& message, std::string const& words) {
+    return message.find(words) != std::string::npos ? testing::AssertionSuccess()
+                                                    : testing::AssertionFailure() << "'" << message << "'";
+}
+
+// A GeoTIFF of 1 band (or more), placed as given, each cell the value.
+std::string tiff(
+    ScratchFolder const& folder, std::array<double, 6> place, double value, int bands = 1,
+    std::function<void(GDALRasterBand&)> const& change = [](GDALRasterBand&) {}) {
+    GDALAllRegister();
+    std::string const path = folder / "hand.tif";
+    Opened const dataset(
+        GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), 4, 3, bands, GDT_Float32, nullptr));
+    dataset->SetGeoTransform(place.data());
+    dataset->GetRasterBand(1)->Fill(value);
+    change(*dataset->GetRasterBand(1));
+    return path;
+}
+
+constexpr std::array<double, 6> north_up = {100.0, 2.0, 0.0, 200.0, 0.0, -2.0};
+
+int stop_at_once(double /*share*/, char const* /*what*/, void* /*argument*/) {
+    return 0;
+}
+
+} // namespace
+
+TEST(WriteDem, EmptyRasterIsRefused) {
+    ScratchFolder const folder;
+    EXPECT_THROW(io::write_dem(Raster<float>(), folder / "dem.tif"), BadInput);
+    EXPECT_THROW(io::write_mask(Mask(), folder / "mask.tif"), BadInput);
+    EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(WriteDem, HeightsThatCannotBeStoredAreNamed) {
+    ScratchFolder const folder;
+    for (float const bad :
+         {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(), -9999.0F}) {
+        Raster<float> dem = raster(3, 2, [](Cell) { return 1.0; });
+        dem[Cell{2, 1}] = bad;
+        try {
+            io::write_dem(dem, folder / "dem.tif");
+            FAIL() << bad;
+        } catch (BadInput const& error) {
+            EXPECT_TRUE(says(error.what(), "column 2, row 1"));
+        }
+    }
+    EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(WriteDem, NothingIsOverwritten) {
+    ScratchFolder const folder;
+    std::ofstream(folder / "dem.tif") << "mine";
+    EXPECT_THROW(io::write_dem(raster(2, 2, [](Cell) { return 1.0; }), folder / "dem.tif"), IoError);
+    EXPECT_THROW(io::write_mask(Mask(Grid{2, 2, 1.0, 0.0, 0.0, ""}), folder / "dem.tif"), IoError);
+    EXPECT_EQ(bytes_of(folder / "dem.tif"), "mine");
+}
+
+TEST(WriteDem, MissingFolderAndFullDiskAreIoErrors) {
+    ScratchFolder const folder;
+    Raster<float> const dem = raster(700, 600, [](Cell c) { return std::sqrt(static_cast<double>(c.col * c.row)); });
+    Mask mask(dem.grid());
+    for (std::int64_t i = 0; i < mask.cells(); ++i) {
+        auto const k = static_cast<std::uint64_t>(i + 77);
+        mask[i] = static_cast<std::uint8_t>((k * k * 2654435761U) >> 21U & 1U); // nothing to compress
+    }
+    EXPECT_THROW(io::write_dem(dem, folder / "none/dem.tif"), IoError);
+    EXPECT_THROW(io::write_mask(mask, folder / "none/mask.tif"), IoError);
+    for (rlim_t const bytes : {100U, 5000U, 40000U}) {
+        FullDisk const full(bytes);
+        EXPECT_THROW(io::write_dem(dem, folder / ("dem" + std::to_string(bytes))), IoError) << bytes;
+        EXPECT_THROW(io::write_mask(mask, folder / ("mask" + std::to_string(bytes))), IoError) << bytes;
+    }
+}
+
+TEST(WriteDem, StopsWhenAsked) {
+    ScratchFolder const folder;
+    thalweg::Run run;
+    run.progress = stop_at_once;
+    EXPECT_THROW(io::write_dem(raster(600, 600, [](Cell) { return 1.0; }), folder / "dem.tif", run), Cancelled);
+    EXPECT_THROW(io::write_mask(Mask(Grid{600, 600, 1.0, 0.0, 0.0, ""}), folder / "mask.tif", run), Cancelled);
+}
+
+TEST(WriteDem, IsATiledDeflatedCog) {
+    ScratchFolder const folder;
+    io::write_dem(
+        raster(1200, 700, [](Cell c) { return c.row == 3 ? none : 0.1 * static_cast<double>(c.col + c.row); }),
+        folder / "dem.tif");
+    auto const dataset = open(folder / "dem.tif");
+    ASSERT_EQ(dataset->GetRasterCount(), 1);
+    EXPECT_STREQ(dataset->GetMetadataItem("LAYOUT", "IMAGE_STRUCTURE"), "COG");
+    EXPECT_STREQ(dataset->GetMetadataItem("COMPRESSION", "IMAGE_STRUCTURE"), "DEFLATE");
+    EXPECT_STREQ(dataset->GetMetadataItem("PREDICTOR", "IMAGE_STRUCTURE"), "3");
+    EXPECT_STREQ(dataset->GetSpatialRef()->GetAuthorityCode(nullptr), "32631");
+    GDALRasterBand& band = *dataset->GetRasterBand(1);
+    EXPECT_EQ(band.GetRasterDataType(), GDT_Float32);
+    EXPECT_EQ(band.GetNoDataValue(), -9999.0);
+    EXPECT_GE(band.GetOverviewCount(), 1);
+    int block_width = 0;
+    int block_height = 0;
+    band.GetBlockSize(&block_width, &block_height);
+    EXPECT_EQ(block_width, 512);
+    EXPECT_EQ(block_height, 512);
+    std::array<double, 6> place{};
+    dataset->GetGeoTransform(place.data());
+    EXPECT_EQ(place, (std::array<double, 6>{500000.0, 10.0, 0.0, 4000000.0, 0.0, -10.0}));
+}
+
+// Law: the same bytes for the same raster and any number of threads.
+TEST(WriteDem, SameBytesForAnyNumberOfThreads) {
+    ScratchFolder const folder;
+    Raster<float> const dem = raster(2100, 1700, [](Cell c) {
+        return c.col % 97 == 0 ? none : std::sqrt(static_cast<double>(c.col * 3 + c.row * c.row));
+    });
+    Mask mask(dem.grid());
+    for (std::int64_t i = 0; i < mask.cells(); i += 1 + i % 7) {
+        mask[i] = 1;
+    }
+    for (int const threads : {1, 2, 8}) {
+        thalweg::Run run;
+        run.threads = threads;
+        io::write_dem(dem, folder / ("dem" + std::to_string(threads)), run);
+        io::write_mask(mask, folder / ("mask" + std::to_string(threads)), run);
+    }
+    EXPECT_TRUE(bytes_of(folder / "dem1") == bytes_of(folder / "dem2"));
+    EXPECT_TRUE(bytes_of(folder / "dem1") == bytes_of(folder / "dem8"));
+    EXPECT_TRUE(bytes_of(folder / "mask1") == bytes_of(folder / "mask8"));
+    EXPECT_EQ(folder.entries(), 6);
+}
+
+// Law: heights, gaps and frame are read back bit for bit.
+TEST(WriteDem, RoundTripIsExact) {
+    ASSERT_TRUE(rc::check([] {
+        Grid const grid{*rc::gen::inRange<std::int64_t>(1, 40),
+                        *rc::gen::inRange<std::int64_t>(1, 40),
+                        *rc::gen::elementOf(std::vector<double>{1.0, 0.1, 30.0, 1.0 / 3.0}),
+                        static_cast<double>(*rc::gen::inRange(-1000000, 1000000)) / 7.0,
+                        4000000.25,
+                        "EPSG:32631"};
+        auto const heights = *rc::gen::container<std::vector<int>>(static_cast<std::size_t>(grid.cells()),
+                                                                   rc::gen::inRange(-1000000, 9000000));
+        Raster<float> dem(grid);
+        for (std::int64_t i = 0; i < dem.cells(); ++i) {
+            int const height = heights[static_cast<std::size_t>(i)];
+            dem[i] = height % 5 == 0 ? none : static_cast<float>(height) / 1000.7F;
+        }
+        dem[0] = -0.0F;
+        ScratchFolder const folder;
+        io::write_dem(dem, folder / "dem.tif");
+        Raster<float> const read = io::read_dem(folder / "dem.tif");
+        RC_ASSERT(read.grid() == grid);
+        RC_ASSERT(same_bits(read.values(), dem.values()));
+    }));
+}
+
+TEST(WriteDem, MaskIsAByteGeoTiff) {
+    ScratchFolder const folder;
+    Mask mask(Grid{300, 5, 2.5, 1.0, 2.0, "EPSG:32631"});
+    mask[Cell{299, 4}] = 1;
+    mask[Cell{0, 1}] = 1;
+    io::write_mask(mask, folder / "network.tif");
+    auto const dataset = open(folder / "network.tif");
+    EXPECT_STREQ(dataset->GetMetadataItem("COMPRESSION", "IMAGE_STRUCTURE"), "DEFLATE");
+    EXPECT_STREQ(dataset->GetSpatialRef()->GetAuthorityCode(nullptr), "32631");
+    GDALRasterBand& band = *dataset->GetRasterBand(1);
+    EXPECT_EQ(band.GetRasterDataType(), GDT_Byte);
+    int block_width = 0;
+    int block_height = 0;
+    band.GetBlockSize(&block_width, &block_height);
+    EXPECT_EQ(block_width, 256);
+    EXPECT_EQ(block_height, 256);
+    std::vector<std::uint8_t> cells(1500);
+    ASSERT_EQ(band.RasterIO(GF_Read, 0, 0, 300, 5, cells.data(), 300, 5, GDT_Byte, 0, 0, nullptr), CE_None);
+    EXPECT_TRUE(std::ranges::equal(cells, mask.values()));
+}
+
+TEST(ReadDem, WhatIsNoRasterIsRefused) {
+    ScratchFolder const folder;
+    EXPECT_TRUE(says(refusal(folder / "none.tif"), "does not exist"));
+    EXPECT_TRUE(says(refusal("/vsicurl/http://example.org/dem.tif"), "does not exist"));
+    std::ofstream(folder / "text.tif") << "no raster";
+    EXPECT_TRUE(says(refusal(folder / "text.tif"), "cannot be read"));
+    EXPECT_TRUE(says(refusal(folder.path().string()), "cannot be read"));
+}
+
+TEST(ReadDem, OneCell) {
+    ScratchFolder const folder;
+    io::write_dem(raster(1, 1, [](Cell) { return 7.25; }), folder / "dem.tif");
+    EXPECT_EQ(io::read_dem(folder / "dem.tif")[0], 7.25F);
+}
+
+TEST(ReadDem, OnlyNoData) {
+    ScratchFolder const folder;
+    io::write_dem(raster(3, 3, [](Cell) { return none; }), folder / "dem.tif");
+    EXPECT_TRUE(says(refusal(folder / "dem.tif"), "holds no heights"));
+    EXPECT_TRUE(says(refusal(tiff(folder, north_up, none)), "holds no heights"));
+}
+
+TEST(ReadDem, FramesThatAreNotSquareAndNorthUpAreRefused) {
+    ScratchFolder const folder;
+    EXPECT_TRUE(says(refusal(tiff(folder, {0.0, 2.0, 0.1, 0.0, 0.0, -2.0}, 1.0)), "is rotated"));
+    EXPECT_TRUE(says(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.5}, 1.0)), "cells of 2 x 2.5"));
+    EXPECT_TRUE(says(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, 2.0}, 1.0)), "not north-up"));
+    EXPECT_TRUE(says(refusal(tiff(folder, {0.0, -2.0, 0.0, 0.0, 0.0, -2.0}, 1.0)), "not north-up"));
+    EXPECT_TRUE(says(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.0001}, 1.0)), "2.0001"));
+    EXPECT_EQ(io::read_dem(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.000001}, 1.0)).grid().cell_m, 2.0);
+}
+
+TEST(ReadDem, ImplausibleHeightIsNamed) {
+    ScratchFolder const folder;
+    EXPECT_TRUE(says(refusal(tiff(folder, north_up, 2e30)), "column 0, row 0 is 2"));
+    EXPECT_TRUE(says(refusal(tiff(folder, north_up, -std::numeric_limits<double>::infinity())), "damaged"));
+    EXPECT_EQ(io::read_dem(tiff(folder, north_up, 9e29))[0], 9e29F);
+}
+
+TEST(ReadDem, SeveralBandsAreRefused) {
+    ScratchFolder const folder;
+    EXPECT_TRUE(says(refusal(tiff(folder, north_up, 1.0, 3)), "has 3 bands"));
+}
+
+TEST(ReadDem, ScaleOffsetAndForeignNoData) {
+    ScratchFolder const folder;
+    Raster<float> const dem = io::read_dem(tiff(folder, north_up, 50.0, 1, [](GDALRasterBand& band) {
+        band.SetScale(0.1);
+        band.SetOffset(-3.0);
+        band.SetNoDataValue(7.0);
+        float seven = 7.0F;
+        ASSERT_EQ(band.RasterIO(GF_Write, 1, 2, 1, 1, &seven, 1, 1, GDT_Float32, 0, 0, nullptr), CE_None);
+    }));
+    EXPECT_EQ(dem.grid(), (Grid{4, 3, 2.0, 100.0, 200.0, ""}));
+    EXPECT_EQ((dem[Cell{0, 0}]), 2.0F);
+    EXPECT_TRUE(std::isnan(dem[Cell{1, 2}]));
+    EXPECT_EQ(std::ranges::count_if(dem.values(), [](float z) { return std::isnan(z); }), 1);
+}
+
+TEST(ReadDem, GeographicKeepsItsCrs) {
+    ScratchFolder const folder;
+    std::ofstream(folder / "dem.asc")
+        << "ncols 2\nnrows 1\nxllcorner 7.5\nyllcorner 46\ncellsize 0.25\nNODATA_value -1\n"
+           "3 -1\n";
+    std::ofstream(folder / "dem.prj")
+        << "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+           "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433],"
+           "AUTHORITY[\"EPSG\",\"4326\"]]";
+    Raster<float> const dem = io::read_dem(folder / "dem.asc");
+    EXPECT_EQ(dem.grid(), (Grid{2, 1, 0.25, 7.5, 46.25, "EPSG:4326"}));
+    EXPECT_EQ(dem[0], 3.0F);
+    EXPECT_TRUE(std::isnan(dem[1]));
+}
+
+TEST(ReadDem, RasterWithoutPlaceStandsAtTheOrigin) {
+    ScratchFolder const folder;
+    std::ofstream(folder / "dem.pgm") << "P5 3 2 255\nabcdef";
+    Raster<float> const dem = io::read_dem(folder / "dem.pgm");
+    EXPECT_EQ(dem.grid(), (Grid{3, 2, 1.0, 0.0, 2.0, ""}));
+    EXPECT_EQ((dem[Cell{2, 1}]), static_cast<float>('f'));
+}
+
+TEST(ReadDem, LargerThanMemoryIsRefusedAtOnce) {
+    ScratchFolder const folder;
+    std::ofstream(folder / "dem.vrt") << "<VRTDataset rasterXSize=\"2000000000\" rasterYSize=\"2000000000\">"
+                                         "<VRTRasterBand dataType=\"Float32\" band=\"1\"/></VRTDataset>";
+    EXPECT_TRUE(says(refusal(folder / "dem.vrt"), "larger than memory"));
+}
+
+TEST(ReadDem, DamagedTilesNeverPassUnseen) {
+    ScratchFolder const folder;
+    Raster<float> const dem =
+        raster(600, 600, [](Cell c) { return std::sqrt(static_cast<double>(c.col * c.row)) + 300.0; });
+    io::write_dem(dem, folder / "dem.tif");
+    auto const size = static_cast<double>(std::filesystem::file_size(folder / "dem.tif"));
+    for (double const share : {0.4, 0.6, 0.8}) {
+        std::filesystem::copy_file(folder / "dem.tif", folder / "damaged.tif",
+                                   std::filesystem::copy_options::overwrite_existing);
+        std::fstream file(folder / "damaged.tif", std::ios::in | std::ios::out | std::ios::binary);
+        file.seekp(static_cast<std::streamoff>(share * size));
+        file << std::string(5000, '\x55');
+        file.close();
+        EXPECT_THROW(io::read_dem(folder / "damaged.tif"), Error) << share;
+    }
+    std::filesystem::resize_file(folder / "dem.tif", static_cast<std::uintmax_t>(size / 2));
+    EXPECT_THROW(io::read_dem(folder / "dem.tif"), Error);
+}
+
+TEST(ReadDem, StopsWhenAsked) {
+    ScratchFolder const folder;
+    std::string const path = tiff(folder, north_up, 1.0);
+    thalweg::Run run;
+    run.progress = stop_at_once;
+    EXPECT_THROW(io::read_dem(path, run), Cancelled);
+}
+
+TEST(Hillshade, DegenerateRasters) {
+    EXPECT_THROW(io::hillshade(Raster<float>()), BadInput);
+    EXPECT_THROW(io::hillshade(raster(3, 3, [](Cell) { return 1.0; }), 0.0), BadParameter);
+    EXPECT_THROW(io::hillshade(raster(3, 3, [](Cell) { return 1.0; }), none), BadParameter);
+    for (auto const& [width, height] : {std::pair{1, 1}, std::pair{1, 5}, std::pair{5, 1}, std::pair{2, 2}}) {
+        auto const shade = io::hillshade(raster(width, height, [](Cell) { return 1.0; }));
+        EXPECT_EQ(shade.cells(), width * height);
+    }
+}
+
+TEST(Hillshade, FlatGroundIsEvenAndGapsAreNought) {
+    auto const shade = io::hillshade(raster(9, 7, [](Cell c) { return c == Cell{4, 3} ? none : 5.0; }));
+    for (std::int64_t i = 0; i < shade.cells(); ++i) {
+        // The light stands at 45 degrees: 1 + 254 sin 45.
+        EXPECT_EQ(shade[i], shade.grid().at(i) == (Cell{4, 3}) ? 0 : 181) << i;
+    }
+}
+
+TEST(Hillshade, LightComesFromTheNorthWest) {
+    auto const facing = io::hillshade(raster(9, 9, [](Cell c) { return 3.0 * static_cast<double>(c.col + c.row); }));
+    auto const averted = io::hillshade(raster(9, 9, [](Cell c) { return -3.0 * static_cast<double>(c.col + c.row); }));
+    auto const steeper =
+        io::hillshade(raster(9, 9, [](Cell c) { return -3.0 * static_cast<double>(c.col + c.row); }), 3.0);
+    auto const all_round = io::hillshade(raster(9, 9, [](Cell c) { return -3.0 * static_cast<double>(c.col + c.row); }),
+                                         3.0, io::Light::multidirectional);
+    Cell const middle{4, 4};
+    EXPECT_GT(facing[middle], averted[middle]);
+    EXPECT_GT(averted[middle], steeper[middle]);
+    EXPECT_GT(all_round[middle], steeper[middle]);
+}
+
+TEST(Contours, DegenerateInput) {
+    Raster<float> const dem = raster(3, 3, [](Cell c) { return static_cast<double>(c.col); });
+    EXPECT_THROW(io::contours(Raster<float>(), 1.0), BadInput);
+    EXPECT_THROW(io::contours(dem, 0.0), BadParameter);
+    EXPECT_THROW(io::contours(dem, -1.0), BadParameter);
+    EXPECT_THROW(io::contours(dem, none), BadParameter);
+    EXPECT_THROW(io::contours(dem, 1e-7), BadParameter);
+    EXPECT_TRUE(io::contours(raster(4, 4, [](Cell) { return 5.5; }), 1.0).empty());
+    EXPECT_TRUE(io::contours(raster(4, 4, [](Cell) { return none; }), 1.0).empty());
+    EXPECT_TRUE(io::contours(raster(1, 1, [](Cell) { return 5.5; }), 1.0).empty());
+}
+
+TEST(Contours, PlaneHasStraightLinesAtMultiples) {
+    // Height = column centre / 10 m + 0.25, so that level z lies at x = 10 (z + 0.25).
+    auto const lines = io::contours(raster(20, 12, [](Cell c) { return static_cast<double>(c.col) + 0.25; }), 4.0);
+    std::vector<double> levels;
+    for (auto const& line : lines) {
+        levels.push_back(line.z);
+        ASSERT_GE(line.line.size(), 2U);
+        for (Vec2 const p : line.line) {
+            EXPECT_NEAR(p.x - 500000.0, 10.0 * (line.z + 0.25), 1e-3);
+            EXPECT_LE(p.y, 4000000.0);
+            EXPECT_GE(p.y, 4000000.0 - 120.0);
+        }
+    }
+    std::ranges::sort(levels);
+    EXPECT_EQ(levels, (std::vector<double>{4.0, 8.0, 12.0, 16.0}));
+}
+
+TEST(Contours, StopWhenAsked) {
+    thalweg::Run run;
+    run.progress = stop_at_once;
+    EXPECT_THROW(io::contours(raster(50, 50, [](Cell c) { return static_cast<double>(c.col); }), 1.0, run), Cancelled);
+}
+
+TEST(Contours, GeoPackageMarksEveryFifth) {
+    ScratchFolder const folder;
+    auto const lines =
+        io::contours(raster(30, 5, [](Cell c) { return static_cast<double>(c.col) - 14.7; }), 0.1 * 20.0);
+    ASSERT_EQ(lines.size(), 15U);
+    io::write_contours(lines, 2.0, "EPSG:32631", folder / "contours.gpkg");
+    io::write_contours(lines, 2.0, "EPSG:32631", folder / "again.gpkg");
+    io::write_contours({}, 2.0, "EPSG:32631", folder / "none.gpkg");
+    EXPECT_THROW(io::write_contours(lines, 2.0, "EPSG:32631", folder / "contours.gpkg"), IoError);
+    EXPECT_TRUE(bytes_of(folder / "contours.gpkg") == bytes_of(folder / "again.gpkg"));
+    EXPECT_EQ(open(folder / "none.gpkg")->GetLayerByName("contours")->GetFeatureCount(), 0);
+    auto const dataset = open(folder / "contours.gpkg");
+    OGRLayer& layer = *dataset->GetLayerByName("contours");
+    EXPECT_EQ(layer.GetGeomType(), wkbLineString25D);
+    std::vector<double> marked;
+    for (auto const& feature : layer) {
+        double const z = feature->GetFieldAsDouble("z");
+        EXPECT_EQ(feature->GetGeometryRef()->toLineString()->getZ(0), z);
+        if (feature->GetFieldAsInteger("is_index") == 1) {
+            marked.push_back(z);
+        }
+    }
+    std::ranges::sort(marked);
+    EXPECT_EQ(marked, (std::vector<double>{-10.0, 0.0, 10.0}));
+}
+
+TEST(WriteField, WritesDoublesExactly) {
+    ScratchFolder const folder;
+    Raster<double> field(Grid{300, 280, 10.0, 500000.0, 4000000.0, "EPSG:32631"});
+    for (std::int64_t i = 0; i < field.cells(); ++i) {
+        field[i] = static_cast<double>(i) / 3.0;
+    }
+    field[5] = std::numeric_limits<double>::quiet_NaN();
+    thalweg::Run one;
+    one.threads = 1;
+    thalweg::Run two;
+    two.threads = 2;
+    io::write_field(field, folder / "field.tif", one);
+    io::write_field(field, folder / "again.tif", two);
+    EXPECT_TRUE(bytes_of(folder / "field.tif") == bytes_of(folder / "again.tif"));
+    auto const dataset = open(folder / "field.tif");
+    GDALRasterBand& band = *dataset->GetRasterBand(1);
+    EXPECT_EQ(band.GetRasterDataType(), GDT_Float64);
+    EXPECT_EQ(band.GetNoDataValue(), -9999.0);
+    std::vector<double> read(static_cast<std::size_t>(field.cells()));
+    ASSERT_EQ(band.RasterIO(GF_Read, 0, 0, 300, 280, read.data(), 300, 280, GDT_Float64, 0, 0, nullptr), CE_None);
+    field[5] = -9999.0;
+    EXPECT_TRUE(std::ranges::equal(read, field.values()));
+    EXPECT_THROW(io::write_field(field, folder / "third.tif"), BadInput);
+    EXPECT_THROW(io::write_field(Raster<double>{}, folder / "third.tif"), BadInput);
+    field[5] = 0.0;
+    EXPECT_THROW(io::write_field(field, folder / "again.tif"), IoError);
+}

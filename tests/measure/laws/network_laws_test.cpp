@@ -1,0 +1,364 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/measure/laws/network_laws.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/measure/drainage/flow_lengths.hpp>
+#include <thalweg/measure/laws/internal/concavity.hpp>
+#include <thalweg/measure/laws/internal/hack.hpp>
+#include <thalweg/measure/laws/line_fit.hpp>
+#include <thalweg/measure/relief/natural_ranges.hpp>
+
+#include "dems.hpp"
+#include "trees.hpp"
+
+using namespace thalweg;
+using namespace thalweg::measure;
+
+namespace {
+
+using Numbers = std::vector<double>;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Rivers of chance whose areas and heights are made to order.
+struct MadeToOrder {
+    RaisedNetwork rivers;
+    ContributingAreas areas;
+    NetworkOrders orders;
+    NetworkIndex index;
+
+    explicit MadeToOrder(std::uint64_t seed, std::int64_t cols = 24, std::int64_t rows = 60)
+        : rivers(random_rivers(seed, cols, rows, 30.0)), orders(orders_of(rivers.plan)), index(rivers.plan) {
+        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+            areas.us_area_m2.push_back(1e5 * static_cast<double>(orders.shreve[a]));
+            areas.ds_area_m2.push_back(areas.us_area_m2.back() + 40.0 * index.length_m[a]);
+        }
+        areas.node_m2.assign(index.out.size(), 0.0);
+    }
+};
+
+/// By node, the longest way along rivers above it, found by walking down from every source.
+Numbers longest_slowly(NetworkIndex const& index, Numbers const& head) {
+    Numbers longest(index.out.size(), 0.0);
+    for (NodeId n = 0; n < index.out.size(); ++n) {
+        if (!index.in[n].empty()) {
+            continue;
+        }
+        double length = head.empty() ? 0.0 : head[n];
+        for (NodeId at = n;;) {
+            longest[at] = std::max(longest[at], length);
+            if (index.out[at] < 0) {
+                break;
+            }
+            auto const a = static_cast<std::size_t>(index.out[at]);
+            length += index.length_m[a];
+            at = index.to[a];
+        }
+    }
+    return longest;
+}
+
+/// Two straight rivers of these lengths meet at an angle and go on to the west.
+StreamNetwork fork(double degrees, double one, double other) {
+    StreamNetwork net;
+    double const half = degrees / 360.0 * 3.14159265358979323846;
+    NodeId const outlet = add_node(net, {-100.0, 0.0});
+    NodeId const meet = add_node(net, {0.0, 0.0});
+    NodeId const left = add_node(net, {one * std::cos(half), one * std::sin(half)});
+    NodeId const right = add_node(net, {other * std::cos(half), -other * std::sin(half)});
+    add_arc(net, left, meet, {});
+    add_arc(net, right, meet, {});
+    add_arc(net, meet, outlet, {});
+    return net;
+}
+
+} // namespace
+
+TEST(LineFit, NeedsTwoPlaces) {
+    EXPECT_FALSE(fit_line({}));
+    EXPECT_FALSE(fit_line({{1, 2}}));
+    EXPECT_FALSE(fit_line({{1, 2}, {1, 3}}));
+    auto const two = fit_line({{0, 1}, {2, 5}});
+    ASSERT_TRUE(two);
+    EXPECT_EQ(two->slope, 2.0);
+    EXPECT_EQ(two->intercept, 1.0);
+    EXPECT_TRUE(std::isnan(two->r2));
+    EXPECT_TRUE(std::isnan(two->slope_error));
+    // A point of weight 3 is three points.
+    auto const heavy = fit_line({{0, 1}, {2, 4}, {3, 9}}, {1.0, 3.0, 2.0});
+    auto const many = fit_line({{0, 1}, {2, 4}, {2, 4}, {2, 4}, {3, 9}, {3, 9}});
+    EXPECT_NEAR(heavy->slope, many->slope, 1e-12);
+    EXPECT_NEAR(heavy->intercept, many->intercept, 1e-12);
+    EXPECT_NEAR(heavy->r2, many->r2, 1e-12);
+    EXPECT_NEAR(heavy->slope_error, many->slope_error * 2.0, 1e-12); // but three still, not six
+    EXPECT_EQ(fit_line({{0, 1}, {2, 5}, {1, 3}})->r2, 1.0);
+    EXPECT_TRUE(std::isnan(fit_line({{0, 1}, {2, 1}, {3, 1}})->r2));
+}
+
+TEST(LineFit, AnscombesFirst) { // Anscombe 1973, with the figures published for it
+    std::vector<Vec2> const points{{10, 8.04}, {8, 6.95}, {13, 7.58},  {9, 8.81}, {11, 8.33}, {14, 9.96},
+                                   {6, 7.24},  {4, 4.26}, {12, 10.84}, {7, 4.82}, {5, 5.68}};
+    auto const fit = fit_line(points);
+    ASSERT_TRUE(fit);
+    EXPECT_NEAR(fit->slope, 0.5001, 5e-5);
+    EXPECT_NEAR(fit->intercept, 3.0001, 5e-5);
+    EXPECT_NEAR(fit->slope_error, 0.1179, 5e-5);
+    EXPECT_NEAR(fit->r2, 0.6665, 5e-5);
+}
+
+TEST(PowerLaw, RefusesWhatCannotBe) {
+    EXPECT_THROW(fit_power_law({}, {.bins_per_decade = 0}), BadParameter);
+    EXPECT_THROW(fit_power_law({}, {.least_places = 0}), BadParameter);
+    EXPECT_THROW(fit_power_law({}, {.least_bins = 1}), BadParameter);
+}
+
+TEST(PowerLaw, TooFewPlacesHaveNone) {
+    EXPECT_FALSE(fit_power_law({}));
+    EXPECT_FALSE(fit_power_law(std::vector<AtArea>(50, AtArea{1e6, 2.0}))); // all of one area
+    EXPECT_FALSE(fit_power_law(std::vector<AtArea>(50, AtArea{1e6, 0.0})));
+    EXPECT_FALSE(fit_power_law({{1e4, 1}, {1e5, 1}, {1e6, 1}, {1e7, 1}})); // one a bin
+}
+
+TEST(PowerLaw, IsRecovered) {
+    ASSERT_TRUE(rc::check("a power law comes back, whatever the areas, and what has no logarithm is counted", [] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        double const exponent = static_cast<double>(*evenly(-150, 151)) / 100.0;
+        double const coefficient = static_cast<double>(*evenly(1, 1000)) / 100.0;
+        auto const count = *evenly<std::uint64_t>(60, 400);
+        std::vector<AtArea> places{{0.0, 1.0}, {1.0, 0.0}, {1.0, -3.0}, {not_a_number, 1.0}, {1.0, not_a_number}};
+        for (std::uint64_t i = 0; i < count; ++i) {
+            double const area = std::pow(10.0, 3.0 + 4.0 * unit(chance(seed, i)));
+            places.push_back({area, coefficient * std::pow(area, exponent)});
+        }
+        auto const law = fit_power_law(places);
+        RC_ASSERT(law.has_value());
+        RC_ASSERT(std::fabs(law->exponent - exponent) < 1e-9);
+        RC_ASSERT(std::fabs(law->coefficient / coefficient - 1.0) < 1e-8);
+        RC_ASSERT(law->exponent_error < 1e-9);
+        RC_ASSERT((exponent == 0.0 || law->r2 > 1.0 - 1e-9));
+        RC_ASSERT(law->places + law->left_out == static_cast<std::int64_t>(places.size()));
+        RC_ASSERT(law->left_out >= 5);
+        std::int64_t in_bins = 0;
+        for (std::size_t i = 0; i < law->bins.size(); ++i) {
+            RC_ASSERT(law->bins[i].places >= 3);
+            RC_ASSERT((i == 0 || law->bins[i].area_m2 > law->bins[i - 1].area_m2));
+            in_bins += law->bins[i].places;
+        }
+        RC_ASSERT(in_bins == law->places);
+    }));
+}
+
+TEST(PowerLaw, EveryBinCountsOnce) {
+    // A thousand places of small area off the line weigh as much as three of each larger one.
+    std::vector<AtArea> places(1000, AtArea{2e3, 8.0});
+    for (double const area : {2e4, 2e5, 2e6}) {
+        places.insert(places.end(), 3, AtArea{area, 1.0});
+    }
+    auto const law = fit_power_law(places);
+    ASSERT_TRUE(law);
+    // Slope of (0, ln 8), (1, 0), (2, 0), (3, 0) against ln 10: -0.3 ln 8 / ln 10.
+    EXPECT_NEAR(law->exponent, -0.3 * std::log(8.0) / std::log(10.0), 1e-12);
+}
+
+TEST(Concavity, OneArcHasNone) {
+    MadeToOrder one(1, 1, 2);
+    ASSERT_EQ(one.index.arcs.size(), 1U);
+    EXPECT_FALSE(concavity(one.rivers, one.areas));
+    EXPECT_FALSE(hack(one.rivers.plan, one.areas.ds_area_m2));
+    EXPECT_THROW(concavity(one.rivers, {}), BadInput);
+    EXPECT_FALSE(concavity({}, {}));
+}
+
+TEST(Concavity, IsRecoveredFromRiversThatHaveIt) {
+    ASSERT_TRUE(rc::check("S = k A^-theta by construction gives theta to 1e-6; arcs that do not fall are left out", [] {
+        MadeToOrder made(*rc::gen::arbitrary<std::uint64_t>());
+        double const theta = static_cast<double>(*evenly(-20, 120)) / 100.0;
+        for (std::size_t a = 0; a < made.index.arcs.size(); ++a) {
+            double const area = 0.5 * (made.areas.us_area_m2[a] + made.areas.ds_area_m2[a]);
+            made.rivers.arc_z[a] = {1.7 * std::pow(area, -theta) * made.index.length_m[a], 0.0};
+        }
+        auto const law = concavity(made.rivers, made.areas);
+        RC_ASSERT(law.has_value());
+        RC_ASSERT(std::fabs(law->exponent + theta) < 1e-6);
+        RC_ASSERT(std::fabs(law->coefficient / 1.7 - 1.0) < 1e-4);
+        made.rivers.arc_z[0] = {0.0, 0.0};
+        made.rivers.arc_z[1] = {0.0, 1.0};
+        auto const without = concavity(made.rivers, made.areas);
+        RC_ASSERT(without.has_value());
+        RC_ASSERT(std::fabs(without->exponent + theta) < 1e-6);
+        RC_ASSERT(without->left_out >= 2);
+    }));
+}
+
+TEST(Hack, RefusesWhatDoesNotBelongTogether) {
+    MadeToOrder const made(3);
+    EXPECT_THROW(hack(made.rivers.plan, {}), BadInput);
+    EXPECT_THROW(hack(made.rivers.plan, made.areas.ds_area_m2, {1.0}), BadInput);
+}
+
+TEST(Hack, IsRecoveredFromRiversThatHaveIt) {
+    ASSERT_TRUE(rc::check("A = (L / c)^(1/h) by construction gives h to 1e-6, with and without heads", [] {
+        MadeToOrder made(*rc::gen::arbitrary<std::uint64_t>(), 24, 120);
+        double const h = static_cast<double>(*evenly(40, 110)) / 100.0;
+        Numbers head;
+        if (*rc::gen::arbitrary<bool>()) {
+            for (NodeId n = 0; n < made.index.out.size(); ++n) {
+                head.push_back(500.0 * unit(chance(9, n)));
+            }
+        }
+        Numbers const longest = longest_slowly(made.index, head);
+        for (std::size_t a = 0; a < made.index.arcs.size(); ++a) {
+            NodeId const from = made.index.from[a];
+            made.areas.ds_area_m2[a] = std::pow((longest[from] + made.index.length_m[a]) / 1.4, 1.0 / h);
+        }
+        auto const law = hack(made.rivers.plan, made.areas.ds_area_m2, head);
+        RC_ASSERT(law.has_value());
+        RC_ASSERT(std::fabs(law->exponent - h) < 1e-6);
+    }));
+}
+
+TEST(Tokunaga, NeedsTwoTerms) {
+    EXPECT_FALSE(tokunaga({}));
+    EXPECT_FALSE(tokunaga({1.2}));
+    EXPECT_FALSE(tokunaga({0.0, 2.5, 0.0}));
+}
+
+TEST(Tokunaga, IsRecovered) {
+    for (double const a : {0.3, 1.0, 1.2, 4.0}) {
+        for (double const c : {0.8, 1.0, 2.0, 2.7}) {
+            auto const law = tokunaga({a, a * c, a * c * c, 0.0, a * c * c * c * c});
+            ASSERT_TRUE(law);
+            EXPECT_NEAR(law->a, a, 1e-12 * a);
+            EXPECT_NEAR(law->c, c, 1e-12);
+            EXPECT_EQ(law->terms, 4);
+        }
+    }
+}
+
+TEST(LinkLengths, NoneAndOne) {
+    LinkLengths const none = link_lengths({});
+    EXPECT_EQ(none.exterior.links + none.interior.links, 0);
+    EXPECT_TRUE(std::isnan(none.exterior.mean_m));
+    EXPECT_FALSE(none.ratio);
+    LinkLengths const one = link_lengths(random_rivers(1, 1, 5, 2.0).plan);
+    EXPECT_EQ(one.exterior.links, 1);
+    EXPECT_EQ(one.exterior.mean_m, 8.0);
+    EXPECT_EQ(one.exterior.median_m, 8.0);
+    EXPECT_EQ(one.exterior.cv, 0.0);
+    EXPECT_FALSE(one.ratio);
+}
+
+TEST(LinkLengths, ArcsThatMeetOneToOneAreOneLink) {
+    StreamNetwork net = fork(60.0, 30.0, 50.0);
+    NodeId const outlet = 0;
+    NodeId const sea = add_node(net, {-150.0, 0.0});
+    add_arc(net, outlet, sea, {});
+    LinkLengths const lengths = link_lengths(net);
+    EXPECT_EQ(lengths.exterior.links, 2);
+    EXPECT_NEAR(lengths.exterior.mean_m, 40.0, 1e-12);
+    EXPECT_NEAR(lengths.exterior.median_m, 40.0, 1e-12);
+    EXPECT_NEAR(lengths.exterior.cv, 0.25, 1e-12);
+    EXPECT_EQ(lengths.interior.links, 1);
+    EXPECT_EQ(lengths.interior.mean_m, 150.0);
+    EXPECT_NEAR(lengths.ratio.value(), 40.0 / 150.0, 1e-12);
+}
+
+TEST(JunctionAngles, RefusesNoReach) {
+    EXPECT_THROW(junction_angles({}, 0.0), BadParameter);
+    EXPECT_THROW(junction_angles({}, not_a_number), BadParameter);
+    EXPECT_EQ(junction_angles({}, 1.0).junctions, 0);
+    EXPECT_TRUE(std::isnan(junction_angles({}, 1.0).mean_deg));
+}
+
+TEST(JunctionAngles, AreThoseDrawn) {
+    for (double const degrees : {0.5, 45.0, 72.0, 90.0, 135.0, 179.0}) {
+        JunctionAngles const angles = junction_angles(fork(degrees, 30.0, 50.0), 20.0);
+        EXPECT_EQ(angles.junctions, 1);
+        EXPECT_NEAR(angles.mean_deg, degrees, 1e-9);
+        EXPECT_EQ(angles.std_deg, 0.0);
+    }
+    // 30 m hold half of 59 m, not of 61 m.
+    EXPECT_EQ(junction_angles(fork(72.0, 30.0, 50.0), 59.0).junctions, 1);
+    EXPECT_EQ(junction_angles(fork(72.0, 30.0, 50.0), 61.0).left_out, 1);
+}
+
+TEST(JunctionAngles, StairsOfCellsHaveTheDirectionOfTheirChord) {
+    // One river comes from the east, the other down stairs of three cells east and one north: atan(1/3) on the whole,
+    // where its last step alone says 0 degrees.
+    StreamNetwork net;
+    NodeId const outlet = add_node(net, {-5.0, 0.0});
+    NodeId const meet = add_node(net, {0.0, 0.0});
+    NodeId const east = add_node(net, {40.0, 0.0});
+    NodeId const stairs = add_node(net, {60.0, 20.0});
+    Arc steps;
+    for (int i = 20; i >= 0; --i) {
+        steps.line.push_back({3.0 * i, 1.0 * i});
+        if (i > 0) {
+            steps.line.push_back({3.0 * i - 2.0, 1.0 * i - 1.0});
+        }
+    }
+    add_arc(net, stairs, meet, steps);
+    add_arc(net, east, meet, {});
+    add_arc(net, meet, outlet, {});
+    double const expected = std::atan2(1.0, 3.0) * 180.0 / 3.14159265358979323846;
+    EXPECT_NEAR(junction_angles(net, 30.0).mean_deg, expected, 2.0);
+    EXPECT_NEAR(junction_angles(net, 1.0).mean_deg, 0.0, 1e-9);
+}
+
+TEST(FlowLengths, AreTheLongestWayDownToACell) {
+    ASSERT_TRUE(rc::check("as walking down from every cell finds", [] {
+        Raster<float> const dem = *gen_dem(12, 20);
+        Drainage const drainage = drain(dem);
+        Grid const& grid = dem.grid();
+        Numbers longest(static_cast<std::size_t>(grid.cells()), 0.0);
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            double length = 0.0;
+            for (std::int64_t at = i; drainage.direction[at] >= 0;) {
+                Cell const step = d8_steps[static_cast<std::size_t>(drainage.direction[at])];
+                length += grid.cell_m * std::sqrt(static_cast<double>(step.col * step.col + step.row * step.row));
+                at += step.row * grid.width + step.col;
+                double& here = longest[static_cast<std::size_t>(at)];
+                here = std::max(here, length);
+            }
+        }
+        auto const fast = flow_lengths(drainage);
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            double const slow = longest[static_cast<std::size_t>(i)];
+            RC_ASSERT(std::fabs(static_cast<double>(fast[i]) - slow) <= 1e-5 * slow);
+        }
+    }));
+}
+
+TEST(NetworkLaws, AreThoseOfTheirVerbs) {
+    MadeToOrder const made(11);
+    EXPECT_THROW(network_laws(made.rivers, made.orders, made.areas, {.junction_reach_m = 60.0}), BadParameter);
+    EXPECT_THROW(network_laws(made.rivers, made.orders, made.areas, {.land_m2 = 1e6}), BadParameter);
+    NetworkLaws const laws =
+        network_laws(made.rivers, made.orders, made.areas,
+                     {.land_m2 = 2e6, .junction_reach_m = 60.0, .head_m = {}, .side_branches = {1.0, 2.0, 4.0}});
+    double const length = std::accumulate(made.index.length_m.begin(), made.index.length_m.end(), 0.0);
+    EXPECT_NEAR(laws.drainage_density_m, length / 2e6, 1e-15);
+    EXPECT_NEAR(laws.tokunaga.value().c, 2.0, 1e-12);
+    EXPECT_EQ(laws.hack.value().exponent, hack(made.rivers.plan, made.areas.ds_area_m2)->exponent);
+    EXPECT_EQ(laws.junctions.mean_deg, junction_angles(made.rivers.plan, 60.0).mean_deg);
+    EXPECT_EQ(laws.links.exterior.mean_m, link_lengths(made.rivers.plan).exterior.mean_m);
+    EXPECT_EQ(laws.horton.orders.size(), horton(made.rivers.plan, made.orders, made.areas.ds_area_m2).orders.size());
+}
+
+TEST(NaturalRanges, SayWhereTheyComeFrom) {
+    for (NaturalRange const& range : natural_ranges()) {
+        EXPECT_LT(range.low, range.high) << range.law;
+        EXPECT_NE(range.source.find_first_of("0123456789"), std::string_view::npos) << range.law; // a year
+        EXPECT_EQ(natural_range(range.law), &range);
+    }
+    EXPECT_EQ(natural_range("colour"), nullptr);
+}

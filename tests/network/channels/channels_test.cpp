@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/channels/channels.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <network/channel_laws.hpp>
+#include <network/networks.hpp>
+#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/run/error.hpp>
+
+namespace {
+
+using namespace thalweg;
+using network::channels;
+using network::ChannelsOfArcs;
+using network::ChannelsParams;
+
+ChannelsParams literal() {
+    return {.look_cells = 0, .stub_cells = 0};
+}
+
+/// '.' for land, else the direction in which the water of a channel goes: 0-7 as d8_steps, 'o' out.
+std::string drawn(Channels const& rivers) {
+    std::string picture;
+    std::map<std::int64_t, std::size_t> number;
+    for (std::size_t i = 0; i < rivers.cell.size(); ++i) {
+        number[rivers.cell[i]] = i;
+    }
+    for (std::int64_t i = 0; i < rivers.grid.cells(); ++i) {
+        auto const it = number.find(i);
+        char sign = '.';
+        if (it != number.end()) {
+            std::int64_t const to = rivers.receiver[it->second];
+            sign = 'o';
+            for (std::size_t k = 0; to >= 0 && k < d8_steps.size(); ++k) {
+                Cell const here = rivers.grid.at(i);
+                Cell const there{here.col + d8_steps[k].col, here.row + d8_steps[k].row};
+                if (rivers.grid.at(rivers.cell[static_cast<std::size_t>(to)]) == there) {
+                    sign = static_cast<char>('0' + k);
+                }
+            }
+        }
+        picture += sign;
+        if (i % rivers.grid.width == rivers.grid.width - 1) {
+            picture += '\n';
+        }
+    }
+    return picture;
+}
+
+TEST(Channels, NoNetworkIsNoChannels) {
+    ChannelsOfArcs const out = channels(StreamNetwork{}, test::grid_of(3, 3));
+    EXPECT_TRUE(out.channels.cell.empty());
+    EXPECT_TRUE(out.of_arc.empty());
+}
+
+TEST(Channels, BadInputAndParametersAreNamed) {
+    StreamNetwork const net = test::network_of({{0.5, 0.5}, {7.0, 0.5}}, {{1, 0}});
+    EXPECT_THROW(channels(net, test::grid_of(3, 3)), BadInput);
+    EXPECT_THROW(channels(net, test::grid_of(9, 3), {.look_cells = 65}), BadParameter);
+    EXPECT_THROW(channels(net, test::grid_of(9, 3), {.stub_cells = -1}), BadParameter);
+    StreamNetwork const ring = test::network_of({{0.5, 0.5}, {2.5, 0.5}}, {{0, 1}, {1, 0}});
+    EXPECT_THROW(channels(ring, test::grid_of(3, 3)), BadInput);
+}
+
+TEST(Channels, AnArcWithinOneCellIsThatCell) {
+    StreamNetwork const net = test::network_of({{1.2, 1.2}, {1.8, 1.7}}, {{0, 1}});
+    ChannelsOfArcs const out = channels(net, test::grid_of(3, 3));
+    EXPECT_EQ(out.channels.cell, std::vector<std::int64_t>{4});
+    EXPECT_EQ(out.channels.receiver, std::vector<std::int64_t>{-1});
+    EXPECT_EQ(out.of_arc, (std::vector<std::vector<std::int64_t>>{{0}}));
+}
+
+TEST(Channels, AForkAsDrawn) {
+    //  two sources, a confluence in the middle, out in the south
+    StreamNetwork const net =
+        test::network_of({{2.5, 0.5}, {2.5, 2.5}, {0.5, 4.5}, {4.5, 4.5}}, {{1, 0}, {2, 1}, {3, 1}});
+    ChannelsOfArcs const out = channels(net, test::grid_of(5, 5));
+    EXPECT_EQ(drawn(out.channels), "1...3\n"
+                                   ".1.3.\n"
+                                   "..2..\n"
+                                   "..2..\n"
+                                   "..o..\n");
+    EXPECT_EQ(out.of_arc, (std::vector<std::vector<std::int64_t>>{{2, 1, 0}, {4, 3, 2}, {6, 5, 2}}));
+    EXPECT_TRUE(out.notes.empty());
+}
+
+TEST(Channels, CornersAreCutAndCellsWithoutWaterLeftOut) {
+    StreamNetwork const net = test::network_of({{0.5, 0.5}, {3.5, 3.5}}, {{1, 0, {{0.5, 3.5}}}});
+    EXPECT_EQ(drawn(channels(net, test::grid_of(4, 4), literal()).channels), "2444\n"
+                                                                             "2...\n"
+                                                                             "2...\n"
+                                                                             "o...\n");
+    EXPECT_EQ(drawn(channels(net, test::grid_of(4, 4)).channels), ".344\n"
+                                                                  "2...\n"
+                                                                  "2...\n"
+                                                                  "o...\n");
+}
+
+TEST(Channels, AConfluenceCellThatBothArmsPassByIsLeftOut) {
+    // both arms come to the node from the north, beside the stem's first cells
+    StreamNetwork const net =
+        test::network_of({{2.5, 0.5}, {2.5, 3.5}, {1.5, 3.5}, {3.5, 3.5}}, {{1, 0}, {2, 1}, {3, 1}});
+    ChannelsOfArcs const out = channels(net, test::grid_of(5, 4));
+    EXPECT_EQ(drawn(out.channels), ".1.3.\n"
+                                   "..2..\n"
+                                   "..2..\n"
+                                   "..o..\n");
+    EXPECT_EQ(out.of_arc[0].size(), 3U);
+    EXPECT_EQ(out.of_arc[1].size(), 1U);
+}
+
+TEST(Channels, ALoopWithinCellsIsLeftOut) {
+    StreamNetwork const net = test::network_of({{0.5, 0.5}, {5.5, 0.5}},
+                                               {{1, 0, {{2.6, 0.5}, {2.6, 2.5}, {3.5, 2.5}, {3.5, 1.5}, {2.4, 0.6}}}});
+    test::require_law(channels(net, test::grid_of(6, 3), literal()).channels);
+    EXPECT_EQ(drawn(channels(net, test::grid_of(6, 3), literal()).channels), "......\n"
+                                                                             "......\n"
+                                                                             "o44444\n");
+}
+
+TEST(Channels, RiversThatCrossAreOneFromThere) {
+    // the second river crosses the first, by sides and by corners
+    for (double const shift : {0.0, 1.0}) {
+        StreamNetwork const net =
+            test::network_of({{0.5, 0.5}, {19.5, 19.5}, {0.5, 19.5 - shift}, {19.5 - shift, 0.5}}, {{1, 0}, {3, 2}});
+        ChannelsOfArcs const out = channels(net, test::grid_of(20, 20));
+        test::require_law(out.channels);
+        ASSERT_EQ(out.notes.size(), 1U) << shift;
+        EXPECT_EQ(out.notes.front().kind, "captured");
+        EXPECT_EQ(out.notes.front().feature, 2);
+        EXPECT_EQ(std::count(out.channels.receiver.begin(), out.channels.receiver.end(), -1), 2) << shift;
+        EXPECT_GT(out.channels.cell.size(), 36U); // what goes on below the crossing is long enough to stay
+    }
+}
+
+TEST(Channels, AStubBelowACrossingIsLeftOut) {
+    StreamNetwork const net = test::network_of({{0.5, 5.5}, {19.5, 5.5}, {9.5, 0.5}, {9.5, 12.5}}, {{1, 0}, {3, 2}});
+    ChannelsOfArcs const out = channels(net, test::grid_of(20, 20));
+    test::require_law(out.channels);
+    EXPECT_EQ(std::count(out.channels.receiver.begin(), out.channels.receiver.end(), -1), 1);
+    EXPECT_EQ(out.channels.cell.size(), 20U + 7U);
+}
+
+TEST(Channels, KeepTheirLawWhateverIsDrawn) {
+    ASSERT_TRUE(rc::check("of rivers that pay no heed to one another, with loops", [] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        auto const nodes = *rc::gen::inRange<std::size_t>(0, 30);
+        auto const basins = *rc::gen::inRange<std::size_t>(1, 4);
+        auto const side = *rc::gen::inRange<std::int64_t>(1, 80);
+        StreamNetwork const net = test::random_forest(seed, nodes, basins);
+        Grid grid = test::grid_of(side, side);
+        grid.cell_m = 1000.0 / static_cast<double>(side);
+        grid.north = 1000.0;
+        ChannelsParams const params = *rc::gen::element(ChannelsParams{}, literal(), ChannelsParams{64, 3});
+        ChannelsOfArcs const out = channels(net, grid, params);
+        test::require_law(out.channels);
+        test::require_short(out.channels, params.look_cells);
+        RC_ASSERT(out.of_arc.size() == boost::num_edges(net));
+        NetworkIndex const index(net);
+        std::set<std::int64_t> drawn_cells;
+        std::set<std::int64_t> listed;
+        for (std::size_t a = 0; a < out.of_arc.size(); ++a) {
+            std::set<std::int64_t> own;
+            for (Cell const c : cells_along(net[index.arcs[a]].line, grid)) {
+                own.insert(grid.index(c));
+            }
+            drawn_cells.insert(own.begin(), own.end());
+            std::set<std::int64_t> const once(out.of_arc[a].begin(), out.of_arc[a].end());
+            RC_ASSERT(once.size() == out.of_arc[a].size());
+            for (std::int64_t const i : out.of_arc[a]) {
+                RC_ASSERT(own.contains(out.channels.cell[static_cast<std::size_t>(i)]));
+                listed.insert(i);
+            }
+        }
+        RC_ASSERT(listed.size() == out.channels.cell.size());
+        for (std::int64_t const cell : out.channels.cell) {
+            RC_ASSERT(drawn_cells.contains(cell));
+        }
+    }));
+}
+
+TEST(Channels, RiversOnALatticeKeepTheirWay) {
+    ASSERT_TRUE(rc::check("each arc's cells lead down to its outlet, and sources stay", [] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        StreamNetwork const net = test::random_skeleton(seed, 48);
+        Grid const grid = test::grid_of(48, 48);
+        ChannelsOfArcs const out = channels(net, grid);
+        test::require_law(out.channels);
+        test::require_short(out.channels, 8);
+        NetworkIndex const index(net);
+        RC_ASSERT(std::count(out.channels.receiver.begin(), out.channels.receiver.end(), -1) ==
+                  static_cast<std::int64_t>(index.outlets.size()));
+        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+            if (index.in[index.from[a]].empty()) {
+                std::int64_t const source = grid.index(grid.cell_of(net[index.from[a]].at));
+                RC_ASSERT(out.channels.cell[static_cast<std::size_t>(out.of_arc[a].front())] == source);
+            }
+            RC_ASSERT(std::is_sorted(out.of_arc[a].rbegin(), out.of_arc[a].rend()));
+        }
+    }));
+}
+
+} // namespace

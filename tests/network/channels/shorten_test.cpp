@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/channels/shorten.hpp>
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <network/channel_laws.hpp>
+#include <network/networks.hpp>
+#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/error.hpp>
+
+namespace {
+
+using namespace thalweg;
+using network::channels;
+using network::ChannelsOfArcs;
+using network::shorten;
+using network::Shortened;
+
+//  two arms of five cells, a confluence, a stem of four
+StreamNetwork fork() {
+    return test::network_of({{5.5, 0.5}, {5.5, 4.5}, {0.5, 9.5}, {10.5, 9.5}},
+                            {{1, 0, {}, 7}, {2, 1, {}, 8}, {3, 1, {}, 9}});
+}
+
+/// Some channel cells with all that flow into them.
+std::vector<std::int64_t> some_tips(Channels const& rivers, std::uint64_t seed, double share) {
+    std::vector<std::uint8_t> gone(rivers.cell.size(), 0);
+    std::vector<std::int64_t> out;
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+        bool const below = rivers.receiver[i] >= 0 && gone[static_cast<std::size_t>(rivers.receiver[i])] != 0;
+        gone[i] = below || unit(chance(seed, i)) < share ? 1 : 0;
+        if (gone[i] != 0) {
+            out.push_back(static_cast<std::int64_t>(i));
+        }
+    }
+    return out;
+}
+
+TEST(Shorten, NothingGoneChangesNothing) {
+    ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
+    Shortened const out = shorten(fork(), drawn, {});
+    EXPECT_TRUE(out.notes.empty());
+    EXPECT_EQ(out.drawn.channels.cell, drawn.channels.cell);
+    EXPECT_EQ(out.drawn.of_arc, drawn.of_arc);
+    EXPECT_EQ(boost::num_vertices(out.network), 4U);
+}
+
+TEST(Shorten, RefusesWhatIsNoTip) {
+    ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
+    EXPECT_THROW(shorten(fork(), drawn, {-1}), BadInput);
+    EXPECT_THROW(shorten(fork(), drawn, {static_cast<std::int64_t>(drawn.channels.cell.size())}), BadInput);
+    EXPECT_THROW(shorten(fork(), drawn, {0}), BadInput);
+    EXPECT_THROW(shorten(test::network_of({{5.5, 0.5}, {5.5, 4.5}}, {{1, 0}}), drawn, {}), BadInput);
+}
+
+TEST(Shorten, ATipBeginsFartherDown) {
+    ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
+    std::vector<std::int64_t> const left(drawn.of_arc[1].begin(), drawn.of_arc[1].begin() + 2);
+    Shortened const out = shorten(fork(), drawn, left);
+    NetworkIndex const index(out.network);
+    EXPECT_EQ(out.network[index.arcs[1]].line, (std::vector<Vec2>{{2.5, 7.5}, {5.5, 4.5}}));
+    ASSERT_EQ(out.notes.size(), 1U);
+    EXPECT_EQ(out.notes[0].kind, "shortened");
+    EXPECT_EQ(out.notes[0].feature, 8);
+    EXPECT_NEAR(out.notes[0].amount, 2.0 * std::sqrt(2.0), 1e-12);
+    EXPECT_EQ(out.drawn.channels.cell.size(), drawn.channels.cell.size() - 2);
+    EXPECT_EQ(out.drawn.of_arc[1].size(), 4U);
+}
+
+TEST(Shorten, AnArmThatGoesLeavesOneRiver) {
+    ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
+    std::vector<std::int64_t> const left(drawn.of_arc[1].begin(), drawn.of_arc[1].end() - 1);
+    Shortened const out = shorten(fork(), drawn, left);
+    NetworkIndex const index(out.network);
+    ASSERT_EQ(index.arcs.size(), 1U);
+    EXPECT_EQ(out.network[index.arcs[0]].line, (std::vector<Vec2>{{10.5, 9.5}, {5.5, 4.5}, {5.5, 0.5}}));
+    EXPECT_EQ(out.network[index.arcs[0]].feature, 9);
+    EXPECT_EQ(out.drawn.of_arc[0].size(), 10U);
+    EXPECT_EQ(out.notes.size(), 1U);
+}
+
+TEST(Shorten, AllMayGo) {
+    ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
+    Shortened const out = shorten(fork(), drawn, some_tips(drawn.channels, 1, 1.0));
+    EXPECT_EQ(boost::num_edges(out.network), 0U);
+    EXPECT_TRUE(out.drawn.channels.cell.empty());
+}
+
+TEST(Shorten, WhatIsLeftIsWhatWasDrawn) {
+    ASSERT_TRUE(rc::check("lines end parts of lines, channels keep their law, and arcs their cells", [] {
+        auto const [seed, on_lattice, net, grid] = test::some_rivers();
+        ChannelsOfArcs const drawn = channels(net, grid);
+        std::vector<std::int64_t> const gone = some_tips(drawn.channels, seed, *rc::gen::element(0.0, 0.01, 0.1));
+        Shortened const out = shorten(net, drawn, gone);
+        test::require_law(out.drawn.channels);
+        NetworkIndex const index(out.network);
+        RC_ASSERT(out.drawn.of_arc.size() == index.arcs.size());
+        RC_ASSERT(out.drawn.channels.cell.size() + gone.size() == drawn.channels.cell.size());
+        std::set<std::pair<double, double>> vertices;
+        double before_m = 0.0;
+        NetworkIndex const old(net);
+        for (std::size_t a = 0; a < old.arcs.size(); ++a) {
+            before_m += old.length_m[a];
+            for (Vec2 const p : net[old.arcs[a]].line) {
+                vertices.emplace(p.x, p.y);
+            }
+        }
+        double after_m = 0.0;
+        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+            after_m += index.length_m[a];
+            auto const& line = out.network[index.arcs[a]].line;
+            RC_ASSERT(line.size() >= 2U);
+            RC_ASSERT(line.front() == out.network[index.from[a]].at);
+            for (std::size_t i = 1; i < line.size(); ++i) {
+                RC_ASSERT(vertices.contains({line[i].x, line[i].y}));
+            }
+            if (on_lattice) {
+                // what was drawn from the new line's cells, and no tip stands where a river is gone
+                std::set<std::int64_t> cells;
+                for (Cell const c : cells_along(line, grid)) {
+                    cells.insert(grid.index(c));
+                }
+                for (std::int64_t const i : out.drawn.of_arc[a]) {
+                    RC_ASSERT(cells.contains(out.drawn.channels.cell[static_cast<std::size_t>(i)]));
+                }
+                if (index.in[index.from[a]].empty() && !out.drawn.of_arc[a].empty()) {
+                    RC_ASSERT(out.drawn.channels.cell[static_cast<std::size_t>(out.drawn.of_arc[a].front())] ==
+                              grid.index(grid.cell_of(line.front())));
+                }
+            }
+        }
+        double noted_m = 0.0;
+        for (Finding const& note : out.notes) {
+            noted_m += note.amount;
+        }
+        RC_ASSERT(noted_m + after_m <= before_m * (1.0 + 1e-12));
+        RC_ASSERT(!on_lattice || noted_m + after_m >= before_m * (1.0 - 1e-12));
+    }));
+}
+
+} // namespace

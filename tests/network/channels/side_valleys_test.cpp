@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Valleys that a land has grown around given rivers, as arcs.
+#include <thalweg/network/channels/side_valleys.hpp>
+
+#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/geometry/meetings.hpp>
+#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/network/channels/channels.hpp>
+#include <thalweg/network/channels/shorten.hpp>
+#include <thalweg/network/elevation/raise_from_land.hpp>
+#include <thalweg/network/planform/carry_outlets.hpp>
+#include <thalweg/surface/equilibrium/equilibrium.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <network/networks.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+using namespace thalweg;
+using namespace thalweg::network;
+
+namespace {
+
+/// Rivers, and the land in equilibrium with them.
+struct Scene {
+    RaisedNetwork rivers;
+    Channels channels;
+    Raster<float> dem;
+    measure::Drainage drainage;
+
+    LandWater water() const { return {dem, drainage.direction, drainage.area_cells}; }
+};
+
+Scene scene_of(StreamNetwork const& plan, Grid const& grid, std::uint64_t seed) {
+    StreamNetwork const carried = carry_outlets(plan, grid).network;
+    ChannelsOfArcs const drawn = channels(carried, grid);
+    surface::EquilibriumParams params;
+    params.seed = seed;
+    surface::EquilibriumLand land = surface::equilibrium(drawn.channels, {}, params);
+    Shortened const kept = shorten(carried, drawn, land.shortened);
+    Scene scene{raise_from_land(kept.network, kept.drawn.channels, land.dem), kept.drawn.channels, land.dem, {}};
+    scene.drainage = measure::drain(scene.dem);
+    return scene;
+}
+
+Grid square(std::int64_t side) {
+    return {side, side, 1.0, 0.0, static_cast<double>(side), ""};
+}
+
+/// A river from the north to the south border, bent, with one tributary.
+Scene plain_scene() {
+    Grid const grid = square(90);
+    return scene_of(test::network_of({{45.5, 80.5}, {50.5, 40.5}, {45.5, 0.5}, {80.5, 60.5}},
+                                     {{0, 1, {{40.2, 60.7}}}, {1, 2, {{44.1, 20.3}}}, {3, 1, {{66.6, 44.4}}}}),
+                    grid, 5);
+}
+
+std::vector<Arc> arcs_of(StreamNetwork const& plan) {
+    std::vector<Arc> arcs;
+    for (ArcId const arc : NetworkIndex(plan).arcs) {
+        arcs.push_back(plan[arc]);
+    }
+    return arcs;
+}
+
+/// The vertices of given arcs, each once, by place.
+std::set<std::pair<double, double>> vertices_of(StreamNetwork const& plan) {
+    std::set<std::pair<double, double>> found;
+    for (Arc const& arc : arcs_of(plan)) {
+        for (Vec2 const p : arc.given ? arc.line : std::vector<Vec2>{}) {
+            found.emplace(p.x, p.y);
+        }
+    }
+    return found;
+}
+
+void expect_lawful(Scene const& scene, SideValleys const& made, std::int64_t support) {
+    StreamNetwork const& plan = made.network.plan;
+    NetworkIndex const index(plan);
+    std::vector<std::vector<Vec2>> lines;
+    std::vector<geometry::EndNodes> ends;
+    std::int64_t grown = 0;
+    double given_m = 0.0;
+    std::set<std::int64_t> covered;
+    Grid const& grid = scene.dem.grid();
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        Arc const& arc = plan[index.arcs[a]];
+        lines.push_back(arc.line);
+        ends.push_back({index.from[a], index.to[a]});
+        RC_ASSERT(arc.given == (a < index.arcs.size() - static_cast<std::size_t>(made.grown))); // given arcs first
+        grown += arc.given ? 0 : 1;
+        given_m += arc.given ? index.length_m[a] : 0.0;
+        std::vector<double> const& z = made.network.arc_z[a];
+        RC_ASSERT(z.size() == arc.line.size());
+        RC_ASSERT(z.front() == made.network.node_z[index.from[a]]);
+        RC_ASSERT(z.back() == made.network.node_z[index.to[a]]);
+        for (std::size_t i = 0; i + 1 < z.size(); ++i) {
+            RC_ASSERT((arc.given ? z[i] >= z[i + 1] : z[i] > z[i + 1]));
+        }
+        for (Vec2 const p : arc.given ? std::vector<Vec2>{} : arc.line) {
+            covered.insert(grid.index(grid.cell_of(p)));
+        }
+    }
+    RC_ASSERT(grown == made.grown);
+    RC_ASSERT(geometry::meetings(lines, ends).empty());
+    for (NodeId n = 0; n < index.out.size(); ++n) {
+        RC_ASSERT((index.out[n] >= 0 || !index.in[n].empty()));
+        RC_ASSERT(index.basin[n] > 0);
+    }
+
+    // Given rivers are what they were, vertex for vertex, whatever joins them.
+    auto const before = vertices_of(scene.rivers.plan);
+    auto const after = vertices_of(plan);
+    RC_ASSERT(std::includes(after.begin(), after.end(), before.begin(), before.end()));
+    double length_m = 0.0;
+    for (double const one : NetworkIndex(scene.rivers.plan).length_m) {
+        length_m += one;
+    }
+    RC_ASSERT(std::fabs(length_m - given_m) < 1e-6 * length_m);
+
+    // Where enough drains through, away from what is drawn, there is an arc, and elsewhere none begins.
+    std::set<std::int64_t> near;
+    for (Arc const& arc : arcs_of(plan)) {
+        for (std::size_t i = 0; arc.given && i + 1 < arc.line.size(); ++i) {
+            for (double t = 0.0; t <= 1.0; t += 0.05) {
+                Cell const at = grid.cell_of({arc.line[i].x + t * (arc.line[i + 1].x - arc.line[i].x),
+                                              arc.line[i].y + t * (arc.line[i + 1].y - arc.line[i].y)});
+                for (std::int64_t r = at.row - 3; r <= at.row + 3; ++r) {
+                    for (std::int64_t c = at.col - 3; c <= at.col + 3; ++c) {
+                        near.insert(grid.contains({c, r}) ? grid.index({c, r}) : -1);
+                    }
+                }
+            }
+        }
+    }
+    for (std::int64_t i = 0; made.left_out == 0 && i < grid.cells(); ++i) {
+        bool const away = near.count(i) == 0 && !grid.on_border(grid.at(i));
+        if (away && scene.drainage.area_cells[i] >= support) {
+            RC_ASSERT(covered.count(i) == 1U);
+        }
+        if (away && covered.count(i) == 1U) {
+            RC_ASSERT(scene.drainage.area_cells[i] >= support);
+        }
+    }
+}
+
+} // namespace
+
+TEST(SideValleys, WithoutEnoughWaterNothingIsAdded) {
+    Scene const scene = plain_scene();
+    SideValleys const made = side_valleys(scene.rivers, scene.channels, scene.water(), {1'000'000});
+    EXPECT_EQ(made.grown, 0);
+    ASSERT_EQ(boost::num_edges(made.network.plan), boost::num_edges(scene.rivers.plan));
+    EXPECT_EQ(made.network.arc_z, scene.rivers.arc_z);
+    EXPECT_EQ(made.network.node_z, scene.rivers.node_z);
+}
+
+TEST(SideValleys, WhatMakesNoSenseIsRefused) {
+    Scene const scene = plain_scene();
+    EXPECT_THROW(side_valleys(scene.rivers, scene.channels, scene.water(), {0}), BadParameter);
+    Raster<std::int64_t> const other(square(91));
+    EXPECT_THROW(side_valleys(scene.rivers, scene.channels, {scene.dem, scene.drainage.direction, other}), BadInput);
+}
+
+TEST(SideValleys, TheyReachTheGivenRivers) {
+    Scene const scene = plain_scene();
+    SideValleys const made = side_valleys(scene.rivers, scene.channels, scene.water(), {40});
+    EXPECT_GT(made.grown, 20);
+    expect_lawful(scene, made, 40);
+    // By far the most of the land drains to the given outlet: so do most valleys.
+    NetworkIndex const index(made.network.plan);
+    std::int64_t given_basin = 0;
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        given_basin = made.network.plan[index.arcs[a]].given ? index.basin[index.to[a]] : given_basin;
+    }
+    std::int64_t joined = 0;
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        joined += !made.network.plan[index.arcs[a]].given && index.basin[index.to[a]] == given_basin ? 1 : 0;
+    }
+    EXPECT_GT(joined, 10);
+}
+
+TEST(SideValleys, LawsOfRandomNetworks) {
+    ASSERT_TRUE(rc::check("given rivers stay, grown ones join them, nothing meets but in nodes", [] {
+        auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1'000'000);
+        auto const side = *rc::gen::inRange<std::int64_t>(24, 70);
+        auto const support = *rc::gen::inRange<std::int64_t>(1, 120);
+        StreamNetwork const plan = test::random_skeleton(seed, side);
+        RC_PRE(boost::num_edges(plan) > 0);
+        Scene const scene = scene_of(plan, square(side), seed);
+        expect_lawful(scene, side_valleys(scene.rivers, scene.channels, scene.water(), {support}), support);
+    }));
+}

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/elevation/keep_heights.hpp>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace thalweg;
+
+/// Two sources that meet, and an outlet.
+StreamNetwork two_rivers() {
+    StreamNetwork net;
+    NodeId const a = boost::add_vertex(Node{{0, 4}}, net);
+    NodeId const b = boost::add_vertex(Node{{4, 4}}, net);
+    NodeId const c = boost::add_vertex(Node{{2, 2}}, net);
+    NodeId const d = boost::add_vertex(Node{{2, 0}}, net);
+    add_arc(net, a, c, {{{0, 4}, {1, 3}, {2, 2}}, 1, 0, ""});
+    add_arc(net, b, c, {{{4, 4}, {2, 2}}, 1, 0, ""});
+    add_arc(net, c, d, {{{2, 2}, {2, 0}}, 1, 0, ""});
+    return net;
+}
+
+} // namespace
+
+TEST(KeepHeights, EmptyNetwork) {
+    EXPECT_TRUE(network::keep_heights({}, {}, 0.1).arc_z.empty());
+}
+
+TEST(KeepHeights, NoHeightsAtAll) {
+    EXPECT_THROW(network::keep_heights(two_rivers(), {}, 0.1), BadInput);
+}
+
+TEST(KeepHeights, SameNetworkKeepsItsHeights) {
+    RaisedNetwork const known{two_rivers(), {9, 8, 5, 1}, {{9, 7, 5}, {8, 5}, {5, 1}}};
+    RaisedNetwork const out = network::keep_heights(known.plan, known, 0.1);
+    EXPECT_EQ(out.node_z, known.node_z);
+    EXPECT_EQ(out.arc_z, known.arc_z);
+}
+
+TEST(KeepHeights, OutletCarriedOnFallsWithTheSlope) {
+    RaisedNetwork const known{two_rivers(), {9, 8, 5, 1}, {{9, 7, 5}, {8, 5}, {5, 1}}};
+    StreamNetwork longer = known.plan;
+    ArcId const last = NetworkIndex(longer).arcs[2];
+    longer[boost::target(last, longer)].at = {2, -10};
+    longer[last].line = {{2, 2}, {2, 0}, {2, -10}};
+    RaisedNetwork const out = network::keep_heights(longer, known, 0.5);
+    EXPECT_EQ(out.arc_z[2], (std::vector<double>{5, 1, -4}));
+    EXPECT_EQ(out.node_z[3], -4);
+}

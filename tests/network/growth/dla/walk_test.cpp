@@ -1,0 +1,315 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/growth/dla/internal/walk.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
+
+#include <network/chi_squared.hpp>
+#include <network/unit_step_dla.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+using namespace thalweg::network;
+using thalweg::Cell;
+using thalweg::ChanceStream;
+
+namespace {
+
+/// Exit probabilities of one side by stepping the whole distribution until nothing is left inside.
+std::vector<double> exit_by_steps(int half) {
+    int const width = 2 * half + 1;
+    auto const at = [&](int x, int y) { return static_cast<std::size_t>((y + half) * width + x + half); };
+    std::vector<double> mass(static_cast<std::size_t>(width * width), 0.0);
+    std::vector<double> exits(static_cast<std::size_t>(half), 0.0);
+    mass[at(0, 0)] = 1.0;
+    for (double inside = 1.0; inside > 1e-17;) {
+        std::vector<double> next(mass.size(), 0.0);
+        for (int y = 1 - half; y < half; ++y) {
+            for (int x = 1 - half; x < half; ++x) {
+                double const quarter = 0.25 * mass[at(x, y)];
+                next[at(x + 1, y)] += quarter;
+                next[at(x - 1, y)] += quarter;
+                next[at(x, y + 1)] += quarter;
+                next[at(x, y - 1)] += quarter;
+            }
+        }
+        inside = 0.0;
+        for (int y = 1 - half; y < half; ++y) {
+            for (int x = 1 - half; x < half; ++x) {
+                inside += next[at(x, y)];
+            }
+        }
+        for (int j = 0; j < half; ++j) {
+            exits[static_cast<std::size_t>(j)] += next[at(half, j)];
+        }
+        mass = std::move(next);
+    }
+    return exits;
+}
+
+std::vector<Cell> small_cluster() {
+    DlaParams params;
+    params.particles = 250;
+    params.sticking = 1.0;
+    params.visits = 1;
+    params.seed = 1;
+    return grow_dla(params).cells;
+}
+
+using Bin = std::pair<std::int64_t, std::int64_t>;
+
+std::vector<Bin> bins_of(std::vector<Cell> const& cells) {
+    std::vector<Bin> bins;
+    for (Cell const c : cells) {
+        bins.emplace_back(c.col, c.row);
+    }
+    return bins;
+}
+
+std::vector<Bin> unit_step_hits(std::vector<Cell> const& cluster, std::int64_t walkers) {
+    unit_step::Lattice lattice;
+    for (Cell const c : cluster) {
+        lattice.occupy({static_cast<std::int32_t>(c.col), static_cast<std::int32_t>(c.row)});
+    }
+    std::vector<Bin> bins;
+    for (std::int64_t i = 0; i < walkers; ++i) {
+        ChanceStream chance(1001, 2, static_cast<std::uint64_t>(i));
+        unit_step::Steps steps(chance);
+        Site const hit = lattice.approach(lattice.born(chance), steps, chance);
+        bins.emplace_back(hit.x, hit.y);
+    }
+    return bins;
+}
+
+} // namespace
+
+TEST(ExitLaw, smallest_square_is_a_unit_step) {
+    EXPECT_EQ(exit_probabilities(1).size(), 1U);
+    EXPECT_NEAR(exit_probabilities(1)[0], 0.25, 1e-15);
+    ExitLaw law;
+    law.prepare(1);
+    std::map<std::pair<int, int>, int> seen;
+    ChanceStream chance(1, 1, 1);
+    for (int i = 0; i < 1000; ++i) {
+        auto const step = law.leave(1, chance);
+        ++seen[{step.x, step.y}];
+    }
+    EXPECT_EQ(seen.size(), 4U);
+    for (auto const& [step, times] : seen) {
+        EXPECT_EQ(std::abs(step.first) + std::abs(step.second), 1);
+    }
+}
+
+TEST(ExitLaw, closed_form_equals_stepping_the_distribution) {
+    for (int const half : {1, 2, 3, 5, 8, 16}) {
+        auto const closed = exit_probabilities(half);
+        auto const stepped = exit_by_steps(half);
+        for (std::size_t j = 0; j < closed.size(); ++j) {
+            EXPECT_NEAR(closed[j], stepped[j], 1e-14) << half << " " << j;
+        }
+    }
+}
+
+// Laws: a side has a quarter; x^4 - 6 x^2 y^2 + y^4 - x^2 - y^2 is harmonic on the lattice, so that its mean is 0.
+TEST(ExitLaw, closed_form_keeps_means_of_harmonic_functions) {
+    for (int const half : {1, 2, 7, 15, 31, 64, 248, 960, 3840}) {
+        auto const p = exit_probabilities(half);
+        double const l2 = static_cast<double>(half) * half;
+        double side = 0.0;
+        double mean = 0.0;
+        for (std::size_t j = 0; j < p.size(); ++j) {
+            double const weight = p[j] * (j == 0 ? 1.0 : 2.0);
+            double const j2 = static_cast<double>(j) * static_cast<double>(j);
+            side += weight;
+            mean += weight * (l2 * l2 - 6.0 * l2 * j2 + j2 * j2 - l2 - j2);
+        }
+        EXPECT_NEAR(side, 0.25, 1e-12) << half;
+        EXPECT_NEAR(mean / (l2 * l2), 0.0, 1e-12) << half;
+    }
+}
+
+TEST(ExitLaw, takes_a_square_that_is_free) {
+    ExitLaw law;
+    law.prepare(5000);
+    for (int free = 1; free < 10000; ++free) {
+        ASSERT_LE(law.half_side(free), free);
+        ASSERT_GE(law.half_side(free), std::min(free, 3840) * 4 / 5) << free;
+    }
+}
+
+TEST(ExitLaw, tables_sample_the_closed_form) {
+    ExitLaw law;
+    law.prepare(64);
+    for (int const half : {2, 7, 40}) {
+        auto const p = exit_probabilities(half);
+        std::vector<std::int64_t> seen(8 * p.size(), 0);
+        std::vector<double> expected(seen.size());
+        ChanceStream chance(4, 1, static_cast<std::uint64_t>(half));
+        for (int i = 0; i < 1000000; ++i) {
+            auto const [x, y] = law.leave(half, chance);
+            ASSERT_EQ(std::max(std::abs(x), std::abs(y)), half);
+            ASSERT_LT(std::min(std::abs(x), std::abs(y)), half);
+            std::size_t const side = std::abs(x) == half ? (x > 0 ? 0U : 1U) : (y > 0 ? 2U : 3U);
+            int const along = side < 2 ? y : x;
+            auto const j = static_cast<std::size_t>(std::abs(along));
+            ++seen[(2 * side + (along < 0 ? 1U : 0U)) * p.size() + j];
+        }
+        std::vector<std::int64_t> likely;
+        std::vector<double> shares;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            std::size_t const j = i % p.size();
+            bool const mirrored = i / p.size() % 2 == 1;
+            if (!(mirrored && j == 0)) {
+                likely.push_back(seen[i]);
+                shares.push_back(p[j]);
+            }
+        }
+        EXPECT_GT(chi_squared::against(likely, shares).p, 0.01) << half;
+    }
+}
+
+TEST(FreeSquares, around_a_single_site) {
+    FreeSquares squares;
+    squares.occupy({0, 0});
+    EXPECT_TRUE(squares.occupied({0, 0}));
+    EXPECT_FALSE(squares.occupied({1, 0}));
+    EXPECT_EQ(squares.free_half({1, 1}), 0);
+    EXPECT_EQ(squares.free_half({-2, 1}), 1);
+    EXPECT_EQ(squares.free_half({15, -15}), 14);
+}
+
+// Laws: the square is free; up to distance 15 it is the largest; it is never smaller than 15 beyond.
+TEST(FreeSquares, are_free_and_large) {
+    ASSERT_TRUE(rc::check([] {
+        auto const count = *rc::gen::inRange(1, 12);
+        auto const spread = *rc::gen::element(20, 100, 700);
+        FreeSquares squares;
+        std::vector<Site> sites;
+        for (int i = 0; i < count; ++i) {
+            Site const s = {*rc::gen::inRange(-spread, spread + 1), *rc::gen::inRange(-spread, spread + 1)};
+            sites.push_back(s);
+            squares.reach(chebyshev(s));
+            squares.occupy(s);
+        }
+        for (int i = 0; i < 300; ++i) {
+            auto const half = 2 * squares.half();
+            Site const s = {*rc::gen::inRange(-half, half), *rc::gen::inRange(-half, half)};
+            std::int32_t distance = 1 << 20;
+            for (Site const o : sites) {
+                distance = std::min(distance, chebyshev({s.x - o.x, s.y - o.y}));
+            }
+            if (distance > 15) {
+                RC_ASSERT(squares.free_half(s) >= 15);
+                RC_ASSERT(squares.free_half(s) < distance);
+            } else {
+                RC_ASSERT(squares.occupied(s) == (distance == 0));
+            }
+            if (0 < distance && distance <= 15) {
+                RC_ASSERT(squares.free_half(s) == distance - 1);
+            }
+        }
+    }));
+}
+
+// Law: the mean of every z^k, k = 1 ... 4, is 0. Rounding to the lattice shifts it by no more than 1/birth^2.
+TEST(BirthCircle, births_lie_on_the_circle_on_all_sides_alike) {
+    BirthCircle const circle = birth_circle(996.0);
+    EXPECT_EQ(circle.birth, 1000.0);
+    ChanceStream chance(5, 1, 1);
+    int const n = 400000;
+    std::array<std::complex<double>, 4> mean{};
+    for (int i = 0; i < n; ++i) {
+        Site const s = born(circle, chance);
+        ASSERT_NEAR(std::sqrt(static_cast<double>(squared(s))), circle.birth, 0.75);
+        std::complex<double> const z = std::complex<double>(s.x, s.y) / circle.birth;
+        std::complex<double> power = 1.0;
+        for (auto& m : mean) {
+            power *= z;
+            m += power / static_cast<double>(n);
+        }
+    }
+    for (auto const& m : mean) {
+        EXPECT_NEAR(std::abs(m), 0.0, 4.0 / std::sqrt(static_cast<double>(n)));
+    }
+}
+
+// Law: 1/z^k is harmonic outside the circle and falls to 0, so that the mean over the hits is its value at the start.
+TEST(BirthCircle, return_from_afar_keeps_means_of_harmonic_functions) {
+    BirthCircle const circle = birth_circle(996.0);
+    int const n = 400000;
+    for (Site const from : {Site{1100, 0}, Site{-800, 900}, Site{300, -4000}}) {
+        ChanceStream chance(6, 1, 1);
+        std::array<std::complex<double>, 4> mean{};
+        for (int i = 0; i < n; ++i) {
+            Site const hit = back_from_afar(circle, from, chance);
+            ASSERT_NEAR(std::sqrt(static_cast<double>(squared(hit))), circle.birth, 0.75);
+            std::complex<double> const inverse = circle.birth / std::complex<double>(hit.x, hit.y);
+            std::complex<double> power = 1.0;
+            for (auto& m : mean) {
+                power *= inverse;
+                m += power / static_cast<double>(n);
+            }
+        }
+        std::complex<double> const inverse = circle.birth / std::complex<double>(from.x, from.y);
+        std::complex<double> power = 1.0;
+        for (auto const& m : mean) {
+            power *= inverse;
+            EXPECT_NEAR(std::abs(m - power), 0.0, 4.0 / std::sqrt(static_cast<double>(n)));
+        }
+    }
+}
+
+TEST(FirstArrivals, need_a_cluster) {
+    EXPECT_THROW(first_arrivals({}, 1, 1), thalweg::BadInput);
+}
+
+TEST(FirstArrivals, four_sites_around_a_single_cell_are_alike) {
+    std::vector<Cell> const seed = {{0, 0}};
+    std::map<Bin, std::int64_t> seen;
+    for (Bin const& b : bins_of(first_arrivals(seed, 100000, 1))) {
+        ++seen[b];
+    }
+    ASSERT_EQ(seen.size(), 4U);
+    std::vector<std::int64_t> counts;
+    for (auto const& [bin, n] : seen) {
+        EXPECT_EQ(std::abs(bin.first) + std::abs(bin.second), 1);
+        counts.push_back(n);
+    }
+    EXPECT_GT(chi_squared::against(counts, {0.25, 0.25, 0.25, 0.25}).p, 0.01);
+}
+
+// Law: on a frozen cluster the fast walk and the walk by unit steps have one hit distribution; the test would see it if
+// one hit in a hundred were displaced.
+TEST(FirstArrivals, have_the_distribution_of_unit_steps) {
+    auto const cluster = small_cluster();
+    auto const slow = unit_step_hits(cluster, 1000000);
+    auto fast = bins_of(first_arrivals(cluster, 2000000, 501));
+    auto const honest = chi_squared::two_samples(fast, slow);
+    EXPECT_GT(honest.freedom, 100.0);
+    EXPECT_GT(honest.p, 0.01) << "chi2 " << honest.x << " of " << honest.freedom;
+    RecordProperty("p", std::to_string(honest.p));
+
+    std::vector<Bin> sites = fast;
+    std::ranges::sort(sites);
+    sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+    for (std::size_t i = 0; i < fast.size(); i += 100) {
+        auto const next = std::ranges::upper_bound(sites, fast[i]);
+        fast[i] = next == sites.end() ? sites.front() : *next;
+    }
+    auto const planted = chi_squared::two_samples(fast, slow);
+    EXPECT_LT(planted.p, 0.01) << "chi2 " << planted.x << " of " << planted.freedom;
+    RecordProperty("p_planted", std::to_string(planted.p));
+}

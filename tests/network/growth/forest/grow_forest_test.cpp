@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/growth/forest/grow_forest.hpp>
+
+#include <thalweg/core/run/error.hpp>
+
+#include <network/chi_squared.hpp>
+#include <network/growth_params.hpp>
+#include <network/masks.hpp>
+#include <network/plain_forest.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stop_token>
+#include <vector>
+
+using namespace thalweg;
+using namespace thalweg::network;
+using thalweg::test::grid_of;
+using thalweg::test::growth;
+using thalweg::test::mask_of;
+using thalweg::test::random_blob;
+
+namespace {
+
+/// Some cells of a region that lie two steps apart, at least one.
+std::vector<Cell> random_seeds(Mask const& region, std::int64_t step, std::size_t most, std::uint64_t seed) {
+    std::vector<Cell> seeds;
+    ChanceStream words(seed, 77, 0);
+    for (int tries = 0; tries < 4000 && seeds.size() < most; ++tries) {
+        Cell const c =
+            region.grid().at(static_cast<std::int64_t>(words.word() % static_cast<std::uint64_t>(region.cells())));
+        bool const alone =
+            std::ranges::all_of(seeds, [&](Cell s) { return plain_forest::squared_distance(s, c) >= 4 * step * step; });
+        if (region[c] != 0 && alone) {
+            seeds.push_back(c);
+        }
+    }
+    return seeds;
+}
+
+/// Particles, leaves and box of a forest.
+using Shape = std::array<std::int64_t, 4>;
+
+Shape shape(GrownForest const& forest) {
+    std::vector<int> children(forest.cells.size(), 0);
+    for (std::int64_t const up : forest.parent) {
+        if (up >= 0) {
+            ++children[static_cast<std::size_t>(up)];
+        }
+    }
+    auto const [west, east] = std::ranges::minmax(forest.cells, {}, &Cell::col);
+    auto const [north, south] = std::ranges::minmax(forest.cells, {}, &Cell::row);
+    return {static_cast<std::int64_t>(forest.cells.size()), std::ranges::count(children, 0), (east.col - west.col) / 4,
+            (south.row - north.row) / 4};
+}
+
+} // namespace
+
+TEST(GrowForest, one_cell_is_its_seed) {
+    GrownForest const f = grow_forest(mask_of({"#"}), {{0, 0}});
+    EXPECT_EQ(f.cells, (std::vector<Cell>{{0, 0}}));
+    EXPECT_EQ(f.parent, std::vector<std::int64_t>{-1});
+    EXPECT_EQ(f.tree, std::vector<std::int64_t>{0});
+    EXPECT_EQ(f.walkers, 0);
+    EXPECT_EQ(f.stop, ForestStop::full);
+}
+
+TEST(GrowForest, a_row_of_cells_is_a_chain) {
+    GrownForest const f = grow_forest(mask_of({"#######"}), {{0, 0}}, growth(2, 7));
+    EXPECT_EQ(f.cells, (std::vector<Cell>{{0, 0}, {2, 0}, {4, 0}, {6, 0}}));
+    EXPECT_EQ(f.parent, (std::vector<std::int64_t>{-1, 0, 1, 2}));
+}
+
+TEST(GrowForest, refuses_parameters_and_seeds) {
+    Mask const land = mask_of({"####", "####", "..##"});
+    std::vector<Cell> const one = {{0, 0}};
+    for (double const s : {0.0, -0.5, 1.0000001, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_THROW(grow_forest(land, one, growth(1, 7, s)), BadParameter) << s;
+    }
+    EXPECT_THROW(grow_forest(land, one, growth(0, 7)), BadParameter);
+    EXPECT_THROW(grow_forest(land, one, growth(101, 7)), BadParameter);
+    EXPECT_THROW(grow_forest(land, one, growth(1, 7, 1.0, 0)), BadParameter);
+    EXPECT_THROW(grow_forest(land, one, growth(1, 7, 1.0, 256)), BadParameter);
+    ForestParams params;
+    params.particles = -1;
+    EXPECT_THROW(grow_forest(land, one, params), BadParameter);
+    EXPECT_THROW(grow_forest(land, {}), BadInput);
+    EXPECT_THROW(grow_forest(land, {{0, 2}}), BadInput);
+    EXPECT_THROW(grow_forest(land, {{4, 0}}), BadInput);
+    EXPECT_THROW(grow_forest(land, {{0, 0}, {1, 1}}, growth(1, 7)), BadInput);
+    EXPECT_NO_THROW(grow_forest(land, {{0, 0}, {2, 0}}, growth(1, 7)));
+    try {
+        grow_forest(land, {{0, 0}, {1, 0}}, growth(1, 7));
+    } catch (BadInput const& e) {
+        EXPECT_STREQ(e.where(), "network.grow_forest");
+        EXPECT_STREQ(e.what(), "the seed (1, 0) lies nearer than 2 cells to another");
+    }
+}
+
+TEST(GrowForest, is_cancelled_while_nothing_grows) {
+    Mask const land(grid_of(300, 300), 1);
+    std::stop_source source;
+    source.request_stop();
+    thalweg::Run stopped;
+    stopped.stop = source.get_token();
+    EXPECT_THROW(grow_forest(land, {{0, 0}}, growth(5, 7), stopped), Cancelled);
+    EXPECT_THROW(grow_forest(Mask(grid_of(3, 3), 1), {{0, 0}}, growth(1, 7, 1e-9), stopped), Cancelled);
+}
+
+// Laws of the header: a particle hangs on the one nearest to it, s to s + 1 away; it keeps 2 s from all others, but
+// from that one's children and parent less; trees are their seeds'; nowhere could another particle be.
+TEST(GrowForest, laws_of_a_forest) {
+    ASSERT_TRUE(rc::check([] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        auto const step = *rc::gen::inRange<std::int64_t>(1, 8);
+        Mask const region = random_blob(seed, *rc::gen::inRange(1, 70), *rc::gen::inRange(1, 70),
+                                        *rc::gen::inRange(1, 9), *rc::gen::inRange(1, 20));
+        auto const seeds = random_seeds(region, step, *rc::gen::inRange<std::size_t>(1, 6), seed);
+        RC_PRE(!seeds.empty());
+        ForestParams const params = growth(step, seed, *rc::gen::element(1.0, 0.85, 0.3), *rc::gen::inRange(1, 5));
+        GrownForest const f = grow_forest(region, seeds, params);
+        RC_ASSERT(f.stop == ForestStop::full);
+        RC_ASSERT(f.parent.size() == f.cells.size());
+        RC_ASSERT(f.tree.size() == f.cells.size());
+        plain_forest::Trees trees(region, step);
+        for (std::size_t p = 0; p < f.cells.size(); ++p) {
+            if (p < seeds.size()) {
+                RC_ASSERT(f.cells[p] == seeds[p]);
+                RC_ASSERT(f.parent[p] == -1);
+                RC_ASSERT(f.tree[p] == static_cast<std::int64_t>(p));
+            } else {
+                RC_ASSERT(trees.may_hold(f.cells[p]));
+                RC_ASSERT(trees.nearest(f.cells[p]) == f.parent[p]);
+                RC_ASSERT(f.tree[p] == f.tree[static_cast<std::size_t>(f.parent[p])]);
+            }
+            trees.add(f.cells[p], f.parent[p]);
+        }
+        Mask const reached = plain_forest::reached_from(seeds, region);
+        for (std::int64_t i = 0; i < region.cells(); ++i) {
+            RC_ASSERT(!(reached[i] != 0 && trees.may_hold(region.grid().at(i))));
+        }
+    }));
+}
+
+TEST(GrowForest, land_without_a_seed_stays_empty) {
+    Mask const land = mask_of({"####.###", "####.###", "####.###", "####.###"});
+    GrownForest const f = grow_forest(land, {{0, 0}}, growth(1, 7));
+    EXPECT_GT(f.cells.size(), 5U);
+    EXPECT_TRUE(std::ranges::all_of(f.cells, [](Cell c) { return c.col < 4; }));
+}
+
+// Law: no field of Run changes a result.
+TEST(GrowForest, same_cells_for_any_number_of_threads) {
+    Mask const land = random_blob(5, 200, 200, 8, 60);
+    std::vector<Cell> const seeds = random_seeds(land, 5, 6, 9);
+    thalweg::Run one;
+    one.threads = 1;
+    thalweg::Run two;
+    two.threads = 2;
+    GrownForest const first = grow_forest(land, seeds, growth(5, 7), one);
+    for (GrownForest const& again :
+         {grow_forest(land, seeds, growth(5, 7), two), grow_forest(land, seeds, growth(5, 7))}) {
+        EXPECT_EQ(again.cells, first.cells);
+        EXPECT_EQ(again.parent, first.parent);
+        EXPECT_EQ(again.walkers, first.walkers);
+    }
+    EXPECT_NE(grow_forest(land, seeds, growth(5, 8)).cells, first.cells);
+}
+
+TEST(GrowForest, a_longer_growth_continues_a_shorter) {
+    Mask const land(grid_of(120, 90), 1);
+    GrownForest const whole = grow_forest(land, {{0, 0}, {100, 50}}, growth(4, 7));
+    ForestParams params = growth(4, 7);
+    params.particles = 60;
+    GrownForest const part = grow_forest(land, {{0, 0}, {100, 50}}, params);
+    ASSERT_EQ(part.cells.size(), 60U);
+    EXPECT_EQ(part.stop, ForestStop::particles);
+    EXPECT_TRUE(std::equal(part.cells.begin(), part.cells.end(), whole.cells.begin()));
+    EXPECT_GT(whole.cells.size(), 200U);
+}
+
+// Law: on trees that do not grow, walkers by jumps and walkers by unit steps arrive alike, in a region with corners and
+// an islet; the test would see it if one in twenty were displaced.
+TEST(RegionWalk, arrivals_have_the_distribution_of_unit_steps) {
+    Mask land(grid_of(60, 50), 1);
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        Cell const c = land.grid().at(i);
+        bool const bay = c.col > 30 && c.row < 14;
+        bool const islet = c.col > 12 && c.col < 20 && c.row > 24 && c.row < 31;
+        land[i] = bay || islet ? 0 : 1;
+    }
+    ForestParams params = growth(4, 7);
+    params.particles = 14;
+    GrownForest const f = grow_forest(land, {{0, 0}, {59, 49}}, params);
+    auto const fast = plain_forest::arrivals_by_jumps(land, f, params.step_cells, 150000, 1);
+    auto const slow = plain_forest::arrivals_by_steps(land, f, params.step_cells, 150000, 2);
+    auto const honest = chi_squared::two_samples(fast, slow);
+    EXPECT_GT(honest.freedom, 40.0);
+    EXPECT_GT(honest.p, 0.01) << "chi2 " << honest.x << " of " << honest.freedom;
+
+    auto planted = fast;
+    std::vector<std::int64_t> places = fast;
+    std::ranges::sort(places);
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    for (std::size_t i = 0; i < planted.size(); i += 20) {
+        auto const next = std::ranges::upper_bound(places, planted[i]);
+        planted[i] = next == places.end() ? places.front() : *next;
+    }
+    EXPECT_LT(chi_squared::two_samples(planted, slow).p, 0.01);
+}
+
+// Law: forests come out in each shape as often as by the rules written out over unit steps and all pairs of particles,
+// with walkers from everywhere.
+TEST(GrowForest, shapes_come_as_often_as_by_unit_steps) {
+    Mask const land = mask_of({"############.....", "############.....", "#################", "#####...#########",
+                               "#####...#########", "#################", "#################", "....#############",
+                               "....#############", "#################"});
+    for (auto const& [sticking, visits] : {std::pair{1.0, 1}, {0.4, 1}, {0.6, 2}}) {
+        std::vector<Shape> fast;
+        std::vector<Shape> slow;
+        for (std::uint64_t seed = 0; seed < 500; ++seed) {
+            fast.push_back(shape(grow_forest(land, {{0, 2}, {16, 9}}, growth(2, seed, sticking, visits))));
+            slow.push_back(
+                shape(plain_forest::grow(land, {{0, 2}, {16, 9}}, growth(2, seed + 100000, sticking, visits))));
+        }
+        auto const test = chi_squared::two_samples(fast, slow);
+        EXPECT_GT(test.freedom, 4.0);
+        EXPECT_GT(test.p, 0.001) << sticking << " " << visits << ": chi2 " << test.x << " of " << test.freedom;
+    }
+}
+
+TEST(GrowForest, what_would_not_end_is_refused_before_it_begins) {
+    Mask const region(grid_of(40, 40), 1);
+    EXPECT_THROW(grow_forest(region, {{20, 20}}, {.sticking = 1e-300}), BadParameter);
+    EXPECT_THROW(grow_forest(region, {{20, 20}}, {.sticking = 1e-12}), BadParameter);
+}

@@ -1,0 +1,500 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/growth/tokunaga/grow_strokes.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/geometry/crossings.hpp>
+#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/network/growth/tokunaga/internal/balance_banks.hpp>
+#include <thalweg/network/growth/tokunaga/internal/join_strokes.hpp>
+#include <thalweg/network/growth/tokunaga/internal/stroke_lands.hpp>
+#include <thalweg/network/order/order.hpp>
+
+using namespace thalweg;
+using network::grow_strokes;
+using network::GrownStrokes;
+using network::StrokesParams;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// 200 x 200 cells of 10 m, the south-west corner in (0, 0).
+Grid const grid{200, 200, 10.0, 0.0, 2000.0, "EPSG:32631"};
+
+RiverLine stroke(std::int64_t feature, std::vector<Vec2> const& line, std::string const& type = "B", int lambda = 2) {
+    RiverLine out;
+    out.feature = feature;
+    for (Vec2 const p : line) {
+        out.vertices.push_back({p.x, p.y, unknown});
+    }
+    out.type = type;
+    out.lambda = lambda;
+    return out;
+}
+
+RiverLines drawn(std::vector<RiverLine> lines) {
+    return {std::move(lines), "EPSG:32631", "hand.geojson", false};
+}
+
+/// Shallow trees, so that many can be grown.
+StrokesParams shallow() {
+    StrokesParams params;
+    params.max_depth = 3;
+    return params;
+}
+
+template <class Fault>
+void refused(RiverLines const& strokes, std::string const& words, StrokesParams const& params = shallow()) {
+    try {
+        grow_strokes(strokes, grid, params);
+        FAIL() << "not refused: " << words;
+    } catch (Fault const& e) {
+        EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+        EXPECT_STREQ(e.where(), "network.grow_strokes");
+    }
+}
+
+bool same(StreamNetwork const& a, StreamNetwork const& b) {
+    NetworkIndex const one(a);
+    NetworkIndex const two(b);
+    bool equal = one.arcs.size() == two.arcs.size() && one.from == two.from && one.to == two.to;
+    for (std::size_t k = 0; equal && k < one.arcs.size(); ++k) {
+        equal = a[one.arcs[k]].line == b[two.arcs[k]].line && a[one.arcs[k]].feature == b[two.arcs[k]].feature &&
+                a[one.arcs[k]].type == b[two.arcs[k]].type;
+    }
+    return equal;
+}
+
+double off(RiverLine const& line, Vec2 p) {
+    double least = infinite;
+    for (std::size_t i = 0; i + 1 < line.vertices.size(); ++i) {
+        Vec2 const a{line.vertices[i].x, line.vertices[i].y};
+        Vec2 const b{line.vertices[i + 1].x, line.vertices[i + 1].y};
+        least = std::min(least, distance(p, geometry::foot_on(a, b, p).at));
+    }
+    return least;
+}
+
+Vec2 start_of(RiverLine const& line) {
+    return {line.vertices.front().x, line.vertices.front().y};
+}
+
+/// The stroke on which another begins, within half a cell; none.
+RiverLine const* below(RiverLines const& strokes, std::size_t k) {
+    for (std::size_t other = 0; other < strokes.lines.size(); ++other) {
+        if (other != k && off(strokes.lines[other], start_of(strokes.lines[k])) <= 0.5 * grid.cell_m) {
+            return &strokes.lines[other];
+        }
+    }
+    return nullptr;
+}
+
+/// The law that a network breaks, "" where it breaks none.
+std::string broken(RiverLines const& strokes, GrownStrokes const& grown) {
+    NetworkIndex const index(grown.network);
+    std::vector<std::vector<Vec2>> lines;
+    std::map<std::int64_t, std::size_t> number;
+    for (std::size_t k = 0; k < strokes.lines.size(); ++k) {
+        number[strokes.lines[k].feature] = k;
+    }
+    for (ArcId const arc : index.arcs) {
+        Arc const& here = grown.network[arc];
+        lines.push_back(here.line);
+        if (number.count(here.feature) == 0 || here.type != strokes.lines[number[here.feature]].type) {
+            return "an arc has the type or the feature of no stroke";
+        }
+        for (Vec2 const p : here.line) {
+            if (!(p.x >= grid.west && p.x <= grid.east() && p.y >= grid.south() && p.y <= grid.north)) {
+                return "an arc leaves the grid";
+            }
+        }
+    }
+    for (geometry::Crossing const& c : geometry::crossings(lines)) {
+        if (!(c.at == lines[c.line].front() || c.at == lines[c.line].back())) {
+            return "arcs meet outside of nodes";
+        }
+    }
+    for (NodeId n = 0; n < boost::num_vertices(grown.network); ++n) {
+        if (boost::out_degree(n, grown.network) > 1 || index.basin[n] == 0) {
+            return "a node without one way to an outlet";
+        }
+    }
+    if (boost::num_vertices(grown.network) != index.arcs.size() + index.outlets.size()) {
+        return "a basin is no tree";
+    }
+    std::set<std::pair<double, double>> mouths;
+    for (std::size_t k = 0; k < strokes.lines.size(); ++k) {
+        if (below(strokes, k) == nullptr) {
+            mouths.insert({start_of(strokes.lines[k]).x, start_of(strokes.lines[k]).y});
+        }
+    }
+    for (NodeId const n : index.outlets) {
+        if (mouths.erase({grown.network[n].at.x, grown.network[n].at.y}) == 0) {
+            return "an outlet is no stroke's mouth, or twice one's";
+        }
+    }
+    return "";
+}
+
+/// Whether the arcs of a stroke that begins on another flow into others' where it does.
+bool joins(RiverLines const& strokes, std::size_t k, GrownStrokes const& grown, double within_m) {
+    NetworkIndex const index(grown.network);
+    for (NodeId n = 0; n < boost::num_vertices(grown.network); ++n) {
+        if (distance(grown.network[n].at, start_of(strokes.lines[k])) > within_m || index.out[n] < 0) {
+            continue;
+        }
+        auto const feature = [&](std::int64_t arc) {
+            return grown.network[index.arcs[static_cast<std::size_t>(arc)]].feature;
+        };
+        std::int64_t const own = strokes.lines[k].feature;
+        bool const arrives =
+            std::any_of(index.in[n].begin(), index.in[n].end(), [&](std::int64_t arc) { return feature(arc) == own; });
+        if (arrives && index.in[n].size() > 1 && feature(index.out[n]) != own) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Places of the main stem: from the outlet always up the arc of the highest order, while it is that of the outlet.
+std::vector<Vec2> trunk(StreamNetwork const& net, NodeId outlet) {
+    NetworkIndex const index(net);
+    NetworkOrders const orders = network::order(net);
+    std::vector<Vec2> places;
+    std::int64_t arc = index.in[outlet].front();
+    int const top = orders.strahler[static_cast<std::size_t>(arc)];
+    while (arc >= 0) {
+        auto const& line = net[index.arcs[static_cast<std::size_t>(arc)]].line;
+        places.insert(places.end(), line.rbegin(), line.rend());
+        std::int64_t next = -1;
+        for (std::int64_t const up : index.in[index.from[static_cast<std::size_t>(arc)]]) {
+            next = orders.strahler[static_cast<std::size_t>(up)] == top ? up : next;
+        }
+        arc = next;
+    }
+    return places;
+}
+
+} // namespace
+
+TEST(GrowStrokes, NoStrokesNoRivers) {
+    GrownStrokes const grown = grow_strokes(drawn({}), grid);
+    EXPECT_EQ(boost::num_vertices(grown.network), 0U);
+    EXPECT_EQ(grown.placed, 0);
+    EXPECT_EQ(grown.dropped, 0);
+}
+
+TEST(GrowStrokes, WhatIsNoStrokeIsRefusedWithItsPlace) {
+    RiverLine const good = stroke(1, {{1000.0, 100.0}, {1000.0, 900.0}});
+    refused<BadInput>(drawn({good, stroke(7, {})}), "stroke 7 of hand.geojson at (0.000, 0.000) is a single point");
+    refused<BadInput>(drawn({good, stroke(7, {{300.0, 400.0}})}),
+                      "stroke 7 of hand.geojson at (300.000, 400.000) is a");
+    refused<BadInput>(drawn({stroke(7, {{300.0, 400.0}, {300.0, 400.0}}), good}), "stroke 7 of hand.geojson at (300");
+    refused<BadInput>(drawn({good, stroke(8, {{300.0, 400.0}, {2000.5, 400.0}})}),
+                      "stroke 8 of hand.geojson at (2000.500, 400.000) leaves the grid");
+    refused<BadInput>(drawn({stroke(8, {{300.0, 400.0}, {unknown, 400.0}, {500.0, 400.0}})}), "leaves the grid");
+    refused<BadInput>(drawn({good, stroke(9, {{300.0, 400.0}, {400.0, 400.0}}, "Aaa+")}),
+                      "stroke 9 of hand.geojson at (300.000, 400.000) has the unknown river type 'Aaa+'. "
+                      "Did you mean 'Aa+'?");
+    refused<BadInput>(drawn({good, stroke(9, {{998.0, 400.0}, {1001.0, 400.0}, {1000.0, 400.0}})}), "stroke 9");
+    refused<BadInput>(drawn({good, stroke(9, {{1004.0, 400.0}, {1000.0, 400.0}})}),
+                      "stroke 9 of hand.geojson at (1000.000, 400.000) is no longer than half a cell");
+}
+
+TEST(GrowStrokes, StrokesThatCannotBeRiversTogetherAreRefusedWithTheirPlace) {
+    RiverLine const up = stroke(1, {{1000.0, 100.0}, {1000.0, 900.0}});
+    auto const with = [&](std::vector<Vec2> const& line) { return drawn({up, stroke(2, line)}); };
+    refused<BadInput>(with({{500.0, 300.0}, {1500.0, 500.0}}),
+                      "stroke 1 of hand.geojson at (1000.000, 400.000) crosses stroke 2");
+    refused<BadInput>(with({{500.0, 300.0}, {1000.0, 500.0}}),
+                      "stroke 2 of hand.geojson at (1000.000, 500.000) ends on stroke 1; strokes run from their mouth "
+                      "upstream: turn it round");
+    refused<BadInput>(with({{500.0, 300.0}, {996.0, 500.0}}), "ends on stroke 1");
+    refused<BadInput>(with({{500.0, 300.0}, {1000.0, 900.0}}), "(1000.000, 900.000) ends on stroke 2");
+    refused<BadInput>(with({{1000.0, 104.0}, {1500.0, 500.0}}),
+                      "stroke 2 of hand.geojson at (1000.000, 104.000) begins where stroke 1 does");
+    refused<BadInput>(with({{1000.0, 897.0}, {1500.0, 1500.0}}),
+                      "stroke 2 of hand.geojson at (1000.000, 897.000) begins at the upper end of stroke 1");
+    refused<BadInput>(with({{1000.0, 300.0}, {1300.0, 300.0}, {900.0, 600.0}}),
+                      "(1000.000, 525.000) crosses stroke 2"); // begins on it and crosses it
+    refused<BadInput>(with({{1000.0, 300.0}, {1000.0, 500.0}, {1200.0, 600.0}}), "crosses stroke 2"); // runs along it
+    refused<BadInput>(
+        drawn({up, stroke(2, {{1000.0, 500.0}, {1400.0, 600.0}}), stroke(3, {{1003.0, 500.0}, {600.0, 600.0}})}),
+        "stroke 3 of hand.geojson at (1003.000, 500.000) begins where stroke 2 does");
+    // The third crosses where the second begins.
+    refused<BadInput>(
+        drawn({up, stroke(2, {{1000.0, 500.0}, {1400.0, 600.0}}), stroke(3, {{800.0, 400.0}, {1200.0, 600.0}})}),
+        "at (1000.000, 500.000) crosses stroke 3");
+}
+
+TEST(GrowStrokes, AStrokeWithALoopIsRefused) {
+    std::vector<Vec2> const loop{{500.0, 500.0}, {900.0, 500.0}, {900.0, 700.0}, {700.0, 300.0}};
+    refused<BadInput>(drawn({stroke(4, loop)}),
+                      "stroke 4 of hand.geojson at (800.000, 500.000) meets itself; draw it without loops");
+    refused<BadInput>(drawn({stroke(4, {{500.0, 500.0}, {900.0, 500.0}, {600.0, 500.0}})}), "meets itself");
+    refused<BadInput>(drawn({stroke(4, {{500.0, 500.0}, {900.0, 500.0}, {900.0, 800.0}, {500.0, 500.0}})}),
+                      "(500.000, 500.000) meets itself");
+    // Another begins in the loop's knot.
+    refused<BadInput>(drawn({stroke(4, loop), stroke(5, {{800.0, 500.0}, {780.0, 900.0}})}), "meets itself");
+}
+
+TEST(GrowStrokes, StrokesInARingAreRefused) {
+    refused<BadInput>(drawn({stroke(1, {{100.0, 500.0}, {900.0, 500.0}}),
+                             stroke(2, {{500.0, 500.0}, {500.0, 200.0}, {100.0, 200.0}, {100.0, 800.0}})}),
+                      "stroke 1 of hand.geojson at (100.000, 500.000) flows in a ring of strokes");
+    refused<BadInput>(drawn({stroke(3, {{1500.0, 1000.0}, {1500.0, 1900.0}}), // not in it, but above it
+                             stroke(1, {{100.0, 500.0}, {900.0, 500.0}}), stroke(2, {{500.0, 500.0}, {500.0, 900.0}}),
+                             stroke(4, {{500.0, 700.0}, {100.0, 700.0}, {100.0, 300.0}})}),
+                      "flows in a ring of strokes");
+}
+
+TEST(GrowStrokes, NumbersOutOfRangeAreRefused) {
+    RiverLines const one = drawn({stroke(1, {{1000.0, 100.0}, {1000.0, 900.0}})});
+    auto const bad = [&](auto change, std::string const& words) {
+        StrokesParams params;
+        change(params);
+        refused<BadParameter>(one, words, params);
+    };
+    bad([](StrokesParams& p) { p.max_depth = 0; }, "max_depth is 0, it must lie in [1, 29]");
+    bad([](StrokesParams& p) { p.max_depth = 30; }, "max_depth is 30");
+    for (double const reach : {0.0, -1.0, 2.001, unknown}) {
+        bad([=](StrokesParams& p) { p.reach = reach; }, "reach is ");
+    }
+    for (double const clearance : {0.04, 0.36, unknown}) {
+        bad([=](StrokesParams& p) { p.clearance = clearance; }, "clearance is ");
+    }
+    for (double const spacing : {-1.0, unknown, infinite}) {
+        bad([=](StrokesParams& p) { p.min_spacing_m = spacing; }, "min_spacing_m is ");
+    }
+    StrokesParams params;
+    params.tree.generator = 51;
+    EXPECT_THROW(grow_strokes(drawn({stroke(1, {{1000.0, 100.0}, {1000.0, 900.0}}, "B", 0)}), grid, params),
+                 BadParameter);
+}
+
+TEST(GrowStrokes, RefinementsFollowFromTheLength) {
+    StrokesParams params;
+    params.max_depth = 4;
+    for (auto const& [length, depth] : std::vector<std::pair<double, int>>{
+             {30.0, 1}, {200.0, 1}, {700.0, 1}, {749.9, 1}, {750.1, 2}, {1200.0, 2}, {1260.0, 3}, {1740.0, 3}}) {
+        GrownStrokes const grown =
+            grow_strokes(drawn({stroke(1, {{1000.0, 100.0}, {1000.0, 100.0 + length}})}), grid, params);
+        NetworkOrders const orders = network::order(grown.network);
+        ASSERT_FALSE(orders.strahler.empty());
+        EXPECT_EQ(*std::max_element(orders.strahler.begin(), orders.strahler.end()), depth + 1) << length;
+    }
+    // Longer than the grid is wide: no more than asked.
+    GrownStrokes const grown =
+        grow_strokes(drawn({stroke(1, {{100.0, 100.0}, {1900.0, 400.0}, {1900.0, 1900.0}})}), grid, params);
+    NetworkOrders const orders = network::order(grown.network);
+    EXPECT_EQ(*std::max_element(orders.strahler.begin(), orders.strahler.end()), 5);
+}
+
+TEST(GrowStrokes, TheGeneratorIsThatOfTheStrokeOrElseThatOfAll) {
+    StrokesParams params = shallow();
+    params.tree.generator = 5;
+    for (int const lambda : {0, 1, 2, 3, 9}) {
+        GrownStrokes const grown =
+            grow_strokes(drawn({stroke(1, {{1000.0, 100.0}, {1000.0, 700.0}}, "B", lambda)}), grid, params);
+        EXPECT_EQ(grown.placed + grown.dropped, 2 * (lambda == 0 ? 5 : lambda) + 1) << lambda;
+    }
+}
+
+TEST(GrowStrokes, TheTrunkFollowsTheStroke) {
+    for (std::vector<Vec2> const& line :
+         std::vector<std::vector<Vec2>>{{{1000.0, 0.0}, {1000.0, 1900.0}},
+                                        {{100.0, 300.0}, {700.0, 500.0}, {1200.0, 400.0}, {1800.0, 900.0}},
+                                        {{1900.0, 1900.0}, {1500.0, 1300.0}, {1400.0, 700.0}, {800.0, 500.0}}}) {
+        RiverLines const strokes = drawn({stroke(1, line, "C")});
+        StrokesParams params;
+        params.max_depth = 5;
+        GrownStrokes const grown = grow_strokes(strokes, grid, params);
+        EXPECT_EQ(broken(strokes, grown), "");
+        NetworkIndex const index(grown.network);
+        ASSERT_EQ(index.outlets.size(), 1U);
+        std::vector<Vec2> const places = trunk(grown.network, index.outlets.front());
+        EXPECT_GT(places.size(), 15U);
+        for (Vec2 const p : places) {
+            EXPECT_LE(off(strokes.lines.front(), p), 1e-3) << p.x << " " << p.y;
+        }
+        EXPECT_GE(static_cast<double>(grown.placed), 0.95 * static_cast<double>(grown.placed + grown.dropped));
+    }
+}
+
+TEST(GrowStrokes, OneThatBeginsOnAnotherFlowsIntoIt) {
+    RiverLines const strokes = drawn(
+        {stroke(3, {{1004.0, 700.0}, {1500.0, 1000.0}}, "A", 3), stroke(1, {{1000.0, 0.0}, {1000.0, 1500.0}}, "B"),
+         stroke(2, {{997.0, 1000.0}, {300.0, 1400.0}}, "Aa+", 1), stroke(4, {{1300.0, 881.0}, {1250.0, 1300.0}}, "A")});
+    GrownStrokes const grown = grow_strokes(strokes, grid);
+    EXPECT_EQ(broken(strokes, grown), "");
+    NetworkIndex const index(grown.network);
+    ASSERT_EQ(index.outlets.size(), 1U);
+    for (std::size_t const k : {0U, 2U, 3U}) {
+        EXPECT_TRUE(joins(strokes, k, grown, 0.5 * grid.cell_m)) << strokes.lines[k].feature;
+    }
+    EXPECT_GE(static_cast<double>(grown.placed), 0.95 * static_cast<double>(grown.placed + grown.dropped));
+    // The same mouths and ends whichever comes first in the file.
+    RiverLines turned = strokes;
+    std::reverse(turned.lines.begin(), turned.lines.end());
+    GrownStrokes const again = grow_strokes(turned, grid);
+    EXPECT_EQ(broken(turned, again), "");
+    EXPECT_EQ(NetworkIndex(again.network).outlets.size(), 1U);
+}
+
+TEST(GrowStrokes, BothSidesOfATrunkAreFilledAsTheyAreLarge) {
+    // A trunk in the middle, one near the west edge, and one near the east.
+    for (double const x : {1000.0, 300.0, 1700.0}) {
+        RiverLines const strokes = drawn({stroke(1, {{x, 100.0}, {x, 1900.0}})});
+        std::vector<network::Stroke> const read = network::join_strokes(strokes, grid);
+        double const left = network::StrokeLands(read, grid, 0.35).share_left(0);
+        EXPECT_NEAR(left, x == 1000.0 ? 0.5 : x == 300.0 ? 300.0 / 865.0 : 565.0 / 865.0, 0.04);
+        for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+            StrokesParams params;
+            params.max_depth = 4;
+            params.tree.seed = seed;
+            GrownStrokes const grown = grow_strokes(strokes, grid, params);
+            double west = 0.0;
+            double all = 0.0;
+            for (auto const& arc : boost::make_iterator_range(boost::edges(grown.network))) {
+                auto const& line = grown.network[arc].line;
+                for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+                    double const middle = 0.5 * (line[i].x + line[i + 1].x);
+                    double const length = distance(line[i], line[i + 1]);
+                    all += std::fabs(middle - x) > 1e-3 ? length : 0.0;
+                    west += middle < x - 1e-3 ? length : 0.0;
+                }
+            }
+            EXPECT_NEAR(west / all, left, x == 1000.0 ? 0.12 : 0.2) << x << " seed " << seed;
+        }
+    }
+}
+
+TEST(GrowStrokes, IsTheSameForTheSameSeedOnly) {
+    RiverLines const strokes = drawn(
+        {stroke(1, {{1000.0, 0.0}, {1000.0, 1500.0}}, "B", 3), stroke(2, {{1000.0, 700.0}, {1600.0, 1200.0}}, "A", 4)});
+    StrokesParams params = shallow();
+    GrownStrokes const seven = grow_strokes(strokes, grid, params);
+    EXPECT_TRUE(same(seven.network, grow_strokes(strokes, grid, params).network));
+    params.tree.seed = 8;
+    EXPECT_FALSE(same(seven.network, grow_strokes(strokes, grid, params).network));
+}
+
+TEST(GrowStrokes, ListensToAStop) {
+    std::stop_source stop;
+    stop.request_stop();
+    thalweg::Run run;
+    run.stop = stop.get_token();
+    EXPECT_THROW(grow_strokes(drawn({stroke(1, {{1000.0, 0.0}, {1000.0, 1500.0}})}), grid, {}, run), Cancelled);
+}
+
+TEST(BalanceBanks, RefusesWhatIsNoShare) {
+    network::TokunagaTree tree = network::grow_tokunaga({.order = 3});
+    EXPECT_THROW(network::balance_banks(tree, -0.01), BadParameter);
+    EXPECT_THROW(network::balance_banks(tree, 1.01), BadParameter);
+    EXPECT_THROW(network::balance_banks(tree, unknown), BadParameter);
+    network::TokunagaTree one = network::grow_tokunaga({.order = 1});
+    network::balance_banks(one, 0.5);
+    EXPECT_EQ(one.links.size(), 1U);
+    EXPECT_EQ(network::trunk_of(one), std::vector<std::size_t>{0});
+}
+
+RC_GTEST_PROP(BalanceBanks, GivesEachSideItsShareOfTheLinks, ()) {
+    int const lambda = *rc::gen::inRange(1, 8);
+    int const order = *rc::gen::inRange(1, 6);
+    auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+    double const share = *rc::gen::inRange(0, 101) / 100.0;
+    network::TokunagaTree const before = network::grow_tokunaga({.seed = seed, .generator = lambda, .order = order});
+    network::TokunagaTree tree = before;
+    network::balance_banks(tree, share);
+    RC_ASSERT(tree.links.size() == before.links.size());
+    std::vector<std::size_t> const trunk = network::trunk_of(tree);
+    std::set<std::size_t> const main(trunk.begin(), trunk.end());
+    double side[2] = {};
+    double largest = 0.0;
+    for (std::size_t i = 0; i < tree.links.size(); ++i) {
+        auto const& link = tree.links[i];
+        bool const branch =
+            link.down >= 0 && main.count(static_cast<std::size_t>(link.down)) != 0 && main.count(i) == 0;
+        RC_ASSERT((branch || link.turn == before.links[i].turn));
+        RC_ASSERT(std::abs(link.turn) == std::abs(before.links[i].turn));
+        if (!branch) {
+            continue;
+        }
+        double links = 0.0; // that flow through it, each found by walking down
+        for (std::size_t k = i; k < tree.links.size(); ++k) {
+            std::size_t at = k;
+            while (at > i) {
+                at = static_cast<std::size_t>(tree.links[at].down);
+            }
+            links += at == i ? 1.0 : 0.0;
+        }
+        side[link.turn > 0 ? 0 : 1] += links;
+        largest = std::max(largest, links);
+    }
+    RC_ASSERT(std::fabs(side[0] - share * (side[0] + side[1])) <= largest);
+}
+
+RC_GTEST_PROP(GrowStrokes, KeepsEveryLawOrSaysWhereItCannot, ()) {
+    auto const count = *rc::gen::inRange<std::size_t>(2, 7);
+    std::vector<RiverLine> lines;
+    auto const near = [](Vec2 p, int reach) {
+        auto const moved = [reach](double v) {
+            return std::clamp(v + *rc::gen::inRange(-reach, reach + 1), 0.0, 2000.0);
+        };
+        double const x = moved(p.x);
+        return Vec2{x, moved(p.y)};
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+        std::vector<Vec2> line{near({400.0 + 600.0 * static_cast<double>(k % 3), k < 3 ? 500.0 : 1500.0}, 250)};
+        if (k > 0 && *rc::gen::inRange(0, 3) == 0) { // on another, about
+            auto const& onto = lines[*rc::gen::inRange<std::size_t>(0, k)].vertices;
+            Vec3 const a = onto[0];
+            Vec3 const b = onto[1];
+            double const share = *rc::gen::inRange(0, 11) / 10.0;
+            line.front() = near({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}, 4);
+        }
+        auto const more = *rc::gen::inRange(1, 4);
+        for (int i = 0; i < more; ++i) {
+            line.push_back(near(line.back(), 200));
+        }
+        lines.push_back(stroke(static_cast<std::int64_t>(10 + k), line, *rc::gen::element<std::string>("", "A", "DA"),
+                               *rc::gen::inRange(0, 5)));
+    }
+    RiverLines const strokes = drawn(std::move(lines));
+    StrokesParams params = shallow();
+    params.max_depth = *rc::gen::inRange(1, 8);
+    params.tree.seed = *rc::gen::arbitrary<std::uint64_t>();
+    GrownStrokes grown;
+    try {
+        grown = grow_strokes(strokes, grid, params);
+    } catch (BadInput const& e) {
+        RC_TAG("refused");
+        RC_ASSERT(std::string(e.what()).find("stroke 1") != std::string::npos);
+        RC_ASSERT(std::string(e.what()).find(" of hand.geojson at (") != std::string::npos);
+        return;
+    }
+    RC_TAG("grown");
+    RC_ASSERT(broken(strokes, grown) == "");
+    RC_ASSERT(same(grown.network, grow_strokes(strokes, grid, params).network));
+    std::set<std::int64_t> features;
+    for (auto const& arc : boost::make_iterator_range(boost::edges(grown.network))) {
+        features.insert(grown.network[arc].feature);
+    }
+    for (std::size_t k = 0; k < strokes.lines.size(); ++k) {
+        if (below(strokes, k) != nullptr && features.count(strokes.lines[k].feature) != 0) {
+            RC_ASSERT(joins(strokes, k, grown, grid.cell_m)); // the other may have been moved by as much
+        }
+    }
+}

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/import/clip_lines.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace thalweg;
+
+RiverLines one(std::vector<Vec3> vertices) {
+    RiverLines lines;
+    lines.lines.push_back({4, std::move(vertices), "", 0});
+    lines.has_z = true;
+    return lines;
+}
+
+Grid const ten{10, 10, 1.0, 0.0, 10.0, ""};
+
+} // namespace
+
+TEST(ClipLines, NothingInside) {
+    EXPECT_TRUE(network::clip_lines({}, ten).lines.empty());
+    EXPECT_TRUE(network::clip_lines(one({{-5, 5, 1}, {-1, 5, 0}}), ten).lines.empty());
+    EXPECT_TRUE(network::clip_lines(one({{-5, 0, 1}, {0, -5, 0}}), ten).lines.empty());
+    EXPECT_TRUE(network::clip_lines(one({{0, 5, 1}, {-3, 5, 0}}), ten).lines.empty())
+        << "touches the edge in one point";
+}
+
+TEST(ClipLines, AllInsideIsKeptBitForBit) {
+    RiverLines const lines = one({{0.1, 0.2, 3}, {5, 5, 2}, {10, 10, 1}});
+    RiverLines const out = network::clip_lines(lines, ten);
+    ASSERT_EQ(out.lines.size(), 1U);
+    EXPECT_EQ(out.lines[0].vertices, lines.lines[0].vertices);
+}
+
+TEST(ClipLines, LeavesAndReturns) {
+    RiverLines const out = network::clip_lines(one({{2, 5, 8}, {12, 5, 6}, {12, 7, 4}, {2, 7, 2}}), ten);
+    ASSERT_EQ(out.lines.size(), 2U);
+    EXPECT_EQ(out.lines[0].vertices, (std::vector<Vec3>{{2, 5, 8}, {10, 5, 6.4}}));
+    EXPECT_EQ(out.lines[1].vertices, (std::vector<Vec3>{{10, 7, 3.6}, {2, 7, 2}}));
+    EXPECT_EQ(out.lines[1].feature, 4);
+}
+
+TEST(ClipLines, CrossesWithoutAVertexInside) {
+    RiverLines const out = network::clip_lines(one({{-10, 5, 30}, {20, 5, 0}}), ten);
+    ASSERT_EQ(out.lines.size(), 1U);
+    EXPECT_EQ(out.lines[0].vertices, (std::vector<Vec3>{{0, 5, 20}, {10, 5, 10}}));
+}

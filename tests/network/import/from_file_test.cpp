@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/import/from_file.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <measure/trees.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/measure/topology/topology.hpp>
+#include <thalweg/network/order/order.hpp>
+
+using namespace thalweg;
+using network::from_file;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Two rivers that meet, ids with gaps and out of order.
+NetworkFile y_shape() {
+    NetworkFile file;
+    file.nodes = {{40, {0, 0, 0}}, {7, {0, 10, 1}}, {8, {-5, 20, 2}}, {9, {5, 20, 3}}};
+    file.arcs = {{30, 7, 40, 0, 2, 2, 1, {{0, 10, 1}, {0, 0, 0}}},
+                 {20, 9, 7, 30, 1, 1, 1, {{5, 20, 3}, {4, 15, 2.5}, {0, 10, 1}}},
+                 {10, 8, 7, 30, 1, 1, 1, {{-5, 20, 2}, {0, 10, 1}}}};
+    file.arcs[0].us_area_m2 = 17.5;
+    file.arcs[0].braided = true;
+    file.arcs[1].type = "C4";
+    file.arcs[1].feature = 123;
+    file.arcs[1].survives = 4.5;
+    return file;
+}
+
+std::string fault_of(NetworkFile const& file) {
+    try {
+        from_file(file);
+    } catch (BadInput const& error) {
+        return error.what();
+    }
+    return "";
+}
+
+void expect_fault(NetworkFile const& file, std::string const& words) {
+    std::string const fault = fault_of(file);
+    EXPECT_NE(fault.find(words), std::string::npos) << words << "\n" << fault;
+}
+
+} // namespace
+
+TEST(FromFile, FirstFaultIsNamedAndWhatToDo) {
+    EXPECT_NE(fault_of({}).find("holds no arcs"), std::string::npos);
+    auto const broken = [](auto breaks, std::string const& words) {
+        NetworkFile file = y_shape();
+        breaks(file);
+        expect_fault(file, words);
+        expect_fault(file, "thalweg check");
+    };
+    broken([](NetworkFile& f) { f.arcs[1].id = 30; }, "several arcs have the id 30");
+    broken([](NetworkFile& f) { f.nodes[1].id = 8; }, "several nodes have the id 8");
+    broken([](NetworkFile& f) { f.arcs[1].from_node = 99; }, "arc 20 names node 99, which is missing");
+    broken([](NetworkFile& f) { f.nodes.push_back({50, {9, 9, 9}}); }, "node 50 at (9, 9) has no arc");
+    broken([](NetworkFile& f) { f.arcs[2].line.front().z = 2.5; }, "arc 10 ends at (-5, 20, 2.5) but its node 8");
+    broken([](NetworkFile& f) { f.arcs[2].line = {}; }, "arc 10 has no length");
+    broken([](NetworkFile& f) { f.arcs[1].line[1].x = not_a_number; }, "vertex 2 of arc 20");
+    broken([](NetworkFile& f) { f.arcs[1].line[1].z = not_a_number; }, "vertex 2 of arc 20");
+    broken([](NetworkFile& f) { f.arcs[2].ds_arc = 20; }, "arc 10 says that 20 is downstream");
+}
+
+TEST(FromFile, BifurcationsAndCirclesAreNamed) {
+    NetworkFile two = y_shape();
+    std::swap(two.arcs[2].from_node, two.arcs[2].to_node);
+    std::ranges::reverse(two.arcs[2].line);
+    expect_fault(two, "2 arcs leave the node at (0.000, 10.000)");
+    expect_fault(two, "thalweg check");
+    NetworkFile circle = y_shape();
+    circle.arcs[0].to_node = 8;
+    circle.arcs[0].line.back() = {-5, 20, 2};
+    circle.nodes.erase(circle.nodes.begin());
+    expect_fault(circle, "run in a circle");
+}
+
+TEST(FromFile, WhatTheFileSaysIsKeptInTheOrderOfIds) {
+    network::FileNetwork const made = from_file(y_shape());
+    EXPECT_EQ(made.arc_ids, (std::vector<std::int64_t>{10, 20, 30}));
+    NetworkIndex const index(made.network.plan);
+    EXPECT_EQ(index.outlets, (std::vector<NodeId>{3}));
+    EXPECT_EQ(made.network.arc_z[1], (std::vector<double>{3, 2.5, 1}));
+    Arc const& arc = made.network.plan[index.arcs[1]];
+    EXPECT_EQ(arc.type, "C4");
+    EXPECT_EQ(arc.feature, 123);
+    EXPECT_EQ(arc.survives, 4.5);
+    EXPECT_EQ(made.us_area_m2[2], 17.5);
+    EXPECT_TRUE(std::isnan(made.ds_area_m2[2]));
+    EXPECT_EQ(made.braided, (std::vector<std::uint8_t>{0, 0, 1}));
+}
+
+TEST(FromFile, RecordsAndSourcesGoWithTheArcs) {
+    NetworkFile file = y_shape();
+    file.arcs[1].record = 2;
+    file.arcs[1].feature = 5;
+    network::FileNetwork const made = from_file(file);
+    NetworkIndex const index(made.network.plan);
+    EXPECT_EQ(made.network.plan[index.arcs[1]].feature, 5);
+    EXPECT_EQ(made.records[1], 2);
+    ASSERT_EQ(made.stretches[1].size(), 1U);
+    EXPECT_EQ(made.stretches[1][0].feature, 5);
+    EXPECT_EQ(made.stretches[1][0].to_m, index.length_m[1]);
+    file.arcs[1].sources = {{5, 0.0, 1.0}, {6, 1.0, 2.0}};
+    EXPECT_EQ(from_file(file).stretches[1].size(), 2U);
+}
+
+TEST(FromFile, WithoutHeightsAllAreNaN) {
+    NetworkFile file = y_shape();
+    file.says.heights = false;
+    for (auto& arc : file.arcs) {
+        for (Vec3& p : arc.line) {
+            p.z = not_a_number;
+        }
+    }
+    network::FileNetwork const made = from_file(file);
+    EXPECT_TRUE(std::ranges::all_of(made.network.node_z, [](double z) { return std::isnan(z); }));
+    EXPECT_TRUE(std::isnan(made.network.arc_z[1][1]));
+}
+
+TEST(FromFile, EndsTakeTheHeightsOfNodesThatWereMade) {
+    NetworkFile file = y_shape();
+    file.says.nodes = false;
+    file.arcs[2].line.back().z = 1.25;
+    EXPECT_EQ(from_file(file).network.arc_z[0].back(), 1.0);
+}
+
+TEST(FromFile, NodesThatNobodyNamesAreNumberedAlongTheArcs) {
+    NetworkFile file = y_shape();
+    file.says.nodes = file.says.ends = false;
+    NetworkFile shuffled = file; // as another format might order its features
+    std::ranges::reverse(shuffled.arcs);
+    std::ranges::reverse(shuffled.nodes);
+    for (auto& arc : shuffled.arcs) {
+        arc.from_node = 100 - arc.from_node;
+        arc.to_node = 100 - arc.to_node;
+    }
+    for (auto& node : shuffled.nodes) {
+        node.id = 100 - node.id;
+    }
+    NetworkIndex const one(from_file(file).network.plan);
+    NetworkIndex const other(from_file(shuffled).network.plan);
+    EXPECT_EQ(one.from, (std::vector<NodeId>{0, 2, 1}));
+    EXPECT_EQ(one.to, (std::vector<NodeId>{1, 1, 3}));
+    EXPECT_EQ(other.from, one.from);
+    EXPECT_EQ(other.to, one.to);
+}
+
+TEST(FromFile, AFileThatSaysNothingOfDownstreamArcsIsBelieved) {
+    NetworkFile file = y_shape();
+    file.says.downstream = false;
+    file.arcs[0].ds_arc = 77;
+    EXPECT_EQ(fault_of(file), "");
+}
+
+// Law: what as_file makes of a network is that network again, bit for bit.
+TEST(FromFile, UndoesAsFile) {
+    ASSERT_TRUE(rc::check([] {
+        RaisedNetwork const rivers =
+            random_rivers(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::int64_t>(2, 30),
+                          *rc::gen::inRange<std::int64_t>(2, 30), 1.0 / 3.0);
+        NetworkFile const file = measure::as_file(rivers, network::order(rivers.plan));
+        network::FileNetwork const made = from_file(file);
+        RC_ASSERT(made.network.node_z == rivers.node_z);
+        RC_ASSERT(made.network.arc_z == rivers.arc_z);
+        NetworkIndex const was(rivers.plan);
+        NetworkIndex const is(made.network.plan);
+        RC_ASSERT(is.from == was.from);
+        RC_ASSERT(is.to == was.to);
+        for (std::size_t a = 0; a < was.arcs.size(); ++a) {
+            RC_ASSERT(made.network.plan[is.arcs[a]].line == rivers.plan[was.arcs[a]].line);
+        }
+    }));
+}

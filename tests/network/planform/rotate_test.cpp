@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/planform/rotate.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <network/networks.hpp>
+#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/network/growth/dla/pick_branch.hpp>
+
+namespace {
+
+using namespace thalweg;
+using network::rotate;
+using network::Rotated;
+
+TEST(Rotate, RefusesWhatItCannotTurn) {
+    StreamNetwork const net = test::network_of({{0.0, 0.0}, {0.0, 9.0}}, {{1, 0}});
+    EXPECT_THROW(rotate({}, test::grid_of(9, 9)), BadInput);
+    EXPECT_THROW(rotate(net, test::grid_of(9, 9), {181.0}), BadParameter);
+    EXPECT_THROW(rotate(net, test::grid_of(9, 5), {0.0}), BadInput);
+    StreamNetwork const nowhere =
+        test::network_of({{0.0, 0.0}, {0.0, std::numeric_limits<double>::quiet_NaN()}}, {{1, 0}});
+    EXPECT_THROW(rotate(nowhere, test::grid_of(9, 9)), BadInput);
+}
+
+TEST(Rotate, AQuarterTurnIsCounterClockwise) {
+    StreamNetwork const net = test::network_of({{0.0, 0.0}, {0.0, 8.0}}, {{1, 0}});
+    Rotated const out = rotate(net, test::grid_of(10, 10), {90.0});
+    EXPECT_EQ(out.network[0].at, (Vec2{9.0, 5.0}));
+    EXPECT_EQ(out.network[1].at, (Vec2{1.0, 5.0}));
+}
+
+TEST(Rotate, TheSameRiversInTheMiddleOfTheirGrid) {
+    ASSERT_TRUE(rc::check("distances are kept, a grid without a size is made to fit", [] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        double const turn = network::turn_by_chance(seed);
+        RC_ASSERT(std::fabs(turn) >= 12.0);
+        RC_ASSERT(std::fabs(turn) <= 33.0);
+        StreamNetwork const net = test::random_skeleton(seed, 40);
+        Grid frame = test::grid_of(0, 0);
+        frame.west = 500000.0;
+        frame.north = 5000000.0;
+        Rotated const out = rotate(net, frame, {turn});
+        NetworkIndex const before(net);
+        NetworkIndex const after(out.network);
+        RC_ASSERT(after.from == before.from);
+        for (std::size_t a = 0; a < before.arcs.size(); ++a) {
+            auto const& line = out.network[after.arcs[a]].line;
+            RC_ASSERT(std::fabs(after.length_m[a] - before.length_m[a]) < 1e-5 * static_cast<double>(line.size()));
+            RC_ASSERT(line.front() == out.network[after.from[a]].at);
+            for (Cell const c : cells_of_vertices(line, out.grid)) {
+                RC_ASSERT(!out.grid.on_border(c));
+            }
+        }
+        RC_ASSERT(out.grid.west == frame.west);
+        RC_ASSERT(out.grid.north == frame.north);
+    }));
+}
+
+TEST(Rotate, ABranchCutToTheTurnedBoxFits) {
+    network::Cluster const cluster = network::grow_dla({.particles = 3000});
+    for (double const turn : {-33.0, -12.0, 20.0}) {
+        auto const branch = network::pick_branch(cluster, {network::BranchChoice::all, 60, 40, turn});
+        EXPECT_TRUE(branch.cut);
+        StreamNetwork net;
+        for (Cell const c : branch.cells) {
+            boost::add_vertex(Node{{static_cast<double>(c.col), -static_cast<double>(c.row)}}, net);
+        }
+        add_arc(net, 0, 1, {});
+        EXPECT_NO_THROW(rotate(net, test::grid_of(60, 40), {turn}));
+        EXPECT_THROW(rotate(net, test::grid_of(60, 30), {turn}), BadInput);
+    }
+}
+
+} // namespace

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/planform/split_confluences.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <measure/trees.hpp>
+#include <network/networks.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/measure/topology/topology.hpp>
+#include <thalweg/network/order/order.hpp>
+
+using namespace thalweg;
+using network::split_confluences;
+
+namespace {
+
+/// Rivers that meet in one point, evenly around it, and leave it to the south; or none leaves.
+RaisedNetwork star(int rivers, bool outlet_in_the_middle, double reach_m = 100.0, double leaving_m = 100.0) {
+    RaisedNetwork made;
+    auto const node = [&](Vec2 at, double z) {
+        made.node_z.push_back(z);
+        return add_node(made.plan, at);
+    };
+    auto const arc = [&](NodeId from, NodeId to) {
+        made.arc_z.push_back({made.node_z[from], made.node_z[to]});
+        add_arc(made.plan, from, to, {});
+    };
+    Vec2 const middle{4000000.1, 500000.7};
+    NodeId const centre = node(middle, 10.0);
+    for (int i = 1; i <= rivers; ++i) {
+        double const angle = 2.0 * std::numbers::pi * i / (rivers + 1) - std::numbers::pi / 2.0;
+        arc(node({middle.x + reach_m * std::cos(angle), middle.y + reach_m * std::sin(angle)}, 10.0 + i), centre);
+    }
+    if (!outlet_in_the_middle) {
+        arc(centre, node({middle.x, middle.y - leaving_m}, 0.0));
+    }
+    return made;
+}
+
+/// Random rivers in which nodes were merged, so that more than two arcs meet: short arcs are contracted to their lower
+/// end wherever nothing crosses, that is where the arc is one segment and its upper node has arcs upstream.
+RaisedNetwork merged_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t rows, double share, double spacing_m) {
+    RaisedNetwork const rivers = random_rivers(seed, cols, rows, spacing_m);
+    NetworkIndex const index(rivers.plan);
+    std::vector<NodeId> goes_to(index.out.size());
+    for (NodeId n = 0; n < goes_to.size(); ++n) {
+        goes_to[n] = n;
+    }
+    std::vector<std::uint8_t> gone(index.arcs.size(), 0);
+    std::vector<std::uint8_t> touched(index.out.size(), 0);
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        NodeId const from = index.from[a];
+        NodeId const to = index.to[a];
+        bool const wanted = static_cast<double>(chance(seed, 1000 + a) % 1000) < 1000.0 * share;
+        if (wanted && rivers.arc_z[a].size() == 2 && !index.in[from].empty() && touched[from] == 0 &&
+            touched[to] == 0) {
+            gone[a] = 1;
+            goes_to[from] = to;
+            touched[from] = touched[to] = 1;
+        }
+    }
+    RaisedNetwork made;
+    std::vector<NodeId> number(goes_to.size());
+    for (NodeId n = 0; n < goes_to.size(); ++n) {
+        if (goes_to[n] == n) {
+            number[n] = add_node(made.plan, rivers.plan[n].at);
+            made.node_z.push_back(rivers.node_z[n]);
+        }
+    }
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        if (gone[a] == 0) {
+            NodeId const from = goes_to[index.from[a]];
+            NodeId const to = goes_to[index.to[a]];
+            Arc arc = rivers.plan[index.arcs[a]];
+            arc.feature = static_cast<std::int64_t>(a) + 1;
+            std::vector<double> z = rivers.arc_z[a];
+            z.back() = rivers.node_z[to];
+            add_arc(made.plan, number[from], number[to], std::move(arc));
+            made.arc_z.push_back(std::move(z));
+        }
+    }
+    return made;
+}
+
+std::size_t most_upstream(StreamNetwork const& network) {
+    std::size_t most = 0;
+    for (auto const& in : NetworkIndex(network).in) {
+        most = std::max(most, in.size());
+    }
+    return most;
+}
+
+std::vector<Finding> faults(RaisedNetwork const& network) {
+    return measure::check_topology(measure::as_file(network, network::order(network.plan))).findings;
+}
+
+std::string words(std::vector<Finding> const& findings) {
+    return findings.empty() ? "" : findings.front().text;
+}
+
+/// The sources upstream of each outlet, outlets in their order: what no splitting may change.
+std::vector<std::int64_t> sources_by_outlet(StreamNetwork const& network) {
+    NetworkIndex const index(network);
+    std::vector<std::int64_t> sources(index.outlets.size() + 1, 0);
+    for (NodeId n = 0; n < index.out.size(); ++n) {
+        sources[static_cast<std::size_t>(index.basin[n])] += index.in[n].empty() ? 1 : 0;
+    }
+    return sources;
+}
+
+} // namespace
+
+TEST(SplitConfluences, RefusesWhatCannotBe) {
+    RaisedNetwork const network = star(3, false);
+    EXPECT_THROW(split_confluences(network, {.max_upstream = 1}), BadParameter);
+    EXPECT_THROW(split_confluences(network, {.distance_m = -1.0}), BadParameter);
+    EXPECT_THROW(split_confluences(network, {.distance_m = std::numeric_limits<double>::infinity()}), BadParameter);
+    RaisedNetwork without = network;
+    without.arc_z.pop_back();
+    EXPECT_THROW(split_confluences(without), BadInput);
+}
+
+TEST(SplitConfluences, BinaryNetworkStaysAsItIs) {
+    RaisedNetwork const network = star(2, false);
+    network::Split const split = split_confluences(network);
+    EXPECT_TRUE(split.pieces.empty());
+    EXPECT_EQ(split.network.node_z, network.node_z);
+    EXPECT_EQ(split.network.arc_z, network.arc_z);
+    EXPECT_EQ(most_upstream(split_confluences(star(3, false), {.max_upstream = 3}).network.plan), 3U);
+}
+
+TEST(SplitConfluences, ThirdRiverJoinsOneDistanceDownstream) {
+    RaisedNetwork const network = star(3, false);
+    network::Split const split = split_confluences(network, {.distance_m = 5.0});
+    ASSERT_EQ(split.pieces.size(), 1U);
+    EXPECT_EQ(split.pieces[0].of, 3U);
+    EXPECT_FALSE(split.pieces[0].upstream);
+    EXPECT_EQ(most_upstream(split.network.plan), 2U);
+    EXPECT_EQ(words(faults(split.network)), "");
+    Vec2 const centre = split.network.plan[0].at;
+    Vec2 const joined = split.network.plan[5].at;
+    EXPECT_EQ(joined.x, centre.x);
+    EXPECT_NEAR(joined.y, centre.y - 5.0, 1e-9);
+    EXPECT_NEAR(split.network.node_z[5], 10.0 - 10.0 * 5.0 / 100.0, 1e-9);
+}
+
+TEST(SplitConfluences, ManyRiversAroundAPointAreSplitWhereverTheyLeave) {
+    for (int rivers = 3; rivers <= 12; ++rivers) {
+        for (bool const outlet : {false, true}) {
+            for (double const leaving_m : {100.0, 0.5, 1e-6}) {
+                for (int most = 2; most < rivers; most += 3) {
+                    RaisedNetwork const network = star(rivers, outlet, 100.0, leaving_m);
+                    network::Split const split = split_confluences(network, {.max_upstream = most, .distance_m = 3.0});
+                    EXPECT_LE(most_upstream(split.network.plan), static_cast<std::size_t>(most));
+                    EXPECT_EQ(split.pieces.size(), static_cast<std::size_t>(rivers - most));
+                    EXPECT_EQ(words(faults(split.network)), "") << rivers << outlet << leaving_m << most;
+                    EXPECT_EQ(NetworkIndex(split.network.plan).outlets.size(), 1U);
+                }
+            }
+        }
+    }
+}
+
+TEST(SplitConfluences, OutletIsSplitUpstream) {
+    network::Split const split = split_confluences(star(3, true), {.distance_m = 5.0});
+    ASSERT_EQ(split.pieces.size(), 1U);
+    EXPECT_TRUE(split.pieces[0].upstream);
+    NetworkIndex const index(split.network.plan);
+    EXPECT_EQ(index.outlets, (std::vector<NodeId>{0}));
+    EXPECT_EQ(index.in[0].size(), 2U);
+    EXPECT_NEAR(distance(split.network.plan[0].at, split.network.plan[4].at), 5.0, 1e-9);
+}
+
+TEST(SplitConfluences, RiversOnOneSideAreLedAroundTheOthers) {
+    // All come from the east within a fan; the river leaves to the west: straight ways would cut across the fan.
+    RaisedNetwork network;
+    auto const node = [&](Vec2 at, double z) {
+        network.node_z.push_back(z);
+        return add_node(network.plan, at);
+    };
+    NodeId const centre = node({0.0, 0.0}, 1.0);
+    for (double const y : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
+        NodeId const source = node({100.0, y}, 5.0);
+        network.arc_z.push_back({5.0, 1.0});
+        add_arc(network.plan, source, centre, {});
+    }
+    NodeId const outlet = node({-100.0, 0.0}, 0.0);
+    network.arc_z.push_back({1.0, 0.0});
+    add_arc(network.plan, centre, outlet, {});
+    network::Split const split = split_confluences(network, {.distance_m = 2.0});
+    EXPECT_EQ(most_upstream(split.network.plan), 2U);
+    EXPECT_EQ(words(faults(split.network)), "");
+}
+
+TEST(SplitConfluences, ALevelRiverStaysLevel) {
+    RaisedNetwork network = star(5, true);
+    for (auto& z : network.arc_z) {
+        z.assign(z.size(), 10.0);
+    }
+    network.node_z.assign(network.node_z.size(), 10.0);
+    for (auto const& z : split_confluences(network, {.distance_m = 5.0}).network.arc_z) {
+        EXPECT_TRUE(std::ranges::all_of(z, [](double h) { return h == 10.0; }));
+    }
+}
+
+// Law: at most so many arcs end in a node; every law of the schema holds after as before; each source keeps its outlet;
+// arcs keep numbers and what they carry.
+TEST(SplitConfluences, LawsHoldOnRandomRivers) {
+    ASSERT_TRUE(rc::check([] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        auto const cols = *rc::gen::inRange<std::int64_t>(2, 24);
+        auto const rows = *rc::gen::inRange<std::int64_t>(2, 24);
+        int const most = *rc::gen::inRange(2, 4);
+        double const spacing_m = *rc::gen::element(1.0, 0.1, 33.3, 1234.5);
+        double const distance_m = spacing_m * *rc::gen::element(0.0, 0.001, 0.3, 1.0, 7.0);
+        RaisedNetwork const network = merged_rivers(seed, cols, rows, 0.7, spacing_m);
+        RC_PRE(faults(network).empty());
+        network::Split const split = split_confluences(network, {most, distance_m});
+        RC_CLASSIFY(!split.pieces.empty(), "split");
+        RC_ASSERT(most_upstream(split.network.plan) <= static_cast<std::size_t>(most));
+        RC_ASSERT(words(faults(split.network)) == "");
+        RC_ASSERT(sources_by_outlet(split.network.plan) == sources_by_outlet(network.plan));
+        NetworkIndex const before(network.plan);
+        NetworkIndex const after(split.network.plan);
+        RC_ASSERT(after.arcs.size() == before.arcs.size() + split.pieces.size());
+        RC_ASSERT(after.out.size() == before.out.size() + split.pieces.size());
+        for (std::size_t a = 0; a < before.arcs.size(); ++a) {
+            RC_ASSERT(split.network.plan[after.arcs[a]].feature == network.plan[before.arcs[a]].feature);
+        }
+        for (std::size_t i = 0; i < split.pieces.size(); ++i) {
+            std::size_t const arc = before.arcs.size() + i;
+            RC_ASSERT(split.network.plan[after.arcs[arc]].feature ==
+                      split.network.plan[after.arcs[split.pieces[i].of]].feature);
+            RC_ASSERT(after.to[split.pieces[i].moved] == before.out.size() + i);
+        }
+    }));
+}

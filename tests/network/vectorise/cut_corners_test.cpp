@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/vectorise/cut_corners.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <network/networks.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/vectorise/prune.hpp>
+
+namespace {
+
+using namespace thalweg;
+using network::cut_corners;
+
+std::vector<Vec2> first_line(StreamNetwork const& net) {
+    return net[NetworkIndex(net).arcs.front()].line;
+}
+
+} // namespace
+
+TEST(CutCorners, RefusesCellsWithoutSize) {
+    StreamNetwork const net = test::network_of({{0, 0}, {1, 0}}, {{0, 1}});
+    for (double const cell : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_THROW(cut_corners(net, cell), BadParameter);
+    }
+}
+
+TEST(CutCorners, ACornerGoesAndStraightAndDiagonalStepsStay) {
+    StreamNetwork const net =
+        test::network_of({{0, 0}, {5, 4}}, {{0, 1, {{1, 0}, {2, 0}, {2, 1}, {3, 2}, {4, 3}, {5, 3}}}});
+    std::vector<Vec2> const wanted = {{0, 0}, {1, 0}, {2, 1}, {3, 2}, {4, 3}, {5, 4}};
+    EXPECT_EQ(first_line(cut_corners(net, 1.0)), wanted);
+}
+
+TEST(CutCorners, OfAStaircaseEverySecondCornerIsLeft) {
+    StreamNetwork const net = test::network_of({{0, 0}, {2, 2}}, {{0, 1, {{1, 0}, {1, 1}, {2, 1}}}});
+    EXPECT_EQ(first_line(cut_corners(net, 1.0)), (std::vector<Vec2>{{0, 0}, {1, 1}, {2, 2}}));
+}
+
+TEST(CutCorners, LinesThatDoNotRunFromCellToCellStay) {
+    StreamNetwork const net = test::network_of({{0, 0}, {20, 20}}, {{0, 1, {{20, 0}}}});
+    EXPECT_EQ(first_line(cut_corners(net, 1.0)), first_line(net));
+}
+
+TEST(CutCorners, PrunedRiversHaveNoCornerAndKeepTheirEnds) {
+    ASSERT_TRUE(rc::check("corners", [] {
+        auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
+        StreamNetwork const net = network::prune(test::random_skeleton(seed, 48), {3.0, 1.0}).network;
+        StreamNetwork const cut = cut_corners(net, 1.0);
+        NetworkIndex const before(net);
+        NetworkIndex const after(cut);
+        RC_ASSERT(before.from == after.from);
+        RC_ASSERT(before.to == after.to);
+        for (std::size_t a = 0; a < after.arcs.size(); ++a) {
+            auto const& line = cut[after.arcs[a]].line;
+            RC_ASSERT(line.front() == net[before.arcs[a]].line.front());
+            RC_ASSERT(line.back() == net[before.arcs[a]].line.back());
+            RC_ASSERT(after.length_m[a] <= before.length_m[a]);
+            for (std::size_t i = 2; i < line.size(); ++i) {
+                RC_ASSERT(distance(line[i - 2], line[i]) > 1.5);
+            }
+        }
+    }));
+}

@@ -1,0 +1,371 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/vectorise/prune.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <network/networks.hpp>
+#include <thalweg/core/run/error.hpp>
+
+namespace {
+
+using namespace thalweg;
+using network::prune;
+
+/// A network as a set of lines with their thresholds.
+using Lines = std::map<std::vector<std::pair<double, double>>, double>;
+
+std::vector<std::pair<double, double>> key(std::vector<Vec2> const& line) {
+    std::vector<std::pair<double, double>> out;
+    for (Vec2 const p : line) {
+        out.emplace_back(p.x, p.y);
+    }
+    return out;
+}
+
+Lines lines_of(StreamNetwork const& net) {
+    Lines lines;
+    for (ArcId const arc : NetworkIndex(net).arcs) {
+        lines[key(net[arc].line)] = net[arc].survives;
+    }
+    return lines;
+}
+
+bool same_lines(Lines const& a, Lines const& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](auto const& p, auto const& q) {
+        bool const near = std::fabs(p.second - q.second) <= 1e-6 * (1.0 + p.second);
+        return p.first == q.first && (near || p.second == q.second);
+    });
+}
+
+/// Bit for bit, with numbering.
+bool equal(StreamNetwork const& a, StreamNetwork const& b) {
+    NetworkIndex const i(a);
+    NetworkIndex const j(b);
+    bool same = i.from == j.from && i.to == j.to && i.out.size() == j.out.size();
+    for (NodeId n = 0; same && n < i.out.size(); ++n) {
+        same = a[n].at == b[n].at;
+    }
+    for (std::size_t k = 0; same && k < i.arcs.size(); ++k) {
+        Arc const& p = a[i.arcs[k]];
+        Arc const& q = b[j.arcs[k]];
+        same = p.line == q.line && p.survives == q.survives && p.feature == q.feature && p.type == q.type;
+    }
+    return same;
+}
+
+/// The rule as it is told: look for the shortest leaf, remove it, merge, measure everything anew.
+struct PlainArc {
+    std::size_t from;
+    std::size_t to;
+    std::vector<Vec2> line;
+};
+
+struct PlainForest {
+    std::vector<Vec2> at;
+    std::vector<PlainArc> arcs;
+
+    explicit PlainForest(StreamNetwork const& net) {
+        for (NodeId n = 0; n < boost::num_vertices(net); ++n) {
+            at.push_back(net[n].at);
+        }
+        for (ArcId const arc : NetworkIndex(net).arcs) {
+            arcs.push_back({boost::source(arc, net), boost::target(arc, net), net[arc].line});
+        }
+        while (merge_one()) {
+        }
+    }
+    std::size_t above(std::size_t node) const {
+        return static_cast<std::size_t>(
+            std::count_if(arcs.begin(), arcs.end(), [&](PlainArc const& a) { return a.to == node; }));
+    }
+    bool merge_one() {
+        for (std::size_t up = 0; up < arcs.size(); ++up) {
+            for (std::size_t down = 0; down < arcs.size(); ++down) {
+                if (arcs[up].to == arcs[down].from && above(arcs[up].to) == 1) {
+                    arcs[up].to = arcs[down].to;
+                    arcs[up].line.insert(arcs[up].line.end(), arcs[down].line.begin() + 1, arcs[down].line.end());
+                    arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(down));
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+    /// The shortest leaf (ties: north, then west), arcs.size() for none.
+    std::size_t shortest_leaf() const {
+        std::size_t best = arcs.size();
+        for (std::size_t a = 0; a < arcs.size(); ++a) {
+            if (above(arcs[a].from) > 0) {
+                continue;
+            }
+            auto const rank = [&](std::size_t k) {
+                // Steps of the same kinds in another order are the same length.
+                double const length = std::floor(length_of(arcs[k].line) * 1e6 + 0.5);
+                return std::make_tuple(length, -at[arcs[k].from].y, at[arcs[k].from].x);
+            };
+            if (best == arcs.size() || rank(a) < rank(best)) {
+                best = a;
+            }
+        }
+        return best;
+    }
+};
+
+Lines plain_prune(StreamNetwork const& net, double length_cells) {
+    PlainForest forest(net);
+    std::size_t leaf = forest.shortest_leaf();
+    while (leaf < forest.arcs.size() && length_of(forest.arcs[leaf].line) < length_cells - 1e-6) {
+        forest.arcs.erase(forest.arcs.begin() + static_cast<std::ptrdiff_t>(leaf));
+        while (forest.merge_one()) {
+        }
+        leaf = forest.shortest_leaf();
+    }
+    Lines lines;
+    for (PlainArc const& a : forest.arcs) {
+        lines[key(a.line)] = 0.0;
+    }
+    // Go on until nothing is left, to learn how long each line would have stayed.
+    double longest = 0.0;
+    std::vector<std::pair<std::vector<Vec2>, double>> removed;
+    for (; leaf < forest.arcs.size(); leaf = forest.shortest_leaf()) {
+        longest = std::max(longest, length_of(forest.arcs[leaf].line));
+        removed.emplace_back(forest.arcs[leaf].line, longest);
+        forest.arcs.erase(forest.arcs.begin() + static_cast<std::ptrdiff_t>(leaf));
+        while (forest.merge_one()) {
+        }
+    }
+    for (auto& [line, survives] : lines) {
+        for (auto const& [gone, at] : removed) {
+            auto const whole = key(gone);
+            if (std::search(whole.begin(), whole.end(), line.begin(), line.end()) != whole.end()) {
+                survives = at;
+            }
+        }
+    }
+    return lines;
+}
+
+/// Keeps the arcs that survive L and merges where two are left: what a reader of the thresholds does.
+Lines filtered(StreamNetwork const& net, double length_cells) {
+    NetworkIndex const index(net);
+    StreamNetwork kept;
+    for (NodeId n = 0; n < index.out.size(); ++n) {
+        boost::add_vertex(net[n], kept);
+    }
+    std::map<std::size_t, double> survives;
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        if (net[index.arcs[a]].survives >= length_cells) {
+            add_arc(kept, index.from[a], index.to[a], net[index.arcs[a]]);
+            survives[index.from[a]] = net[index.arcs[a]].survives;
+        }
+    }
+    Lines lines;
+    for (PlainArc const& a : PlainForest(kept).arcs) {
+        lines[key(a.line)] = survives[a.from];
+    }
+    return lines;
+}
+
+StreamNetwork any_network() {
+    auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+    if (*rc::gen::arbitrary<bool>()) {
+        return test::random_skeleton(seed, *rc::gen::inRange<std::int64_t>(10, 40));
+    }
+    return test::random_forest(seed, *rc::gen::inRange<std::size_t>(0, 30), *rc::gen::inRange<std::size_t>(1, 4));
+}
+
+/// A length at which something is left: a random share of the longest threshold.
+double any_length(StreamNetwork const& net) {
+    double longest = 0.0;
+    for (ArcId const arc : NetworkIndex(net).arcs) {
+        longest = std::max(longest, net[arc].survives);
+    }
+    return longest * *rc::gen::element(0.02, 0.1, 0.3, 0.7, 1.0);
+}
+
+std::string refusal(StreamNetwork const& net, network::PruneParams const& params) {
+    try {
+        prune(net, params);
+    } catch (BadParameter const& e) {
+        return std::string(e.where()) + ": " + e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST(Prune, RefusesBadParametersAndNetworks) {
+    StreamNetwork const net = test::chain(3);
+    EXPECT_THROW(prune(StreamNetwork()), BadInput);
+    EXPECT_THROW(prune(test::network_of({{0, 0}, {1, 0}}, {{0, 1}, {1, 0}})), BadInput);
+    EXPECT_THROW(prune(net, {-1.0, 1.0}), BadParameter);
+    EXPECT_THROW(prune(net, {std::numeric_limits<double>::quiet_NaN(), 1.0}), BadParameter);
+    EXPECT_THROW(prune(net, {1.0, 0.0}), BadParameter);
+    EXPECT_THROW(prune(net, {1.0, 1e-300}), BadParameter);
+}
+
+TEST(Prune, NamesTheLongestThatCanBeKept) {
+    StreamNetwork const net = test::network_of({{0, 0}, {384, 0}}, {{1, 0}});
+    EXPECT_EQ(refusal(net, {500.0, 1.0}),
+              "network.prune: pruning at 500 cells removes every arc (the longest is 384). Try 384 or less.");
+    EXPECT_EQ(boost::num_edges(prune(net, {384.0, 1.0}).network), 1U); // the boundary is kept
+    StreamNetwork const odd = test::network_of({{0, 0}, {1, 1}}, {{1, 0}});
+    EXPECT_NE(refusal(odd, {2.0, 1.0}).find("Try 1.41 or less"), std::string::npos);
+    EXPECT_EQ(refusal(net, {12.9, 30.0}),
+              "network.prune: pruning at 12.9 cells removes every arc (the longest is 12.8). Try 12.8 or less.");
+}
+
+TEST(Prune, ZeroRemovesNothingButKnowsTheThresholds) {
+    //        2 (north)  two leaves of 3 and 4 at node 1, a trunk of 5
+    StreamNetwork const net = test::network_of({{0, 0}, {5, 0}, {5, 3}, {9, 0}}, {{2, 1}, {3, 1}, {1, 0}});
+    network::Pruned const pruned = prune(net, {0.0, 1.0});
+    EXPECT_EQ(pruned.arcs_before, 3);
+    Lines const lines = lines_of(pruned.network);
+    ASSERT_EQ(lines.size(), 3U);
+    EXPECT_EQ(lines.at(key({{5, 3}, {5, 0}})), 3.0);
+    EXPECT_EQ(lines.at(key({{9, 0}, {5, 0}})), 9.0); // merged with the trunk once the other is gone
+    EXPECT_EQ(lines.at(key({{5, 0}, {0, 0}})), 9.0);
+}
+
+TEST(Prune, AMergedArcTakesTheNameOfItsLongestPiece) {
+    StreamNetwork const net = test::network_of({{0, 0}, {5, 0}, {5, 3}, {9, 0}},
+                                               {{2, 1, {}, 7, "A"}, {3, 1, {}, 8, "B"}, {1, 0, {}, 9, "C"}});
+    StreamNetwork const pruned = prune(net, {4.0, 1.0}).network;
+    ASSERT_EQ(boost::num_edges(pruned), 1U);
+    Arc const& arc = pruned[*boost::edges(pruned).first];
+    EXPECT_EQ(arc.line, (std::vector<Vec2>{{9, 0}, {5, 0}, {0, 0}}));
+    EXPECT_EQ(arc.feature, 9);
+    EXPECT_EQ(arc.type, "C");
+    EXPECT_EQ(arc.survives, 9.0);
+}
+
+TEST(Prune, OfEqualLeavesTheNorthernThenTheWesternGoes) {
+    StreamNetwork const north = test::network_of({{0, 0}, {5, 0}, {5, 3}, {5, -3}}, {{3, 1}, {2, 1}, {1, 0}});
+    EXPECT_EQ(lines_of(prune(north, {3.5, 1.0}).network).begin()->first, key({{5, -3}, {5, 0}, {0, 0}}));
+    StreamNetwork const west = test::network_of({{0, 0}, {0, 5}, {-3, 5}, {3, 5}}, {{3, 1}, {2, 1}, {1, 0}});
+    EXPECT_EQ(lines_of(prune(west, {3.5, 1.0}).network).begin()->first, key({{3, 5}, {0, 5}, {0, 0}}));
+}
+
+TEST(Prune, ASmallBasinMayVanish) {
+    StreamNetwork const net = test::network_of({{0, 0}, {3, 0}, {0, 9}, {8, 9}}, {{1, 0}, {3, 2}});
+    StreamNetwork const pruned = prune(net, {4.0, 1.0}).network;
+    EXPECT_EQ(boost::num_vertices(pruned), 2U);
+    EXPECT_EQ(lines_of(pruned).begin()->first, key({{8, 9}, {0, 9}}));
+}
+
+TEST(Prune, Laws) {
+    ASSERT_TRUE(rc::check("a forest without short leaves or nodes of degree two", [] {
+        StreamNetwork const net = prune(any_network(), {0.0, 1.0}).network;
+        double const length = any_length(net);
+        network::Pruned const pruned = prune(net, {length, 1.0});
+        RC_ASSERT(pruned.arcs_before == static_cast<std::int64_t>(boost::num_edges(net)));
+        NetworkIndex const index(pruned.network);
+        RC_ASSERT(boost::num_vertices(pruned.network) == index.arcs.size() + index.outlets.size());
+        RC_ASSERT(index.upstream_order.size() == boost::num_vertices(pruned.network));
+        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+            NodeId const from = index.from[a];
+            RC_ASSERT(kind_of(pruned.network, from) != NodeKind::pseudo);
+            RC_ASSERT((!index.in[from].empty() || index.length_m[a] >= length - 1e-6));
+            RC_ASSERT(pruned.network[index.arcs[a]].line.front() == pruned.network[from].at);
+            RC_ASSERT(pruned.network[index.arcs[a]].line.back() == pruned.network[index.to[a]].at);
+        }
+        RC_ASSERT(equal(prune(pruned.network, {length, 1.0}).network, pruned.network));
+    }));
+}
+
+TEST(Prune, EqualsTheRuleAsItIsTold) {
+    ASSERT_TRUE(rc::check("queue = search for the shortest leaf, arcs and thresholds", [] {
+        StreamNetwork const net = any_network();
+        double const length = any_length(prune(net, {0.0, 1.0}).network);
+        RC_ASSERT(same_lines(lines_of(prune(net, {length, 1.0}).network), plain_prune(net, length)));
+    }));
+}
+
+TEST(Prune, ThresholdsAgreeWithPruningAnew) {
+    ASSERT_TRUE(rc::check("filter by survives and merge = prune; kept(L2) is a subset of kept(L1)", [] {
+        StreamNetwork const net = prune(any_network(), {0.0, 1.0}).network;
+        double const one = any_length(net);
+        double const two = any_length(net);
+        double const low = std::min(one, two);
+        double const high = std::max(one, two);
+        StreamNetwork const at_low = prune(net, {low, 1.0}).network;
+        StreamNetwork const at_high = prune(net, {high, 1.0}).network;
+        RC_ASSERT(lines_of(at_high) == filtered(net, high));
+        RC_ASSERT(lines_of(at_high) == filtered(at_low, high));
+        // Pruned further, the same network with the same numbers.
+        StreamNetwork const further = prune(at_low, {high, 1.0}).network;
+        RC_ASSERT(lines_of(further) == lines_of(at_high));
+        RC_ASSERT(NetworkIndex(further).from == NetworkIndex(at_high).from);
+        // Each step of the sparser network is one of the denser.
+        std::map<std::pair<double, double>, std::pair<double, double>> steps;
+        double sum = 0.0;
+        for (auto const& [line, survives] : lines_of(at_low)) {
+            for (std::size_t i = 1; i < line.size(); ++i) {
+                steps[line[i - 1]] = line[i];
+            }
+        }
+        double sum_of_steps = 0.0;
+        for (ArcId const arc : NetworkIndex(at_high).arcs) {
+            std::vector<Vec2> const& line = at_high[arc].line;
+            sum += length_of(line);
+            for (std::size_t i = 1; i < line.size(); ++i) {
+                sum_of_steps += distance(line[i - 1], line[i]);
+                std::pair<double, double> const next{line[i].x, line[i].y};
+                RC_ASSERT((steps.at({line[i - 1].x, line[i - 1].y}) == next));
+            }
+        }
+        RC_ASSERT(std::fabs(sum - sum_of_steps) <= 1e-9 * sum);
+    }));
+}
+
+TEST(Prune, TheSameArcsWhateverTheCell) {
+    ASSERT_TRUE(rc::check("cells of 0.1 m far from the origin, where no coordinate is exact", [] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        Mask const mask = network::thin(test::random_blob(seed, 40, 40, 8, 2));
+        Mask fine(Grid{40, 40, 0.1, 500000.3, 4000000.7, ""});
+        std::copy(mask.values().begin(), mask.values().end(), fine.values().begin());
+        Vec2 const mouth = mask.grid().centre({20, 39});
+        RC_PRE(test::components(mask, 1, 8) == 1);
+        std::int64_t cells = 0;
+        for (auto const v : mask.values()) {
+            cells += v;
+        }
+        RC_PRE(cells > 12);
+        StreamNetwork const coarse = network::trace(mask, {mouth});
+        StreamNetwork const small = network::trace(fine, {fine.grid().centre({20, 39})});
+        network::Pruned const a = prune(coarse, {3.0, 1.0});
+        network::Pruned const b = prune(small, {3.0, 0.1});
+        NetworkIndex const i(a.network);
+        NetworkIndex const j(b.network);
+        RC_ASSERT(i.from == j.from);
+        RC_ASSERT(i.to == j.to);
+        for (std::size_t k = 0; k < i.arcs.size(); ++k) {
+            RC_ASSERT(a.network[i.arcs[k]].survives == b.network[j.arcs[k]].survives);
+        }
+    }));
+}
+
+TEST(Prune, ACombOfManyTeeth) {
+    // Teeth that grow upstream along a spine: each removal merges the spine anew, a quadratic rule would not end.
+    std::size_t const teeth = 100000;
+    StreamNetwork net;
+    boost::add_vertex(Node{{0.0, 0.0}}, net);
+    for (std::size_t t = 1; t <= teeth; ++t) {
+        auto const x = static_cast<double>(t);
+        NodeId const spine = boost::add_vertex(Node{{x, 0.0}}, net);
+        NodeId const tip = boost::add_vertex(Node{{x, 1.0 + x / 1024.0}}, net);
+        add_arc(net, spine, t == 1 ? 0 : spine - 2, {});
+        add_arc(net, tip, spine, {});
+    }
+    StreamNetwork const pruned = prune(net, {50.0, 1.0}).network;
+    std::size_t const left = teeth - 49 * 1024 + 1;
+    EXPECT_EQ(boost::num_edges(pruned), 2 * left - 1); // the head of the spine is merged with its tooth
+}

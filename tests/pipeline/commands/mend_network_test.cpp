@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/commands/internal/mend_network.hpp>
+
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "measure/faults.hpp"
+
+using namespace thalweg;
+using measure::check_topology;
+using pipeline::mend_network;
+using pipeline::MendedNetwork;
+
+namespace {
+
+MendedNetwork mend(NetworkFile const& file) {
+    return mend_network(file, check_topology(file));
+}
+
+std::vector<std::string> kinds_of(MendedNetwork const& mended) {
+    std::vector<std::string> kinds;
+    for (Finding const& f : mended.mended) {
+        kinds.push_back(f.kind);
+    }
+    return kinds;
+}
+
+/// Lines with their heights, sorted: what a network is but for its numbers.
+std::vector<std::vector<std::tuple<double, double, double>>> lines_of(NetworkFile const& file) {
+    std::vector<std::vector<std::tuple<double, double, double>>> lines;
+    for (auto const& arc : file.arcs) {
+        auto& line = lines.emplace_back();
+        for (Vec3 const p : arc.line) {
+            line.emplace_back(p.x, p.y, p.z);
+        }
+    }
+    std::sort(lines.begin(), lines.end());
+    return lines;
+}
+
+} // namespace
+
+TEST(MendNetwork, NothingIsLeftOfNothing) {
+    MendedNetwork const mended = mend({});
+    EXPECT_FALSE(mended.done);
+    EXPECT_EQ(kinds_of(mended), std::vector<std::string>{"not_mended"});
+}
+
+TEST(MendNetwork, WhatHasNoFaultStays) {
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        NetworkFile const file = faults::clean(seed);
+        MendedNetwork const mended = mend(file);
+        ASSERT_TRUE(mended.done);
+        EXPECT_TRUE(mended.mended.empty()) << mended.mended.front().text;
+        EXPECT_EQ(lines_of(measure::as_file(mended.network, mended.orders)), lines_of(file));
+    }
+}
+
+TEST(MendNetwork, EveryFaultThatCanBeMendedIs) {
+    for (std::size_t fault = 0; fault < faults::all().size(); ++fault) {
+        auto const& f = faults::all()[fault];
+        for (std::uint64_t seed = 0; seed < 5; ++seed) {
+            NetworkFile file = faults::clean(seed);
+            if (f.plant(file, chance(seed, fault) % file.arcs.size()).empty()) {
+                continue;
+            }
+            MendedNetwork const mended = mend(file);
+            std::string const why = mended.mended.empty() ? "nothing" : mended.mended.back().text;
+            ASSERT_TRUE(mended.done) << f.kind << ", " << f.what << ", seed " << seed << ": " << why;
+            EXPECT_FALSE(mended.mended.empty()) << f.kind << ", " << f.what << ": nothing is said";
+            // By the check itself, once more and not by its own word.
+            auto const left = check_topology(measure::as_file(mended.network, mended.orders)).findings;
+            EXPECT_TRUE(left.empty()) << f.kind << ", " << f.what << ": " << left.front().text;
+        }
+    }
+}
+
+TEST(MendNetwork, NumbersAloneChangeNoLine) {
+    NetworkFile file = faults::clean(5);
+    auto const before = lines_of(file);
+    file.arcs[3].strahler = 99;
+    file.arcs[4].ds_arc = 99;
+    file.arcs[5].to_node = 1;
+    MendedNetwork const mended = mend(file);
+    ASSERT_TRUE(mended.done);
+    EXPECT_EQ(kinds_of(mended), (std::vector<std::string>{"mended", "mended", "mended"}));
+    EXPECT_EQ(lines_of(measure::as_file(mended.network, mended.orders)), before);
+}
+
+TEST(MendNetwork, AreasStayWhereTheEndDoes) {
+    NetworkFile file = faults::clean(5);
+    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
+        file.arcs[a].us_area_m2 = 10.0 * static_cast<double>(file.arcs[a].shreve);
+        file.arcs[a].ds_area_m2 = file.arcs[a].us_area_m2;
+        file.arcs[a].feature = static_cast<std::int64_t>(1000 + a);
+        file.arcs[a].braided = a == 7;
+    }
+    std::reverse(file.arcs[7].line.begin(), file.arcs[7].line.end());
+    MendedNetwork const mended = mend(file);
+    ASSERT_TRUE(mended.done);
+    EXPECT_EQ(kinds_of(mended), (std::vector<std::string>{"turned", "mended"}));
+    NetworkIndex const index(mended.network.plan);
+    ASSERT_EQ(index.arcs.size(), file.arcs.size());
+    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        auto const was = static_cast<std::size_t>(mended.network.plan[index.arcs[a]].feature - 1000);
+        EXPECT_EQ(mended.us_area_m2[a], file.arcs[was].us_area_m2);
+        EXPECT_EQ(mended.ds_area_m2[a], file.arcs[was].ds_area_m2);
+        EXPECT_EQ(mended.braided[a], was == 7 ? 1 : 0);
+    }
+}
+
+TEST(MendNetwork, WithoutHeightsAllAreZero) {
+    NetworkFile file = faults::clean(5);
+    for (auto& arc : file.arcs) {
+        for (Vec3& p : arc.line) {
+            p.z = faults::no_number;
+        }
+    }
+    for (auto& node : file.nodes) {
+        node.at.z = faults::no_number;
+    }
+    file.says.heights = false;
+    MendedNetwork const mended = mend(file);
+    ASSERT_TRUE(mended.done);
+    EXPECT_EQ(kinds_of(mended), std::vector<std::string>{"level"});
+    EXPECT_EQ(std::count(mended.network.node_z.begin(), mended.network.node_z.end(), 0.0),
+              static_cast<std::ptrdiff_t>(mended.network.node_z.size()));
+}
+
+TEST(MendNetwork, AHeightIsFilledBetweenItsNeighbours) {
+    NetworkFile file;
+    file.nodes = {{1, {0, 0, 8}}, {2, {4, 0, 0}}};
+    file.arcs = {{1, 1, 2, 0, 1, 1, 1, {{0, 0, 8}, {1, 0, 6}, {2, 0, faults::no_number}, {3, 1, 2}, {4, 0, 0}}}};
+    MendedNetwork const mended = mend(file);
+    ASSERT_TRUE(mended.done);
+    EXPECT_EQ(mended.network.arc_z.front(), (std::vector<double>{8, 6, 4, 2, 0}));
+}

@@ -1,0 +1,380 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Recipes of land in equilibrium, from keys to checks.
+#include <thalweg/pipeline/make/terrain.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/measure/drainage/drainage.hpp>
+
+#include <gtest/gtest.h>
+
+#include <io/scratch_folder.hpp>
+
+#include "ascii_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+using namespace thalweg;
+using namespace thalweg::pipeline;
+
+namespace {
+
+std::string const grid = "[grid]\nwidth = 140\nheight = 120\norigin = [500000, 5003600]\ncrs = \"EPSG:32631\"\n";
+std::string const lines = grid + "[network]\nsource = \"lines\"\n";
+std::string const path = "[network.lines]\npath = \"rivers.geojson\"\n";
+std::string const equilibrium = "[surface]\n";
+
+std::string layer(std::string const& features) {
+    return "{\"type\":\"FeatureCollection\",\"crs\":{\"type\":\"name\",\"properties\":{\"name\":"
+           "\"urn:ogc:def:crs:EPSG::32631\"}},\"features\":[" +
+           features + "]}";
+}
+
+std::string line(std::string const& vertices) {
+    return "{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[" +
+           vertices + "]}}";
+}
+
+std::string polygon(std::string const& ring, std::string const& properties = "") {
+    return "{\"type\":\"Feature\",\"properties\":{" + properties +
+           "},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[" + ring + "]]}}";
+}
+
+/// Two rivers that meet and leave in the south of 140 x 120 cells of 30 m.
+class Files {
+public:
+    Files() {
+        std::string const trunk = "[501000,5003000],[501700,5002200],[502000,5001500]";
+        std::string const other = "[503200,5002800],[502500,5002000],[502000,5001500]";
+        write("rivers.geojson",
+              layer(line(trunk) + "," + line(other) + "," + line("[502000,5001500],[502100,5000010]")));
+        write("inland.geojson", layer(line("[501000,5003000],[502000,5001500]")));
+        // Beside a deep valley another river runs six hundred metres higher.
+        write("high.geojson", layer(line("[501000,5003000,60],[502100,5000010,0]") + "," +
+                                    line("[501500,5003000,900],[502600,5000010,600]")));
+        write("falling.geojson", layer(line("[501000,5003000,90],[502000,5001500,40],[502100,5000010,0]") + "," +
+                                       line("[503200,5002800,110],[502500,5002000,70],[502000,5001500,40]")));
+        write("border.geojson", layer(line("[500010,5003000],[500010,5000010]")));
+        write("double.geojson", layer(line(trunk + ",[502100,5000010]") + "," +
+                                      line("[501010,5003000],[501710,5002200],[502010,5001500],[502110,5000010]")));
+        write("lakes.geojson",
+              layer(polygon("[501850,5001200],[502250,5001200],[502250,5001700],[501850,5001700],[501850,5001200]")));
+        write("dry.geojson",
+              layer(polygon("[503500,5000300],[503800,5000300],[503800,5000600],[503500,5000600],[503500,5000300]")));
+        write("ponds.geojson",
+              layer(polygon("[502001,5001301],[502003,5001301],[502003,5001303],[502001,5001301]") + "," +
+                    polygon("[400000,5001200],[400100,5001200],[400100,5001300],[400000,5001200]") + "," +
+                    polygon("[501850,5001200],[502250,5001200],[502250,5001700],"
+                            "[501850,5001700],[501850,5001200]")));
+        std::string const east = "[502500,5000000],[504200,5000000],[504200,5003600],[502500,5003600],[502500,5000000]";
+        write("rock.geojson", layer(polygon(east, "\"erodibility\":0.2")));
+        write("numb.geojson", layer(polygon(east, "\"erodibility\":\"hard\"")));
+        write("zero.geojson", layer(polygon(east, "\"erodibility\":0")));
+    }
+    std::string folder() const { return folder_.path().string(); }
+
+    /// An ESRI grid of 140 x 120 cells of 30 m, with value(column, row).
+    template <class Value> void raster(std::string const& name, Value value) const {
+        write_ascii_grid(folder_ / name, {140, 120, 30, 500000, 5000000}, value);
+    }
+
+private:
+    void write(std::string const& name, std::string const& text) const { std::ofstream(folder_ / name) << text; }
+
+    ScratchFolder folder_;
+};
+
+Terrain made(std::string const& toml, Files const& files) {
+    Recipe recipe = read_recipe(toml, "test");
+    recipe.folder = files.folder();
+    return make_terrain(recipe);
+}
+
+std::string fault_of(std::string const& toml, Files const& files) {
+    try {
+        made(toml, files);
+    } catch (Error const& e) {
+        return e.what();
+    }
+    return "";
+}
+
+bool has(std::string const& text, std::string const& part) {
+    return text.find(part) != std::string::npos;
+}
+
+std::int64_t count(Terrain const& t, std::string const& kind) {
+    return std::ranges::count(t.story.repairs, kind, &Finding::kind);
+}
+
+/// Law: every check holds, the land has no depression and needed no carving, and rivers have its heights.
+void expect_lawful(Terrain const& t) {
+    for (Check const& c : t.checks) {
+        EXPECT_TRUE(c.ok) << c.name << " " << c.value;
+    }
+    EXPECT_EQ(t.pits, 0);
+    ASSERT_TRUE(t.drained);
+    EXPECT_EQ(t.drained->banks.raised_cells, 0);
+    EXPECT_EQ(t.drained->depressions.raised_cells + t.drained->depressions.cut_cells, 0);
+    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
+        EXPECT_TRUE(std::isnan(t.valley.z[i]) || t.valley.z[i] == t.surface->dem[i]);
+    }
+}
+
+Check const& check_of(Terrain const& t, std::string const& name) {
+    auto const found = std::ranges::find(t.checks, name, &Check::name);
+    if (found == t.checks.end()) {
+        throw BadInput("no check " + name);
+    }
+    return *found;
+}
+
+double mean_of(Terrain const& t, std::int64_t from_column, std::int64_t to_column) {
+    double sum = 0.0;
+    std::int64_t cells = 0;
+    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
+        std::int64_t const column = t.grid.at(i).col;
+        if (column >= from_column && column < to_column) {
+            sum += static_cast<double>(t.surface->dem[i]);
+            ++cells;
+        }
+    }
+    return sum / static_cast<double>(cells);
+}
+
+} // namespace
+
+TEST(LandInEquilibrium, KeysThatDoNotGoTogetherAreNamed) {
+    Files const files;
+    EXPECT_TRUE(
+        has(fault_of(lines + path + "[surface]\nmean_slope = 20\nrelief = 300\n", files), "do not go together"));
+    EXPECT_TRUE(has(fault_of(lines + "heights = \"soft\"\n" + path + "[surface]\nmethod = \"dilate\"\n", files),
+                    "\"soft\" needs surface.method"));
+    EXPECT_TRUE(has(fault_of(lines + "fill_space = true\n" + path + "[surface]\nmethod = \"dilate\"\n", files),
+                    "network.fill_space needs"));
+    EXPECT_TRUE(has(fault_of(lines + "rotate = 20\n" + path + equilibrium, files), "network.rotate turns a cluster"));
+    EXPECT_TRUE(has(fault_of(lines + "concavity = 0.95\n" + path + equilibrium, files), "0.1 to 0.9"));
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nlakes = \"lakes.geojson\"\nlake_share = 0.5\n", files),
+                    "lakes come from a file or are chosen at random"));
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nmean_slope = 0\n", files), "surface.mean_slope"));
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nrelief = -1\n", files), "surface.relief"));
+    EXPECT_TRUE(has(fault_of("[grid]\nwidth = 60\nheight = 60\n[surface]\n", files), "needs [network]"));
+}
+
+TEST(LandInEquilibrium, ReliefOrMeanSlopeIsWhatWasAsked) {
+    Files const files;
+    Terrain const sloped = made(lines + path + "[surface]\nmean_slope = 15\n", files);
+    expect_lawful(sloped);
+    EXPECT_NEAR(sloped.relief->land.slopes.mean_deg, 15.0, 0.2);
+    Terrain const high = made(lines + path + "[surface]\nrelief = 400\n", files);
+    expect_lawful(high);
+    EXPECT_NEAR(high.statistics->max.z - high.statistics->min.z, 400.0, 0.1);
+}
+
+TEST(LandInEquilibrium, HeightsOfRiversAreKeptOrUpperBounds) {
+    Files const files;
+    Terrain const fixed = made(lines + "heights = \"fixed\"\nslope = 0.08\n" + path + equilibrium, files);
+    Terrain const soft = made(lines + "heights = \"soft\"\nslope = 0.08\n" + path + equilibrium, files);
+    Terrain const ends = made(lines + "heights = \"ends\"\nslope = 0.08\n" + path + equilibrium, files);
+    expect_lawful(soft);
+    for (Terrain const* t : {&fixed, &ends}) {
+        EXPECT_LE(check_of(*t, "walled_cells").value, 4.0); // heads: even slopes are none of nature's
+        EXPECT_EQ(check_of(*t, "sources_astray").value, 0.0);
+    }
+    // The sources lie some 2000 m from the outlet.
+    double const source = fixed.network.node_z[0];
+    EXPECT_GT(source, 100.0);
+    EXPECT_NEAR(ends.network.node_z[0], source, 0.1);
+    EXPECT_LE(soft.network.node_z[0], source + 0.1);
+    EXPECT_EQ(fixed.equilibrium->max_lowered_m, 0.0);
+}
+
+TEST(LandInEquilibrium, LakesAreLevelAndTold) {
+    Files const files;
+    Terrain const t = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files);
+    expect_lawful(t);
+    EXPECT_EQ(t.lakes, 1);
+    EXPECT_GT(t.certificate->lake_cells, 5);
+    Cell const middle = t.grid.cell_of({502050, 5001400});
+    std::int64_t level = 0;
+    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
+        level += t.surface->dem[i] == t.surface->dem[middle] ? 1 : 0;
+    }
+    EXPECT_GT(level, 100); // of 13 x 16 cells
+    Terrain const dry = made(lines + path + "[surface]\nlakes = \"dry.geojson\"\n", files);
+    expect_lawful(dry);
+    EXPECT_EQ(dry.lakes, 0);
+    EXPECT_EQ(count(dry, "lake_left_out"), 1);
+    Terrain const ponds = made(lines + path + "[surface]\nlakes = \"ponds.geojson\"\n", files);
+    EXPECT_EQ(ponds.lakes, 1);
+    EXPECT_EQ(count(ponds, "lake_left_out"), 1); // a pond between cells' centres and one off the grid
+    EXPECT_TRUE(std::ranges::equal(ponds.surface->dem.values(), t.surface->dem.values()));
+}
+
+TEST(LandInEquilibrium, HardRockAndUpliftMakeHighLand) {
+    Files const files;
+    Terrain const even = made(lines + path + equilibrium, files);
+    Terrain const rock = made(lines + path + "[surface]\nerodibility = \"rock.geojson\"\n", files);
+    files.raster("uplift.asc", [](int c, int) { return c < 84 ? 1 : 4; });
+    Terrain const lifted = made(lines + path + "[surface]\nuplift = \"uplift.asc\"\n", files);
+    auto const contrast = [](Terrain const& t) { return mean_of(t, 95, 140) / mean_of(t, 0, 75); };
+    for (Terrain const* t : {&even, &rock, &lifted}) {
+        expect_lawful(*t);
+    }
+    EXPECT_GT(contrast(rock), 1.3 * contrast(even));
+    EXPECT_GT(contrast(lifted), 1.3 * contrast(even));
+}
+
+TEST(LandInEquilibrium, FieldsThatMakeNoSenseAreRefusedByPlace) {
+    Files const files;
+    files.raster("holes.asc", [](int c, int r) { return c == 30 && r == 20 ? -9999 : 1; });
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nuplift = \"holes.asc\"\n", files), "none in cell (30, 20)"));
+    files.raster("below.asc", [](int c, int r) { return c == 31 && r == 21 ? -2 : 1; });
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nuplift = \"below.asc\"\n", files), "-2 in cell (31, 21)"));
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nerodibility = \"zero.geojson\"\n", files), "above 0"));
+    EXPECT_TRUE(
+        has(fault_of(lines + path + "[surface]\nerodibility = \"numb.geojson\"\n", files), "no field erodibility"));
+    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nerodibility = \"lakes.geojson\"\n", files), "no field"));
+}
+
+TEST(LandInEquilibrium, RiversThatEndInsideAreCarriedOrSinks) {
+    Files const files;
+    std::string const inland = "[network.lines]\npath = \"inland.geojson\"\n";
+    Terrain const carried = made(lines + inland + equilibrium, files);
+    expect_lawful(carried);
+    EXPECT_EQ(count(carried, "carried_outlet"), 1);
+    Terrain const sink = made(lines + "inland = \"sink\"\n" + inland + "[surface]\ndrain = \"none\"\n", files);
+    EXPECT_EQ(count(sink, "carried_outlet"), 0);
+    measure::Drainage const drainage = measure::drain(sink.surface->dem);
+    EXPECT_EQ(drainage.depressions.size(), 1U);
+    Terrain const drained = made(lines + "inland = \"sink\"\n" + inland + "[surface]\n", files);
+    for (Check const& c : drained.checks) {
+        EXPECT_TRUE(c.ok) << c.name << " " << c.value;
+    }
+    ASSERT_EQ(drained.sinks.size(), 1U);
+    EXPECT_EQ(drained.network.plan[drained.sinks.front()].at, (Vec2{502000.0, 5001500.0}));
+}
+
+TEST(LandInEquilibrium, GivenHeightsGetTheSlopeThatIsAsked) {
+    Files const files;
+    for (std::string const heights : {"fixed", "soft"}) {
+        for (double const slope : {8.0, 15.0, 30.0}) {
+            Terrain const t = made(lines + "heights = \"" + heights + "\"\nslope = 0.03\n" + path + "[surface]\n" +
+                                       "mean_slope = " + std::to_string(slope) + "\n",
+                                   files);
+            Check const& error = check_of(t, "mean_slope_error");
+            EXPECT_TRUE(error.ok) << heights << " " << slope << ": " << error.value;
+            EXPECT_NEAR(t.statistics->slope_true_deg, slope, 0.06 * slope) << heights;
+        }
+    }
+}
+
+TEST(LandInEquilibrium, ATargetThatRiversRuleOutFailsItsCheck) {
+    Files const files;
+    Terrain const t = made(lines + "heights = \"fixed\"\nslope = 0.2\n" + path + "[surface]\nrelief = 100\n", files);
+    Check const& error = check_of(t, "relief_error");
+    EXPECT_FALSE(error.ok);
+    EXPECT_GT(error.value, 3.0); // rivers alone span more than 600 m
+    EXPECT_TRUE(std::ranges::any_of(t.findings, [](Finding const& f) { return f.kind == "target_missed"; }));
+    Terrain const met = made(lines + path + "[surface]\nrelief = 700\n", files);
+    EXPECT_TRUE(check_of(met, "relief_error").ok);
+}
+
+TEST(LandInEquilibrium, HeightsOfAFileThatNeedWallsBecomeSoftUnlessTheyAreAskedFor) {
+    Files const files;
+    std::string const high = "[network.lines]\npath = \"high.geojson\"\n";
+    Terrain const kept = made(lines + "heights = \"file\"\n" + high + "[surface]\nmean_slope = 8\n", files);
+    EXPECT_FALSE(check_of(kept, "walled_cells").ok);
+    EXPECT_TRUE(std::ranges::any_of(kept.findings, [](Finding const& f) { return f.kind == "walled_cell"; }));
+    Terrain const free = made(lines + high + "[surface]\nmean_slope = 8\n", files);
+    EXPECT_EQ(free.recipe.network->heights, Heights::soft);
+    EXPECT_TRUE(check_of(free, "walled_cells").ok) << check_of(free, "walled_cells").value;
+    EXPECT_GT(free.equilibrium->max_lowered_m, 100.0);
+    Terrain const gentle = made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\n", files);
+    EXPECT_EQ(gentle.recipe.network->heights, Heights::file);
+    EXPECT_TRUE(check_of(gentle, "walled_cells").ok) << check_of(gentle, "walled_cells").value;
+    EXPECT_FALSE(gentle.recipe.surface->equilibrium.mean_slope_deg) << "nobody asked for one";
+}
+
+TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {
+    Files const files;
+    Terrain const t = made(lines + "fill_space = true\nsupport = 60\n" + path + equilibrium, files);
+    expect_lawful(t);
+    EXPECT_GT(t.equilibrium->side_valleys, 30);
+    std::int64_t grown = 0;
+    for (ArcId const arc : NetworkIndex(t.network.plan).arcs) {
+        grown += t.network.plan[arc].given ? 0 : 1;
+    }
+    EXPECT_EQ(grown, t.equilibrium->side_valleys);
+    EXPECT_EQ(t.relief->perched, 0);
+}
+
+TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToWander) {
+    Files const files;
+    Terrain const still = made(lines + path + equilibrium, files);
+    Terrain const bent = made(lines + "meander = 1\n" + path + equilibrium, files);
+    expect_lawful(bent);
+    EXPECT_EQ(still.recipe.network->meander, 0.0);
+    auto const length = [](Terrain const& t) {
+        double sum = 0.0;
+        for (double const one : NetworkIndex(t.network.plan).length_m) {
+            sum += one;
+        }
+        return sum;
+    };
+    EXPECT_GT(length(bent), 1.005 * length(still));
+}
+
+TEST(LandInEquilibrium, TwoRiversInOneCellBecomeOne) {
+    Files const files;
+    Terrain const t = made(lines + "[network.lines]\npath = \"double.geojson\"\n" + equilibrium, files);
+    EXPECT_GE(count(t, "captured"), 1);
+    for (Check const& c : t.checks) { // two rivers in one cell cannot both be followed cell for cell
+        EXPECT_EQ(c.ok, c.name != "trace_f_same_cell") << c.name << " " << c.value;
+    }
+}
+
+TEST(LandInEquilibrium, ARiverAlongTheBorderIsTold) {
+    Files const files;
+    Terrain const t = made(lines + "[network.lines]\npath = \"border.geojson\"\n" + equilibrium, files);
+    auto const found = std::ranges::find(t.findings, "border_cell", &Finding::kind);
+    ASSERT_NE(found, t.findings.end());
+    EXPECT_LT(found->where.x, 500030.0);
+    EXPECT_FALSE(t.passed());
+}
+
+TEST(LandInEquilibrium, HeightsThatRiseAreLowered) {
+    Files const files;
+    Terrain const t = made(lines + "heights = \"straight\"\nslope = 0.08\n" + path + equilibrium, files);
+    for (std::vector<double> const& z : t.network.arc_z) {
+        EXPECT_TRUE(std::is_sorted(z.rbegin(), z.rend()));
+    }
+}
+
+/// Law: with closed edges a forest's basins tile the map: water leaves it at the outlets alone, from every cell.
+TEST(LandInEquilibrium, AForestTilesALargeMap) {
+    Files const files;
+    Terrain const t = made("[grid]\nwidth = 2048\nheight = 2048\n[network]\nsource = \"forest\"\nprune = 20\n"
+                           "[surface]\nedge = \"closed\"\n",
+                           files);
+    expect_lawful(t);
+    NetworkIndex const index(t.network.plan);
+    std::vector<std::int64_t> outlets;
+    for (NodeId const n : index.outlets) {
+        outlets.push_back(t.grid.index(t.grid.cell_of(t.network.plan[n].at)));
+    }
+    EXPECT_GT(outlets.size(), 50U);
+    measure::Drainage const drainage = measure::drain(t.surface->dem);
+    std::int64_t drained = 0;
+    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
+        if (drainage.direction[i] < 0) {
+            EXPECT_EQ(std::ranges::count(outlets, i), 1) << t.grid.at(i).col << " " << t.grid.at(i).row;
+            drained += drainage.area_cells[i];
+        }
+    }
+    EXPECT_EQ(drained, t.grid.cells());
+}

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/laws.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/measure/drainage/flow_lengths.hpp>
+#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
+#include <thalweg/network/order/count_streams.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/report/law_rows.hpp>
+
+using namespace thalweg;
+using namespace thalweg::pipeline;
+
+namespace {
+
+LawRow const& row(std::vector<LawRow> const& rows, std::string_view key) {
+    auto const at = std::find_if(rows.begin(), rows.end(), [&](LawRow const& r) { return r.key == key; });
+    if (at == rows.end()) {
+        throw std::out_of_range("no law " + std::string(key));
+    }
+    return *at;
+}
+
+double value(std::vector<LawRow> const& rows, std::string_view key) {
+    return row(rows, key).value.value();
+}
+
+DemLaws of_sample(char const* name, std::int64_t support) {
+    return laws_of_dem(io::read_dem(std::string(THALWEG_SOURCE_DIR "/samples/") + name), {.support_cells = support});
+}
+
+/// As far beside nature's range as this share of it.
+void near_nature(std::vector<LawRow> const& rows, std::string_view key, double share) {
+    LawRow const& law = row(rows, key);
+    ASSERT_NE(law.nature, nullptr) << key;
+    double const margin = share * (law.nature->high - law.nature->low);
+    EXPECT_GE(value(rows, key), law.nature->low - margin) << key;
+    EXPECT_LE(value(rows, key), law.nature->high + margin) << key;
+}
+
+} // namespace
+
+TEST(Laws, OfAnExactTokunagaTreeAreItsOwn) {
+    for (int const order : {4, 6, 9}) {
+        std::vector<std::int64_t> down;
+        for (network::TreeLink const& link : network::grow_tokunaga({.generator = 2, .order = order}).links) {
+            down.push_back(link.down);
+        }
+        auto const law = measure::tokunaga(network::count_streams(down).side);
+        ASSERT_TRUE(law);
+        EXPECT_NEAR(law->a, 1.0, 1e-12);
+        EXPECT_NEAR(law->c, 2.0, 1e-12);
+        EXPECT_EQ(law->terms, order - 1);
+    }
+}
+
+TEST(Laws, ADemWithoutRiversHasRowsWithoutFigures) {
+    Raster<float> const level({4, 3, 10.0, 0.0, 0.0, "EPSG:32631"}, 5.0F);
+    DemLaws const none = laws_of_dem(level, {.support_cells = 100});
+    auto const rows = law_rows(none.laws);
+    EXPECT_EQ(value(rows, "drainage_density"), 0.0);
+    for (LawRow const& law : rows) {
+        EXPECT_TRUE(law.key == "drainage_density" || !law.value) << law.key;
+    }
+    Raster<float> const empty(level.grid(), std::numeric_limits<float>::quiet_NaN());
+    EXPECT_THROW(laws_of_dem(empty), BadInput);
+    EXPECT_THROW(laws_of_dem(level, {.support_cells = 0}), BadParameter);
+}
+
+TEST(Laws, EveryRangeOfNatureHasItsLaw) {
+    auto const rows = law_rows({});
+    for (measure::NaturalRange const& range : measure::natural_ranges()) {
+        EXPECT_EQ(row(rows, range.law).nature, &range);
+    }
+}
+
+/// Mountains as the satellite saw them obey the laws that were found on maps of others.
+TEST(Laws, OfRealLandsLieInOrNearNature) {
+    struct Sample {
+        char const* file;
+        std::int64_t support;
+    };
+    for (Sample const& sample : {Sample{"bigtujunga_srtm1.tif", 100}, Sample{"bigtujunga_srtm1.tif", 200},
+                                 Sample{"jacksboro_srtm3.tif", 100}, Sample{"jacksboro_srtm3.tif", 200}}) {
+        SCOPED_TRACE(sample.file + std::string(", support ") + std::to_string(sample.support));
+        auto const rows = law_rows(of_sample(sample.file, sample.support).laws);
+        for (char const* within : {"bifurcation", "length", "area", "concavity", "drainage_density"}) {
+            near_nature(rows, within, 0.1);
+        }
+        near_nature(rows, "hack", 0.5);
+        near_nature(rows, "junction_angle", 0.5);
+        near_nature(rows, "tokunaga_a", 1.0);
+        near_nature(rows, "tokunaga_c", 0.5);
+    }
+}
+
+TEST(Laws, TheDemsRiversAreAsLongAsTheNetwork) {
+    Recipe recipe = default_recipe();
+    recipe.grid.width = 160;
+    recipe.grid.height = 120;
+    recipe.network->dla.particles = 3000;
+    recipe.network->prune_cells = 8.0;
+    Terrain const terrain = make_terrain(recipe);
+    ASSERT_TRUE(terrain.laws.network && terrain.laws.dem);
+    DemLaws const& dem = *terrain.laws.dem;
+    EXPECT_TRUE(dem.as_dense);
+    EXPECT_GE(dem.laws.drainage_density_m, terrain.laws.network->drainage_density_m);
+    measure::Drainage const drainage = measure::drain(terrain.surface->dem);
+    auto const sparser = laws_of_dem(terrain.surface->dem, drainage, measure::flow_lengths(drainage),
+                                     {.support_cells = dem.support_cells + 1});
+    EXPECT_LT(sparser.laws.drainage_density_m, terrain.laws.network->drainage_density_m);
+    EXPECT_FALSE(sparser.as_dense);
+    EXPECT_EQ(dem.support_m2, static_cast<double>(dem.support_cells) * terrain.grid.cell_m * terrain.grid.cell_m);
+
+    recipe.surface.reset();
+    Terrain const rivers = make_terrain(recipe);
+    EXPECT_TRUE(rivers.laws.network);
+    EXPECT_FALSE(rivers.laws.dem);
+}

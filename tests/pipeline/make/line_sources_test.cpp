@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/line_sources.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <network/networks.hpp>
+#include <thalweg/network/planform/carry_outlets.hpp>
+#include <thalweg/network/planform/meander.hpp>
+#include <thalweg/network/planform/split_confluences.hpp>
+
+using namespace thalweg;
+using pipeline::LineSources;
+
+namespace {
+
+using Stretches = std::vector<std::vector<Stretch>>;
+
+/// Each arc in stretches that change at vertices; features are numbered from 1 through all arcs, and each arc has the
+/// feature of its first.
+Stretches stretches_in(StreamNetwork& network, std::uint64_t seed) {
+    Stretches result;
+    std::int64_t feature = 0;
+    std::uint64_t place = 0;
+    for (ArcId const arc : NetworkIndex(network).arcs) {
+        auto const& line = network[arc].line;
+        network[arc].feature = feature + 1;
+        std::vector<Stretch> own;
+        double along_m = 0.0;
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            if (own.empty() || unit(chance(seed, place++)) < 0.4) {
+                own.push_back({++feature, along_m, along_m});
+            }
+            along_m += distance(line[i - 1], line[i]);
+            own.back().to_m = along_m;
+        }
+        result.push_back(own);
+    }
+    return result;
+}
+
+/// Law: sorted, without gaps, from one end of the arc to the other.
+void expect_covered(StreamNetwork const& network, Stretches const& stretches) {
+    NetworkIndex const index(network);
+    ASSERT_EQ(stretches.size(), index.arcs.size());
+    for (std::size_t a = 0; a < stretches.size(); ++a) {
+        ASSERT_FALSE(stretches[a].empty()) << "arc " << a + 1;
+        EXPECT_EQ(stretches[a].front().from_m, 0.0);
+        EXPECT_NEAR(stretches[a].back().to_m, index.length_m[a], 1e-9 * index.length_m[a]);
+        for (std::size_t k = 0; k < stretches[a].size(); ++k) {
+            Stretch const& s = stretches[a][k];
+            EXPECT_GT(s.feature, 0);
+            EXPECT_LT(s.from_m, s.to_m) << "arc " << a + 1;
+            EXPECT_TRUE(k == 0 || stretches[a][k - 1].to_m == s.from_m) << "arc " << a + 1;
+            EXPECT_TRUE(k == 0 || stretches[a][k - 1].feature != s.feature) << "arc " << a + 1;
+        }
+    }
+}
+
+void expect_same(Stretches const& is, Stretches const& was) {
+    ASSERT_EQ(is.size(), was.size());
+    for (std::size_t a = 0; a < is.size(); ++a) {
+        ASSERT_EQ(is[a].size(), was[a].size()) << "arc " << a + 1;
+        for (std::size_t k = 0; k < is[a].size(); ++k) {
+            EXPECT_EQ(is[a][k].feature, was[a][k].feature);
+            EXPECT_DOUBLE_EQ(is[a][k].from_m, was[a][k].from_m);
+            EXPECT_DOUBLE_EQ(is[a][k].to_m, was[a][k].to_m);
+        }
+    }
+}
+
+/// A river from north to south, 1000 m between its nodes, into each of which several tributaries of many vertices run.
+RaisedNetwork fans(std::uint64_t seed, std::size_t nodes, std::size_t most) {
+    RaisedNetwork rivers;
+    auto const node = [&](Vec2 at, double z) {
+        rivers.node_z.push_back(z);
+        return boost::add_vertex(Node{at}, rivers.plan);
+    };
+    auto const reach = [&](NodeId from, NodeId to, std::size_t segments) {
+        Arc arc;
+        std::vector<double> z;
+        Vec2 const a = rivers.plan[from].at;
+        Vec2 const b = rivers.plan[to].at;
+        for (std::size_t i = 0; i <= segments; ++i) {
+            double const share = static_cast<double>(i) / static_cast<double>(segments);
+            arc.line.push_back({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)});
+            z.push_back(rivers.node_z[from] + share * (rivers.node_z[to] - rivers.node_z[from]));
+        }
+        arc.line.back() = b;
+        z.back() = rivers.node_z[to];
+        rivers.arc_z.push_back(z);
+        add_arc(rivers.plan, from, to, std::move(arc));
+    };
+    ChanceStream words(seed, 7, 0);
+    NodeId above = node({0.0, 1000.0 * static_cast<double>(nodes)}, 10.0 * static_cast<double>(nodes));
+    for (std::size_t k = nodes; k-- > 0;) {
+        NodeId const at = node({0.0, 1000.0 * static_cast<double>(k)}, 10.0 * static_cast<double>(k));
+        reach(above, at, 1 + words.word() % 8);
+        std::size_t const tributaries = k == 0 ? 0 : words.word() % (most + 1);
+        for (std::size_t t = 0; t < tributaries; ++t) {
+            double const share = (static_cast<double>(t) + 1.0) / (static_cast<double>(tributaries) + 1.0);
+            Vec2 const from{400.0 * (2.0 * share - 1.0) + 7.0, 1000.0 * static_cast<double>(k) + 700.0};
+            reach(node(from, 10.0 * static_cast<double>(k) + 5.0), at, 1 + words.word() % 8);
+        }
+        above = at;
+    }
+    return rivers;
+}
+
+} // namespace
+
+TEST(LineSources, NothingIsKnownOfGrownRivers) {
+    StreamNetwork const none;
+    EXPECT_FALSE(LineSources().knows_any());
+    EXPECT_TRUE(LineSources().of(none).empty());
+    StreamNetwork net = test::network_of({{0, 10}, {0, 0}}, {{0, 1}});
+    expect_same(LineSources().of(net), {{}});
+    LineSources const bent = LineSources().bent(net, net);
+    EXPECT_FALSE(bent.knows_any());
+    expect_same(bent.of(net), {{}});
+}
+
+TEST(LineSources, ArcsThatStayHaveTheirStretches) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        StreamNetwork net = fans(seed, 4, 4).plan;
+        Stretches const drawn = stretches_in(net, seed);
+        LineSources const sources(net, drawn);
+        EXPECT_TRUE(sources.knows_any());
+        expect_same(sources.of(net), drawn);
+        expect_same(sources.redrawn(net), drawn);
+    }
+}
+
+TEST(LineSources, JoinedAndShortenedArcs) {
+    // Features 1 and 2 meet at (0, 20); 3 joins there.
+    StreamNetwork const net = test::network_of(
+        {{0, 40}, {0, 20}, {30, 20}, {0, 0}},
+        {{.from = 0, .to = 1, .between = {{0, 30}}, .feature = 1}, {1, 3, {{0, 10}}, 2}, {2, 1, {{15, 20}}, 3}});
+    LineSources const sources(net, {{{1, 0.0, 20.0}}, {{2, 0.0, 20.0}}, {{3, 0.0, 30.0}}});
+    // Without the tributary the arcs are one.
+    StreamNetwork const joined = test::network_of({{0, 40}, {0, 0}}, {{0, 1, {{0, 30}, {0, 20}, {0, 10}}, 1}});
+    expect_same(sources.of(joined), {{{1, 0.0, 20.0}, {2, 20.0, 40.0}}});
+    // Of the upper reach the lower half of a segment is left.
+    StreamNetwork const shorter = test::network_of({{0, 35}, {0, 20}}, {{0, 1, {{0, 30}}, 1}});
+    expect_same(sources.of(shorter), {{{1, 0.0, 15.0}}});
+    // Where several rivers arrive, what is left of one is known by its arc's feature.
+    StreamNetwork const stub = test::network_of({{0, 25}, {0, 20}}, {{0, 1, {}, 1}});
+    expect_same(sources.of(stub), {{{1, 0.0, 5.0}}});
+}
+
+TEST(LineSources, WhatIsDrawnBeyondTheFileIsInNoStretch) {
+    StreamNetwork net = test::network_of({{50, 90}, {50, 50}}, {{0, 1, {{50, 70}}, 1}});
+    LineSources const sources(net, {{{1, 0.0, 40.0}}});
+    network::Carried const carried = network::carry_outlets(net, Grid{20, 20, 5.0, 0.0, 100.0, "EPSG:32631"});
+    ASSERT_GT(NetworkIndex(carried.network).length_m[0], 50.0);
+    expect_same(sources.of(carried.network), {{{1, 0.0, 40.0}}});
+    // Nor when confluences are split afterwards.
+    LineSources const later(carried.network, sources.of(carried.network));
+    expect_same(later.redrawn(carried.network), {{{1, 0.0, 40.0}}});
+}
+
+// Law: stretches cover a bent arc as they covered it when it was straight; none is longer than its share and a segment.
+TEST(LineSources, MeanderedRiversAreCovered) {
+    bool const ok = rc::check([] {
+        auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
+        StreamNetwork net = fans(seed, 4, 2).plan;
+        Stretches const drawn = stretches_in(net, seed);
+        Grid const grid{100, 480, 10.0, -500.0, 4400.0, "EPSG:32631"};
+        std::vector<double> const area_m2(boost::num_edges(net), 1e6);
+        network::Meandered const bent = network::meander(net, grid, area_m2, {.gain = 2.0, .seed = seed});
+        RC_PRE(bent.vertices > 0);
+        LineSources const sources = LineSources(net, drawn).bent(net, bent.network);
+        Stretches const is = sources.of(bent.network);
+        expect_covered(bent.network, is);
+        RC_ASSERT(!testing::Test::HasFailure());
+        NetworkIndex const was(net);
+        NetworkIndex const now(bent.network);
+        for (std::size_t a = 0; a < is.size(); ++a) {
+            double longest_m = 0.0;
+            auto const& line = bent.network[now.arcs[a]].line;
+            for (std::size_t i = 1; i < line.size(); ++i) {
+                longest_m = std::max(longest_m, distance(line[i - 1], line[i]));
+            }
+            double const share = now.length_m[a] / was.length_m[a];
+            for (Stretch const& s : is[a]) {
+                auto const old = std::ranges::find(drawn[a], s.feature, &Stretch::feature);
+                RC_ASSERT(old != drawn[a].end());
+                RC_ASSERT(std::fabs(s.from_m - share * old->from_m) <= longest_m);
+                RC_ASSERT(std::fabs(s.to_m - share * old->to_m) <= longest_m);
+            }
+        }
+    });
+    ASSERT_TRUE(ok);
+}
+
+// Law: where confluences are split, arcs and the pieces cut off them are covered by features of the arc that was there,
+// and what kept its place keeps its feature.
+TEST(LineSources, SplitConfluencesAreCovered) {
+    bool const ok = rc::check([] {
+        auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
+        RaisedNetwork rivers = fans(seed, 4, 5);
+        Stretches const drawn = stretches_in(rivers.plan, seed);
+        std::map<std::int64_t, std::size_t> arc_of;
+        std::map<std::pair<double, double>, std::int64_t> leaving; // features by place
+        NetworkIndex const was(rivers.plan);
+        for (std::size_t a = 0; a < drawn.size(); ++a) {
+            double along_m = 0.0;
+            auto const& line = rivers.plan[was.arcs[a]].line;
+            for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+                auto const at = std::ranges::find_if(
+                    drawn[a], [&](Stretch const& s) { return along_m >= s.from_m && along_m < s.to_m; });
+                leaving[{line[i].x, line[i].y}] = at->feature;
+                along_m += distance(line[i], line[i + 1]);
+            }
+            for (Stretch const& s : drawn[a]) {
+                arc_of[s.feature] = a;
+            }
+        }
+        network::Split const split = network::split_confluences(rivers, {2, 30.0});
+        RC_CLASSIFY(split.pieces.empty());
+        Stretches const is = LineSources(rivers.plan, drawn).redrawn(split.network.plan);
+        expect_covered(split.network.plan, is);
+        RC_ASSERT(!testing::Test::HasFailure());
+        NetworkIndex const now(split.network.plan);
+        for (std::size_t a = 0; a < is.size(); ++a) {
+            std::size_t first = a;
+            while (first >= drawn.size()) {
+                first = split.pieces[first - drawn.size()].of;
+            }
+            for (Stretch const& s : is[a]) {
+                RC_ASSERT(arc_of.at(s.feature) == first);
+            }
+            double along_m = 0.0;
+            auto const& line = split.network.plan[now.arcs[a]].line;
+            for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+                if (auto const known = leaving.find({line[i].x, line[i].y}); known != leaving.end()) {
+                    auto const at = std::ranges::find_if(
+                        is[a], [&](Stretch const& s) { return along_m >= s.from_m - 1e-6 && along_m < s.to_m - 1e-6; });
+                    RC_ASSERT(at != is[a].end());
+                    RC_ASSERT(at->feature == known->second);
+                }
+                along_m += distance(line[i], line[i + 1]);
+            }
+        }
+    });
+    ASSERT_TRUE(ok);
+}

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/internal/user_data.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <network/networks.hpp>
+#include <thalweg/network/order/order.hpp>
+
+using namespace thalweg;
+using pipeline::Terrain;
+
+namespace {
+
+/// The rivers 1 and 2 of a file, which go on as 3; 4 is a minor channel, 5 is drawn far away.
+Terrain terrain() {
+    Terrain t;
+    t.network.plan =
+        test::network_of({{0, 40}, {40, 40}, {0, 20}, {0, 0}},
+                         {{.from = 0, .to = 2, .between = {}, .feature = 1}, {1, 2, {}, 2}, {2, 3, {}, 3}});
+    t.network.node_z = {4.0, 4.0, 2.0, 0.0};
+    t.network.arc_z = {{4.0, 2.0}, {4.0, 2.0}, {2.0, 0.0}};
+    t.orders = network::order(t.network.plan);
+    t.areas.us_area_m2 = t.areas.ds_area_m2 = {-1.0, -1.0, -1.0};
+    t.areas.node_m2 = {-1.0, -1.0, -1.0, -1.0};
+    t.attributes.columns = {{"name", AttributeTable::Type::text}, {"name_of_the_river", AttributeTable::Type::text}};
+    for (std::string const name : {"one", "two", "three", "four", "five"}) {
+        t.attributes.rows.push_back({name, name});
+    }
+    t.sources = pipeline::LineSources(t.network.plan, {{{1, 0.0, 20.0}}, {{2, 0.0, 44.72}}, {{3, 0.0, 20.0}}});
+    t.secondary = {{4, {{5, 5, 0}, {6, 6, 0}}, "minor channel", 4}};
+    for (std::int64_t feature = 1; feature <= 5; ++feature) {
+        auto const x = static_cast<double>(feature);
+        t.drawn.push_back({feature, {{x, 0, 0}, {x, 9, 0}}, "", feature});
+    }
+    return t;
+}
+
+} // namespace
+
+TEST(UserData, GrownRiversHaveNone) {
+    Terrain t = terrain();
+    t.sources = {};
+    EXPECT_FALSE(pipeline::user_data(t, t.network.plan));
+    EXPECT_TRUE(pipeline::shortened_names(t).empty());
+    EXPECT_TRUE(pipeline::secondary_of(Terrain{}).empty());
+}
+
+TEST(UserData, ArcsHaveTheRecordOfTheirFeature) {
+    Terrain const t = terrain();
+    auto const user = pipeline::user_data(t, t.network.plan);
+    ASSERT_TRUE(user);
+    EXPECT_EQ(user->record, (std::vector<std::int64_t>{1, 2, 3}));
+    EXPECT_EQ(user->attributes.rows.size(), 5U);
+    ASSERT_EQ(user->sources.size(), 3U);
+    EXPECT_EQ(user->sources[2].front().feature, 3);
+    // A side valley of the terrain's own has none.
+    StreamNetwork const more = test::network_of({{0, 20}, {0, 0}, {70, 0}}, {{0, 1, {}, 3}, {2, 1, {}, 0}});
+    auto const beside = pipeline::user_data(t, more);
+    ASSERT_TRUE(beside);
+    EXPECT_EQ(beside->record, (std::vector<std::int64_t>{3, 0}));
+    EXPECT_TRUE(beside->sources[1].empty());
+}
+
+// Law: every line of the file is on the arcs or secondary, once.
+TEST(UserData, WhatTheTerrainTookAwayIsSecondaryToo) {
+    Terrain t = terrain();
+    auto const reasons = [&] {
+        std::vector<std::pair<std::int64_t, std::string>> result;
+        for (SecondaryLine const& line : pipeline::secondary_of(t)) {
+            EXPECT_EQ(line.record, line.feature);
+            EXPECT_EQ(line.vertices.size(), 2U);
+            result.emplace_back(line.feature, line.reason);
+        }
+        return result;
+    };
+    using Reasons = std::vector<std::pair<std::int64_t, std::string>>;
+    EXPECT_EQ(reasons(), (Reasons{{4, "minor channel"}, {5, "pruned or shortened"}}));
+    // Pruned to the river that goes on from the first.
+    t.network.plan = test::network_of({{0, 40}, {0, 0}}, {{0, 1, {{0, 20}}, 1}});
+    EXPECT_EQ(reasons(), (Reasons{{4, "minor channel"}, {2, "pruned or shortened"}, {5, "pruned or shortened"}}));
+}
+
+TEST(UserData, ShortenedNamesAreThoseOfTheShapefile) {
+    auto const names = pipeline::shortened_names(terrain());
+    ASSERT_EQ(names.size(), 1U);
+    EXPECT_EQ(names[0].name, "name_of_the_river");
+    EXPECT_EQ(names[0].in_shapefile, "name_of_th");
+}

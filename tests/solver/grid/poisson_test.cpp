@@ -1,0 +1,415 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/solver/grid/poisson.hpp>
+
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/solver/grid/internal/conjugate_gradients.hpp>
+#include <thalweg/solver/grid/internal/v_cycle.hpp>
+#include <thalweg/solver/grid/unreached.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <solver/winding_lines.hpp>
+
+using namespace thalweg;
+using namespace thalweg::solver;
+using test::winding_lines;
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Grid frame(std::int64_t width, std::int64_t height) {
+    return {width, height, 1.0, 0.0, 0.0, ""};
+}
+
+GridProblem all_free(std::int64_t width, std::int64_t height) {
+    return {Raster<std::uint8_t>(frame(width, height), free_cell), Raster<double>(frame(width, height)), {}};
+}
+
+void fix(GridProblem& problem, Cell c, double value) {
+    problem.kind[c] = fixed_cell;
+    problem.value[c] = value;
+}
+
+Run on(int threads) {
+    Run run;
+    run.threads = threads;
+    return run;
+}
+
+template <class Thrown, class F> std::string message(F const& f) {
+    try {
+        f();
+    } catch (Thrown const& e) {
+        return e.what();
+    }
+    return "nothing was thrown";
+}
+
+std::vector<Cell> neighbours(GridProblem const& problem, Cell c) {
+    std::vector<Cell> near;
+    for (Cell const n : {Cell{c.col - 1, c.row}, {c.col + 1, c.row}, {c.col, c.row - 1}, {c.col, c.row + 1}}) {
+        if (problem.kind.grid().contains(n) && problem.kind[n] != outside_cell) {
+            near.push_back(n);
+        }
+    }
+    return near;
+}
+
+/// Cells by chance; `share` of them fixed, `holes` outside. Parts without a fixed cell get one.
+GridProblem by_chance(std::int64_t width, std::int64_t height, double share, double holes, std::uint64_t seed) {
+    GridProblem problem = all_free(width, height);
+    for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+        auto const [kind, value, a, b] = chance_block(seed, 1, static_cast<std::uint64_t>(i));
+        double const u = unit(kind);
+        problem.kind[i] = u < share ? fixed_cell : (u < share + holes ? outside_cell : free_cell);
+        problem.value[i] = problem.kind[i] == fixed_cell ? 1000.0 * unit(value) : 0.0;
+    }
+    for (auto lost = unreached(problem.kind); !lost.empty(); lost = unreached(problem.kind)) {
+        fix(problem, {lost.front().begin, lost.front().row}, 1000.0 * unit(chance(seed, 2, lost.size())));
+    }
+    return problem;
+}
+
+/// Gaussian elimination, with nothing left out: every row of the matrix in full.
+std::vector<double> eliminated(GridProblem const& problem) {
+    std::vector<std::int64_t> cells;
+    std::vector<std::int64_t> number(static_cast<std::size_t>(problem.kind.cells()), -1);
+    for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+        if (problem.kind[i] == free_cell) {
+            number[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(cells.size());
+            cells.push_back(i);
+        }
+    }
+    std::size_t const n = cells.size();
+    std::vector<std::vector<double>> a(n, std::vector<double>(n + 1));
+    for (std::size_t i = 0; i < n; ++i) {
+        a[i][n] = problem.source.cells() > 0 ? problem.source[cells[i]] : 0.0;
+        for (Cell const near : neighbours(problem, problem.kind.grid().at(cells[i]))) {
+            a[i][i] += 1.0;
+            if (problem.kind[near] == fixed_cell) {
+                a[i][n] += problem.value[near];
+            } else {
+                a[i][static_cast<std::size_t>(number[static_cast<std::size_t>(problem.kind.grid().index(near))])] -=
+                    1.0;
+            }
+        }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t i = k + 1; i < n; ++i) {
+            double const times = a[i][k] / a[k][k];
+            for (std::size_t j = k; times != 0.0 && j <= n; ++j) {
+                a[i][j] -= times * a[k][j];
+            }
+        }
+    }
+    std::vector<double> u(problem.value.values().begin(), problem.value.values().end());
+    for (std::size_t k = n; k-- > 0;) {
+        double sum = a[k][n];
+        for (std::size_t j = k + 1; j < n; ++j) {
+            sum -= a[k][j] * u[static_cast<std::size_t>(cells[j])];
+        }
+        u[static_cast<std::size_t>(cells[k])] = sum / a[k][k];
+    }
+    return u;
+}
+
+double greatest_difference(Raster<double> const& a, Raster<double> const& b) {
+    double most = 0.0;
+    for (std::int64_t i = 0; i < a.cells(); ++i) {
+        most = std::max(most, std::fabs(a[i] - b[i]));
+    }
+    return most;
+}
+
+bool same_bytes(Raster<double> const& a, Raster<double> const& b) {
+    return a.cells() == b.cells() && std::memcmp(a.values().data(), b.values().data(), a.values().size_bytes()) == 0;
+}
+
+TEST(Poisson, NothingToDo) {
+    EXPECT_EQ(solve_poisson({}).iterations, 0);
+    GridProblem problem = all_free(1, 1);
+    problem.kind[0] = outside_cell;
+    problem.value[0] = nan;
+    EXPECT_TRUE(std::isnan(solve_poisson(problem).value[0]));
+    fix(problem, {0, 0}, -0.0);
+    EXPECT_TRUE(std::signbit(solve_poisson(problem).value[0]));
+    GridProblem zero = all_free(5, 4);
+    fix(zero, {2, 2}, 0.0);
+    GridSolution const solution = solve_poisson(zero);
+    EXPECT_EQ(solution.residual, 0.0);
+    EXPECT_EQ(std::count(solution.value.values().begin(), solution.value.values().end(), 0.0), 20);
+}
+
+TEST(Poisson, RefusesWhatHasNoSolution) {
+    GridProblem problem = all_free(7, 5);
+    EXPECT_NE(message<BadInput>([&] { solve_poisson(problem); }).find("column 0, row 0"), std::string::npos);
+    fix(problem, {0, 0}, 1.0);
+    for (std::int64_t row = 0; row < 5; ++row) {
+        problem.kind[{4, row}] = outside_cell; // a wall
+    }
+    EXPECT_NE(message<BadInput>([&] { solve_poisson(problem); }).find("column 5, row 0"), std::string::npos);
+    fix(problem, {6, 4}, 1.0);
+    EXPECT_NO_THROW(solve_poisson(problem));
+    for (PoissonParams const& bad : {PoissonParams{0.0, 9}, {1.0, 9}, {nan, 9}, {1e-6, -1}}) {
+        EXPECT_THROW(solve_poisson(problem, bad), BadParameter);
+    }
+    fix(problem, {2, 3}, nan);
+    EXPECT_NE(message<BadInput>([&] { solve_poisson(problem); }).find("column 2, row 3"), std::string::npos);
+    fix(problem, {2, 3}, 2.0);
+    problem.source = Raster<double>(problem.kind.grid());
+    problem.source[{3, 3}] = std::numeric_limits<double>::infinity();
+    EXPECT_NE(message<BadInput>([&] { solve_poisson(problem); }).find("column 3, row 3"), std::string::npos);
+    problem.source = Raster<double>(frame(5, 7));
+    EXPECT_THROW(solve_poisson(problem), BadInput);
+    problem.source = {};
+    problem.kind[{1, 1}] = 3;
+    EXPECT_NE(message<BadInput>([&] { solve_poisson(problem); }).find("column 1, row 1"), std::string::npos);
+}
+
+TEST(Poisson, SaysWhenItHasNotConverged) {
+    GridProblem const problem = by_chance(60, 60, 0.02, 0.0, 3);
+    EXPECT_THROW(solve_poisson(problem, {1e-8, 2}), NotConverged);
+    EXPECT_THROW(solve_poisson(problem, {1e-30, 100000}), NotConverged);
+}
+
+TEST(Poisson, AgreesWithElimination) {
+    ASSERT_TRUE(rc::check("any cells, holes, source and first guess", [] {
+        auto const width = *rc::gen::inRange<std::int64_t>(1, 20).as("width");
+        auto const height = *rc::gen::inRange<std::int64_t>(1, 20).as("height");
+        double const share = *rc::gen::element(0.0, 0.02, 0.1, 0.6).as("share of fixed cells");
+        double const holes = *rc::gen::element(0.0, 0.1, 0.4).as("share outside");
+        auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
+        bool const pushed = *rc::gen::element(false, true).as("source");
+        bool const guessed = *rc::gen::element(false, true).as("guess");
+        GridProblem problem = by_chance(width, height, share, holes, seed);
+        if (pushed) {
+            problem.source = Raster<double>(problem.kind.grid());
+        }
+        for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+            auto const place = static_cast<std::uint64_t>(i);
+            if (pushed) {
+                problem.source[i] = 100.0 * (unit(chance(seed, 5, place)) - 0.5);
+            }
+            if (guessed && problem.kind[i] == free_cell) {
+                problem.value[i] = 1000.0 * unit(chance(seed, 6, place));
+            }
+        }
+        GridSolution const solution = solve_poisson(problem, {1e-12, 1000});
+        auto const expected = eliminated(problem);
+        double most = 1000.0;
+        for (double const u : expected) {
+            most = std::max(most, std::fabs(u));
+        }
+        RC_ASSERT(solution.residual <= 1e-12);
+        for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+            if (problem.kind[i] == free_cell) {
+                RC_ASSERT(std::fabs(solution.value[i] - expected[static_cast<std::size_t>(i)]) <= 1e-10 * most);
+            } else {
+                RC_ASSERT(std::bit_cast<std::uint64_t>(solution.value[i]) ==
+                          std::bit_cast<std::uint64_t>(problem.value[i]));
+            }
+        }
+    }));
+}
+
+TEST(Poisson, KeepsTheMaximumPrinciple) {
+    ASSERT_TRUE(rc::check("values lie between the least and the greatest fixed one, at any tolerance", [] {
+        auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
+        double const tolerance = *rc::gen::element(0.5, 1e-2, 1e-6, 1e-12).as("tolerance");
+        GridProblem const problem = by_chance(70, 40, 0.02, 0.2, seed);
+        double least = 1e9;
+        double greatest = -1e9;
+        for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+            if (problem.kind[i] == fixed_cell) {
+                least = std::min(least, problem.value[i]);
+                greatest = std::max(greatest, problem.value[i]);
+            }
+        }
+        GridSolution const solution = solve_poisson(problem, {tolerance, 1000});
+        for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+            RC_ASSERT(problem.kind[i] != free_cell || (solution.value[i] >= least && solution.value[i] <= greatest));
+        }
+    }));
+}
+
+TEST(Poisson, EqualBordersMakeAPlain) {
+    GridProblem problem = by_chance(131, 77, 0.01, 0.1, 8);
+    for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+        problem.value[i] = problem.kind[i] == fixed_cell ? 413.7 : 0.0;
+    }
+    GridSolution const solution = solve_poisson(problem);
+    for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+        EXPECT_TRUE(problem.kind[i] == outside_cell || solution.value[i] == 413.7);
+    }
+}
+
+TEST(Poisson, PlanesAreKept) {
+    for (auto const& [width, height] : {std::pair<int, int>{64, 64}, {33, 90}, {3, 3}, {17, 1}, {1, 18}}) {
+        GridProblem problem = all_free(width, height);
+        auto const plane = [](Cell c) {
+            return 100.0 + 3.0 * static_cast<double>(c.col) - 2.0 * static_cast<double>(c.row);
+        };
+        for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+            Cell const c = problem.kind.grid().at(i);
+            bool const rim =
+                width > 1 && height > 1 ? problem.kind.grid().on_border(c) : (i == 0 || i + 1 == problem.kind.cells());
+            if (rim) {
+                fix(problem, c, plane(c));
+            }
+        }
+        GridSolution const solution = solve_poisson(problem, {1e-12, 1000});
+        for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+            EXPECT_NEAR(solution.value[i], plane(problem.kind.grid().at(i)), 1e-9);
+        }
+    }
+}
+
+TEST(Poisson, LongAndThin) {
+    GridProblem problem = all_free(1, 5000);
+    fix(problem, {0, 0}, 0.0);
+    fix(problem, {0, 4999}, 4999.0);
+    GridSolution const solution = solve_poisson(problem, {1e-10, 100});
+    for (std::int64_t i = 0; i < 5000; ++i) {
+        EXPECT_NEAR(solution.value[i], static_cast<double>(i), 1e-5);
+    }
+}
+
+TEST(Poisson, SameBytesForAnyThreadsAndLanes) {
+    GridProblem problem = by_chance(701, 333, 0.02, 0.05, 4);
+    GridSolution const one = solve_poisson(problem, {1e-8, 100}, on(1));
+    for (int const threads : {2, 3, 8}) {
+        EXPECT_TRUE(same_bytes(solve_poisson(problem, {1e-8, 100}, on(threads)).value, one.value));
+    }
+    std::vector<Raster<double>> values;
+    for (GridLanes const lanes : {GridLanes::plain, widest_grid_lanes()}) {
+        ColouredProblem iterate = coloured(problem, look_through(problem, "test", {}), {});
+        auto levels = coarse_levels(problem.kind, {});
+        double const zero = residual_norm(iterate, grid_rows(lanes), {});
+        conjugate_gradients(iterate, levels, zero, {1e-8, 100}, grid_rows(lanes), {});
+        values.emplace_back(problem.kind.grid());
+        for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+            Cell const c = problem.kind.grid().at(i);
+            values.back()[i] = iterate.x.of[(c.col + c.row) & 1].row(c.row)[c.col / 2];
+        }
+    }
+    EXPECT_TRUE(same_bytes(values[0], values[1]));
+}
+
+TEST(Poisson, IterationsDoNotGrowWithTheGrid) {
+    auto const iterations = [](GridProblem problem) {
+        return solve_poisson(std::move(problem), {1e-6, 100}).iterations;
+    };
+    for (double const share : {0.01, 0.05}) {
+        int const few = iterations(by_chance(512, 512, share, 0.0, 1));
+        int const many = iterations(by_chance(1024, 1024, share, 0.0, 1));
+        EXPECT_LE(std::abs(many - few), 3) << share;
+    }
+    int const on_lines = iterations(winding_lines(512, 0.035));
+    EXPECT_LE(on_lines, 22);
+    for (std::int64_t const side : {1024, 2048}) {
+        EXPECT_LE(std::abs(iterations(winding_lines(side, 0.035)) - on_lines), 3) << side;
+    }
+}
+
+TEST(Poisson, WithinAMillimetreAtOneMillionth) {
+    std::vector<GridProblem> problems = {winding_lines(300, 0.035), by_chance(300, 300, 0.01, 0.0, 1),
+                                         all_free(300, 300)};
+    fix(problems[2], {0, 0}, 1000.0);
+    fix(problems[2], {299, 299}, 0.0);
+    for (GridProblem const& problem : problems) {
+        Raster<double> const exact = solve_poisson(problem, {1e-12, 1000}).value;
+        EXPECT_LE(greatest_difference(solve_poisson(problem, {1e-6, 1000}).value, exact), 1e-3);
+    }
+}
+
+TEST(Poisson, AnyUnitOfHeight) {
+    GridProblem problem = winding_lines(100, 0.03);
+    Raster<double> const metres = solve_poisson(problem, {1e-10, 100}).value;
+    for (double const unit_m : {0x1p-60, 0x1p40}) { // powers of two: every bit but the exponent's
+        GridProblem other = problem;
+        for (double& z : other.value.values()) {
+            z *= unit_m;
+        }
+        Raster<double> solved = solve_poisson(other, {1e-10, 100}).value;
+        for (double& z : solved.values()) {
+            z /= unit_m;
+        }
+        EXPECT_TRUE(same_bytes(solved, metres));
+    }
+}
+
+TEST(Poisson, TellsHowFarItIsAndStops) {
+    GridProblem const problem = winding_lines(200, 0.03);
+    std::vector<double> shares;
+    thalweg::Run run;
+    run.progress_arg = &shares;
+    run.progress = [](double share, char const*, void* to) {
+        static_cast<std::vector<double>*>(to)->push_back(share);
+        return 1;
+    };
+    solve_poisson(problem, {}, run);
+    ASSERT_GT(shares.size(), 5U);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_EQ(shares.back(), 1.0);
+    run.progress = [](double share, char const*, void*) { return share < 0.3 ? 1 : 0; };
+    EXPECT_THROW(solve_poisson(problem, {}, run), Cancelled);
+    std::stop_source stopped;
+    stopped.request_stop();
+    thalweg::Run stop;
+    stop.stop = stopped.get_token();
+    EXPECT_THROW(solve_poisson(problem, {}, stop), Cancelled);
+}
+
+TEST(Unreached, FindsPartsWithoutFixedCells) {
+    ASSERT_TRUE(rc::check("as a flood from the fixed cells does", [] {
+        auto const width = *rc::gen::inRange<std::int64_t>(1, 25).as("width");
+        auto const height = *rc::gen::inRange<std::int64_t>(1, 25).as("height");
+        double const holes = *rc::gen::element(0.0, 0.3, 0.5).as("share outside");
+        auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
+        GridProblem problem = all_free(width, height);
+        for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
+            double const u = unit(chance(seed, 1, static_cast<std::uint64_t>(i)));
+            problem.kind[i] = u < 0.02 ? fixed_cell : (u < 0.02 + holes ? outside_cell : free_cell);
+        }
+        Mask reached(problem.kind.grid(), 0);
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (std::int64_t i = 0; i < reached.cells(); ++i) {
+                bool now = problem.kind[i] == fixed_cell;
+                for (Cell const n : neighbours(problem, problem.kind.grid().at(i))) {
+                    now = now || reached[n] != 0;
+                }
+                if (now && reached[i] == 0 && problem.kind[i] != outside_cell) {
+                    reached[i] = 1;
+                    changed = true;
+                }
+            }
+        }
+        Mask found(problem.kind.grid(), 0);
+        for (CellSpan const& span : unreached(problem.kind)) {
+            RC_ASSERT(span.begin < span.end);
+            for (std::int64_t col = span.begin; col < span.end; ++col) {
+                RC_ASSERT((found[{col, span.row}] == 0));
+                found[{col, span.row}] = 1;
+            }
+        }
+        for (std::int64_t i = 0; i < reached.cells(); ++i) {
+            RC_ASSERT((found[i] != 0) == (problem.kind[i] != outside_cell && reached[i] == 0));
+        }
+    }));
+}
+
+} // namespace

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/dilation/increment.hpp>
+
+#include <thalweg/core/run/error.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "valleys.hpp"
+
+using namespace thalweg;
+using namespace thalweg::surface;
+
+namespace {
+
+std::vector<double> sums(std::int64_t levels, IncrementParams const& params) {
+    return heights_above_valley(increments(levels, params));
+}
+
+std::string refusal(std::string const& text) {
+    return valleys::message<BadParameter>([&] { increments(10, {text}); });
+}
+
+TEST(Increments, NoLevels) {
+    EXPECT_TRUE(increments(0).empty());
+    EXPECT_EQ(heights_above_valley({}), std::vector<double>{0.0});
+    EXPECT_THROW(increments(-1), BadParameter);
+}
+
+TEST(Increments, SumsOfTable1) {
+    EXPECT_NEAR(sums(1000, {"uniform"})[1000], 100.0, 1e-9);
+    auto const decreasing = sums(1000, {"decreasing"});
+    EXPECT_NEAR(decreasing[300], 448.5, 1e-9);
+    EXPECT_EQ(decreasing[1000], decreasing[300]);
+    auto const rise_fall = sums(1000, {"rise_fall"});
+    EXPECT_NEAR(rise_fall[150], 339.75, 1e-9);
+    EXPECT_NEAR(rise_fall[600], 1350.0, 1e-9);
+}
+
+TEST(Increments, FallOnlyWhereAllowed) {
+    EXPECT_EQ(sums(700, {"rise_fall"})[700], sums(700, {"rise_fall"})[600]);
+    EXPECT_NEAR(sums(700, {"rise_fall", true})[700], 1299.5, 1e-9);
+    EXPECT_EQ(increments(1, {"-x"}), std::vector<double>{0.0});
+    EXPECT_EQ(increments(1, {"-x", true}), std::vector<double>{-1.0});
+}
+
+TEST(Increments, JumpsAreFoundWhereTheyAre) {
+    for (char const* const name : {"uniform", "decreasing", "rise_fall", "3-0.01*x", "x<=150 ? 0.03*x : 6-0.01*x",
+                                   "x<300 ? 3-0.01*x : 0", "x*x*x", "exp(-x/20)", "abs(x-30)"}) {
+        EXPECT_TRUE(increment_jumps(700, {name}).empty()) << name;
+        EXPECT_TRUE(increment_jumps(700, {name, true}).empty()) << name;
+    }
+    EXPECT_TRUE(increment_jumps(0, {"x<10 ? 1 : 5"}).empty());
+    EXPECT_TRUE(increment_jumps(9, {"x<10 ? 1 : 5"}).empty());
+    auto const jumps = increment_jumps(200, {"x<=100 ? 0.03*x : 6-0.01*x"}); // a D = 3, K - b D = 5
+    ASSERT_EQ(jumps.size(), 1U);
+    EXPECT_NEAR(jumps[0].x, 100.0, 1e-6);
+    EXPECT_NEAR(jumps[0].from, 3.0, 1e-6);
+    EXPECT_NEAR(jumps[0].to, 5.0, 1e-6);
+    EXPECT_EQ(increment_jumps(100, {"rint(x/10)"}).size(), 10U);
+    EXPECT_TRUE(increment_jumps(200, {"x<=100 ? 0-x : 0-2*x"}).empty()); // all below 0, which count as 0
+    EXPECT_EQ(increment_jumps(200, {"x<=100 ? 0-x : 0-2*x", true}).size(), 1U);
+    EXPECT_THROW(increment_jumps(10, {"nonsense"}), BadParameter);
+}
+
+TEST(Increments, NamesWrittenOutAreTheSameTo32Bits) {
+    for (auto const& [name, written] : {std::pair{"uniform", "0.1"},
+                                        {"decreasing", "x<300 ? 3-0.01*x : 0"},
+                                        {"rise_fall", "x<=150 ? 0.03*x : 6-0.01*x"}}) {
+        auto named = increments(1000, {name, true});
+        std::transform(named.begin(), named.end(), named.begin(),
+                       [](double v) { return std::floor(v * 0x1p32 + 0.5) * 0x1p-32; });
+        EXPECT_EQ(named, increments(1000, {written, true})) << name;
+    }
+}
+
+TEST(Increments, ExpressionsAreRoundedTo32Bits) {
+    for (double const v : increments(200, {"1+sin(x)/3"})) {
+        EXPECT_EQ(v * 0x1p32, std::floor(v * 0x1p32));
+    }
+    double const large = increments(1, {"1e6*sqrt(2)"})[0];
+    EXPECT_NEAR(large, 1414213.5623730951, 0x1p-16);
+    EXPECT_EQ(large * 0x1p15, std::floor(large * 0x1p15));
+}
+
+TEST(Increments, DidYouMean) {
+    EXPECT_EQ(refusal("rise_fal"),
+              "surface.increments: 'rise_fal' is not an increment. Did you mean 'rise_fall'? (uniform, "
+              "decreasing, rise_fall, or an expression in x such as 3-0.01*x)");
+    EXPECT_NE(refusal("rise-fall").find("Did you mean 'rise_fall'?"), std::string::npos);
+    EXPECT_NE(refusal("Uniform").find("Did you mean 'uniform'?"), std::string::npos);
+    EXPECT_EQ(refusal("3-0.01*y").find("Did you mean"), std::string::npos);
+}
+
+TEST(Increments, WhatIsNoExpressionIsRefused) {
+    for (std::string const& text : {std::string(), std::string("3-"), std::string("(x"), std::string("x)"),
+                                    std::string("y"), std::string("x=5"), std::string("3*(x=5)"), std::string("x,2"),
+                                    std::string("\"x\""), std::string("x<3 ? 1"), std::string(900, '(')}) {
+        EXPECT_NE(refusal(text).find("is not an increment"), std::string::npos) << text << ": " << refusal(text);
+    }
+    EXPECT_NE(refusal(std::string("x\0x", 3)).find("character 2"), std::string::npos);
+    EXPECT_NE(refusal("\xff").find("character 1"), std::string::npos);
+    EXPECT_EQ(increments(4, {"(x==2)+(x>=3)+(x!=4)+(x<=1)"}), (std::vector<double>{2, 2, 2, 1}));
+    EXPECT_NE(refusal(std::string(1001, '1')).find("1001 characters"), std::string::npos);
+}
+
+TEST(Increments, ANumberThatIsNotFiniteNamesItsX) {
+    EXPECT_NE(refusal("1/(x-7)").find("not finite at x = 7"), std::string::npos) << refusal("1/(x-7)");
+    EXPECT_NE(refusal("sqrt(3-x)").find("not finite at x = 4"), std::string::npos) << refusal("sqrt(3-x)");
+    EXPECT_NO_THROW(increments(6, {"1/(x-7)"}));
+}
+
+} // namespace

@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/surface/equilibrium/internal/area_power.hpp>
+#include <thalweg/surface/equilibrium/internal/edge_heights.hpp>
+#include <thalweg/surface/equilibrium/internal/nearest_river.hpp>
+#include <thalweg/surface/equilibrium/internal/order_cells.hpp>
+#include <thalweg/surface/equilibrium/internal/perched_rivers.hpp>
+#include <thalweg/surface/equilibrium/internal/river_cells.hpp>
+#include <thalweg/surface/equilibrium/internal/slide_land.hpp>
+#include <thalweg/surface/equilibrium/internal/widen.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "channel_trees.hpp"
+
+using namespace thalweg;
+using namespace thalweg::surface;
+
+namespace {
+
+/// Rivers by chance in the frame of a closed land.
+LandLevel any_level() {
+    auto const width = *rc::gen::inRange<std::int64_t>(1, 25).as("width");
+    auto const height = *rc::gen::inRange<std::int64_t>(1, 25).as("height");
+    auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
+    Grid const grid = channel_trees::frame(width, height);
+    auto const end = static_cast<std::int64_t>(chance(seed, 1) % static_cast<std::uint64_t>(grid.cells()));
+    Channels const rivers =
+        channel_trees::grown(grid, {0, end}, {}, grid.cells() / 3 + 1, channel_trees::Room::crowd, seed);
+    LandLevel level;
+    level.width = width + 2;
+    level.height = height + 2;
+    EquilibriumParams closed;
+    closed.edge = Edge::closed;
+    level.rivers = widened(rivers, {}, closed).rivers;
+    return level;
+}
+
+/// Rough land around such rivers, with some banks among it.
+LandLevel any_land() {
+    LandLevel level = any_level();
+    auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("land");
+    auto const cells = static_cast<std::size_t>(level.cells());
+    level.cover.assign(cells, Cover::outside);
+    level.z.assign(cells, std::numeric_limits<float>::infinity());
+    level.cap.assign(cells, 0.0F);
+    each_inner(level, [&](std::size_t i) {
+        level.cover[i] = chance(seed, 1, i) % 10 == 0 ? Cover::bank : Cover::land;
+        level.z[i] = static_cast<float>(chance(seed, 2, i) % 1000) * 0.01F;
+        level.cap[i] = 0.1F + static_cast<float>(chance(seed, 3, i) % 10) * 0.05F;
+    });
+    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+        level.cover[level.rivers.cell[n]] = Cover::river;
+    }
+    return level;
+}
+
+} // namespace
+
+// Whole numbers below 512 have their power as a float; greater ones that of at most 1/256 less.
+TEST(AreaPower, IsThePower) {
+    AreaPower const power(0.45);
+    for (int area = 1; area < 512; ++area) {
+        EXPECT_EQ(power(static_cast<float>(area)), static_cast<float>(exact::pow(area, 0.45))) << area;
+    }
+    for (double area = 512.0; area < 1e15; area *= 1.37) {
+        auto const value = static_cast<double>(power(static_cast<float>(area)));
+        EXPECT_LE(value, exact::pow(area, 0.45) * (1.0 + 1e-6));
+        EXPECT_GE(value, exact::pow(area * (1.0 - 1.0 / 256.0), 0.45) * (1.0 - 1e-6));
+    }
+}
+
+// As A^theta far above the bend, level below.
+TEST(AreaPower, BendsToALeast) {
+    AreaPower const bent(0.45, 16.0);
+    EXPECT_NEAR(bent(16.0F), std::cbrt(2.0) * std::pow(16.0, 0.45), 1e-5);
+    EXPECT_NEAR(bent(1.0F), std::pow(16.0, 0.45), 0.01 * std::pow(16.0, 0.45));
+    EXPECT_NEAR(bent(400.0F), std::pow(400.0, 0.45), 0.01 * std::pow(400.0, 0.45));
+    for (int area = 1; area < 511; ++area) {
+        EXPECT_LT(bent(static_cast<float>(area)), bent(static_cast<float>(area + 1)));
+    }
+}
+
+// Without obstacles the nearest river by steps of 1 and sqrt(2) is known for each pair of cells.
+TEST(NearestRiver, IsTheNearestOfAll) {
+    EXPECT_TRUE(rc::check("nearest of all", [] {
+        LandLevel const level = any_level();
+        NearestRiver const near = nearest_river(level);
+        for (std::int64_t row = 1; row + 1 < level.height; ++row) {
+            for (std::int64_t col = 1; col + 1 < level.width; ++col) {
+                auto const far = [&](std::uint32_t cell) {
+                    std::int64_t const dx = std::abs(cell % level.width - col);
+                    std::int64_t const dy = std::abs(cell / level.width - row);
+                    return static_cast<double>(std::max(dx, dy) - std::min(dx, dy)) +
+                           std::sqrt(2.0) * static_cast<double>(std::min(dx, dy));
+                };
+                double least = std::numeric_limits<double>::infinity();
+                for (std::uint32_t const cell : level.rivers.cell) {
+                    least = std::min(least, far(cell));
+                }
+                auto const i = static_cast<std::size_t>(row * level.width + col);
+                RC_ASSERT(std::fabs(static_cast<double>(near.distance[i]) - least) < 1e-3);
+                RC_ASSERT(std::fabs(far(level.rivers.cell[near.number[i]]) - least) < 1e-3);
+            }
+        }
+    }));
+}
+
+// Areas are what is counted when each cell's water is followed to its end; no cell stands behind its receiver.
+TEST(OrderCells, CountsWhatDrainsThrough) {
+    EXPECT_TRUE(rc::check("counts what drains through", [] {
+        LandLevel level = any_level();
+        auto const cells = static_cast<std::size_t>(level.cells());
+        level.cover.assign(cells, Cover::outside);
+        level.way.assign(cells, no_way);
+        for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+            // A forest as good as any; its ends are where water leaves.
+            level.cover[level.rivers.cell[n]] = level.rivers.receiver[n] < 0 ? Cover::edge : Cover::land;
+            level.way[level.rivers.cell[n]] = level.rivers.way[n];
+        }
+        order_cells(level);
+        std::vector<std::uint32_t> counted(cells);
+        auto const offsets = level.offsets();
+        for (std::size_t i = 0; i < cells; ++i) {
+            for (std::size_t at = i;; at = moved(at, offsets[static_cast<std::size_t>(level.way[at])])) {
+                ++counted[at];
+                if (level.way[at] == no_way) {
+                    break;
+                }
+            }
+        }
+        std::set<std::uint32_t> seen;
+        for (std::size_t i = 0; i < cells; ++i) {
+            RC_ASSERT(level.area[i] == counted[i]);
+        }
+        for (std::uint32_t const i : level.order) {
+            RC_ASSERT(level.cover[i] == Cover::land);
+            RC_ASSERT(seen.insert(i).second);
+            auto const below = moved(i, offsets[static_cast<std::size_t>(level.way[i])]);
+            RC_ASSERT(!seen.contains(static_cast<std::uint32_t>(below)));
+        }
+        RC_ASSERT(static_cast<std::ptrdiff_t>(seen.size()) ==
+                  std::count(level.cover.begin(), level.cover.end(), Cover::land));
+    }));
+}
+
+// Coarse rivers are trees as the fine ones are: downstream first, each cell once, each receiver a neighbour; a river
+// cell lies in each coarse cell that has fine ones, and nowhere else.
+TEST(CoarsenedRivers, AreTrees) {
+    EXPECT_TRUE(rc::check("coarse rivers are trees", [] {
+        LandLevel const level = any_level();
+        std::int64_t const width = (level.width - 1) / 2 + 2;
+        std::int64_t const height = (level.height - 1) / 2 + 2;
+        RiverCells const coarse = coarsened(level.rivers, level.width, width, height);
+        std::set<std::uint32_t> covered;
+        for (std::uint32_t const cell : level.rivers.cell) {
+            std::int64_t const row = (cell / level.width - 1) / 2 + 1;
+            std::int64_t const col = (cell % level.width - 1) / 2 + 1;
+            covered.insert(static_cast<std::uint32_t>(row * width + col));
+        }
+        std::set<std::uint32_t> const cells(coarse.cell.begin(), coarse.cell.end());
+        RC_ASSERT(cells == covered);
+        RC_ASSERT(cells.size() == coarse.cell.size());
+        for (std::size_t n = 0; n < coarse.cell.size(); ++n) {
+            RC_ASSERT(coarse.receiver[n] < static_cast<std::int32_t>(n));
+            RC_ASSERT((coarse.receiver[n] < 0) == (coarse.way[n] < 0));
+        }
+    }));
+}
+
+// The heights are what sweeps over all cells come to that lower each as far as any neighbour asks for.
+TEST(SlideLand, IsTheGreatestThatMayStand) {
+    ASSERT_TRUE(rc::check("the greatest heights that may stand", [] {
+        LandLevel level = any_land();
+        LandLevel plain = level;
+        slide_land(level);
+        auto const offsets = plain.offsets();
+        for (bool more = true; more;) {
+            more = false;
+            each_inner(plain, [&](std::size_t i) {
+                for (std::size_t k = 0; k < 8 && plain.cover[i] == Cover::land; ++k) {
+                    float const most =
+                        plain.z[moved(i, offsets[k])] + 1.5F * plain.cap[i] * plain.side * step_lengths[k];
+                    more = more || plain.z[i] > most;
+                    plain.z[i] = std::min(plain.z[i], most);
+                }
+            });
+        }
+        each_inner(plain, [&](std::size_t i) { RC_ASSERT(level.z[i] == plain.z[i]); });
+    }));
+}
+
+// Land rises only, rivers fall only and stay above their receivers; nothing is perched above land any more.
+TEST(Perched, IsLoweredOrHeldUp) {
+    ASSERT_TRUE(rc::check("lowered or held up", [] {
+        LandLevel level = any_land();
+        RiverCells const& rivers = level.rivers;
+        float const tangent = 0.5F;
+        float const step = 0.002F;
+        for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+            if (rivers.receiver[n] >= 0) {
+                float const rise = chance(7, n) % 8 == 0 ? 3.0F : 0.01F;
+                level.z[rivers.cell[n]] = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]] + rise;
+            }
+        }
+        Cells<float> const before = level.z;
+        lower_perched(level, tangent, step);
+        Cells<float> const lowered = level.z;
+        raise_below_perched(level, tangent);
+        for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+            std::uint32_t const i = rivers.cell[n];
+            RC_ASSERT(level.z[i] <= before[i]);
+            RC_ASSERT(level.z[i] == lowered[i]);
+            if (rivers.receiver[n] >= 0) {
+                RC_ASSERT(level.z[i] >=
+                          level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]] + 0.5F * step);
+            }
+        }
+        each_inner(level, [&](std::size_t i) {
+            if (level.cover[i] != Cover::river) {
+                RC_ASSERT(lowered[i] == before[i]);
+                RC_ASSERT(level.z[i] >= lowered[i]);
+            }
+        });
+        for (std::int64_t const number : perched_cells(level, tangent * 1.0001F)) {
+            auto const n = static_cast<std::size_t>(
+                std::distance(rivers.number.begin(), std::find(rivers.number.begin(), rivers.number.end(), number)));
+            // what it stands above is a river
+            std::int64_t const col = rivers.cell[n] % level.width;
+            std::int64_t const row = rivers.cell[n] / level.width;
+            float lowest_land = std::numeric_limits<float>::infinity();
+            for (std::int64_t r = row - 2; r <= row + 2; ++r) {
+                for (std::int64_t c = col - 2; c <= col + 2; ++c) {
+                    auto const i = static_cast<std::size_t>(r * level.width + c);
+                    bool const on_ring = std::abs(r - row) == 2 || std::abs(c - col) == 2;
+                    lowest_land =
+                        on_ring && level.cover[i] == Cover::land ? std::min(lowest_land, level.z[i]) : lowest_land;
+                }
+            }
+            RC_ASSERT(level.z[rivers.cell[n]] <= lowest_land + tangent * 1.0001F * level.side);
+        }
+    }));
+}
+
+// The land's edge is as high as the nearest river, also when heads have been given up and the others are counted anew.
+TEST(EdgeHeights, AskNoNumbers) {
+    ASSERT_TRUE(rc::check("edges keep their heights when rivers are counted anew", [] {
+        LandLevel level = any_land();
+        auto const width = static_cast<std::size_t>(level.width);
+        for (std::size_t i = 0; i < level.cover.size(); ++i) {
+            bool const inside = i % width > 0 && i % width + 1 < width && i >= width && i + width < level.cover.size();
+            level.cover[i] = inside ? level.cover[i] : Cover::edge;
+        }
+        EdgeCells const edge = edge_cells(level, nearest_river(level));
+        RC_ASSERT(edge.ring.size() == static_cast<std::size_t>(2 * (level.width + level.height) - 4));
+        set_edge_heights(level, edge);
+        Cells<float> const before = level.z;
+        level.rivers = {};
+        set_edge_heights(level, edge);
+        RC_ASSERT(level.z == before);
+    }));
+}

@@ -1,0 +1,538 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/equilibrium/equilibrium.hpp>
+
+#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/run/error.hpp>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "channel_trees.hpp"
+
+using namespace thalweg;
+using channel_trees::beside;
+using channel_trees::frame;
+using channel_trees::Room;
+using surface::Edge;
+using surface::equilibrium;
+using surface::EquilibriumFields;
+using surface::EquilibriumLand;
+using surface::EquilibriumParams;
+using surface::RiverHeights;
+
+namespace {
+
+struct Scene {
+    Channels rivers;
+    EquilibriumFields fields;
+    EquilibriumParams params;
+    Room room = Room::apart;
+};
+
+bool dry(Scene const& scene, std::int64_t cell) {
+    return scene.fields.land.cells() == 0 || scene.fields.land[cell] != 0;
+}
+
+/// Whether water may leave a cell: at the grid's border or beside the sea.
+bool at_end(Scene const& scene, std::int64_t cell) {
+    auto const near = beside(scene.rivers.grid, cell);
+    return scene.rivers.grid.on_border(scene.rivers.grid.at(cell)) ||
+           std::any_of(near.begin(), near.end(), [&](std::int64_t n) { return !dry(scene, n); });
+}
+
+/// Land within the circle about the middle, and every cell that a circle by chance adds.
+Mask island(Grid const& grid, std::uint64_t seed) {
+    Mask land(grid);
+    for (std::uint64_t blob = 0; blob < 3; ++blob) {
+        double const x = static_cast<double>(grid.width) * unit(chance(seed, 21, blob));
+        double const y = static_cast<double>(grid.height) * unit(chance(seed, 22, blob));
+        double const r = 0.5 * static_cast<double>(std::max(grid.width, grid.height)) * unit(chance(seed, 23, blob));
+        for (std::int64_t i = 0; i < land.cells(); ++i) {
+            Cell const c = grid.at(i);
+            double const dx = static_cast<double>(c.col) - x;
+            double const dy = static_cast<double>(c.row) - y;
+            land[i] = land[i] != 0 || dx * dx + dy * dy <= r * r ? 1 : 0;
+        }
+    }
+    land[{grid.width / 2, grid.height / 2}] = 1;
+    return land;
+}
+
+/// Lakes: what lies within three steps upstream of some cells.
+void add_lakes(Channels& rivers, std::uint64_t seed) {
+    rivers.level.assign(rivers.cell.size(), 0);
+    std::vector<int> left(rivers.cell.size(), 0);
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        std::int64_t const r = rivers.receiver[n];
+        if (r < 0) {
+            continue;
+        }
+        left[n] = std::max(0, left[static_cast<std::size_t>(r)] - 1);
+        if (chance(seed, 31, n) % 20 == 0) {
+            left[n] = 4;
+        }
+        rivers.level[n] = left[n] > 0 ? 1 : 0;
+    }
+}
+
+/// Heights that rise upstream from 100 m by chance, or not at all; some cells have none.
+void add_heights(Channels& rivers, std::uint64_t seed) {
+    std::vector<float> z(rivers.cell.size(), 100.0F);
+    for (std::size_t n = 0; n < z.size(); ++n) {
+        if (rivers.receiver[n] >= 0) {
+            double const rise = static_cast<double>(chance(seed, 51, n) % 4) * 0.7;
+            z[n] = z[static_cast<std::size_t>(rivers.receiver[n])] + static_cast<float>(rise);
+        }
+    }
+    rivers.z = z;
+    for (std::size_t n = 1; n < z.size(); ++n) {
+        rivers.z[n] = chance(seed, 52, n) % 3 == 0 ? rivers.z[n] : std::numeric_limits<float>::quiet_NaN();
+    }
+}
+
+Scene any_scene() {
+    auto const width = *rc::gen::inRange<std::int64_t>(1, 41).as("width");
+    auto const height = *rc::gen::inRange<std::int64_t>(1, 41).as("height");
+    auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
+    auto const cells = *rc::gen::inRange<std::int64_t>(1, 200).as("river cells");
+    Scene scene;
+    scene.params.edge = *rc::gen::element(Edge::open, Edge::closed, Edge::coast, Edge::mainland).as("edge");
+    scene.params.seed = seed;
+    scene.params.theta = *rc::gen::element(0.45, 0.45, 0.1, 0.9).as("theta");
+    scene.params.hillslope_cells = *rc::gen::element(1.3, 1.3, 0.5, 100.0).as("hillslope");
+    scene.params.roughness = *rc::gen::element(0.4, 0.4, 0.0, 1.0).as("roughness");
+    scene.params.floor_width = *rc::gen::element(0.04, 0.0, 1.0).as("floor");
+    scene.params.mean_slope_deg = *rc::gen::element(25.0, 0.001, 60.0).as("slope");
+    scene.room = *rc::gen::element(Room::apart, Room::apart, Room::crowd).as("room");
+    Grid const grid = frame(width, height, *rc::gen::element(10.0, 0.5, 1000.0).as("cell"));
+    // A closed land that is in pieces would need a river on each.
+    bool const sea = scene.params.edge != Edge::closed && *rc::gen::arbitrary<bool>().as("sea");
+    if (sea) {
+        scene.fields.land = island(grid, seed);
+    }
+    bool const sinks = *rc::gen::element(false, false, true).as("sinks");
+    scene.rivers.grid = grid;
+    std::vector<std::int64_t> ends;
+    std::vector<std::int64_t> possible;
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (dry(scene, i) && (sinks || at_end(scene, i))) {
+            possible.push_back(i);
+        }
+    }
+    for (std::uint64_t end = 0; end < 3; ++end) {
+        ends.push_back(possible[chance(seed, 41, end) % possible.size()]);
+    }
+    scene.rivers = channel_trees::grown(grid, ends, scene.fields.land, cells, scene.room, seed);
+    // A lake's water cannot be told from a river's that lies beside it.
+    if (scene.room == Room::apart && *rc::gen::arbitrary<bool>().as("lakes")) {
+        add_lakes(scene.rivers, seed);
+    }
+    scene.params.heights =
+        *rc::gen::element(RiverHeights::graded, RiverHeights::graded, RiverHeights::soft, RiverHeights::fixed)
+             .as("heights");
+    if (scene.params.heights != RiverHeights::graded) {
+        add_heights(scene.rivers, seed);
+    }
+    return scene;
+}
+
+std::int8_t plain_d8(Raster<float> const& dem, std::int64_t cell) {
+    if (std::isnan(dem[cell])) {
+        return -2;
+    }
+    std::int8_t way = -1;
+    double best = 0.0;
+    Cell const at = dem.grid().at(cell);
+    for (std::size_t k = 0; k < d8_steps.size(); ++k) {
+        Cell const n{at.col + d8_steps[k].col, at.row + d8_steps[k].row};
+        if (dem.grid().contains(n)) {
+            double const slope = (static_cast<double>(dem[cell]) - static_cast<double>(dem[n])) * d8_per_length[k];
+            if (slope > best) {
+                best = slope;
+                way = static_cast<std::int8_t>(k);
+            }
+        }
+    }
+    return way;
+}
+
+std::int64_t next(Grid const& grid, std::int64_t cell, std::int8_t way) {
+    Cell const at = grid.at(cell);
+    Cell const step = d8_steps[static_cast<std::size_t>(way)];
+    return grid.index({at.col + step.col, at.row + step.row});
+}
+
+/// Cells below the level at which their water spills towards the border, the sea or a river's end.
+std::int64_t cells_in_depressions(Scene const& scene, Raster<float> const& dem) {
+    std::vector<float> level(static_cast<std::size_t>(dem.cells()), std::numeric_limits<float>::infinity());
+    std::set<std::int64_t> ends;
+    for (std::size_t n = 0; n < scene.rivers.cell.size(); ++n) {
+        if (scene.rivers.receiver[n] < 0) {
+            ends.insert(scene.rivers.cell[n]);
+        }
+    }
+    using Entry = std::pair<float, std::int64_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        bool const ends_here =
+            scene.params.edge == Edge::closed ? ends.contains(i) : ends.contains(i) || at_end(scene, i);
+        if (!std::isnan(dem[i]) && ends_here) {
+            level[static_cast<std::size_t>(i)] = dem[i];
+            queue.emplace(dem[i], i);
+        }
+    }
+    while (!queue.empty()) {
+        auto const [z, i] = queue.top();
+        queue.pop();
+        for (std::int64_t const n : beside(dem.grid(), i)) {
+            if (!std::isnan(dem[n]) && std::isinf(level[static_cast<std::size_t>(n)])) {
+                level[static_cast<std::size_t>(n)] = std::max(z, dem[n]);
+                queue.emplace(level[static_cast<std::size_t>(n)], n);
+            }
+        }
+    }
+    std::int64_t count = 0;
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        count += level[static_cast<std::size_t>(i)] > dem[i] ? 1 : 0;
+    }
+    return count;
+}
+
+/// Numbers of the river cells that are still such.
+std::vector<std::size_t> kept(Scene const& scene, EquilibriumLand const& land) {
+    std::set<std::int64_t> const gone(land.shortened.begin(), land.shortened.end());
+    std::vector<std::size_t> out;
+    for (std::size_t n = 0; n < scene.rivers.cell.size(); ++n) {
+        if (!gone.contains(static_cast<std::int64_t>(n))) {
+            out.push_back(n);
+        }
+    }
+    return out;
+}
+
+std::set<std::int64_t> river_cells(Scene const& scene, EquilibriumLand const& land) {
+    std::set<std::int64_t> out;
+    for (std::size_t const n : kept(scene, land)) {
+        out.insert(scene.rivers.cell[n]);
+    }
+    return out;
+}
+
+template <class Thrown> std::string message(Scene const& scene) {
+    try {
+        equilibrium(scene.rivers, scene.fields, scene.params);
+    } catch (Thrown const& e) {
+        return e.what();
+    }
+    return "nothing was thrown";
+}
+
+/// One river straight through a square from its middle column's head to the southern border.
+Scene square(std::int64_t side, Edge edge = Edge::open) {
+    Scene scene;
+    scene.rivers.grid = frame(side, side);
+    scene.params.edge = edge;
+    for (std::int64_t row = side - 1; row >= side / 4; --row) {
+        scene.rivers.receiver.push_back(static_cast<std::int64_t>(scene.rivers.cell.size()) - 1);
+        scene.rivers.cell.push_back(row * side + side / 2);
+    }
+    return scene;
+}
+
+bool has(std::string const& text, std::string const& part) {
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+// The least there can be: a cell, a row, a column; and a grid that is all river.
+TEST(Equilibrium, TinyGridsHaveLand) {
+    for (Edge const edge : {Edge::open, Edge::closed, Edge::coast, Edge::mainland}) {
+        for (auto const& [width, height] :
+             {std::pair<std::int64_t, std::int64_t>{1, 1}, {5, 1}, {1, 5}, {2, 2}, {3, 3}}) {
+            Scene scene;
+            scene.params.edge = edge;
+            scene.rivers = {frame(width, height), {0}, {-1}, {}, {}};
+            EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
+            EXPECT_EQ(land.dem[0], 0.0F);
+            EXPECT_EQ(land.direction[0], -1);
+            for (std::int64_t i = 1; i < land.dem.cells(); ++i) {
+                EXPECT_GT(land.dem[i], 0.0F) << width << " x " << height << " cell " << i;
+            }
+        }
+    }
+}
+
+TEST(Equilibrium, AGridMayBeAllRiver) {
+    Scene scene;
+    scene.rivers = {frame(4, 1), {0, 1, 2, 3}, {-1, 0, 1, 2}, {}, {}};
+    EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
+    for (std::int64_t i = 1; i < 4; ++i) {
+        EXPECT_GT(land.dem[i], land.dem[i - 1]);
+        EXPECT_EQ(land.direction[i], 4);
+    }
+}
+
+// Every other cell has a strictly lower neighbour, so there is no depression but a sink; directions are those of the
+// steepest descent of the floats that are written, and those of rivers are towards their receivers.
+TEST(Equilibrium, LandDrains) {
+    EXPECT_TRUE(rc::check("land drains", [] {
+        Scene const scene = any_scene();
+        EquilibriumLand const land = equilibrium(scene.rivers, scene.fields, scene.params);
+        auto const rivers = river_cells(scene, land);
+        for (std::int64_t i = 0; i < land.dem.cells(); ++i) {
+            RC_ASSERT(std::isnan(land.dem[i]) == !dry(scene, i));
+            RC_ASSERT(!std::isinf(land.dem[i]));
+            if (!rivers.contains(i)) {
+                RC_ASSERT(land.direction[i] == plain_d8(land.dem, i));
+                RC_ASSERT((land.direction[i] != -1 || (scene.params.edge != Edge::closed && at_end(scene, i))));
+            }
+        }
+        RC_ASSERT(cells_in_depressions(scene, land.dem) == 0);
+    }));
+}
+
+// Water of a river cell goes to its receiver; lakes are level; cells beside rivers stand above them; the lowest end
+// stands at 0.
+TEST(Equilibrium, RiversKeepTheirWater) {
+    EXPECT_TRUE(rc::check("rivers keep their water", [] {
+        Scene const scene = any_scene();
+        EquilibriumLand const land = equilibrium(scene.rivers, scene.fields, scene.params);
+        Channels const& rivers = scene.rivers;
+        auto const cells = river_cells(scene, land);
+        float lowest = std::numeric_limits<float>::infinity();
+        for (std::size_t const n : kept(scene, land)) {
+            std::int64_t const i = rivers.cell[n];
+            for (std::int64_t const near : beside(rivers.grid, i)) {
+                RC_ASSERT((cells.contains(near) || std::isnan(land.dem[near]) || land.dem[near] > land.dem[i]));
+            }
+            if (rivers.receiver[n] < 0) {
+                lowest = std::min(lowest, land.dem[i]);
+                RC_ASSERT(land.direction[i] == -1);
+                continue;
+            }
+            std::int64_t const below = rivers.cell[static_cast<std::size_t>(rivers.receiver[n])];
+            RC_ASSERT(next(rivers.grid, i, land.direction[i]) == below);
+            if (!rivers.level.empty() && rivers.level[n] != 0) {
+                RC_ASSERT(land.dem[i] == land.dem[below]);
+                continue;
+            }
+            RC_ASSERT(land.dem[i] > land.dem[below]);
+            if (scene.room == Room::apart && scene.params.heights == RiverHeights::graded) {
+                RC_ASSERT(plain_d8(land.dem, i) == land.direction[i]);
+            }
+        }
+        RC_ASSERT((scene.params.heights != RiverHeights::graded || lowest == 0.0F));
+        // Only tips are given up: with a cell goes all that lies upstream of it.
+        RC_ASSERT(std::is_sorted(land.shortened.begin(), land.shortened.end()));
+        for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+            bool const river = cells.contains(rivers.cell[n]);
+            RC_ASSERT((!river || rivers.receiver[n] < 0 ||
+                       cells.contains(rivers.cell[static_cast<std::size_t>(rivers.receiver[n])])));
+        }
+    }));
+}
+
+// Fixed: given heights are kept, but for the least rise that water needs. Soft: they are upper bounds, and what lies
+// below them is told.
+TEST(Equilibrium, GivenHeightsHold) {
+    EXPECT_TRUE(rc::check("given heights hold", [] {
+        Scene scene = any_scene();
+        scene.params.heights = *rc::gen::element(RiverHeights::soft, RiverHeights::fixed).as("which");
+        scene.rivers.level.clear();
+        add_heights(scene.rivers, scene.params.seed);
+        EquilibriumLand const land = equilibrium(scene.rivers, scene.fields, scene.params);
+        float const ulps = 100.0F * static_cast<float>(scene.rivers.cell.size()) * 0x1p-22F;
+        double deepest = 0.0;
+        for (std::size_t n = 0; n < scene.rivers.cell.size(); ++n) {
+            float const asked = scene.rivers.z[n];
+            if (std::isnan(asked)) {
+                continue;
+            }
+            float const z = land.dem[scene.rivers.cell[n]];
+            RC_ASSERT(z <= asked + ulps);
+            if (scene.params.heights == RiverHeights::fixed) {
+                RC_ASSERT(z >= asked);
+            }
+            deepest = std::max(deepest, static_cast<double>(asked) - static_cast<double>(z));
+        }
+        RC_ASSERT(land.max_lowered_m == deepest);
+        RC_ASSERT((land.p95_lowered_m >= 0.0 && land.p95_lowered_m <= deepest));
+        RC_ASSERT(land.shortened.empty());
+    }));
+}
+
+// Only an outlet and a source are given: the river between them falls all the way, more steeply where it drains less.
+TEST(Equilibrium, RiversAreGradedBetweenGivenHeights) {
+    Scene scene = square(80);
+    scene.rivers.z.assign(scene.rivers.cell.size(), std::numeric_limits<float>::quiet_NaN());
+    scene.rivers.z.front() = 20.0F;
+    scene.rivers.z.back() = 50.0F;
+    scene.params.heights = RiverHeights::fixed;
+    EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
+    auto const z = [&](std::size_t n) { return land.dem[scene.rivers.cell[n]]; };
+    std::size_t const last = scene.rivers.cell.size() - 1;
+    EXPECT_EQ(z(0), 20.0F);
+    EXPECT_EQ(z(last), 50.0F);
+    for (std::size_t n = 1; n <= last; ++n) {
+        EXPECT_GT(z(n), z(n - 1));
+    }
+    EXPECT_LT(z(last / 2) - z(0), z(last) - z(last / 2));
+}
+
+// The same bytes for any number of threads, and others for another seed.
+TEST(Equilibrium, ThreadsDoNotMatterSeedsDo) {
+    Scene scene = square(90);
+    auto const bytes = [&](int threads) {
+        thalweg::Run run;
+        run.threads = threads;
+        EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params, run);
+        std::vector<std::uint32_t> out;
+        std::transform(land.dem.values().begin(), land.dem.values().end(), std::back_inserter(out),
+                       [](float z) { return std::bit_cast<std::uint32_t>(z); });
+        return out;
+    };
+    auto const one = bytes(1);
+    EXPECT_EQ(one, bytes(2));
+    EXPECT_EQ(one, bytes(5));
+    scene.params.seed = 8;
+    EXPECT_NE(one, bytes(1));
+}
+
+TEST(Equilibrium, HasTheReliefAsked) {
+    for (Edge const edge : {Edge::open, Edge::closed, Edge::coast, Edge::mainland}) {
+        Scene scene = square(64, edge);
+        scene.params.relief_m = 123.0;
+        EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
+        auto const values = land.dem.values();
+        auto const [low, high] = std::minmax_element(values.begin(), values.end());
+        EXPECT_NEAR(*high - *low, 123.0F, 0.01F);
+    }
+}
+
+TEST(Equilibrium, AMainlandIsLowAtTheSeaAndGoesOnInland) {
+    Scene scene = square(64, Edge::mainland);
+    scene.fields.land = Mask(scene.rivers.grid, 1);
+    for (std::int64_t row = 0; row < 64; ++row) {
+        for (std::int64_t col = 0; col < 12; ++col) {
+            scene.fields.land[Cell{col, row}] = 0;
+        }
+    }
+    for (std::int64_t const cell : scene.rivers.cell) {
+        scene.fields.land[cell] = 1;
+    }
+    EquilibriumLand const land = equilibrium(scene.rivers, scene.fields, scene.params);
+    scene.params.edge = Edge::coast;
+    EquilibriumLand const island = equilibrium(scene.rivers, scene.fields, scene.params);
+    auto const mean = [](Raster<float> const& dem, std::int64_t col) {
+        double sum = 0.0;
+        int cells = 0;
+        for (std::int64_t row = 0; row < dem.height(); ++row) {
+            if (!std::isnan(dem[Cell{col, row}])) {
+                sum += static_cast<double>(dem[Cell{col, row}]);
+                ++cells;
+            }
+        }
+        return sum / cells;
+    };
+    // At the sea both are low; at the far border only the island is.
+    EXPECT_LT(mean(land.dem, 12), 0.4 * mean(land.dem, 40));
+    EXPECT_GT(mean(land.dem, 63), 0.5 * mean(land.dem, 40));
+    EXPECT_LT(mean(island.dem, 63), 0.4 * mean(island.dem, 40));
+}
+
+TEST(Equilibrium, AMainlandWithoutSeaIsOpen) {
+    Scene scene = square(48);
+    Raster<float> const open = equilibrium(scene.rivers, {}, scene.params).dem;
+    scene.params.edge = Edge::mainland;
+    Raster<float> const mainland = equilibrium(scene.rivers, {}, scene.params).dem;
+    EXPECT_TRUE(std::equal(open.values().begin(), open.values().end(), mainland.values().begin()));
+}
+
+TEST(Equilibrium, HasTheMeanSlopeAsked) {
+    for (double const asked : {2.0, 25.0, 50.0}) {
+        Scene scene = square(64);
+        scene.params.mean_slope_deg = asked;
+        EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
+        double sum = 0.0;
+        for (std::int64_t row = 1; row < 63; ++row) {
+            for (std::int64_t col = 1; col < 63; ++col) {
+                auto const z = [&](std::int64_t c, std::int64_t r) {
+                    return static_cast<double>(land.dem[Cell{col + c, row + r}]);
+                };
+                double const east = z(1, -1) + 2 * z(1, 0) + z(1, 1) - z(-1, -1) - 2 * z(-1, 0) - z(-1, 1);
+                double const south = z(-1, 1) + 2 * z(0, 1) + z(1, 1) - z(-1, -1) - 2 * z(0, -1) - z(1, -1);
+                sum += std::atan(std::hypot(east, south) / 80.0);
+            }
+        }
+        EXPECT_NEAR(sum / (62.0 * 62.0) * 180.0 / 3.14159265, asked, 0.01 * asked);
+    }
+}
+
+// A sea without land in it is no land to draw; rivers that break their law are named with their place.
+TEST(Equilibrium, RefusesWhatCannotBe) {
+    Scene const good = square(8);
+    auto const with = [&](auto change) {
+        Scene scene = good;
+        change(scene);
+        return scene;
+    };
+    auto const bad_input = [&](auto change) { return message<BadInput>(with(change)); };
+    auto const bad_parameter = [&](auto change) { return message<BadParameter>(with(change)); };
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.grid = frame(0, 0); }), "no cells"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.grid.cell_m = 0.0; }), "cell size"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers = {frame(8, 8), {}, {}, {}, {}}; }), "no rivers"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.receiver.pop_back(); }), "one each"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.cell[1] = 64; }), "outside"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.cell[1] = s.rivers.cell[0]; }), "column 4, row 7"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.receiver[1] = 2; }), "downstream first"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.receiver[3] = 0; }), "not a neighbour"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.fields.land = Mask(frame(7, 8), 1); }), "another frame"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.fields.land = Mask(frame(8, 8), 0); }), "no land"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) {
+                        s.fields.land = Mask(frame(8, 8), 1);
+                        s.fields.land[{4, 6}] = 0;
+                    }),
+                    "column 4, row 6 lies at sea"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) {
+                        s.fields.uplift = Raster<float>(frame(8, 8), 1.0F);
+                        s.fields.uplift[{2, 3}] = std::numeric_limits<float>::quiet_NaN();
+                    }),
+                    "uplift is nan at column 2, row 3"));
+    EXPECT_TRUE(
+        has(bad_input([](Scene& s) { s.fields.erodibility = Raster<float>(frame(8, 8), 0.0F); }), "erodibility"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.z = {5, 6, 7, 6, 9, 10}; }), "rises"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) {
+                        s.params.edge = Edge::closed;
+                        s.fields.land = Mask(frame(8, 8), 1);
+                        for (std::int64_t i = 0; i < 8; ++i) {
+                            s.fields.land[{1, i}] = 0;
+                        }
+                    }),
+                    "column 0, row 0"));
+    EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.theta = 0.0; }), "theta"));
+    EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.relief_m = 0.0; }), "relief_m"));
+    EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.mean_slope_deg = 61.0; }), "mean_slope_deg"));
+    EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.hillslope_cells = std::nan(""); }), "hillslope_cells"));
+    EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.floor_width = -1.0; }), "floor_width"));
+    EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.roughness = 2.0; }), "roughness"));
+    EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.longest_wave_cells = 3.0; }), "longest_wave_cells"));
+}
+
+TEST(Equilibrium, StopsWhenAsked) {
+    std::stop_source source;
+    source.request_stop();
+    thalweg::Run run;
+    run.stop = source.get_token();
+    Scene const scene = square(8);
+    EXPECT_THROW(equilibrium(scene.rivers, {}, scene.params, run), Cancelled);
+}

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command.hpp"
+
+#include <thalweg/io/mesh/read_tin.hpp>
+#include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/io/raster/write_dem.hpp>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace thalweg;
+
+Grid const frame{40, 30, 10.0, 500000.0, 4000000.0, "EPSG:32631"};
+
+/// A slope to the east with waves, and the cells 10 to 29, 8 to 21 as a region.
+void write_lands(Workplace const& place) {
+    Raster<float> dem(frame);
+    Raster<float> region(frame);
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        Cell const c = frame.at(i);
+        dem[i] = static_cast<float>(2 * c.col + (c.col * 7 + c.row * 5) % 11);
+        region[i] = c.col >= 10 && c.col < 30 && c.row >= 8 && c.row < 22 ? 1.0F : 0.0F;
+    }
+    io::write_dem(dem, (place / "land.tif").string());
+    io::write_dem(region, (place / "region.tif").string());
+}
+
+Outcome deform(Workplace const& place, std::string const& arguments) {
+    return thalweg_run("deform " + arguments, place.path());
+}
+
+} // namespace
+
+TEST(Deform, PullsAPlaceToItsHeightAndKeepsWhatIsOutside) {
+    Workplace const place;
+    write_lands(place);
+    Outcome const o = deform(place, "land.tif -o bent.tif --mask region.tif --pull 500205,3999845,500 --json");
+    ASSERT_EQ(o.code, 0) << o.err;
+    nlohmann::json const json = nlohmann::json::parse(o.out);
+    EXPECT_EQ(json["cells"], 280);
+    EXPECT_EQ(json["handles"], 1);
+    Raster<float> const before = io::read_dem((place / "land.tif").string());
+    Raster<float> const after = io::read_dem((place / "bent.tif").string());
+    EXPECT_EQ(after[(Cell{20, 15})], 500.0F);
+    std::int64_t changed = 0;
+    for (std::int64_t i = 0; i < before.cells(); ++i) {
+        Cell const c = frame.at(i);
+        bool const inside = c.col >= 10 && c.col < 30 && c.row >= 8 && c.row < 22;
+        if (!inside) {
+            EXPECT_EQ(after[i], before[i]);
+        }
+        changed += after[i] != before[i];
+    }
+    EXPECT_GT(changed, 200);
+}
+
+TEST(Deform, ScaleZeroTakesTheRegionsReliefAway) {
+    Workplace const place;
+    write_lands(place);
+    ASSERT_EQ(deform(place, "land.tif -o flat.tif --mask region.tif --scale 0").code, 0);
+    Raster<float> const dem = io::read_dem((place / "flat.tif").string());
+    Cell const c{20, 15};
+    double const around =
+        0.25 * (static_cast<double>(dem[Cell{19, 15}]) + dem[Cell{21, 15}] + dem[Cell{20, 14}] + dem[Cell{20, 16}]);
+    EXPECT_NEAR(dem[c], around, 1e-4); // harmonic
+}
+
+TEST(Deform, BadInputIsRefusedWithItsPlace) {
+    Workplace const place;
+    write_lands(place);
+    for (auto const& [arguments, words] : std::vector<std::pair<std::string, std::string>>{
+             {"land.tif -o x.tif --mask region.tif", "nothing to do"},
+             {"land.tif -o x.tif --mask region.tif --pull 1,2,3", "(1, 2) lies outside"},
+             {"land.tif -o x.tif --mask region.tif --pull 500005,3999995,3", "column 0, row 0"},
+             {"land.tif -o x.tif --mask region.tif --pull 500205,3999845", "three for each place"},
+             {"land.tif -o x.tif --mask none.tif --scale 2", "none.tif"},
+             {"land.tif -o x.tif --mask region.tif --scale nan", "scale"}}) {
+        Outcome const o = deform(place, arguments);
+        EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
+        EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
+        EXPECT_FALSE(std::filesystem::exists(place / "x.tif")) << arguments;
+    }
+}
+
+TEST(Deform, RotatesAPartOfAMeshOutOfThePlane) {
+    Workplace const place;
+    std::string obj = "# crs EPSG:32631\n";
+    for (int row = 0; row < 9; ++row) {
+        for (int col = 0; col < 9; ++col) {
+            obj += "v " + std::to_string(10 * col) + " " + std::to_string(10 * row) + " 5\n";
+        }
+    }
+    for (int row = 0; row < 8; ++row) {
+        for (int col = 0; col < 8; ++col) {
+            int const sw = 9 * row + col + 1;
+            obj += "f " + std::to_string(sw) + " " + std::to_string(sw + 1) + " " + std::to_string(sw + 10) + "\n";
+            obj +=
+                "f " + std::to_string(sw) + "/1/1 " + std::to_string(sw + 10) + "/2 " + std::to_string(sw + 9) + "\n";
+        }
+    }
+    place.write("mesh.obj", obj);
+    place.write("region.geojson",
+                R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32631"}},"features":[)"
+                R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":)"
+                R"([[[15,15],[65,15],[65,65],[15,65],[15,15]]]}}]})");
+    auto const heights = [&](std::string const& name) {
+        std::vector<Vec3> found;
+        for (Vec3 const& v : io::read_tin((place / name).string()).tin.vertices) {
+            found.push_back(v);
+        }
+        return found;
+    };
+    Outcome const flat = deform(place, "mesh.obj -o turned.obj --mask region.geojson --rotate 40 --axis 1,0,0");
+    ASSERT_EQ(flat.code, 0) << flat.err;
+    std::vector<Vec3> const before = heights("mesh.obj");
+    std::vector<Vec3> const turned = heights("turned.obj");
+    ASSERT_EQ(turned.size(), before.size());
+    double most = 0.0;
+    double least = 0.0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        bool const inside = before[i].x > 15 && before[i].x < 65 && before[i].y > 15 && before[i].y < 65;
+        EXPECT_TRUE(inside || turned[i] == before[i]) << i;
+        most = std::max(most, turned[i].z - 5.0);
+        least = std::min(least, turned[i].z - 5.0);
+    }
+    EXPECT_GT(most, 1.0); // one half rises about the axis, the other sinks as far
+    EXPECT_NEAR(most, -least, 1e-6 * most);
+    EXPECT_GT(turned[9 * 6 + 4].z, 5.0); // counterclockwise about the east: the north rises
+    EXPECT_LT(turned[9 * 2 + 4].z, 5.0);
+
+    Outcome const pulled = deform(place, "mesh.obj -o pulled.off --mask region.geojson --pull 40,40,25 --json");
+    ASSERT_EQ(pulled.code, 0) << pulled.err;
+    EXPECT_EQ(nlohmann::json::parse(pulled.out)["vertices"], 25);
+    std::vector<Vec3> const tent = heights("pulled.off");
+    EXPECT_EQ(tent[9 * 4 + 4].z, 25.0);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        EXPECT_EQ(tent[i].x, before[i].x);
+        EXPECT_GE(tent[i].z, 5.0 - 1e-9);
+    }
+    auto const refused = [&](std::string const& arguments, std::string const& words) {
+        Outcome const o = deform(place, arguments);
+        EXPECT_EQ(o.code, 2) << arguments << o.err;
+        EXPECT_NE(o.err.find(words), std::string::npos) << o.err;
+    };
+    place.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n");
+    place.write("few.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+    place.write("zero.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n");
+    place.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n");
+    place.write("short.off", "OFF\n99999999999 1 0\n0 0 0\n");
+    place.write("none.2dm", "MESH2D\n");
+    place.write("quad.2dm", "MESH2D\nE4Q 1 1 2 3 4 1\n");
+    std::string const rest = " -o out.obj --mask region.geojson --scale 2";
+    refused("bad.obj" + rest, "bad.obj, line 3: 'nan' is not a coordinate");
+    refused("few.obj" + rest, "triangle 1 names a vertex that is not there");
+    refused("zero.obj" + rest, "triangle 1 names a vertex that is not there");
+    refused("quad.obj" + rest, "more than three corners");
+    refused("short.off" + rest, "ends after 1 of 99999999999 vertices");
+    refused("none.2dm" + rest, "no triangles");
+    refused("quad.2dm" + rest, "E4Q is not a triangle");
+    refused("mesh.obj -o out.obj --mask region.geojson", "nothing to do");
+    refused("mesh.obj -o out.obj --mask region.geojson --rotate 5 --axis 1,2", "it takes three");
+    refused("mesh.obj -o out.obj --mask region.geojson --rotate 5 --axis 0,0,0", "has no direction");
+    refused("mesh.obj -o out.txt --mask region.geojson --rotate 5", "2dm");
+    write_lands(place);
+    refused("land.tif -o out.tif --mask region.tif --rotate 5", "turn meshes");
+}

@@ -1,0 +1,523 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files of rivers as their publishers make them: every line is found again, on the arcs or in layer secondary.
+#include "command.hpp"
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <thalweg/core/numbers/chance.hpp>
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+using Place = std::pair<double, double>;
+
+/// A GeoJSON file of lines in EPSG:32631 (or in degrees) and their attributes.
+class Lines {
+public:
+    explicit Lines(bool degrees = false) : degrees_(degrees) {}
+
+    void add(std::vector<Place> const& line, json properties) {
+        json coordinates = json::array();
+        for (auto const& [x, y] : line) {
+            coordinates.push_back({x, y});
+        }
+        features_.push_back({{"type", "Feature"},
+                             {"properties", std::move(properties)},
+                             {"geometry", {{"type", "LineString"}, {"coordinates", coordinates}}}});
+    }
+    std::int64_t count() const { return static_cast<std::int64_t>(features_.size()); }
+    std::string text() const {
+        json file{{"type", "FeatureCollection"}, {"features", features_}};
+        if (!degrees_) {
+            file["crs"] = {{"type", "name"}, {"properties", {{"name", "urn:ogc:def:crs:EPSG::32631"}}}};
+        }
+        return file.dump();
+    }
+
+private:
+    bool degrees_;
+    json features_ = json::array();
+};
+
+GDALDatasetUniquePtr opened(fs::path const& file) {
+    GDALAllRegister();
+    return GDALDatasetUniquePtr(GDALDataset::Open(file.string().c_str(), GDAL_OF_VECTOR));
+}
+
+std::set<std::int64_t> features_in(fs::path const& gpkg, char const* layer) {
+    std::set<std::int64_t> found;
+    auto const data = opened(gpkg);
+    OGRLayer* const rows = data == nullptr ? nullptr : data->GetLayerByName(layer);
+    if (rows != nullptr) {
+        for (auto const& row : *rows) {
+            found.insert(row->GetFieldAsInteger64("feature"));
+        }
+    }
+    return found;
+}
+
+/// Every arc that came from the file is made of its lines without gaps, but for what an outlet was extended by.
+void expect_sources_cover_arcs(fs::path const& gpkg) {
+    using Row = std::pair<double, double>;
+    std::map<std::int64_t, std::vector<Row>> rows;
+    auto const data = opened(gpkg);
+    ASSERT_NE(data->GetLayerByName("sources"), nullptr) << gpkg;
+    for (auto const& row : *data->GetLayerByName("sources")) {
+        rows[row->GetFieldAsInteger64("arc_id")].emplace_back(row->GetFieldAsDouble("from_m"),
+                                                              row->GetFieldAsDouble("to_m"));
+    }
+    for (auto const& arc : *data->GetLayerByName("arcs")) {
+        if (arc->GetFieldAsInteger64("feature") == 0) {
+            continue;
+        }
+        std::int64_t const id = arc->GetFieldAsInteger64("arc_id");
+        double const length = arc->GetFieldAsDouble("length");
+        double at = 0.0;
+        for (auto const& [from, to] : rows[id]) {
+            EXPECT_NEAR(from, at, 1e-6 * length) << "arc " << id << " of " << gpkg;
+            EXPECT_LT(from, to) << "arc " << id << " of " << gpkg;
+            at = to;
+        }
+        if (arc->GetFieldAsInteger64("ds_arc") != 0) {
+            EXPECT_NEAR(at, length, 1e-6 * length) << "arc " << id << " of " << gpkg;
+        }
+    }
+}
+
+/// The lines beside the main path, and why; what the terrain took away aside.
+std::set<std::pair<std::int64_t, std::string>> beside(fs::path const& gpkg) {
+    std::set<std::pair<std::int64_t, std::string>> found;
+    auto const data = opened(gpkg);
+    OGRLayer* const rows = data == nullptr ? nullptr : data->GetLayerByName("secondary");
+    if (rows != nullptr) {
+        for (auto const& row : *rows) {
+            std::string const reason = row->GetFieldAsString("reason");
+            if (reason != "pruned or shortened") {
+                found.emplace(row->GetFieldAsInteger64("feature"), reason);
+            }
+        }
+    }
+    return found;
+}
+
+/// Every feature from 1 to count is on the arcs or in secondary.
+void expect_all_found(fs::path const& gpkg, std::int64_t count) {
+    auto found = features_in(gpkg, "sources");
+    for (char const* const layer : {"arcs", "secondary"}) {
+        found.merge(features_in(gpkg, layer));
+    }
+    for (std::int64_t f = 1; f <= count; ++f) {
+        EXPECT_TRUE(found.contains(f)) << "feature " << f << " of " << gpkg;
+    }
+}
+
+/// check --fix: every line is found again in the mended copy, which has no faults and the main path of make.
+void mended(Workplace const& place, std::string const& input, std::int64_t count) {
+    Outcome const fixed = thalweg_run("check '" + input + "' --fix mended.gpkg --json", place.path());
+    EXPECT_TRUE(fixed.code == 0 || fixed.code == 3) << fixed.err;
+    ASSERT_TRUE(fs::exists(place / "mended.gpkg")) << fixed.out;
+    EXPECT_EQ(thalweg_run("check mended.gpkg", place.path()).code, 0);
+    expect_all_found(place / "mended.gpkg", count);
+    expect_sources_cover_arcs(place / "mended.gpkg");
+    EXPECT_EQ(beside(place / "mended.gpkg"), beside(place / "out/network.gpkg"));
+}
+
+/// make, check, check --fix: exit 0, 0, and a mended copy without faults. Gives the report.
+json made(Workplace const& place, std::string const& input, std::int64_t count, std::string const& options = "") {
+    Outcome const o = thalweg_run("make '" + input + "' -o out" + options, place.path());
+    EXPECT_EQ(o.code, 0) << o.err;
+    if (o.code != 0) {
+        return {};
+    }
+    json const report = json::parse(file_bytes(place / "out/report.json"));
+    for (auto const& check : report["checks"]) {
+        EXPECT_TRUE(check["ok"].get<bool>()) << check;
+    }
+    expect_all_found(place / "out/network.gpkg", count);
+    expect_sources_cover_arcs(place / "out/network.gpkg");
+    Outcome const split = thalweg_run("convert out -o split.gpkg --max-upstream 2", place.path());
+    EXPECT_EQ(split.code, 0) << split.err;
+    expect_sources_cover_arcs(place / "split.gpkg");
+    Outcome const checked = thalweg_run("check out --dem out/dem.tif", place.path());
+    EXPECT_EQ(checked.code, 0) << checked.out;
+    mended(place, input, count);
+    return report;
+}
+
+/// A river from north to south with side streams.
+constexpr double mouth_m = 0.0;
+constexpr double head_m = 8000.0;
+double bend(double y) {
+    return 200.0 * ((static_cast<std::int64_t>(y) / 1000) % 2 == 0 ? 1.0 : -1.0);
+}
+
+Lines braided() {
+    Lines lines;
+    std::vector<Place> main;
+    for (double y = head_m; y >= mouth_m; y -= 500.0) {
+        main.emplace_back(bend(y), y);
+    }
+    for (std::size_t i = 1; i < main.size(); ++i) {
+        lines.add({main[i - 1], main[i]}, {{"id", i}, {"name", "Braid"}});
+    }
+    // Channels beside it, two of them on the same reach, one with a bar in it.
+    for (std::size_t i = 3; i + 3 < main.size(); i += 4) {
+        double const side = i % 8 == 3 ? 900.0 : -900.0;
+        Place const out{main[i].first + side, 0.5 * (main[i].second + main[i + 2].second)};
+        lines.add({main[i], {0.5 * (main[i].first + out.first), out.second + 300.0}, out}, {{"id", 100 + i}});
+        lines.add({out, {out.first, out.second - 250.0}, main[i + 2]}, {{"id", 200 + i}});
+        if (i % 8 == 3) {
+            lines.add({out, {out.first + 250.0, out.second - 200.0}, {out.first, out.second - 250.0}},
+                      {{"id", 300 + i}});
+            lines.add({{out.first + 2500.0, out.second + 500.0}, out}, {{"id", 400 + i}, {"name", "Side"}});
+        }
+    }
+    return lines;
+}
+
+/// Like OpenStreetMap: ways split at random, some drawn upstream, a canal, a culvert, a ditch and a pond.
+Lines from_osm(std::uint64_t seed) {
+    Lines lines;
+    std::int64_t way = 1000;
+    auto const add = [&](std::vector<Place> const& course, std::string const& name) {
+        std::vector<Place> part{course.front()};
+        for (std::size_t i = 1; i < course.size(); ++i) {
+            part.push_back(course[i]);
+            ++way;
+            bool const ends =
+                i + 1 == course.size() || thalweg::unit(thalweg::chance(seed, static_cast<std::uint64_t>(way))) < 0.3;
+            if (ends) {
+                if (thalweg::unit(thalweg::chance(seed + 1, static_cast<std::uint64_t>(way))) < 0.1) {
+                    std::reverse(part.begin(), part.end());
+                }
+                lines.add(part, {{"osm_id", std::to_string(way)}, {"waterway", "river"}, {"name", name}});
+                part = {course[i]};
+            }
+        }
+    };
+    std::vector<Place> main;
+    for (double y = head_m; y >= mouth_m; y -= 250.0) {
+        main.emplace_back(bend(y), y);
+    }
+    add(main, "Main");
+    for (std::size_t k = 4; k < main.size(); k += 6) {
+        double const side = k % 4 == 0 ? 1.0 : -1.0;
+        std::vector<Place> course;
+        for (double x = 3000.0; x > 0.0; x -= 400.0) {
+            course.emplace_back(main[k].first + side * x, main[k].second + 0.3 * x);
+        }
+        course.push_back(main[k]);
+        add(course, "Side " + std::to_string(k));
+    }
+    lines.add({{-3000, 1000}, {0, 1200}, {3000, 1100}}, {{"osm_id", "1"}, {"waterway", "canal"}});
+    lines.add({{-2500, 700}, {-2000, 300}}, {{"osm_id", "2"}, {"waterway", "ditch"}});
+    lines.add({{2000, 700}, {2500, 300}}, {{"osm_id", "3"}, {"waterway", "stream"}, {"tunnel", "flooded"}});
+    lines.add({{2600, 6800}, {2900, 6800}, {2900, 7000}, {2600, 7000}, {2600, 6800}},
+              {{"osm_id", "4"}, {"waterway", "stream"}});
+    return lines;
+}
+
+/// Like HydroRIVERS: in degrees, a tree by NEXT_DOWN, vertices at the centres of cells of 15 arc seconds.
+Lines from_hydrorivers() {
+    Lines lines(true);
+    constexpr double cell = 1.0 / 240.0;
+    auto const at = [&](int col, int row) { return Place{6.0 + (col + 0.5) * cell, 46.0 + (row + 0.5) * cell}; };
+    std::int64_t const first = 20000001;
+    for (int k = 0; k < 12; ++k) { // the main stem, each reach 3 cells long
+        std::vector<Place> reach;
+        for (int i = 0; i <= 3; ++i) {
+            reach.push_back(at(20 + (k * 3 + i) % 2, 60 - (k * 3 + i)));
+        }
+        lines.add(reach, {{"HYRIV_ID", first + k},
+                          {"NEXT_DOWN", k == 11 ? 0 : first + k + 1},
+                          {"MAIN_RIV", first + 11},
+                          {"LENGTH_KM", 1.4},
+                          {"UPLAND_SKM", 30.0 + 10.0 * k},
+                          {"DIS_AV_CMS", 0.5 + 0.1 * k},
+                          {"ORD_STRA", k == 0 ? 1 : 2}});
+    }
+    for (int k = 1; k < 12; ++k) { // a side stream into the upper end of each
+        std::vector<Place> reach;
+        int const row = 60 - 3 * k;
+        int const end = 20 + (3 * k) % 2;
+        int const side = k % 2 == 0 ? 1 : -1;
+        for (int i = 9; i >= 0; --i) {
+            reach.push_back(at(end + side * i, row + i / 2));
+        }
+        lines.add(reach, {{"HYRIV_ID", first + 100 + k},
+                          {"NEXT_DOWN", first + k},
+                          {"MAIN_RIV", first + 11},
+                          {"LENGTH_KM", 3.0},
+                          {"UPLAND_SKM", 12.0},
+                          {"DIS_AV_CMS", 0.1},
+                          {"ORD_STRA", 1}});
+    }
+    return lines;
+}
+
+/// Like EU-Hydro: links by text ids; one reach drawn upstream, a channel beside the main one, and null lines.
+Lines from_eu_hydro() {
+    Lines lines;
+    auto const id = [](int k) { return "RL00" + std::to_string(1000 + k); };
+    for (int k = 0; k < 8; ++k) {
+        std::vector<Place> reach{{bend(8000.0 - 1000.0 * k), 8000.0 - 1000.0 * k},
+                                 {100.0, 7500.0 - 1000.0 * k},
+                                 {bend(7000.0 - 1000.0 * k), 7000.0 - 1000.0 * k}};
+        if (k == 4) {
+            std::reverse(reach.begin(), reach.end());
+        }
+        lines.add(reach, {{"OBJECT_ID", id(k)}, {"NEXTDOWNID", k == 7 ? "" : id(k + 1)}, {"STRAHLER", 2}});
+    }
+    lines.add({{bend(6000), 6000}, {1500, 5500}, {bend(5000), 5000}},
+              {{"OBJECT_ID", id(50)}, {"NEXTDOWNID", id(3)}, {"STRAHLER", 1}});
+    lines.add({{4000, 4500}, {2000, 4200}, {bend(4000), 4000}},
+              {{"OBJECT_ID", id(60)}, {"NEXTDOWNID", id(4)}, {"STRAHLER", 1}});
+    return lines;
+}
+
+std::string const coarse = " --set grid.cell=100";
+
+/// Length [m] of the longest straight stretch of any arc.
+double longest_straight_run(fs::path const& path) {
+    double longest = 0.0;
+    auto const data = opened(path);
+    for (auto const& row : *data->GetLayerByName("arcs")) {
+        OGRLineString const& line = *row->GetGeometryRef()->toLineString();
+        double run = 0.0;
+        double heading = 0.0;
+        for (int i = 1; i < line.getNumPoints(); ++i) {
+            double const dx = line.getX(i) - line.getX(i - 1);
+            double const dy = line.getY(i) - line.getY(i - 1);
+            double const here = std::atan2(dy, dx);
+            run = i > 1 && std::fabs(here - heading) < 1e-6 ? run + std::hypot(dx, dy) : std::hypot(dx, dy);
+            heading = here;
+            longest = std::max(longest, run);
+        }
+    }
+    return longest;
+}
+
+double share_without_data(fs::path const& path) {
+    GDALAllRegister();
+    GDALDatasetH const data = GDALOpen(path.string().c_str(), GA_ReadOnly);
+    GDALRasterBandH const band = GDALGetRasterBand(data, 1);
+    int const width = GDALGetRasterXSize(data);
+    int const height = GDALGetRasterYSize(data);
+    std::vector<float> z(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    EXPECT_EQ(GDALRasterIO(band, GF_Read, 0, 0, width, height, z.data(), width, height, GDT_Float32, 0, 0), CE_None);
+    auto const nodata = static_cast<float>(GDALGetRasterNoDataValue(band, nullptr));
+    GDALClose(data);
+    auto const holes = std::count_if(z.begin(), z.end(), [&](float v) { return std::isnan(v) || v == nodata; });
+    return static_cast<double>(holes) / static_cast<double>(z.size());
+}
+
+} // namespace
+
+TEST(RiverFiles, NhdPlusWithDivergencesAndCoastlines) {
+    std::string const coastal = THALWEG_SOURCE_DIR "/samples/coastal_nhdplus.gpkg";
+    Workplace const place;
+    json const report = made(place, coastal, 572, " --set grid.cell=90");
+    ASSERT_TRUE(report.contains("shortened_fields"));
+    std::map<std::string, int> reasons;
+    auto const data = opened(place / "out/network.gpkg");
+    OGRLayer* const secondary = data->GetLayerByName("secondary");
+    ASSERT_NE(secondary, nullptr);
+    for (auto const& row : *secondary) {
+        ++reasons[row->GetFieldAsString("reason")];
+        EXPECT_GT(row->GetFieldAsInteger64("COMID"), 0);
+        bool const is_minor = std::string(row->GetFieldAsString("reason")) == "minor channel";
+        EXPECT_TRUE(!is_minor || row->GetFieldAsInteger("Divergence") == 2) << row->GetFieldAsInteger64("COMID");
+    }
+    EXPECT_EQ(reasons["FTYPE Coastline"], 37);
+    EXPECT_GE(reasons["minor channel"], 5);
+    // COMID of every arc is that of its feature: the row of the file.
+    auto const source = opened(coastal);
+    std::vector<std::int64_t> comid{0};
+    for (auto const& row : *source->GetLayer(0)) {
+        comid.push_back(row->GetFieldAsInteger64("COMID"));
+    }
+    for (auto const& arc : *data->GetLayerByName("arcs")) {
+        auto const feature = static_cast<std::size_t>(arc->GetFieldAsInteger64("feature"));
+        ASSERT_LT(feature, comid.size());
+        EXPECT_EQ(arc->GetFieldAsInteger64("COMID"), comid[feature]);
+        EXPECT_EQ(arc->IsFieldNull(arc->GetFieldIndex("gnis_name")) != 0,
+                  std::string(arc->GetFieldAsString("gnis_name")).empty());
+    }
+    EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
+    // The sea begins at the coastlines: rivers end there, not on the border behind it.
+    double carried_m = 0.0;
+    for (json const& repair : report.at("repairs")) {
+        carried_m += repair.at("kind") == "carried_outlet" ? repair.at("amount").get<double>() : 0.0;
+    }
+    EXPECT_LT(carried_m, 5000.0);
+    EXPECT_LT(longest_straight_run(place / "out/network.gpkg"), 30.0 * 90.0);
+    EXPECT_NEAR(share_without_data(place / "out/dem.tif"), 0.37, 0.02);
+}
+
+TEST(RiverFiles, OutletsOfAFileWithoutCoastlinesAreCarriedWithAWarningOrMakeACoast) {
+    Workplace const place;
+    std::string const coastal = THALWEG_SOURCE_DIR "/samples/coastal_nhdplus.gpkg";
+    std::string const without = "make '" + coastal + "' --set grid.cell=90 --set network.lines.coastlines=none -o ";
+    Outcome const carried = thalweg_run(without + "carried", place.path());
+    EXPECT_EQ(carried.code, 0);
+    EXPECT_NE(carried.err.find("29 rivers end inside the grid"), std::string::npos) << carried.err;
+    EXPECT_NE(carried.err.find("network.inland=coast"), std::string::npos) << carried.err;
+    Outcome const coast = thalweg_run(without + "coast --set network.inland=coast", place.path());
+    EXPECT_EQ(coast.code, 0) << coast.err;
+    EXPECT_EQ(coast.err.find("warning"), std::string::npos) << coast.err;
+    EXPECT_NEAR(share_without_data(place / "coast/dem.tif"), 0.37, 0.04); // as the coastlines say
+    EXPECT_EQ(thalweg_run("check coast/network.gpkg --dem coast/dem.tif", place.path()).code, 0);
+    EXPECT_EQ(thalweg_run("replay coast --verify", place.path()).code, 0);
+}
+
+TEST(RiverFiles, TheMendedCopyOfNhdPlusKeepsItsColumns) {
+    Workplace const place;
+    std::string const coastal = THALWEG_SOURCE_DIR "/samples/coastal_nhdplus.gpkg";
+    EXPECT_EQ(thalweg_run("check '" + coastal + "' --fix mended.gpkg", place.path()).code, 3);
+    ASSERT_TRUE(fs::exists(place / "mended.gpkg"));
+    EXPECT_EQ(thalweg_run("check mended.gpkg", place.path()).code, 0);
+    expect_all_found(place / "mended.gpkg", 572);
+    auto const data = opened(place / "mended.gpkg");
+    EXPECT_GE(data->GetLayerByName("arcs")->GetLayerDefn()->GetFieldIndex("COMID"), 0);
+    EXPECT_EQ(thalweg_run("convert mended.gpkg -o again.shp", place.path()).code, 0);
+    auto const again = opened(place / "again_arcs.shp");
+    ASSERT_NE(again, nullptr);
+    EXPECT_GE(again->GetLayer(0)->GetLayerDefn()->GetFieldIndex("COMID"), 0);
+}
+
+TEST(RiverFiles, ABraidedRiver) {
+    Workplace const place;
+    Lines const lines = braided();
+    place.write("braided.geojson", lines.text());
+    made(place, "braided.geojson", lines.count(), coarse);
+    EXPECT_FALSE(features_in(place / "out/network.gpkg", "secondary").empty());
+    Outcome const strict =
+        thalweg_run("make braided.geojson -o no --set network.lines.divergences=error", place.path());
+    EXPECT_EQ(strict.code, 2);
+    EXPECT_NE(strict.err.find("cycle"), std::string::npos) << strict.err;
+}
+
+TEST(RiverFiles, WaysOfOpenStreetMap) {
+    for (std::uint64_t const seed : {1U, 2U, 3U}) {
+        Workplace const place;
+        Lines const lines = from_osm(seed);
+        place.write("osm.geojson", lines.text());
+        made(place, "osm.geojson", lines.count(), coarse);
+        std::map<std::string, int> reasons;
+        auto const data = opened(place / "out/network.gpkg");
+        for (auto const& row : *data->GetLayerByName("secondary")) {
+            ++reasons[row->GetFieldAsString("reason")];
+        }
+        EXPECT_EQ(reasons["waterway canal"], 1);
+        EXPECT_EQ(reasons["waterway ditch"], 1);
+        EXPECT_EQ(reasons["tunnel flooded"], 1);
+        EXPECT_EQ(reasons["closed ring"], 1);
+        // Without a mended copy the links are asked for.
+        Outcome const asked = thalweg_run("check osm.geojson", place.path());
+        EXPECT_EQ(asked.code, 2);
+        EXPECT_NE(asked.err.find("match no schema"), std::string::npos) << asked.err;
+    }
+}
+
+TEST(RiverFiles, WaysInSeveralPartsAreMended) {
+    Workplace const place;
+    place.write(
+        "parts.geojson",
+        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":)"
+        R"("urn:ogc:def:crs:EPSG::32631"}},"features":[)"
+        R"({"type":"Feature","properties":{"name":"a"},"geometry":{"type":"MultiLineString","coordinates":)"
+        R"([[[0,8000],[0,4000]],[[3000,8000],[2000,6000],[0,4000]]]}},)"
+        R"({"type":"Feature","properties":{"name":"b"},"geometry":{"type":"LineString","coordinates":[[0,4000],[0,0]]}}]})");
+    made(place, "parts.geojson", 2, coarse);
+    auto const data = opened(place / "mended.gpkg");
+    std::map<std::string, int> names;
+    for (auto const& row : *data->GetLayerByName("arcs")) {
+        ++names[row->GetFieldAsString("name")];
+    }
+    EXPECT_EQ(names, (std::map<std::string, int>{{"a", 2}, {"b", 1}}));
+}
+
+TEST(RiverFiles, HydroRivers) {
+    Workplace const place;
+    Lines const lines = from_hydrorivers();
+    place.write("hydrorivers.geojson", lines.text());
+    made(place, "hydrorivers.geojson", lines.count(), coarse);
+    EXPECT_EQ(thalweg_run("check hydrorivers.geojson", place.path()).code, 0);
+}
+
+TEST(RiverFiles, EuHydro) {
+    Workplace const place;
+    Lines const lines = from_eu_hydro();
+    place.write("euhydro.geojson", lines.text());
+    json const report = made(place, "euhydro.geojson", lines.count(), coarse);
+    EXPECT_EQ(features_in(place / "out/network.gpkg", "secondary"), (std::set<std::int64_t>{9}));
+    bool turned = false;
+    for (auto const& repair : report["repairs"]) {
+        turned = turned || (repair["kind"] == "reversed" && repair["feature"] == 5);
+    }
+    EXPECT_TRUE(turned);
+}
+
+TEST(RiverFiles, NamesOfColumnsAndNull) {
+    Workplace const place;
+    Lines lines;
+    lines.add({{0, 8000}, {3000, 4000}},
+              {{"slope", 7}, {"a_very_long_name", "x"}, {"a_very_long_one", 2.5}, {"empty", nullptr}, {"fid", 9}});
+    lines.add({{3000, 4000}, {0, 0}}, {{"slope", 8}, {"a_very_long_name", nullptr}, {"a_very_long_one", 1e12}});
+    place.write("l.geojson", lines.text());
+    json const report = made(place, "l.geojson", 2, coarse);
+    EXPECT_EQ(report["shortened_fields"].size(), 2U) << report["shortened_fields"];
+    auto const gpkg = opened(place / "out/network.gpkg");
+    auto const arc = gpkg->GetLayerByName("arcs")->GetNextFeature();
+    ASSERT_NE(arc, nullptr);
+    EXPECT_EQ(arc->GetFieldAsInteger("u_slope"), arc->GetFieldAsInteger("feature") + 6);
+    OGRFeature::DestroyFeature(arc);
+    auto const shp = opened(place / "out/network_arcs.shp");
+    EXPECT_GE(shp->GetLayer(0)->GetLayerDefn()->GetFieldIndex("a_very_lon"), 0);
+    EXPECT_GE(shp->GetLayer(0)->GetLayerDefn()->GetFieldIndex("a_very_l_2"), 0);
+    EXPECT_EQ(thalweg_run("convert out/network.gpkg -o c.gpkg", place.path()).code, 0);
+    auto const converted = opened(place / "c.gpkg");
+    EXPECT_GE(converted->GetLayerByName("arcs")->GetLayerDefn()->GetFieldIndex("u_slope"), 0);
+    expect_all_found(place / "c.gpkg", 2);
+}
+
+TEST(RiverFiles, RiversThatMeanderAreMadeOfTheirLines) {
+    Workplace const place;
+    std::string const walker = THALWEG_SOURCE_DIR "/samples/walker_nhdplus.gpkg";
+    made(place, walker, 62, " --set network.meander=2");
+}
+
+TEST(RiverFiles, SmallDefectsAreLeftOutAndReported) {
+    Workplace const place;
+    place.write(
+        "defects.geojson",
+        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":)"
+        R"("urn:ogc:def:crs:EPSG::32631"}},"features":[)"
+        R"({"type":"Feature","properties":{"id":1},"geometry":null},)"
+        R"({"type":"Feature","properties":{"id":2},"geometry":{"type":"LineString","coordinates":[]}},)"
+        R"({"type":"Feature","properties":{"id":3},"geometry":{"type":"LineString","coordinates":[[5,5],[5,5]]}},)"
+        R"({"type":"Feature","properties":{"id":4},"geometry":{"type":"LineString","coordinates":[[0,8000],[3000,0]]}}]})");
+    ASSERT_EQ(thalweg_run("make defects.geojson -o out" + coarse, place.path()).code, 0);
+    json const report = json::parse(file_bytes(place / "out/report.json"));
+    std::set<std::int64_t> left_out;
+    for (auto const& repair : report["repairs"]) {
+        if (repair["kind"] == "left_out") {
+            left_out.insert(repair["feature"].get<std::int64_t>());
+        }
+    }
+    EXPECT_EQ(left_out, (std::set<std::int64_t>{1, 2, 3}));
+    EXPECT_EQ(features_in(place / "out/network.gpkg", "arcs"), (std::set<std::int64_t>{4}));
+}

@@ -1,0 +1,349 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rivers by branching rules, along strokes, and with relief pasted over them, as the command line makes them.
+#include "command.hpp"
+
+#include <thalweg/io/raster/read_dem.hpp>
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <ogrsf_frmts.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <string>
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+std::string const samples = THALWEG_SOURCE_DIR "/samples/";
+std::string const small = " --set grid.width=160 --set grid.height=160 --set network.tokunaga.order=3 ";
+
+std::string collection(std::string const& features) {
+    return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32631"}},)"
+           R"("features":[)" +
+           features + "]}";
+}
+
+std::string feature(int id, std::string const& type, std::string const& coordinates,
+                    std::string const& properties = "\"a\":1") {
+    return R"({"type":"Feature","id":)" + std::to_string(id) + R"(,"properties":{)" + properties +
+           R"(},"geometry":{"type":")" + type + R"(","coordinates":)" + coordinates + "}}";
+}
+
+std::string stroke(int id, std::string const& coordinates, std::string const& properties = "\"rosgen\":\"B\"") {
+    return feature(id, "LineString", "[" + coordinates + "]", properties);
+}
+
+std::string const strokes_recipe =
+    "[grid]\nwidth = 200\nheight = 200\ncell = 30\norigin = [500000, 4006000]\n[network]\nsource = \"tokunaga\"\n"
+    "[network.tokunaga]\norder = 4\nstrokes = \"s.geojson\"\n[surface]\n";
+
+/// A ring 3 km wide and high.
+std::string const ring = "[[500000,4000000],[503000,4000300],[503000,4003000],[500300,4003300],[500000,4000000]]";
+
+json report_of(fs::path const& folder) {
+    return json::parse(file_bytes(folder / "report.json"));
+}
+
+/// Exit 0, every check holds, and the network and the land are there. Gives the report.
+json made(Workplace const& place, std::string const& arguments, std::string const& folder = "out") {
+    Outcome const o = thalweg_run("make " + arguments + " -q -o " + folder, place.path());
+    EXPECT_EQ(o.code, 0) << arguments << "\n" << o.err;
+    json const report = report_of(place / folder);
+    bool exact = false;
+    for (auto const& check : report["checks"]) {
+        EXPECT_TRUE(check["ok"].get<bool>()) << arguments << check;
+        exact = exact || (check["name"] == "valley_cells_moved" && check["value"] == 0.0);
+    }
+    EXPECT_TRUE(exact) << arguments;
+    for (char const* name : {"dem.tif", "network.tif", "network.gpkg", "network_arcs.shp", "report.html", "map.png",
+                             "profile.svg", "recipe.toml"}) {
+        EXPECT_TRUE(fs::exists(place / (folder + "/" + name))) << arguments << name;
+    }
+    return report;
+}
+
+void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
+    auto const before = std::distance(fs::directory_iterator(place.path()), {});
+    Outcome const o = thalweg_run("make " + arguments + " -o out", place.path());
+    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
+    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
+    EXPECT_EQ(std::distance(fs::directory_iterator(place.path()), {}), before) << arguments;
+}
+
+double greatest_difference(fs::path const& a, fs::path const& b) {
+    auto const one = thalweg::io::read_dem(a.string());
+    auto const two = thalweg::io::read_dem(b.string());
+    double greatest = 0.0;
+    for (std::int64_t i = 0; i < one.cells(); ++i) {
+        greatest = std::max(greatest, static_cast<double>(std::fabs(one[i] - two[i])));
+    }
+    return greatest;
+}
+
+std::int64_t features_in(fs::path const& file, char const* layer) {
+    GDALAllRegister();
+    GDALDatasetUniquePtr const data(GDALDataset::Open(file.string().c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+    OGRLayer* const found = data ? data->GetLayerByName(layer) : nullptr;
+    return found == nullptr ? -1 : found->GetFeatureCount();
+}
+
+} // namespace
+
+TEST(Rivers, EverySampleHoldsItsContract) {
+    for (std::string const name : {"tokunaga", "strokes", "blend"}) {
+        Workplace const place;
+        json const report = made(place, samples + name + ".toml --threads 1", "one");
+        made(place, samples + name + ".toml --threads 2", "two");
+        for (char const* file : {"dem.tif", "network.gpkg", "recipe.toml", "map.png"}) {
+            EXPECT_TRUE(file_bytes(place / "one" / file) == file_bytes(place / "two" / file)) << name << file;
+        }
+        EXPECT_EQ(features_in(place / "one/network.gpkg", "ridges"), report["ridges"]["count"].get<std::int64_t>());
+        EXPECT_GT(report["ridges"]["count"], 100);
+        EXPECT_GT(report["diffusion"]["iterations"], 0);
+        EXPECT_LE(report["diffusion"]["residual"], 1e-8);
+        json const& tokunaga = report["network"]["tokunaga"];
+        EXPECT_GT(tokunaga["placed"], 0);
+        EXPECT_EQ(tokunaga["dropped"], 0);
+        EXPECT_EQ(tokunaga["drawn"]["links"], tokunaga["placed"]);
+        EXPECT_EQ(tokunaga["grown"]["links"], tokunaga["placed"]);
+        EXPECT_EQ(tokunaga.contains("asked"), name != "strokes") << "strokes have a lambda each";
+        if (name != "strokes") {
+            EXPECT_EQ(tokunaga["grown"]["streams"], tokunaga["drawn"]["streams"]);
+            EXPECT_EQ(tokunaga["grown"]["side_branches"], tokunaga["drawn"]["side_branches"]);
+            EXPECT_EQ(tokunaga["asked"]["a"], 2.0);
+        }
+        EXPECT_EQ(report.contains("patches"), name == "blend");
+        if (name == "blend") {
+            ASSERT_EQ(report["patches"].size(), 1U);
+            json const& patch = report["patches"][0];
+            EXPECT_GT(patch["cells"], 1000);
+            EXPECT_GT(patch["kept"], 0);
+            EXPECT_GE(patch["seam_max_m"], patch["seam_rms_m"]);
+            EXPECT_TRUE(file_bytes(place / "one/inputs/patch1/bigtujunga_srtm1.tif") ==
+                        file_bytes(samples + "bigtujunga_srtm1.tif"));
+        }
+        if (name == "strokes") {
+            EXPECT_EQ(file_bytes(place / "one/inputs/strokes/strokes.geojson"),
+                      file_bytes(samples + "strokes.geojson"));
+        }
+        EXPECT_EQ(file_bytes(place / "one/recipe.toml").find(samples), std::string::npos);
+        fs::rename(place / "one", place / "moved");
+        Outcome const replay = thalweg_run("replay moved --verify", place.path());
+        EXPECT_EQ(replay.code, 0) << name << replay.out << replay.err;
+    }
+}
+
+TEST(Rivers, OpenClGivesTheSameLand) {
+    Workplace const place;
+    made(place, samples + "tokunaga.toml" + small, "cpu");
+    made(place, samples + "tokunaga.toml" + small + "--device opencl", "opencl");
+    EXPECT_LE(greatest_difference(place / "cpu/dem.tif", place / "opencl/dem.tif"), 1e-3);
+    EXPECT_TRUE(file_bytes(place / "cpu/network.tif") == file_bytes(place / "opencl/network.tif"));
+}
+
+TEST(Rivers, HeightsByTypeOrGradedGoWithLinesOfAFile) {
+    for (std::string const heights : {"rosgen", "graded"}) {
+        Workplace const place;
+        json const report =
+            made(place, samples + "lines.toml --set network.slope=0.087 --set network.heights=" + heights);
+        EXPECT_EQ(report["recipe"]["network"]["heights"], heights);
+        EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
+    }
+}
+
+TEST(Rivers, EveryWayOfDiffusion) {
+    Workplace const place;
+    std::string const base = samples + "tokunaga.toml" + small;
+    made(place, base, "steady");
+    json const literal = made(place, base + "--set surface.diffusion=explicit --set surface.sweeps=200", "explicit");
+    EXPECT_EQ(literal["diffusion"]["iterations"], 200);
+    EXPECT_GT(greatest_difference(place / "steady/dem.tif", place / "explicit/dem.tif"), 0.01);
+    made(place, base + "--set skeleton.midpoint_inverse=1.5", "inverse");
+    EXPECT_GT(greatest_difference(place / "steady/dem.tif", place / "inverse/dem.tif"), 0.01);
+}
+
+TEST(Rivers, PointsAloneAreDiffused) {
+    Workplace const place;
+    fs::copy_file(samples + "points.csv", place / "points.csv");
+    place.write("r.toml", "[grid]\nwidth = 130\nheight = 40\ncell = 215\ncrs = \"EPSG:32616\"\norigin = [733400, "
+                          "4057200]\n[skeleton]\npoints = \"points.csv\"\n[surface]\nmethod = \"diffuse\"\n");
+    Outcome const o = thalweg_run("make r.toml -o out -q --json", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    json const report = json::parse(o.out);
+    EXPECT_GT(report["diffusion"]["iterations"], 0);
+    EXPECT_FALSE(report.contains("network"));
+    EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
+}
+
+TEST(Rivers, ANetworkFillsAPolygon) {
+    Workplace const place;
+    std::string const recipe = "[network]\nsource = \"tokunaga\"\n[network.tokunaga]\norder = 3\nregion = "
+                               "\"region.geojson\"\n[surface]\n";
+    place.write("r.toml", recipe);
+    place.write("region.geojson", collection(feature(1, "Polygon", "[" + ring + "]")));
+    json const report = made(place, "r.toml");
+    EXPECT_EQ(report["network"]["tokunaga"]["dropped"], 0);
+    EXPECT_TRUE(fs::exists(place / "out/inputs/region/region.geojson"));
+    EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
+    fs::remove_all(place / "out");
+
+    refused(place, "r.toml --set grid.width=20 --set grid.height=20",
+            "polygon 1 in region.geojson runs outside the grid");
+    refused(place, "r.toml --set network.tokunaga.strokes=region.geojson", "do not go together");
+    refused(place, "r.toml --set network.source=dla", "network.tokunaga.region");
+    place.write("region.geojson",
+                collection(feature(1, "Polygon", "[" + ring + "]") + "," + feature(2, "Polygon", "[" + ring + "]")));
+    refused(place, "r.toml", "region.geojson\" holds 2 polygons of 2 rings");
+    place.write(
+        "region.geojson",
+        collection(feature(1, "Polygon",
+                           "[" + ring + ",[[501000,4001000],[501500,4001000],[501500,4001500],[501000,4001000]]]")));
+    refused(place, "r.toml", "holds 1 polygons of 2 rings; a network fills one without holes");
+    place.write(
+        "region.geojson",
+        collection(feature(
+            1, "Polygon", "[[[500000,4000000],[503000,4003000],[503000,4000000],[500000,4003000],[500000,4000000]]]")));
+    refused(place, "r.toml", "meets itself at (501500");
+    refused(place, "r.toml --set network.tokunaga.region=none.geojson", "none.geojson");
+}
+
+TEST(Rivers, PatchesLieOneOverTheOther) {
+    Workplace const place;
+    std::string const land = "seed = 7\n[grid]\nwidth = 160\nheight = 160\n[network]\nsource = \"tokunaga\"\n"
+                             "[network.tokunaga]\norder = 3\n[surface]\nmethod = \"diffuse\"\n";
+    std::string const patch =
+        "[[patch]]\nsource = \"" + samples + "bigtujunga_srtm1.tif\"\nwindow = [10, 10, 40, 30]\n";
+    place.write("two.toml",
+                land + patch + "at = [501500, 4998500]\n" + patch + "at = [502400, 4997900]\nrotate = 30\n");
+    json const two = made(place, "two.toml", "two");
+    EXPECT_EQ(two["patches"].size(), 2U);
+    EXPECT_EQ(thalweg_run("replay two --verify", place.path()).code, 0);
+
+    place.write("replace.toml", land + patch + "at = [502400, 4997600]\nrivers = \"replace\"\n");
+    json const replaced = made(place, "replace.toml", "replaced");
+    EXPECT_EQ(replaced["patches"][0]["kept"], 0);
+    EXPECT_GT(replaced["certificate"]["waived_cells"], 0); // under the patch, and of rivers that came through it
+    for (json const& check : replaced["checks"]) {
+        EXPECT_TRUE(check["ok"]) << check;
+    }
+    Outcome const checked = thalweg_run("check replaced --dem replaced/dem.tif", place.path());
+    EXPECT_EQ(checked.code, 0) << checked.out;
+    EXPECT_NE(checked.out.find("are not checked against the DEM"), std::string::npos) << checked.out;
+    Outcome const alone = thalweg_run("check replaced/network.gpkg --dem replaced/dem.tif", place.path());
+    EXPECT_EQ(alone.code, 3) << alone.out; // without the folder's recipe every cell counts
+    place.write("keep.toml", land + patch + "at = [502400, 4997600]\n");
+    json const kept = made(place, "keep.toml", "kept");
+    EXPECT_GT(kept["patches"][0]["kept"], 0);
+
+    auto const with_mask = [&](std::string const& coordinates) {
+        place.write("mask.geojson", collection(feature(1, "Polygon", "[" + coordinates + "]")));
+        place.write("mask.toml", land + patch + "at = [502400, 4997600]\nmask = \"mask.geojson\"\n");
+    };
+    with_mask("[[502200,4997500],[502600,4997500],[502600,4997700],[502200,4997500]]");
+    json const masked = made(place, "mask.toml", "masked");
+    EXPECT_LT(masked["patches"][0]["cells"], kept["patches"][0]["cells"]);
+    EXPECT_TRUE(fs::exists(place / "masked/inputs/patch1/mask/mask.geojson"));
+    EXPECT_EQ(thalweg_run("replay masked --verify", place.path()).code, 0);
+
+    with_mask("[[1,1],[2,1],[2,2],[1,1]]");
+    refused(place, "mask.toml", "mask.geojson");
+    with_mask("[[502205,4997501],[502206,4997501],[502206,4997502],[502205,4997501]]"); // no cell's centre
+    refused(place, "mask.toml", "hold the centre of no cell");
+    place.write("away.toml", land + patch + "at = [900000, 1]\n");
+    refused(place, "away.toml", "covers no cell");
+    place.write("none.toml", land + "[[patch]]\nsource = \"none.tif\"\n");
+    refused(place, "none.toml", "none.tif");
+}
+
+TEST(Rivers, StrokesThatAreNoneAreRefusedWithTheirPlace) {
+    Workplace const place;
+    place.write("r.toml", strokes_recipe);
+    std::string const good = stroke(1, "[503000,4000300],[503000,4004500]");
+    auto const with = [&](std::string const& more) { place.write("s.geojson", collection(good + "," + more)); };
+    with(stroke(2, "[501000,4002000],[505000,4002000]"));
+    refused(place, "r.toml", "stroke 1 of s.geojson at (503000.000, 4002000.000) crosses stroke 2");
+    with(stroke(2, "[501000,4002000],[507000,4002000]"));
+    refused(place, "r.toml", "river 2 in s.geojson runs outside the grid at (507000.0, 4002000.0)");
+    with(stroke(2, "[501000,4002000],[501000,4002000]"));
+    refused(place, "r.toml", "stroke 2 of s.geojson at (501000.000, 4002000.000) is a single point or has no geometry");
+    with(stroke(2, "[501000,4002000],[501000,4004000]", "\"rosgen\":\"Q\""));
+    refused(place, "r.toml", "stroke 2 of s.geojson at (501000.000, 4002000.000) has the unknown river type 'Q'");
+    for (std::string const lambda : {"0", "-1", "51", "2.5"}) {
+        with(stroke(2, "[501000,4002000],[501000,4004000]", "\"lambda\":" + lambda));
+        refused(place, "r.toml", "a whole number from 1 to 50");
+    }
+    with(stroke(2, "[501000,4002000],[503000,4003000]"));
+    refused(place, "r.toml", "stroke 2 of s.geojson at (503000.000, 4003000.000) ends on stroke 1");
+    place.write("s.geojson", collection(""));
+    refused(place, "r.toml", "s.geojson");
+    fs::remove(place / "s.geojson");
+    refused(place, "r.toml", "s.geojson");
+}
+
+TEST(Rivers, WithoutACellOfASkeletonThereIsNoLand) {
+    Workplace const place;
+    place.write("p.csv", "x,y,z\n1,1,5\n"); // far from the grid
+    place.write("r.toml",
+                "[grid]\nwidth = 20\nheight = 20\norigin = [500000, 4000000]\n[skeleton]\npoints = \"p.csv\"\n"
+                "[surface]\nmethod = \"diffuse\"\n");
+    refused(place, "r.toml", "point 1 at (1.000, 1.000) lies off the grid");
+}
+
+TEST(Rivers, OneStrokeAloneHasRidgesOnlyBetweenItsStreams) {
+    Workplace const place;
+    place.write("r.toml", strokes_recipe + "[skeleton]\nridges = \"voronoi\"\n");
+    place.write("s.geojson", collection(stroke(1, "[503000,4000300],[503000,4000900]", "\"lambda\":1")));
+    json const report = made(place, "r.toml --set network.tokunaga.order=1 --set surface.method=diffuse");
+    EXPECT_EQ(report["network"]["arcs"], 3); // one refinement at least
+    EXPECT_GT(report["ridges"]["count"], 0);
+    // Of a single link, with nothing beside it, there is no ridge.
+    json const lone = made(place,
+                           samples + "tokunaga.toml --set network.tokunaga.order=1 --set grid.width=60 --set "
+                                     "grid.height=60 --set skeleton.ridges=voronoi",
+                           "lone");
+    EXPECT_FALSE(lone.contains("ridges"));
+    EXPECT_EQ(features_in(place / "lone/network.gpkg", "ridges"), -1);
+}
+
+TEST(Rivers, LinksWithoutRoomAreWarnedOfOrRefused) {
+    Workplace const place;
+    std::string const base = samples + "tokunaga.toml --set network.tokunaga.order=";
+    refused(place, base + "9 --set grid.width=64 --set grid.height=64", "links on 64 x 64 cells lie");
+    refused(place, base + "5 --set grid.width=1 --set grid.height=1", "lower network.tokunaga.order");
+    refused(place, base + "4 --set grid.width=2 --set grid.height=2", "lower network.tokunaga.order");
+    refused(place, base + "5 --set grid.width=1 --set grid.height=90", "lower network.tokunaga.order");
+    refused(place, base + "4 --set grid.width=80 --set grid.height=80",
+            "of 239 links found no room on 80 x 80 cells: lower network.tokunaga.order");
+    refused(place, base + "13", "outside its range");
+    refused(place, base + "0", "outside its range");
+    refused(place, base + "3 --set network.tokunaga.generator=0", "outside its range");
+    refused(place, base + "3 --set network.tokunaga.generator=51", "outside its range");
+    made(place, base + "1 --set grid.width=2 --set grid.height=2", "two");
+    made(place, base + "1 --set grid.width=1 --set grid.height=1", "one");
+
+    // Every cell of a single column lies on the border: the river is drawn, and the certificate tells.
+    Outcome const column =
+        thalweg_run("make " + base + "2 --set grid.width=1 --set grid.height=300 -q -o column", place.path());
+    EXPECT_EQ(column.code, 3) << column.err;
+    json const columns = report_of(place / "column");
+    for (auto const& check : columns["checks"]) {
+        EXPECT_EQ(check["ok"].get<bool>(), check["name"] != "border_cells") << check;
+    }
+    refused(place, base + "2 --set grid.width=300 --set grid.height=1", "4 of 7 links found no room on 300 x 1 cells");
+
+    // A stroke so short that its many branches have no room beside it.
+    place.write("r.toml", strokes_recipe);
+    place.write("s.geojson", collection(stroke(1, "[503000,4000300],[503000,4005700]", "\"lambda\":2") + "," +
+                                        stroke(2, "[500300,4001000],[500300,4001300]", "\"lambda\":20")));
+    Outcome const o = thalweg_run("make r.toml -o out", place.path());
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.err.find("warning: [network.tokunaga]: "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find(" links found no room on 200 x 200 cells: lower network.tokunaga.order"), std::string::npos)
+        << o.err;
+}

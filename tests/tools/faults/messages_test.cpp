@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What messages are made of comes from files and command lines: they neither act on the terminal, nor flood it, nor
+// tell passwords.
+#include "command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <thalweg/core/run/printable.hpp>
+
+#include <algorithm>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace fs = std::filesystem;
+using thalweg::is_utf8;
+
+namespace {
+
+std::string const evil = "\033]0;gone\007\033[31mred\r\x9b"
+                         "2J";
+std::string const shell_evil = "$(printf '\\033]0;gone\\007\\033[31mred\\r')";
+
+std::string small(std::string const& more) {
+    return "make -o out --set grid.width=64 --set grid.height=64 --set network.dla.particles=400 --set "
+           "network.prune=4 " +
+           more;
+}
+
+bool acts(std::string const& text) {
+    return std::ranges::any_of(text, [](char c) {
+        auto const byte = static_cast<unsigned char>(c);
+        return (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7F;
+    });
+}
+
+std::string geojson(std::string const& property, std::string const& geometry) {
+    return R"({"type":"FeatureCollection","name":"l\u001b[31mred","crs":{"type":"name","properties":{"name":)"
+           R"("urn:ogc:def:crs:EPSG::32631"}},"features":[{"type":"Feature","properties":{)" +
+           property + R"(},"geometry":)" + geometry + "}]}";
+}
+
+std::string const line = R"({"type":"LineString","coordinates":[[500000,5000000],[500300,4999900],[500600,5000000]]})";
+
+std::string lines_recipe(std::string const& more) {
+    return "[grid]\ncell = 10\n[network]\nsource = \"lines\"\n[network.lines]\npath = \"r.geojson\"\n" + more +
+           "[surface]\n";
+}
+
+} // namespace
+
+TEST(Messages, ControlCharactersDoNotReachTheTerminal) {
+    Workplace const place;
+    place.write("key.toml", "\"a\\u001b[31mred\" = 1\n");
+    place.write("section.toml", "[\"a\\u001b[31mred\"]\nb = 1\n");
+    place.write("value.toml", "[surface]\nmethod = \"a\\u001b[31mred\"\n");
+    place.write("crs.toml", "[grid]\ncrs = \"a\\u001b[31mred\"\nwidth = 64\nheight = 64\n[network]\n");
+    place.write("file.toml", "[network]\nsource = \"lines\"\n[network.lines]\npath = \"a\\u001b[31mred\"\n[surface]\n");
+    place.write("broken.toml", "a = \033[31m\n");
+    place.write("r.geojson", geojson(R"("lambda":"a\u001b[31mred","f\u001b[31mred":1)", line));
+    place.write("layer.toml", lines_recipe("layer = \"x\\u001b[31mred\"\n"));
+    place.write("lambda.toml", "[network]\nsource = \"tokunaga\"\n[network.tokunaga]\nstrokes = \"r.geojson\"\n");
+    place.write("field.toml", lines_recipe("type_field = \"f2\"\n"));
+    place.write("points.csv", "x,y,z\n1,2," + evil + "\n");
+    place.write("points.toml", "[grid]\nwidth = 9\nheight = 9\n[skeleton]\npoints = \"points.csv\"\n");
+    place.write("name" + evil.substr(1, 4) + "\033[31m.geojson", "{");
+    int refused = 0;
+    for (std::string const& arguments : {std::string("make key.toml -o out"),
+                                         std::string("make section.toml -o out"),
+                                         std::string("make value.toml -o out"),
+                                         std::string("make crs.toml -o out"),
+                                         std::string("make file.toml -o out"),
+                                         std::string("make broken.toml -o out"),
+                                         std::string("make layer.toml -o out"),
+                                         std::string("make lambda.toml -o out"),
+                                         std::string("make field.toml -o out"),
+                                         std::string("make points.toml -o out"),
+                                         "make \"" + shell_evil + "\" -o out",
+                                         "make --set \"" + shell_evil + "=1\"",
+                                         "make --set \"surface.method=" + shell_evil + "\"",
+                                         "stats \"" + shell_evil + "\"",
+                                         "check \"" + shell_evil + "\"",
+                                         "check r.geojson --layer \"" + shell_evil + "\"",
+                                         "\"" + shell_evil + "\"",
+                                         "make \"--" + shell_evil + "\"",
+                                         "make --crs \"" + shell_evil + "\" -o out",
+                                         "convert \"" + shell_evil + "\" -o a.gpkg",
+                                         "recipe \"" + shell_evil + "\"",
+                                         std::string("check name*.geojson")}) {
+        Outcome const o = thalweg_run(arguments, place.path());
+        EXPECT_FALSE(acts(o.err)) << arguments << "\n" << o.err;
+        EXPECT_FALSE(acts(o.out)) << arguments << "\n" << o.out;
+        EXPECT_TRUE(o.code == 2 || o.code == 3) << arguments << " " << o.code << "\n" << o.err;
+        refused += o.err.find("\\x1b[31m") != std::string::npos ? 1 : 0;
+    }
+    EXPECT_GE(refused, 16) << "what is escaped is still shown";
+}
+
+TEST(Messages, AreCutAndSayHowMuchIsLeftOut) {
+    Workplace const place;
+    std::string keys;
+    for (int i = 0; i < 100; ++i) {
+        keys += std::string(8000, 'k') + std::to_string(i) + " = 1\n";
+    }
+    place.write("keys.toml", keys);
+    place.write("points.csv", "x,y,z\n1,2," + std::string(10'000'000, '7') + "x\n");
+    place.write("points.toml", "[grid]\nwidth = 9\nheight = 9\n[skeleton]\npoints = \"points.csv\"\n");
+    place.write("r.geojson", geojson(R"("lambda":")" + std::string(1'000'000, 'y') + "\"", line));
+    place.write("lambda.toml", "[network]\nsource = \"tokunaga\"\n[network.tokunaga]\nstrokes = \"r.geojson\"\n");
+    for (std::string const recipe : {"keys.toml", "points.toml", "lambda.toml"}) {
+        Outcome const o = thalweg_run("make " + recipe + " -o out", place.path());
+        EXPECT_EQ(o.code, 2) << o.err.substr(0, 300);
+        EXPECT_LT(o.err.size(), 8000U) << recipe;
+    }
+    EXPECT_NE(thalweg_run("make lambda.toml -o out", place.path()).err.find(" bytes left out ...]"), std::string::npos);
+}
+
+TEST(Messages, PasswordsAreNotEchoed) {
+    Workplace const place;
+    for (std::string const name :
+         {"PG:host=127.0.0.1 port=1 dbname=x password=geheim user=y",
+          "PG:host=127.0.0.1 port=1 dbname=x password='ge heim'", "postgresql://y:geheim@127.0.0.1:1/x"}) {
+        for (std::string const before : {"make", "check", "convert -o a.gpkg", "recipe --for", "stats", "draw -o out",
+                                         "make -o out --set network.source=lines --set network.lines.path=r --set"}) {
+            std::string const word = before.ends_with("--set") ? "network.lines.path=" + name : name;
+            Outcome const o = thalweg_run(before + " \"" + word + "\"", place.path());
+            EXPECT_NE(o.code, 0) << o.err;
+            EXPECT_EQ(o.err.find("heim"), std::string::npos) << before << " " << name << "\n" << o.err;
+        }
+    }
+    place.write("r.toml",
+                "[network]\nsource = \"lines\"\n[network.lines]\npath = \"PG:dbname=x password=geheim\"\n[surface]\n");
+    Outcome const o = thalweg_run("make r.toml -o out", place.path());
+    EXPECT_NE(o.err.find("password=..."), std::string::npos) << o.err;
+}
+
+TEST(Messages, SeedsAreWholeNumbersOfARecipe) {
+    Workplace const place;
+    for (std::string const seed : {"-1", "9223372036854775808", "1.5", "x"}) {
+        for (std::string const command : {"make -o out --seed ", "grow --seed "}) {
+            Outcome const o = thalweg_run(command + seed, place.path());
+            EXPECT_EQ(o.code, 2);
+            EXPECT_NE(o.err.find("'" + seed + "' is not a seed: give a whole number from 0 to 9223372036854775807"),
+                      std::string::npos)
+                << o.err;
+        }
+    }
+    place.write("r.toml", "seed = 9223372036854775808\n[network]\n");
+    for (std::string const arguments : {"make r.toml -o out", "make -o out --set seed=9223372036854775808"}) {
+        Outcome const o = thalweg_run(arguments, place.path());
+        EXPECT_EQ(o.code, 2);
+        EXPECT_NE(o.err.find("an integer of a recipe is at most 9223372036854775807"), std::string::npos) << o.err;
+    }
+    EXPECT_EQ(thalweg_run("grow --order 3 --seed 9223372036854775807", place.path()).code, 0);
+}
+
+TEST(Messages, TmpdirThatDoesNotExistIsNamed) {
+    Workplace const place;
+    ASSERT_EQ(thalweg_run(small("-q"), place.path()).code, 0);
+    setenv("TMPDIR", "/nonexistent", 1);
+    std::string const command = "cd '" + place.path().string() + "' && '" THALWEG_EXE "' replay out >o 2>e";
+    int const status = std::system(command.c_str());
+    unsetenv("TMPDIR");
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    EXPECT_NE(file_bytes(place / "e").find("TMPDIR=/nonexistent"), std::string::npos) << file_bytes(place / "e");
+    EXPECT_NE(file_bytes(place / "e").find("set TMPDIR"), std::string::npos) << file_bytes(place / "e");
+}
+
+TEST(Messages, TextThatIsNotUtf8IsRefused) {
+    Workplace const place;
+    Outcome const o = thalweg_run(small("--set \"output.title=$(printf 'a\\377b')\""), place.path());
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find("not UTF-8"), std::string::npos) << o.err;
+    EXPECT_FALSE(fs::exists(place / "out"));
+}
+
+TEST(Messages, NamesThatAreNotUtf8AreEscaped) {
+    Workplace const place;
+    place.write("name.toml",
+                "[network]\nsource = \"lines\"\n[network.lines]\npath = \"a\xff\xfe\033.gpkg\"\n[surface]\n");
+    place.write("escaped.toml",
+                "[network]\nsource = \"lines\"\n[network.lines]\npath = \"\\u009b31m.gpkg\"\n[surface]\n");
+    place.write("\xff\x9b.gpkg", "no data");
+    std::string const name = "\"$(printf '\\377\\233.gpkg')\"";
+    for (std::string const& arguments :
+         {std::string("make name.toml -o out"), std::string("make escaped.toml -o out"), "make " + name + " -o out",
+          "check " + name, "stats " + name, "draw " + name + " -o out", "tin " + name + " -o a.ply",
+          "recipe --for " + name, "convert " + name + " -o b.gpkg",
+          "make -o out --set network.source=lines --set network.lines.path=" + name}) {
+        Outcome const o = thalweg_run(arguments, place.path());
+        EXPECT_EQ(o.code, 2) << arguments << o.err;
+        EXPECT_TRUE(is_utf8(o.err) && is_utf8(o.out)) << arguments << o.err;
+        EXPECT_FALSE(acts(o.err)) << arguments << o.err;
+        EXPECT_EQ(o.err.find("\xc2\x9b"), std::string::npos) << arguments << o.err;
+    }
+}
+
+TEST(Messages, ARecipeHoldsNoNameThatIsNotUtf8) {
+    Workplace const place;
+    place.write("\xff.geojson", geojson("", line));
+    std::string const name = "\"$(printf '\\377.geojson')\"";
+    Outcome const printed = thalweg_run("recipe --for " + name, place.path());
+    EXPECT_EQ(printed.code, 2);
+    EXPECT_EQ(printed.out, "");
+    EXPECT_NE(printed.err.find("\\xff.geojson is not UTF-8, and recipes are: rename it"), std::string::npos)
+        << printed.err;
+    ASSERT_EQ(thalweg_run("make " + name + " -q -o out --set grid.cell=10", place.path()).code, 0);
+    EXPECT_TRUE(is_utf8(file_bytes(place / "out/recipe.toml"))) << "the copy in inputs has another name";
+    EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
+}
+
+TEST(Messages, AttributesThatAreNotUtf8AreWrittenEscaped) {
+    Workplace const place;
+    place.write("make.py", R"py(
+from osgeo import ogr, osr
+s = osr.SpatialReference(); s.ImportFromEPSG(32631)
+d = ogr.GetDriverByName('ESRI Shapefile').CreateDataSource('r.shp')
+l = d.CreateLayer('r', s, ogr.wkbLineString, ['ENCODING='])
+for name in ('rosgen', 'nXYZ'): l.CreateField(ogr.FieldDefn(name, ogr.OFTString))
+f = ogr.Feature(l.GetLayerDefn()); f.SetField(1, 'MARK1')
+f.SetGeometry(ogr.CreateGeometryFromWkt('LINESTRING(500000 5000000,500300 4999900,500600 5000000)'))
+l.CreateFeature(f); d = None
+b = open('r.dbf', 'rb').read()
+open('r.dbf', 'wb').write(b.replace(b'nXYZ', b'n\xe4\xff\x1b').replace(b'MARK1', b'M\xfcl\xff\xc3'))
+)py");
+    place.write("read.py", R"py(
+import sys
+from osgeo import ogr
+for name in sys.argv[1:]:
+    d = ogr.Open(name); l = d.GetLayerByName('arcs') or d.GetLayer(0)
+    fields = [l.GetLayerDefn().GetFieldDefn(i).GetName() for i in range(l.GetLayerDefn().GetFieldCount())]
+    print([n for n in fields if n.startswith('n\\')], l.GetNextFeature().GetField(fields[-1]))
+)py");
+    std::string const into = "cd '" + place.path().string() + "' && /usr/bin/python3 ";
+    ASSERT_EQ(std::system((into + "make.py && rm -f r.cpg").c_str()), 0);
+    Outcome const made = thalweg_run("make r.shp --set grid.cell=10 -o out", place.path());
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_NE(file_bytes(place / "out/report.json").find("not_utf8"), std::string::npos);
+    ASSERT_EQ(std::system((into + "read.py out/network.gpkg out/network_arcs.shp >seen").c_str()), 0);
+    std::string const seen = file_bytes(place / "seen");
+    EXPECT_EQ(seen.substr(0, seen.find('\n')), "['n\\\\xe4\\\\xff\\\\x1b'] M\\xfcl\\xff\\xc3") << seen;
+    for (auto const& entry : fs::directory_iterator(place / "out")) {
+        bool const is_text = entry.is_regular_file() &&
+                             std::string(".json .html .toml .svg").find(entry.path().extension()) != std::string::npos;
+        EXPECT_TRUE(!is_text || is_utf8(file_bytes(entry.path()))) << entry.path();
+    }
+    EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
+}
+
+TEST(Messages, GrowAdvisesOptionsThatExist) {
+    Workplace const place;
+    Outcome const o = thalweg_run("grow --order 30 --generator 50", place.path());
+    EXPECT_EQ(o.code, 2);
+    EXPECT_EQ(o.err.find("max_links"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("lower the order or the generator"), std::string::npos) << o.err;
+}
+
+TEST(Messages, TheRangeOfSmoothingIsTheStages) {
+    Workplace const place;
+    Outcome const o = thalweg_run(small("--set surface.method=diffuse --set surface.smoothing=101"), place.path());
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find("101 is outside its range [0, 100]"), std::string::npos) << o.err;
+    EXPECT_EQ(thalweg_run(small("-q --set surface.method=diffuse --set surface.smoothing=100"), place.path()).code, 0);
+}
+
+TEST(Messages, StatisticsThatCannotBeMetNameTheirKeys) {
+    Workplace const place;
+    place.write(
+        "s.toml",
+        "[grid]\nwidth = 32\nheight = 32\n[statistics]\nmean = 50\nstd = 40\nmax = [60, 3, 3]\nmin = [40, 9, 9]\n");
+    Outcome const o = thalweg_run("make s.toml -o out", place.path());
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find("statistics.mean"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("statistics.std"), std::string::npos) << o.err;
+}
+
+TEST(Messages, StatsReprojectsDegreesAndSaysSo) {
+    Workplace const place;
+    std::string text = "ncols 40\nnrows 40\nxllcorner 5\nyllcorner 45\ncellsize 0.001\nNODATA_value -9999\n";
+    for (int row = 0; row < 40; ++row) {
+        for (int col = 0; col < 40; ++col) {
+            text += std::to_string(5 * col + row) + " ";
+        }
+        text += "\n";
+    }
+    place.write("d.asc", text);
+    place.write("d.prj", "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+                         "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]");
+    Outcome const o = thalweg_run("stats d.asc --json", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.err.find("d.asc: coordinates in degrees are reprojected into EPSG:32631"), std::string::npos) << o.err;
+    double const slope = nlohmann::json::parse(o.out)["slope_true_deg"];
+    EXPECT_NEAR(slope, 3.67, 0.1) << "5 m in 78.8 m, 1 m in 111.1 m";
+}
