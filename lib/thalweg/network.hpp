@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// All public headers of the module.
+#include <thalweg/network/channels/channels.hpp>
+#include <thalweg/network/channels/choose_lakes.hpp>
+#include <thalweg/network/channels/flood_lakes.hpp>
+#include <thalweg/network/channels/shorten.hpp>
+#include <thalweg/network/channels/side_valleys.hpp>
+#include <thalweg/network/elevation/assign_types.hpp>
+#include <thalweg/network/elevation/channel_heights.hpp>
+#include <thalweg/network/elevation/drape.hpp>
+#include <thalweg/network/elevation/keep_heights.hpp>
+#include <thalweg/network/elevation/lower_rises.hpp>
+#include <thalweg/network/elevation/raise_from_land.hpp>
+#include <thalweg/network/elevation/rosgen.hpp>
+#include <thalweg/network/elevation/set_heights.hpp>
+#include <thalweg/network/elevation/set_heights_by_type.hpp>
+#include <thalweg/network/elevation/set_heights_graded.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/network/growth/dla/pick_branch.hpp>
+#include <thalweg/network/growth/forest/grow_forest.hpp>
+#include <thalweg/network/growth/forest/plant_forest.hpp>
+#include <thalweg/network/growth/forest/shape_island.hpp>
+#include <thalweg/network/growth/forest/spread_outlets.hpp>
+#include <thalweg/network/growth/tokunaga/embed_tree.hpp>
+#include <thalweg/network/growth/tokunaga/grow_strokes.hpp>
+#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
+#include <thalweg/network/growth/tokunaga/lsystem.hpp>
+#include <thalweg/network/growth/tokunaga/rewrite.hpp>
+#include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
+#include <thalweg/network/import/adopt.hpp>
+#include <thalweg/network/import/choose_cell.hpp>
+#include <thalweg/network/import/clip_lines.hpp>
+#include <thalweg/network/import/fill_heights.hpp>
+#include <thalweg/network/import/from_file.hpp>
+#include <thalweg/network/import/land_and_sea.hpp>
+#include <thalweg/network/order/count_streams.hpp>
+#include <thalweg/network/order/order.hpp>
+#include <thalweg/network/order/streams.hpp>
+#include <thalweg/network/planform/carry_outlets.hpp>
+#include <thalweg/network/planform/meander.hpp>
+#include <thalweg/network/planform/rotate.hpp>
+#include <thalweg/network/planform/split_confluences.hpp>
+#include <thalweg/network/vectorise/cut_corners.hpp>
+#include <thalweg/network/vectorise/cut_loops.hpp>
+#include <thalweg/network/vectorise/prune.hpp>
+#include <thalweg/network/vectorise/rasterise.hpp>
+#include <thalweg/network/vectorise/thin.hpp>
+#include <thalweg/network/vectorise/trace.hpp>

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// All public headers of the module.
+#include <thalweg/pipeline/commands/check_files.hpp>
+#include <thalweg/pipeline/commands/convert.hpp>
+#include <thalweg/pipeline/commands/dem_in_metres.hpp>
+#include <thalweg/pipeline/commands/draw_files.hpp>
+#include <thalweg/pipeline/commands/make_blend.hpp>
+#include <thalweg/pipeline/commands/make_blend_tin.hpp>
+#include <thalweg/pipeline/commands/make_deform.hpp>
+#include <thalweg/pipeline/commands/make_deform_tin.hpp>
+#include <thalweg/pipeline/commands/make_measures.hpp>
+#include <thalweg/pipeline/commands/make_points.hpp>
+#include <thalweg/pipeline/commands/make_tin.hpp>
+#include <thalweg/pipeline/make/frame.hpp>
+#include <thalweg/pipeline/make/laws.hpp>
+#include <thalweg/pipeline/make/line_sources.hpp>
+#include <thalweg/pipeline/make/relief.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/write_terrain.hpp>
+#include <thalweg/pipeline/recipe/forecast.hpp>
+#include <thalweg/pipeline/recipe/make_input.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
+#include <thalweg/pipeline/recipe/replay.hpp>
+#include <thalweg/pipeline/recipe/user_files.hpp>
+#include <thalweg/pipeline/report/law_rows.hpp>
+#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/pipeline/report/report.hpp>

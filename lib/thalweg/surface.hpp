@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// All public headers of the module.
+#include <thalweg/surface/diffusion/diffuse.hpp>
+#include <thalweg/surface/diffusion/harmonic.hpp>
+#include <thalweg/surface/dilation/dilate.hpp>
+#include <thalweg/surface/dilation/dilate_over.hpp>
+#include <thalweg/surface/dilation/increment.hpp>
+#include <thalweg/surface/dilation/separable.hpp>
+#include <thalweg/surface/drainage/drain.hpp>
+#include <thalweg/surface/drainage/land_change.hpp>
+#include <thalweg/surface/equilibrium/equilibrium.hpp>
+#include <thalweg/surface/tin/rasterise_tin.hpp>
