@@ -74,4 +74,20 @@ inline bool same_bytes(Raster<float> const& a, Raster<float> const& b) {
            });
 }
 
+/// Mean squared difference at a lag, of columns and rows.
+inline double differences(Raster<float> const& dem, std::int64_t lag) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::int64_t row = 0; row < dem.height(); ++row) {
+        for (std::int64_t col = 0; col + lag < dem.width(); ++col) {
+            auto const east = static_cast<double>(dem[Cell{col + lag, row}]) - static_cast<double>(dem[Cell{col, row}]);
+            auto const south =
+                static_cast<double>(dem[Cell{row, col + lag}]) - static_cast<double>(dem[Cell{row, col}]);
+            sum += east * east + south * south;
+            count += 2.0;
+        }
+    }
+    return sum / count;
+}
+
 } // namespace land

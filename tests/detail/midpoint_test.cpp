@@ -424,22 +424,6 @@ TEST(Midpoint, AdaptsToLandOfTwoKinds) {
 
 // ---- The statistics of the surface.
 
-/// Mean squared difference at a lag, of columns and rows.
-double differences(Raster<float> const& dem, std::int64_t lag) {
-    double sum = 0.0;
-    double count = 0.0;
-    for (std::int64_t row = 0; row < dem.height(); ++row) {
-        for (std::int64_t col = 0; col + lag < dem.width(); ++col) {
-            auto const east = static_cast<double>(dem[Cell{col + lag, row}]) - static_cast<double>(dem[Cell{col, row}]);
-            auto const south =
-                static_cast<double>(dem[Cell{row, col + lag}]) - static_cast<double>(dem[Cell{row, col}]);
-            sum += east * east + south * south;
-            count += 2.0;
-        }
-    }
-    return sum / count;
-}
-
 /// Mean squared step along the rows that are multiples of a number, shared by that along all rows.
 double crease(Raster<float> const& dem, std::int64_t multiple) {
     std::array<double, 2> sum{};
@@ -474,7 +458,7 @@ TEST_P(MidpointOfExactLand, HasTheDimensionAndNoCreases) {
         std::array<double, 4> y{};
         for (std::size_t k = 0; k < 4; ++k) {
             x[k] = static_cast<double>(k) * std::log(2.0);
-            y[k] = 0.5 * std::log(differences(dem, std::int64_t{1} << k));
+            y[k] = 0.5 * std::log(land::differences(dem, std::int64_t{1} << k));
         }
         // Least squares over 1, 2, 4, 8: weights -3, -1, 1, 3 of equal steps.
         double const slope = (3.0 * (y[3] - y[0]) + (y[2] - y[1])) / (10.0 * std::log(2.0));

@@ -371,6 +371,30 @@ TEST(Equilibrium, GivenHeightsHold) {
     }));
 }
 
+// On the mainland a river runs on beyond the grid, where nothing is asked: steps of floats there lift nobody here.
+TEST(Equilibrium, WhatLiesBeyondTheGridDoesNotLiftGivenHeights) {
+    constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    for (std::int64_t length = 2; length < 7; ++length) {
+        Channels rivers;
+        rivers.grid = frame(3, 8, 0.5);
+        for (std::int64_t n = 0; n < length; ++n) {
+            rivers.cell.push_back(1 + 3 * n);
+            rivers.receiver.push_back(n - 1);
+            rivers.z.push_back(n + 1 == length ? 100.0F : none);
+        }
+        EquilibriumParams params;
+        params.heights = RiverHeights::fixed;
+        params.edge = Edge::mainland;
+        params.mean_slope_deg = 0.001;
+        params.hillslope_cells = 100.0;
+        params.floor_width = 1.0;
+        EquilibriumLand const land = equilibrium(rivers, {}, params);
+        float const source = land.dem[rivers.cell.back()];
+        EXPECT_GE(source, 100.0F);
+        EXPECT_LE(source, 100.0F + static_cast<float>(length) * 100.0F * 0x1p-22F) << length;
+    }
+}
+
 // Only an outlet and a source are given: the river between them falls all the way, more steeply where it drains less.
 TEST(Equilibrium, RiversAreGradedBetweenGivenHeights) {
     Scene scene = square(80);

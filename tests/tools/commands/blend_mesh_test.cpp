@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
+#include "blend_runs.hpp"
 
 #include <thalweg/io/mesh/read_tin.hpp>
 #include <thalweg/io/raster/write_dem.hpp>
@@ -20,19 +20,6 @@ namespace fs = std::filesystem;
 using namespace thalweg;
 
 namespace {
-
-Outcome blend(Workplace const& place, std::string const& arguments) {
-    return thalweg_run("blend " + arguments, place.path());
-}
-
-void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
-    auto const before = std::distance(fs::directory_iterator(place.path()), {});
-    Outcome const o = blend(place, arguments);
-    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
-    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
-    EXPECT_EQ(o.out, "") << arguments;
-    EXPECT_EQ(std::distance(fs::directory_iterator(place.path()), {}), before) << arguments;
-}
 
 /// A mesh of squares in Wavefront OBJ.
 std::string obj(int cells, double side_m, Vec2 from, std::function<double(double, double)> const& height,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
+#include "blend_runs.hpp"
 
 #include <thalweg/io/raster/read_dem.hpp>
 #include <thalweg/io/raster/write_dem.hpp>
@@ -17,21 +17,6 @@ namespace fs = std::filesystem;
 using namespace thalweg;
 
 namespace {
-
-Outcome blend(Workplace const& place, std::string const& arguments) {
-    return thalweg_run("blend " + arguments, place.path());
-}
-
-/// Exit 2, the words in the message, nothing written.
-void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
-    auto const before = std::distance(fs::directory_iterator(place.path()), {});
-    Outcome const o = blend(place, arguments);
-    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
-    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
-    EXPECT_NE(("\n" + o.err).find("\nerror: "), std::string::npos) << o.err;
-    EXPECT_EQ(o.out, "") << arguments;
-    EXPECT_EQ(std::distance(fs::directory_iterator(place.path()), {}), before) << arguments;
-}
 
 Grid const target_grid{60, 50, 30.0, 500000.0, 4000000.0, "EPSG:32631"};
 

@@ -113,6 +113,22 @@ float settled_step(Raise const& raise) {
     return static_cast<float>(0.25 * static_cast<double>(least_tangent) * raise.metres);
 }
 
+/// Cells without an asked height stand no higher than what is asked upstream: in the solver floats of what lies beyond
+/// the caller's grid, a step up each, may have lifted them.
+void keep_below_asked(LandLevel& level, Channels const& rivers) {
+    RiverCells const& cells = level.rivers;
+    for (std::size_t n = cells.cell.size(); n-- > 0;) {
+        if (cells.receiver[n] < 0 || cells.level[n] != 0) {
+            continue;
+        }
+        auto const r = static_cast<std::size_t>(cells.receiver[n]);
+        std::int64_t const number = cells.number[r];
+        if (number >= 0 && std::isnan(rivers.z[static_cast<std::size_t>(number)])) {
+            level.z[cells.cell[r]] = std::min(level.z[cells.cell[r]], level.z[cells.cell[n]]);
+        }
+    }
+}
+
 void tell_lowered(Raster<float> const& dem, Channels const& rivers, EquilibriumLand& out) {
     std::vector<double> lowered;
     for (std::size_t n = 0; n < rivers.z.size(); ++n) {
@@ -171,6 +187,7 @@ EquilibriumLand written_given_land(LandLevel level, Channels const& rivers, Wind
             z = heights == RiverHeights::fixed ? asked : std::min(z, asked);
         }
     }
+    keep_below_asked(level, rivers);
     if (heights == RiverHeights::soft) { // as graded rivers are
         lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
         raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
