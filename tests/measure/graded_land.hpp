@@ -8,13 +8,13 @@
 #include <numeric>
 #include <vector>
 
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/routing/route.hpp>
 
 #include "dems.hpp"
 
 /// Rivers by a random land's drainage, and heights such that every step of water falls by k A^-theta, area in m2.
 struct GradedLand {
-    thalweg::measure::Drainage drainage;
+    thalweg::flow::FlowField drainage;
     thalweg::Raster<float> dem;
 };
 
@@ -23,7 +23,7 @@ inline GradedLand graded_land(thalweg::Grid const& grid, std::uint64_t seed, dou
     for (std::int64_t i = 0; i < rough.cells(); ++i) { // towards the south, so that there are long rivers
         rough[i] += 0.05F * static_cast<float>(grid.height - grid.at(i).row);
     }
-    GradedLand land{thalweg::measure::drain(rough), thalweg::Raster<float>(grid)};
+    GradedLand land{thalweg::flow::route(rough), thalweg::Raster<float>(grid)};
     std::vector<std::int64_t> order(static_cast<std::size_t>(grid.cells()));
     std::iota(order.begin(), order.end(), std::int64_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {

@@ -11,7 +11,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/measure/drainage/flow_lengths.hpp>
+#include <thalweg/flow/routing/flow_lengths.hpp>
 #include <thalweg/measure/laws/internal/concavity.hpp>
 #include <thalweg/measure/laws/internal/hack.hpp>
 #include <thalweg/measure/laws/line_fit.hpp>
@@ -32,7 +32,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 /// Rivers of chance whose areas and heights are made to order.
 struct MadeToOrder {
     RaisedNetwork rivers;
-    ContributingAreas areas;
+    flow::ContributingAreas areas;
     NetworkOrders orders;
     NetworkIndex index;
 
@@ -317,7 +317,7 @@ TEST(JunctionAngles, StairsOfCellsHaveTheDirectionOfTheirChord) {
 TEST(FlowLengths, AreTheLongestWayDownToACell) {
     ASSERT_TRUE(rc::check("as walking down from every cell finds", [] {
         Raster<float> const dem = *gen_dem(12, 20);
-        Drainage const drainage = drain(dem);
+        flow::FlowField const drainage = flow::route(dem);
         Grid const& grid = dem.grid();
         Numbers longest(static_cast<std::size_t>(grid.cells()), 0.0);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
@@ -330,7 +330,7 @@ TEST(FlowLengths, AreTheLongestWayDownToACell) {
                 here = std::max(here, length);
             }
         }
-        auto const fast = flow_lengths(drainage);
+        auto const fast = flow::flow_lengths(drainage);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             double const slow = longest[static_cast<std::size_t>(i)];
             RC_ASSERT(std::fabs(static_cast<double>(fast[i]) - slow) <= 1e-5 * slow);

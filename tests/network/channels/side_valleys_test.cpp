@@ -5,8 +5,8 @@
 
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/geometry/meetings.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/shorten.hpp>
 #include <thalweg/network/elevation/raise_from_land.hpp>
@@ -33,7 +33,7 @@ struct Scene {
     RaisedNetwork rivers;
     Channels channels;
     Raster<float> dem;
-    measure::Drainage drainage;
+    flow::FlowField drainage;
 
     LandWater water() const { return {dem, drainage.direction, drainage.area_cells}; }
 };
@@ -46,7 +46,7 @@ Scene scene_of(StreamNetwork const& plan, Grid const& grid, std::uint64_t seed) 
     surface::EquilibriumLand land = surface::equilibrium(drawn.channels, {}, params);
     Shortened const kept = shorten(carried, drawn, land.shortened);
     Scene scene{raise_from_land(kept.network, kept.drawn.channels, land.dem), kept.drawn.channels, land.dem, {}};
-    scene.drainage = measure::drain(scene.dem);
+    scene.drainage = flow::route(scene.dem);
     return scene;
 }
 

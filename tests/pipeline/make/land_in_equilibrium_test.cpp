@@ -4,7 +4,7 @@
 #include <thalweg/pipeline/make/terrain.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/routing/route.hpp>
 
 #include <gtest/gtest.h>
 
@@ -249,7 +249,7 @@ TEST(LandInEquilibrium, RiversThatEndInsideAreCarriedOrSinks) {
     EXPECT_EQ(count(carried, "carried_outlet"), 1);
     Terrain const sink = made(lines + "inland = \"sink\"\n" + inland + "[surface]\ndrain = \"none\"\n", files);
     EXPECT_EQ(count(sink, "carried_outlet"), 0);
-    measure::Drainage const drainage = measure::drain(sink.surface->dem);
+    flow::FlowField const drainage = flow::route(sink.surface->dem);
     EXPECT_EQ(drainage.depressions.size(), 1U);
     Terrain const drained = made(lines + "inland = \"sink\"\n" + inland + "[surface]\n", files);
     for (Check const& c : drained.checks) {
@@ -368,7 +368,7 @@ TEST(LandInEquilibrium, AForestTilesALargeMap) {
         outlets.push_back(t.grid.index(t.grid.cell_of(t.network.plan[n].at)));
     }
     EXPECT_GT(outlets.size(), 50U);
-    measure::Drainage const drainage = measure::drain(t.surface->dem);
+    flow::FlowField const drainage = flow::route(t.surface->dem);
     std::int64_t drained = 0;
     for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
         if (drainage.direction[i] < 0) {

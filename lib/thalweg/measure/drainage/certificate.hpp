@@ -9,8 +9,8 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
-#include <thalweg/measure/drainage/reaches.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/routing/route.hpp>
 
 namespace thalweg::measure {
 
@@ -69,7 +69,7 @@ struct Claims {
 /// Gives: the certificate, of the DEM's own steepest descent (drain) and the reaches' own cells (cells_along), without
 /// corners, which a diagonal step of the reach passes.
 /// Throws: BadInput: drainage or claims are not of this DEM or these reaches; as river_cells; Cancelled.
-Certificate certify(Raster<float> const& dem, Drainage const& drainage, std::vector<Reach> const& reaches,
+Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, std::vector<flow::Reach> const& reaches,
                     Claims const& claims = {}, Run const& run = {});
 
 } // namespace thalweg::measure

@@ -8,7 +8,7 @@
 
 namespace thalweg::measure {
 
-std::optional<PowerLaw> concavity(RaisedNetwork const& network, ContributingAreas const& areas,
+std::optional<PowerLaw> concavity(RaisedNetwork const& network, flow::ContributingAreas const& areas,
                                   PowerLawParams const& params) {
     NetworkIndex const index(network.plan);
     std::size_t const arcs = index.arcs.size();
