@@ -10,6 +10,8 @@
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
 #include <thalweg/flow/conditioning/condition.hpp>
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/flow/routing/route_dinf.hpp>
@@ -108,12 +110,7 @@ BENCHMARK(bench_carve_relief)
 /// The streams of a DEM by area, a reach from each head or confluence to the next.
 std::vector<flow::Reach> streams(flow::FlowField const& drainage, std::int64_t area) {
     Grid const& grid = drainage.direction.grid();
-    auto const next = [&](std::int64_t i) {
-        std::int8_t const k = drainage.direction[i];
-        return k < 0 ? std::int64_t{-1}
-                     : i + d8_steps[static_cast<std::size_t>(k)].row * grid.width +
-                           d8_steps[static_cast<std::size_t>(k)].col;
-    };
+    auto const next = [&](std::int64_t i) { return drainage.receiver(i); };
     Raster<std::uint8_t> arriving(grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         if (drainage.area_cells[i] >= area && next(i) >= 0) {

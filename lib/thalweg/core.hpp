@@ -7,6 +7,7 @@
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/cells/cells_around.hpp>
 #include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells/framed.hpp>
 #include <thalweg/core/cells/nearest_cells.hpp>
 #include <thalweg/core/channels.hpp>
 #include <thalweg/core/feature_points.hpp>

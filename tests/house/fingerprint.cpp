@@ -15,7 +15,9 @@
 #include <thalweg/detail/midpoint.hpp>
 #include <thalweg/detail/project.hpp>
 #include <thalweg/detail/refine.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/catchments/catchments.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
 #include <thalweg/flow/conditioning/condition.hpp>
 #include <thalweg/flow/routing/flow_lengths.hpp>
 #include <thalweg/flow/routing/route.hpp>
@@ -619,9 +621,8 @@ void print_equilibrium(StreamNetwork const& pruned, Grid const& box, Run const& 
     RaisedNetwork const raised = network::raise_from_land(kept.network, kept.drawn.channels, land.dem);
     print("raise_from_land", hash_of(raised));
     flow::FlowField const drainage = flow::route(land.dem, run);
-    print("side_valleys", hash_of(network::side_valleys(raised, kept.drawn.channels,
-                                                        {land.dem, drainage.direction, drainage.area_cells}, {60}, run)
-                                      .network));
+    print("side_valleys",
+          hash_of(network::side_valleys(raised, kept.drawn.channels, land.dem, drainage, {60}, run).network));
     surface::EquilibriumParams fixed;
     fixed.heights = surface::RiverHeights::soft;
     Channels given = drawn.channels;

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/flow/routing/route.hpp>
 
 #include "dems.hpp"
@@ -31,10 +32,10 @@ inline GradedLand graded_land(thalweg::Grid const& grid, std::uint64_t seed, dou
     });
     auto const offsets = thalweg::d8_offsets(grid);
     for (std::int64_t const i : order) { // water only gains area on its way: whatever is below is done
-        if (land.drainage.direction[i] < 0) {
+        if (!goes_on(land.drainage.direction[i])) {
             continue;
         }
-        auto const way = static_cast<std::size_t>(land.drainage.direction[i]);
+        std::size_t const way = index_of(land.drainage.direction[i]);
         double const area_m2 = static_cast<double>(land.drainage.area_cells[i]) * grid.cell_m * grid.cell_m;
         double const step_m = grid.cell_m / thalweg::d8_per_length[way];
         land.dem[i] = static_cast<float>(static_cast<double>(land.dem[i + offsets[way]]) +

@@ -14,6 +14,7 @@
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 
 #include <measure/dems.hpp>
 #include <measure/trees.hpp>
@@ -261,8 +262,8 @@ TEST(AreasD8, FollowTheDefinitionAndItsLaws) {
         std::int64_t reaching = 0;
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             std::int64_t at = i;
-            while (river.count(at) == 0 && drainage.direction[at] >= 0) {
-                Cell const step = d8_steps[static_cast<std::size_t>(drainage.direction[at])];
+            while (river.count(at) == 0 && goes_on(drainage.direction[at])) {
+                Cell const step = d8_steps[index_of(drainage.direction[at])];
                 at = grid.index({grid.at(at).col + step.col, grid.at(at).row + step.row});
             }
             reaching += river.count(at) != 0 ? 1 : 0;

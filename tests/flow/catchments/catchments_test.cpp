@@ -11,6 +11,9 @@
 
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/routing/route.hpp>
 
 #include <measure/dems.hpp>
 #include <measure/trees.hpp>
@@ -146,10 +149,10 @@ TEST(Catchments, FollowTheDefinitionAndAgreeWithAreas) {
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             std::int64_t at = std::isnan(dem[i]) ? -1 : i;
             while (at >= 0 && owner.count(at) == 0) {
-                auto const way = drainage.direction[at];
-                at = way < 0 ? -1
-                             : grid.index({grid.at(at).col + d8_steps[static_cast<std::size_t>(way)].col,
-                                           grid.at(at).row + d8_steps[static_cast<std::size_t>(way)].row});
+                flow::Direction const way = drainage.direction[at];
+                at = goes_on(way) ? grid.index({grid.at(at).col + d8_steps[index_of(way)].col,
+                                                grid.at(at).row + d8_steps[index_of(way)].row})
+                                  : -1;
             }
             auto const whose = at < 0 ? -1 : static_cast<std::int32_t>(owner.at(at).second);
             RC_ASSERT(c.reach[i] == whose);

@@ -12,6 +12,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/routing/route.hpp>
 
 #include "filled_slowly.hpp"
 #include <measure/dems.hpp>
@@ -134,16 +135,16 @@ TEST(RouteDinf, RefusesTheDrainageOfAnotherDem) {
     EXPECT_THROW(route_dinf(dem, route(holed)), BadInput);
     EXPECT_THROW(route_dinf(holed, route(dem)), BadInput);
     FlowField circle = route(dem);
-    circle.direction[{3, 3}] = 0;
-    circle.direction[{4, 3}] = 4;
+    circle.direction[{3, 3}] = flow::Direction::east;
+    circle.direction[{4, 3}] = flow::Direction::west;
     EXPECT_THROW(route_dinf(dem, circle), BadInput);
     FlowField into_hole = route(holed);
-    into_hole.direction[{2, 3}] = 0;
+    into_hole.direction[{2, 3}] = flow::Direction::east;
     EXPECT_THROW(route_dinf(holed, into_hole), BadInput);
     FlowField off = route(dem);
-    off.direction[{0, 0}] = 4;
+    off.direction[{0, 0}] = flow::Direction::west;
     EXPECT_THROW(route_dinf(dem, off), BadInput);
-    off.direction[{0, 0}] = 8;
+    off.direction[{0, 0}] = flow::direction_of(8);
     EXPECT_THROW(route_dinf(dem, off), BadInput);
 }
 
@@ -209,8 +210,8 @@ TEST(RouteDinf, LawsOnAnyDem) {
                 for (auto const& [to, share] : shares.back()) {
                     RC_ASSERT(level[static_cast<std::size_t>(to)] < level[static_cast<std::size_t>(i)]);
                 }
-            } else if (d8.direction[i] >= 0) {
-                RC_ASSERT(d.bearing[i] == static_cast<float>(d8.direction[i]));
+            } else if (goes_on(d8.direction[i])) {
+                RC_ASSERT(d.bearing[i] == static_cast<float>(index_of(d8.direction[i])));
             } else {
                 RC_ASSERT(d.bearing[i] == dinf_leaves);
                 leaving += d.area_cells[i];

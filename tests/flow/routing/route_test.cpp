@@ -14,14 +14,13 @@
 #include <measure/dems.hpp>
 
 using namespace thalweg;
-using flow::d8_leaves;
-using flow::d8_no_data;
+using flow::Direction;
 using flow::FlowField;
 using flow::route;
 
 namespace {
 
-std::vector<int> directions(FlowField const& d) {
+std::vector<Direction> directions(FlowField const& d) {
     return {d.direction.values().begin(), d.direction.values().end()};
 }
 
@@ -29,8 +28,8 @@ std::vector<std::int64_t> areas(FlowField const& d) {
     return {d.area_cells.values().begin(), d.area_cells.values().end()};
 }
 
-Cell next_of(Cell c, std::int8_t direction) {
-    Cell const step = d8_steps[static_cast<std::size_t>(direction)];
+Cell next_of(Cell c, Direction direction) {
+    Cell const step = d8_steps[index_of(direction)];
     return {c.col + step.col, c.row + step.row};
 }
 
@@ -43,20 +42,21 @@ TEST(Route, RefusesNoCellsAndInfiniteHeights) {
 
 TEST(Route, OneCellLeaves) {
     FlowField const d = route(dem_of(1, {3}));
-    EXPECT_EQ(directions(d), std::vector<int>{d8_leaves});
+    EXPECT_EQ(directions(d), std::vector<Direction>{Direction::leaves});
     EXPECT_EQ(areas(d), std::vector<std::int64_t>{1});
     EXPECT_EQ(d.pits, 0);
 }
 
 TEST(Route, NoDataOnly) {
     FlowField const d = route(Raster<float>(frame(3, 2), hole));
-    EXPECT_EQ(directions(d), std::vector<int>(6, d8_no_data));
+    EXPECT_EQ(directions(d), std::vector<Direction>(6, Direction::no_data));
     EXPECT_EQ(areas(d), std::vector<std::int64_t>(6, 0));
 }
 
 TEST(Route, RowFallsToItsLowestCell) {
     FlowField const d = route(dem_of(5, {4, 2, 0, 1, 7}));
-    EXPECT_EQ(directions(d), (std::vector<int>{0, 0, d8_leaves, 4, 4}));
+    EXPECT_EQ(directions(d), (std::vector<Direction>{Direction::east, Direction::east, Direction::leaves,
+                                                     Direction::west, Direction::west}));
     EXPECT_EQ(areas(d), (std::vector<std::int64_t>{1, 2, 5, 2, 1}));
 }
 
@@ -66,16 +66,16 @@ TEST(Route, DiagonalsAreLonger) {
     dem[4] = 5.0F;
     dem[5] = 4.0F;
     dem[8] = 3.7F;
-    EXPECT_EQ(route(dem).direction[4], 0);
+    EXPECT_EQ(route(dem).direction[4], Direction::east);
     dem[8] = 3.5F;
-    EXPECT_EQ(route(dem).direction[4], 1);
+    EXPECT_EQ(route(dem).direction[4], Direction::south_east);
 }
 
 TEST(Route, TiesGoToTheLowestDirection) {
     Raster<float> dem(frame(3, 3), 9.0F);
     dem[4] = 5.0F;
     dem[1] = dem[3] = dem[7] = 4.0F; // N, W, S
-    EXPECT_EQ(route(dem).direction[4], 2);
+    EXPECT_EQ(route(dem).direction[4], Direction::south);
 }
 
 TEST(Route, PitIsFilledToWhereItSpills) {
@@ -87,10 +87,10 @@ TEST(Route, PitIsFilledToWhereItSpills) {
     FlowField const d = route(dem);
     EXPECT_EQ(d.pits, 2);
     EXPECT_EQ(d.pit_volume_m3, 7.0 + 6.0);
-    EXPECT_EQ(d.direction[(Cell{1, 2})], 0);
-    EXPECT_EQ(d.direction[(Cell{2, 2})], 7);
-    EXPECT_EQ(d.direction[(Cell{3, 1})], 0);
-    EXPECT_EQ(d.direction[(Cell{4, 1})], d8_leaves);
+    EXPECT_EQ(d.direction[(Cell{1, 2})], Direction::east);
+    EXPECT_EQ(d.direction[(Cell{2, 2})], Direction::north_east);
+    EXPECT_EQ(d.direction[(Cell{3, 1})], Direction::east);
+    EXPECT_EQ(d.direction[(Cell{4, 1})], Direction::leaves);
     EXPECT_GE(d.area_cells[(Cell{2, 2})], 2);
     Grid grid = dem.grid();
     grid.cell_m = 10.0;
@@ -109,11 +109,11 @@ TEST(Route, NoDataTakesWater) {
     FlowField const d = route(dem);
     EXPECT_EQ(d.pits, 0);
     for (Cell const c : {Cell{1, 1}, Cell{2, 1}, Cell{3, 3}}) {
-        EXPECT_EQ(d.direction[c], d8_leaves);
+        EXPECT_EQ(d.direction[c], Direction::leaves);
     }
-    EXPECT_EQ(d.direction[(Cell{2, 2})], d8_no_data);
+    EXPECT_EQ(d.direction[(Cell{2, 2})], Direction::no_data);
     EXPECT_EQ(d.area_cells[(Cell{2, 2})], 0);
-    EXPECT_EQ(d.direction[(Cell{0, 0})], 1);
+    EXPECT_EQ(d.direction[(Cell{0, 0})], Direction::south_east);
 }
 
 TEST(Route, BothZerosAreLevel) {
@@ -137,7 +137,7 @@ TEST(Route, LawsOnAnyDem) {
         std::int64_t raised = 0;
         double volume = 0.0;
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            RC_ASSERT((d.direction[i] == d8_no_data) == static_cast<bool>(std::isnan(dem[i])));
+            RC_ASSERT((d.direction[i] == Direction::no_data) == static_cast<bool>(std::isnan(dem[i])));
             if (std::isnan(dem[i])) {
                 continue;
             }
@@ -151,7 +151,7 @@ TEST(Route, LawsOnAnyDem) {
             int best = -1;
             bool rim = false;
             for (std::size_t k = 0; k < 8; ++k) {
-                Cell const n = next_of(grid.at(i), static_cast<std::int8_t>(k));
+                Cell const n = next_of(grid.at(i), flow::direction_of(k));
                 if (!grid.contains(n) || std::isnan(dem[n])) {
                     rim = true;
                     continue;
@@ -165,7 +165,7 @@ TEST(Route, LawsOnAnyDem) {
             }
             if (best >= 0) {
                 RC_ASSERT(static_cast<int>(d.direction[i]) == best);
-            } else if (d.direction[i] == d8_leaves) {
+            } else if (d.direction[i] == Direction::leaves) {
                 RC_ASSERT(rim);
             } else {
                 Cell const n = next_of(grid.at(i), d.direction[i]);
@@ -177,15 +177,15 @@ TEST(Route, LawsOnAnyDem) {
             for (;; c = next_of(c, d.direction[c])) {
                 ++walked[c];
                 RC_ASSERT(++steps <= grid.cells());
-                if (d.direction[c] < 0) {
+                if (!goes_on(d.direction[c])) {
                     break;
                 }
             }
-            RC_ASSERT(d.direction[c] == d8_leaves);
+            RC_ASSERT(d.direction[c] == Direction::leaves);
         }
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             RC_ASSERT(walked[i] == d.area_cells[i]);
-            leaving += d.direction[i] == d8_leaves ? d.area_cells[i] : 0;
+            leaving += d.direction[i] == Direction::leaves ? d.area_cells[i] : 0;
         }
         RC_ASSERT(leaving == with_data);
         RC_ASSERT(d.pits == raised);
@@ -204,7 +204,7 @@ TEST(Route, WithoutDepressionsNothingIsFilled) {
         RC_ASSERT(d.pit_volume_m3 == 0.0);
         for (std::int64_t i = 0; i < dem.cells(); ++i) {
             if (dem.grid().at(i).col + 1 < dem.width()) {
-                RC_ASSERT(d.direction[i] >= 0);
+                RC_ASSERT(goes_on(d.direction[i]));
                 RC_ASSERT(dem[next_of(dem.grid().at(i), d.direction[i])] < dem[i]);
             }
         }

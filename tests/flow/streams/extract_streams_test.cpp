@@ -12,6 +12,8 @@
 
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/routing/route.hpp>
 
 #include <measure/dems.hpp>
 
@@ -28,8 +30,8 @@ std::set<std::pair<std::int64_t, std::int64_t>> steps_of(FlowField const& draina
     std::set<std::pair<std::int64_t, std::int64_t>> steps;
     Grid const& grid = drainage.area_cells.grid();
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        if (drainage.area_cells[i] >= support && drainage.direction[i] >= 0) {
-            Cell const step = d8_steps[static_cast<std::size_t>(drainage.direction[i])];
+        if (drainage.area_cells[i] >= support && goes_on(drainage.direction[i])) {
+            Cell const step = d8_steps[index_of(drainage.direction[i])];
             steps.insert({i, grid.index({grid.at(i).col + step.col, grid.at(i).row + step.row})});
         }
     }

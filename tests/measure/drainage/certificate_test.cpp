@@ -12,6 +12,8 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/drainage/internal/agreement.hpp>
 
 #include "dems.hpp"
@@ -210,7 +212,7 @@ TEST(Certify, WaterEndsInASink) {
     EXPECT_FALSE(passes(certificate_of(land)));
     flow::FlowField const drainage = route(land.dem, std::vector<std::int64_t>{grid.index({10, 19})});
     EXPECT_TRUE(drainage.depressions.empty());
-    EXPECT_EQ(drainage.direction[(Cell{10, 19})], flow::d8_leaves);
+    EXPECT_EQ(drainage.direction[(Cell{10, 19})], flow::Direction::leaves);
     EXPECT_TRUE(passes(certify(land.dem, drainage, land.reaches)));
     EXPECT_THROW(route(land.dem, std::vector<std::int64_t>{grid.cells()}), BadInput);
     EXPECT_THROW(route(land.dem, std::vector<std::int64_t>{-1}), BadInput);
@@ -313,10 +315,10 @@ TEST(Certify, RiversTracedOnADemPassOnIt) {
                 line.push_back(dem.grid().centre(dem.grid().at(i)));
                 joins = passed[i] != 0;
                 passed[i] = 1;
-                if (joins || d.direction[i] < 0) {
+                if (joins || !goes_on(d.direction[i])) {
                     break;
                 }
-                Cell const step = d8_steps[static_cast<std::size_t>(d.direction[i])];
+                Cell const step = d8_steps[index_of(d.direction[i])];
                 i += step.row * dem.width() + step.col;
             }
             if (joins) {

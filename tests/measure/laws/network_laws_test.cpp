@@ -11,7 +11,9 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/routing/flow_lengths.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/laws/internal/concavity.hpp>
 #include <thalweg/measure/laws/internal/hack.hpp>
 #include <thalweg/measure/laws/line_fit.hpp>
@@ -322,8 +324,8 @@ TEST(FlowLengths, AreTheLongestWayDownToACell) {
         Numbers longest(static_cast<std::size_t>(grid.cells()), 0.0);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             double length = 0.0;
-            for (std::int64_t at = i; drainage.direction[at] >= 0;) {
-                Cell const step = d8_steps[static_cast<std::size_t>(drainage.direction[at])];
+            for (std::int64_t at = i; goes_on(drainage.direction[at]);) {
+                Cell const step = d8_steps[index_of(drainage.direction[at])];
                 length += grid.cell_m * std::sqrt(static_cast<double>(step.col * step.col + step.row * step.row));
                 at += step.row * grid.width + step.col;
                 double& here = longest[static_cast<std::size_t>(at)];

@@ -10,6 +10,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/perched.hpp>
 #include <thalweg/measure/relief/relief_figures.hpp>
@@ -139,8 +140,8 @@ TEST(Relief, IsWhatItsPartsFind) {
                      static_cast<double>(forms.cells[8]) / static_cast<double>(forms.cells[2]));
     double length = 0.0;
     for (std::int64_t i = 0; i < drainage.direction.cells(); ++i) {
-        if (drainage.area_cells[i] >= 200 && drainage.direction[i] >= 0) {
-            length += drainage.direction[i] % 2 == 0 ? 1.0 : std::sqrt(2.0);
+        if (drainage.area_cells[i] >= 200 && goes_on(drainage.direction[i])) {
+            length += is_diagonal(drainage.direction[i]) ? std::sqrt(2.0) : 1.0;
         }
     }
     EXPECT_NEAR(found.drainage_density, length / 32000.0, 1e-12);

@@ -8,6 +8,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/relief/chi.hpp>
 
 #include "graded_land.hpp"

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
 
 using namespace thalweg;
 using pipeline::FileReaches;

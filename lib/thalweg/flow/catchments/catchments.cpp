@@ -30,7 +30,7 @@ Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField co
     Grid const& grid = drainage.direction.grid();
     Raster<std::int32_t> to(grid, unknown);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (drainage.direction[cells[i].cell] != d8_no_data) {
+        if (drainage.direction[cells[i].cell] != Direction::no_data) {
             to[cells[i].cell] = static_cast<std::int32_t>(i);
         }
     }
@@ -43,13 +43,12 @@ Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField co
         std::int64_t at = i;
         while (to[at] == unknown) {
             way.push_back(at);
-            std::int8_t const direction = drainage.direction[at];
-            if (direction < 0) {
+            std::int64_t const next = drainage.receiver(at);
+            if (next < 0) {
                 to[at] = nowhere;
                 break;
             }
-            Cell const step = d8_steps[static_cast<std::size_t>(direction)];
-            at += step.row * grid.width + step.col;
+            at = next;
         }
         std::int32_t const end = to[at];
         for (std::int64_t const cell : way) {
@@ -70,7 +69,7 @@ Catchments catchments(std::vector<Reach> const& reaches, FlowField const& draina
             ++result.cells[reach];
             place = static_cast<std::int32_t>(reach);
         } else {
-            result.without += drainage.direction[i] == d8_no_data ? 0 : 1;
+            result.without += drainage.direction[i] == Direction::no_data ? 0 : 1;
         }
     }
     result.upstream = result.cells;

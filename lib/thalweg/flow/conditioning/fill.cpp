@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/flow/conditioning/internal/fill.hpp>
 
+#include <thalweg/core/cells/framed.hpp>
 #include <thalweg/flow/conditioning/internal/flood.hpp>
 
 namespace thalweg::flow {

@@ -2,46 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/flow/conditioning/internal/flood.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/conditioning/internal/small_step.hpp>
-#include <thalweg/flow/internal/flood_queue.hpp>
+#include <thalweg/flow/internal/priority_flood.hpp>
 
 namespace thalweg::flow {
 
 void flood(Raster<float>& land, Raster<float> const& rivers, Lakes lakes, Run const& run) {
-    Mask reached(land.grid());
-    auto const offsets = d8_offsets(land.grid());
-    FloodQueue queue;
-    for (std::int64_t i = 0; i < land.cells(); ++i) {
-        if (std::isnan(land[i])) {
-            reached[i] = 1;
-        } else if (!std::isnan(rivers[i]) || std::any_of(offsets.begin(), offsets.end(), [&](std::int64_t step) {
-                       return std::isnan(land[i + step]);
-                   })) {
-            reached[i] = 1;
-            queue.push(land[i], i);
-        }
-    }
-    std::int64_t popped = 0;
-    for (std::int64_t i = queue.pop(); i >= 0; i = queue.pop()) {
-        if (++popped % cells_between_checks == 0) {
-            run.at(static_cast<double>(popped) / static_cast<double>(land.cells()), "carve");
-        }
-        float const level = lakes == Lakes::level ? land[i] : just_above(land[i]);
-        for (std::int64_t const step : offsets) {
-            std::int64_t const n = i + step;
-            if (reached[n] == 0) {
-                reached[n] = 1;
-                land[n] = std::max(land[n], level);
-                queue.push(land[n], n);
-            }
-        }
-    }
+    auto const is_river = [&](std::int64_t i) { return !std::isnan(rivers[i]); };
+    auto const rise = [&](float z) { return lakes == Lakes::level ? z : just_above(z); };
+    priority_flood(land, is_river, rise, "carve", run);
 }
 
 void check_drainable(Raster<float> const& dem, Valley const& valley) {

@@ -8,16 +8,17 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells/framed.hpp>
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
-#include <thalweg/flow/internal/flood_queue.hpp>
+#include <thalweg/flow/internal/each_downstream.hpp>
+#include <thalweg/flow/internal/priority_flood.hpp>
+#include <thalweg/flow/steepest_descent.hpp>
 
 namespace thalweg::flow {
 
 namespace {
-
-constexpr std::int8_t unreached = -3;
 
 using Sinks = std::vector<std::int64_t>; ///< cells, ascending
 
@@ -26,87 +27,34 @@ bool contains(Sinks const& sinks, std::int64_t cell) {
 }
 
 /// Raises depressions to the level at which they spill. Gives: the way back to where the flood came from.
-Raster<std::int8_t> flood(Raster<float>& level, Sinks const& sinks, Run const& run) {
-    Raster<std::int8_t> direction(level.grid(), unreached);
-    auto const offsets = d8_offsets(level.grid());
-    FloodQueue queue;
-    for (std::int64_t i = 0; i < level.cells(); ++i) {
-        if (std::isnan(level[i])) {
-            direction[i] = d8_no_data;
-        } else if (contains(sinks, i) || std::any_of(offsets.begin(), offsets.end(),
-                                                     [&](std::int64_t step) { return std::isnan(level[i + step]); })) {
-            direction[i] = d8_leaves;
-            queue.push(level[i], i);
-        }
-    }
-    std::int64_t popped = 0;
-    for (std::int64_t i = queue.pop(); i >= 0; i = queue.pop()) {
-        if (++popped % cells_between_checks == 0) {
-            run.at(static_cast<double>(popped) / static_cast<double>(level.cells()), "drain");
-        }
-        for (std::size_t k = 0; k < offsets.size(); ++k) {
-            std::int64_t const n = i + offsets[k];
-            if (direction[n] == unreached) {
-                direction[n] = static_cast<std::int8_t>((k + 4) % 8);
-                level[n] = std::max(level[n], level[i]);
-                queue.push(level[n], n);
-            }
-        }
-    }
-    return direction;
+Raster<Direction> raise_to_spill(Raster<float>& level, Sinks const& sinks, Run const& run) {
+    auto const is_sink = [&](std::int64_t i) { return contains(sinks, i); };
+    return priority_flood(
+        level, is_sink, [](float z) { return z; }, "drain", run);
 }
 
 /// Turns cells that have a lower neighbour towards the one down the steepest slope. With the flood's way for the others
 /// there is no cycle: each step leads lower, or level to a cell that the flood reached earlier.
-void descend(Raster<float> const& level, Sinks const& sinks, Raster<std::int8_t>& direction, Run const& run) {
+void descend(Raster<float> const& level, Sinks const& sinks, Raster<Direction>& direction, Run const& run) {
     auto const offsets = d8_offsets(level.grid());
     parallel_ranges(run, level.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
             if (std::isnan(level[i]) || contains(sinks, i)) {
                 continue;
             }
-            double steepest = 0.0;
-            for (std::size_t k = 0; k < offsets.size(); ++k) {
-                double const drop = static_cast<double>(level[i]) - level[i + offsets[k]];
-                double const slope = drop * d8_per_length[k];
-                if (slope > steepest) { // never towards NaN
-                    steepest = slope;
-                    direction[i] = static_cast<std::int8_t>(k);
-                }
-            }
+            Descent const down = steepest_descent(level[i], [&](std::size_t k) { return level[i + offsets[k]]; });
+            direction[i] = down.direction == Direction::leaves ? direction[i] : down.direction;
         }
     });
 }
 
 void accumulate(FlowField& drainage, Run const& run) {
-    Raster<std::int8_t> const& direction = drainage.direction;
-    Raster<std::int64_t>& area = drainage.area_cells;
-    auto const offsets = d8_offsets(direction.grid());
-    auto const below = [&](std::int64_t i) { return i + offsets[static_cast<std::size_t>(direction[i])]; };
-    constexpr std::int8_t done = -1;
-    Raster<std::int8_t> awaited(direction.grid()); // neighbours whose water has not arrived yet
-    for (std::int64_t i = 0; i < direction.cells(); ++i) {
-        area[i] = direction[i] == d8_no_data ? 0 : 1;
-        if (direction[i] >= 0) {
-            ++awaited[below(i)];
-        }
+    for (std::int64_t i = 0; i < drainage.area_cells.cells(); ++i) {
+        drainage.area_cells[i] = drainage.direction[i] == Direction::no_data ? 0 : 1;
     }
-    for (std::int64_t i = 0; i < direction.cells(); ++i) {
-        if (i % cells_between_checks == 0) {
-            run.check();
-        }
-        std::int64_t at = i;
-        while (awaited[at] == 0) {
-            awaited[at] = done;
-            if (direction[at] < 0) {
-                break;
-            }
-            std::int64_t const next = below(at);
-            area[next] += area[at];
-            --awaited[next];
-            at = next;
-        }
-    }
+    each_downstream(drainage.direction, run, [&](std::int64_t cell, std::int64_t receiver) {
+        drainage.area_cells[receiver] += drainage.area_cells[cell];
+    });
 }
 
 /// The depressions of a DEM under its water, which is gone afterwards.
@@ -194,11 +142,11 @@ FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks
             fmt::format("flow.route: the height at column {}, row {} is infinite; mark cells without data as NaN",
                         cell.col, cell.row));
     }
-    FlowField result{Raster<std::int8_t>(grid), Raster<std::int64_t>(grid)};
+    FlowField result{Raster<Direction>(grid), Raster<std::int64_t>(grid)};
     {
         Raster<float> level = framed(dem);
         Sinks const ends = framed_sinks(dem, level.grid(), sinks);
-        Raster<std::int8_t> direction = flood(level, ends, run);
+        Raster<Direction> direction = raise_to_spill(level, ends, run);
         descend(level, ends, direction, run);
         CompensatedSum raised_m;
         for (std::int64_t r = 0; r < grid.height; ++r) {

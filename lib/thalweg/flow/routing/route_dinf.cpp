@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells/framed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
@@ -26,7 +27,7 @@ constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
 }
 
 /// The filled DEM in its frame: from where water leaves, up the ways it comes.
-Raster<float> levels(Raster<float> const& dem, Raster<std::int8_t> const& direction, Run const& run) {
+Raster<float> levels(Raster<float> const& dem, Raster<Direction> const& direction, Run const& run) {
     auto const offsets = d8_offsets(dem.grid());
     Raster<float> level(dem.grid(), no_height);
     std::vector<std::int64_t> way;
@@ -36,13 +37,13 @@ Raster<float> levels(Raster<float> const& dem, Raster<std::int8_t> const& direct
         }
         way.clear();
         std::int64_t at = i;
-        while (direction[at] != d8_no_data && std::isnan(level[at])) {
+        while (direction[at] != Direction::no_data && std::isnan(level[at])) {
             way.push_back(at);
-            if (direction[at] == d8_leaves) {
+            if (direction[at] == Direction::leaves) {
                 break;
             }
-            at += offsets[static_cast<std::size_t>(direction[at])];
-            if (direction[at] == d8_no_data) {
+            at += offsets[index_of(direction[at])];
+            if (direction[at] == Direction::no_data) {
                 refuse("a direction leads to no data");
             }
             if (static_cast<std::int64_t>(way.size()) > dem.cells()) {
@@ -95,12 +96,12 @@ float steepest(std::array<double, 8> const& drop, std::array<double, 8> const& h
     return bearing < 8.0F ? bearing : 0.0F;
 }
 
-Raster<float> bearings(Raster<float> const& level, Raster<std::int8_t> const& direction, Run const& run) {
+Raster<float> bearings(Raster<float> const& level, Raster<Direction> const& direction, Run const& run) {
     auto const offsets = d8_offsets(level.grid());
     Raster<float> bearing(level.grid(), no_height);
     parallel_ranges(run, level.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            if (direction[i] == d8_no_data) {
+            if (direction[i] == Direction::no_data) {
                 continue;
             }
             std::array<double, 8> height{};
@@ -110,8 +111,8 @@ Raster<float> bearings(Raster<float> const& level, Raster<std::int8_t> const& di
                 drop[k] = static_cast<double>(level[i]) - height[k];
             }
             bearing[i] = steepest(drop, height);
-            if (bearing[i] == dinf_leaves && direction[i] >= 0) {
-                bearing[i] = static_cast<float>(direction[i]);
+            if (bearing[i] == dinf_leaves && goes_on(direction[i])) {
+                bearing[i] = static_cast<float>(index_of(direction[i]));
             }
         }
     });
@@ -195,14 +196,14 @@ DinfFlow route_dinf(Raster<float> const& dem, FlowField const& d8, Run const& ru
         refuse("the directions are of another grid");
     }
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        std::int8_t const way = d8.direction[i];
-        bool const any = way == d8_leaves || (way >= 0 && way < static_cast<std::int8_t>(d8_steps.size()));
-        if (std::isnan(dem[i]) ? way != d8_no_data : !any) {
+        Direction const way = d8.direction[i];
+        bool const any = way == Direction::leaves || goes_on(way);
+        if (std::isnan(dem[i]) ? way != Direction::no_data : !any) {
             Cell const cell = grid.at(i);
-            refuse(fmt::format("the direction at column {}, row {} is {}", cell.col, cell.row, int{way}));
+            refuse(fmt::format("the direction at column {}, row {} is {}", cell.col, cell.row, static_cast<int>(way)));
         }
     }
-    auto const direction = framed(d8.direction, d8_no_data);
+    auto const direction = framed(d8.direction, Direction::no_data);
     Raster<float> bearing = bearings(levels(framed(dem, no_height), direction, run), direction, run);
     DinfFlow result;
     result.area_cells = unframed(accumulate(bearing, run), grid);

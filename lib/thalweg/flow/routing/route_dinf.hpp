@@ -4,7 +4,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/flow_field.hpp>
 
 namespace thalweg::flow {
 
@@ -19,7 +19,7 @@ struct DinfFlow {
 };
 
 /// D-infinity bearings and contributing areas of a DEM of which D8 is known.
-/// Takes: the DEM and what drain made of it. Gives: of a cell with a lower neighbour on the filled DEM, the steepest of
+/// Takes: the DEM and what route made of it. Gives: of a cell with a lower neighbour on the filled DEM, the steepest of
 /// the eight triangular facets around it (ties: lowest bearing), its water shared between the facet's two neighbours
 /// by angle; a neighbour without data leaves the other edge of its facet. Any other cell drains as by D8, and water
 /// leaves where it leaves by D8. No water is lost: what leaves adds up to the cells with data. There is no cycle: each

@@ -19,40 +19,21 @@ namespace thalweg::flow {
 
 namespace {
 
-/// Where the water of a cell goes; -1 where it leaves.
-class Ways {
-public:
-    explicit Ways(Raster<std::int8_t> const& direction) : direction_(direction) {}
-
-    std::int64_t below(std::int64_t cell) const {
-        std::int8_t const way = direction_[cell];
-        if (way < 0) {
-            return -1;
-        }
-        Cell const step = d8_steps[static_cast<std::size_t>(way)];
-        return cell + step.row * direction_.width() + step.col;
-    }
-
-private:
-    Raster<std::int8_t> const& direction_;
-};
-
 /// The cells of rivers in which nodes lie, ascending.
-std::vector<std::int64_t> node_cells(FlowField const& drainage, Ways const& ways, std::int64_t support,
-                                     Run const& run) {
+std::vector<std::int64_t> node_cells(FlowField const& drainage, std::int64_t support, Run const& run) {
     Raster<std::int64_t> const& area = drainage.area_cells;
     Raster<std::int8_t> arriving(area.grid());
     for (std::int64_t i = 0; i < area.cells(); ++i) {
         if (i % cells_between_checks == 0) {
             run.check();
         }
-        if (std::int64_t const next = area[i] >= support ? ways.below(i) : -1; next >= 0) {
+        if (std::int64_t const next = area[i] >= support ? drainage.receiver(i) : -1; next >= 0) {
             ++arriving[next];
         }
     }
     std::vector<std::int64_t> nodes;
     for (std::int64_t i = 0; i < area.cells(); ++i) {
-        bool const leaves = area[i] >= support && ways.below(i) < 0;
+        bool const leaves = area[i] >= support && drainage.receiver(i) < 0;
         if (area[i] >= support && (leaves ? arriving[i] > 0 : arriving[i] != 1)) {
             nodes.push_back(i);
         }
@@ -65,7 +46,7 @@ struct Steps {
     std::int64_t straight = 0;
     std::int64_t diagonal = 0;
 
-    void add(std::int8_t way) { ++(way % 2 == 0 ? straight : diagonal); }
+    void add(Direction way) { ++(is_diagonal(way) ? diagonal : straight); }
     void add(Steps const& more) {
         straight += more.straight;
         diagonal += more.diagonal;
@@ -100,14 +81,13 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
                                    "the DEM itself",
                                    dem.width(), dem.height(), grid.width, grid.height));
     }
-    Ways const ways(drainage.direction);
     ExtractedStreams streams;
     StreamNetwork& plan = streams.network.plan;
     streams.areas.source = "d8";
     double const cell_m2 = grid.cell_m * grid.cell_m;
     auto const area_m2 = [&](std::int64_t cell) { return static_cast<double>(drainage.area_cells[cell]) * cell_m2; };
 
-    auto const cells = node_cells(drainage, ways, params.support_cells, run);
+    auto const cells = node_cells(drainage, params.support_cells, run);
     for (std::int64_t const cell : cells) {
         NodeId const node = boost::add_vertex(plan);
         plan[node].at = grid.centre(grid.at(cell));
@@ -116,7 +96,7 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
     }
     for (std::size_t from = 0; from < cells.size(); ++from) {
         run.check();
-        std::int64_t at = ways.below(cells[from]);
+        std::int64_t at = drainage.receiver(cells[from]);
         if (at < 0) {
             continue;
         }
@@ -125,7 +105,7 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
         std::vector<double> z{dem[cells[from]]};
         std::int64_t last = cells[from];
         auto to = cells.end();
-        for (;; last = at, at = ways.below(at)) {
+        for (;; last = at, at = drainage.receiver(at)) {
             arc.line.push_back(grid.centre(grid.at(at)));
             z.push_back(dem[at]);
             to = std::lower_bound(cells.begin(), cells.end(), at);
@@ -155,7 +135,7 @@ std::int64_t support_for_length(FlowField const& drainage, double length_m, Run 
         if (i % cells_between_checks == 0) {
             run.check();
         }
-        if (drainage.direction[i] >= 0) {
+        if (goes_on(drainage.direction[i])) {
             octaves[octave_of(i)].add(drainage.direction[i]);
         }
     }
@@ -171,9 +151,9 @@ std::int64_t support_for_length(FlowField const& drainage, double length_m, Run 
     if (octave >= octaves.size()) {
         return 1;
     }
-    std::vector<std::pair<std::int64_t, std::int8_t>> within;
+    std::vector<std::pair<std::int64_t, Direction>> within;
     for (std::int64_t i = 0; i < area.cells(); ++i) {
-        if (drainage.direction[i] >= 0 && octave_of(i) == octave) {
+        if (goes_on(drainage.direction[i]) && octave_of(i) == octave) {
             within.emplace_back(area[i], drainage.direction[i]);
         }
     }

@@ -7,7 +7,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 
 namespace thalweg::flow {
 

@@ -131,14 +131,7 @@ private:
         return fmt::format("({:.1f}, {:.1f})", p.x, p.y);
     }
 
-    std::int64_t next_of(std::int64_t i) const {
-        std::int8_t const direction = drainage_.direction[i];
-        if (direction < 0) {
-            return -1;
-        }
-        Cell const step = d8_steps[static_cast<std::size_t>(direction)];
-        return i + step.row * grid_.width + step.col;
-    }
+    std::int64_t next_of(std::int64_t i) const { return drainage_.receiver(i); }
 
     std::vector<std::int64_t> with_data() const {
         std::vector<std::int64_t> cells;

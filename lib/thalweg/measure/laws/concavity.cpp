@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 
 namespace thalweg::measure {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/measure/laws/horton.hpp>
 #include <thalweg/measure/laws/junction_angles.hpp>
 #include <thalweg/measure/laws/link_lengths.hpp>

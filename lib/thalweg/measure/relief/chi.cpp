@@ -33,7 +33,7 @@ void check(ChiParams const& params, Raster<float> const& dem, flow::FlowField co
 std::vector<std::int64_t> mouths(flow::FlowField const& drainage, ChiParams const& params) {
     std::vector<std::int64_t> all;
     for (std::int64_t i = 0; i < drainage.direction.cells(); ++i) {
-        if (drainage.direction[i] == flow::d8_leaves && drainage.area_cells[i] >= params.support_cells) {
+        if (drainage.direction[i] == flow::Direction::leaves && drainage.area_cells[i] >= params.support_cells) {
             all.push_back(i);
         }
     }
@@ -50,8 +50,7 @@ int main_donor(flow::FlowField const& drainage, Cell cell) {
     std::int64_t most = 0;
     for (std::size_t k = 0; k < d8_steps.size(); ++k) {
         Cell const from{cell.col + d8_steps[k].col, cell.row + d8_steps[k].row};
-        if (!drainage.direction.grid().contains(from) ||
-            drainage.direction[from] != static_cast<std::int8_t>((k + 4) % 8)) {
+        if (!drainage.direction.grid().contains(from) || drainage.direction[from] != opposite(flow::direction_of(k))) {
             continue;
         }
         if (drainage.area_cells[from] > most) {

@@ -7,7 +7,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/flow_field.hpp>
 
 namespace thalweg::measure {
 

@@ -22,8 +22,8 @@ double density(flow::FlowField const& drainage, std::int64_t cells, std::int64_t
     double const cell_m = drainage.direction.grid().cell_m;
     CompensatedSum length;
     for (std::int64_t i = 0; i < drainage.direction.cells(); ++i) {
-        if (drainage.area_cells[i] >= support_cells && drainage.direction[i] >= 0) {
-            length.add(cell_m / d8_per_length[static_cast<std::size_t>(drainage.direction[i])]);
+        if (drainage.area_cells[i] >= support_cells && goes_on(drainage.direction[i])) {
+            length.add(cell_m / d8_per_length[index_of(drainage.direction[i])]);
         }
     }
     return length.value() / (static_cast<double>(cells) * cell_m * cell_m);

@@ -9,7 +9,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/measure/relief/chi.hpp>
 #include <thalweg/measure/relief/geomorphons.hpp>
 #include <thalweg/measure/relief/local_extremes.hpp>

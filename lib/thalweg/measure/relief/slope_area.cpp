@@ -49,10 +49,10 @@ std::map<std::int64_t, Reach> reaches_by_area(Raster<float> const& dem, flow::Fl
         if (i % cells_between_checks == 0) {
             run.check();
         }
-        if (drainage.area_cells[i] < params.support_cells || drainage.direction[i] < 0) {
+        if (drainage.area_cells[i] < params.support_cells || !goes_on(drainage.direction[i])) {
             continue;
         }
-        auto const way = static_cast<std::size_t>(drainage.direction[i]);
+        std::size_t const way = index_of(drainage.direction[i]);
         double const log_area = exact::log(static_cast<double>(drainage.area_cells[i]) * cell_m * cell_m);
         Reach& reach = reaches[static_cast<std::int64_t>(std::floor(log_area * bins_a_fold))];
         reach.drop_m.add(static_cast<double>(dem[i]) - static_cast<double>(dem[i + offsets[way]]));

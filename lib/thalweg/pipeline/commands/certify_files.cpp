@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/frame/same_frame.hpp>
 #include <thalweg/io/raster/raster_files.hpp>

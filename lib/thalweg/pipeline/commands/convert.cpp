@@ -14,6 +14,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/frame/same_frame.hpp>
 #include <thalweg/io/network/write_network.hpp>

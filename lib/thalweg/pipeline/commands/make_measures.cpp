@@ -14,6 +14,8 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/suggest.hpp>
+#include <thalweg/flow/catchments/catchments.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/flow/routing/route_dinf.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/internal/reaches_of_file.hpp>
@@ -71,11 +73,12 @@ std::set<std::string> wanted_of(MakeMeasuresParams const& params, Measured const
 }
 
 /// Powers of two clockwise from the east, as most programs for water have D8 directions.
-Raster<std::uint8_t> d8_codes(Raster<std::int8_t> const& direction) {
+Raster<std::uint8_t> d8_codes(Raster<flow::Direction> const& direction) {
     Raster<std::uint8_t> codes(direction.grid());
     for (std::int64_t i = 0; i < codes.cells(); ++i) {
-        int const way = direction[i];
-        codes[i] = way == flow::d8_no_data ? io::no_code : static_cast<std::uint8_t>(way < 0 ? 0 : 1 << way);
+        flow::Direction const way = direction[i];
+        codes[i] = way == flow::Direction::no_data ? io::no_code
+                                                   : static_cast<std::uint8_t>(goes_on(way) ? 1 << index_of(way) : 0);
     }
     return codes;
 }
@@ -213,7 +216,7 @@ MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& 
     MadeMeasures made;
     made.pits = drainage.pits;
     made.cells = std::count_if(drainage.direction.values().begin(), drainage.direction.values().end(),
-                               [](std::int8_t way) { return way != flow::d8_no_data; });
+                               [](flow::Direction way) { return way != flow::Direction::no_data; });
     made.area_m2 = static_cast<double>(made.cells) * dem.grid().cell_m * dem.grid().cell_m;
     if (wanted.count(d8) != 0) {
         Raster<double> const areas = areas_m2(drainage);

@@ -4,6 +4,8 @@
 
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/io/raster/read_polygons.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/choose_lakes.hpp>
@@ -326,8 +328,7 @@ void add_side_valleys(Terrain& terrain, flow::FlowField const& drainage, Diary& 
         return;
     }
     network::SideValleys made = diary.stage("valleys", [&] {
-        return network::side_valleys(terrain.network, terrain.channels,
-                                     {terrain.surface->dem, drainage.direction, drainage.area_cells},
+        return network::side_valleys(terrain.network, terrain.channels, terrain.surface->dem, drainage,
                                      {terrain.recipe.network->support_cells}, run);
     });
     terrain.equilibrium->side_valleys = made.grown;

@@ -3,7 +3,9 @@
 #include <thalweg/pipeline/make/laws.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/routing/flow_lengths.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/network/order/order.hpp>
@@ -40,7 +42,8 @@ DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, R
                     DemLawsParams const& params, Run const& run) {
     Grid const& grid = dem.grid();
     auto const ways = drainage.direction.values();
-    auto const land = std::count_if(ways.begin(), ways.end(), [](std::int8_t d) { return d != flow::d8_no_data; });
+    auto const land =
+        std::count_if(ways.begin(), ways.end(), [](flow::Direction d) { return d != flow::Direction::no_data; });
     if (land == 0) {
         throw BadInput("pipeline.laws_of_dem: no cell of the DEM has data");
     }

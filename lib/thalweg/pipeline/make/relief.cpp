@@ -4,6 +4,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/measure/relief/perched.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>

@@ -10,7 +10,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/measure/relief/real_lands.hpp>
 #include <thalweg/measure/relief/relief.hpp>
 

@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/make/internal/rivers.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/network/elevation/keep_heights.hpp>
 #include <thalweg/network/elevation/set_heights_graded.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>

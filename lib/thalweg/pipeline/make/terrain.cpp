@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/terrain.hpp>
 
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/conditioning/condition.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/flow/routing/route_dinf.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/measure/topology/topology.hpp>

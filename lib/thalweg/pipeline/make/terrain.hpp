@@ -19,8 +19,9 @@
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/detail/project.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/catchments/catchments.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/conditioning/dem_change.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/drainage/extract_ridges.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>

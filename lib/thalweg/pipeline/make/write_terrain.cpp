@@ -8,6 +8,7 @@
 #include <thalweg/draw/profile.hpp>
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/draw/wireframe.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/dataset_files.hpp>
 #include <thalweg/io/mesh/read_points.hpp>

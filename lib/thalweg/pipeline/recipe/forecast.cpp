@@ -4,6 +4,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/conditioning/condition.hpp>
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/network/read_rivers.hpp>

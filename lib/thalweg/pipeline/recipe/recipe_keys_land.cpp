@@ -4,6 +4,7 @@
 #include <thalweg/pipeline/recipe/internal/recipe_sections.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/conditioning/condition.hpp>
 
 #include <fmt/format.h>
 

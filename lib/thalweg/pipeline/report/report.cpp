@@ -8,6 +8,7 @@
 
 #include <thalweg/core/run/memory.hpp>
 
+#include <thalweg/flow/conditioning/dem_change.hpp>
 #include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
 #include <thalweg/pipeline/report/law_rows.hpp>
 

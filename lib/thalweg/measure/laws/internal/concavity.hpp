@@ -5,7 +5,7 @@
 #include <optional>
 
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/measure/laws/power_law.hpp>
 
 namespace thalweg::measure {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include <thalweg/flow/catchments/catchments.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/io/raster/write_catchments.hpp>
 
 /// Private to this room.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/pipeline/make/internal/diary.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 
