@@ -12,8 +12,6 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/flow/routing/flow_lengths.hpp>
-#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/laws/internal/concavity.hpp>
 #include <thalweg/measure/laws/internal/hack.hpp>
 #include <thalweg/measure/laws/line_fit.hpp>
@@ -314,30 +312,6 @@ TEST(JunctionAngles, StairsOfCellsHaveTheDirectionOfTheirChord) {
     double const expected = std::atan2(1.0, 3.0) * 180.0 / 3.14159265358979323846;
     EXPECT_NEAR(junction_angles(net, 30.0).mean_deg, expected, 2.0);
     EXPECT_NEAR(junction_angles(net, 1.0).mean_deg, 0.0, 1e-9);
-}
-
-TEST(FlowLengths, AreTheLongestWayDownToACell) {
-    ASSERT_TRUE(rc::check("as walking down from every cell finds", [] {
-        Raster<float> const dem = *gen_dem(12, 20);
-        flow::FlowField const drainage = flow::route(dem);
-        Grid const& grid = dem.grid();
-        Numbers longest(static_cast<std::size_t>(grid.cells()), 0.0);
-        for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            double length = 0.0;
-            for (std::int64_t at = i; goes_on(drainage.direction[at]);) {
-                Cell const step = d8_steps[index_of(drainage.direction[at])];
-                length += grid.cell_m * std::sqrt(static_cast<double>(step.col * step.col + step.row * step.row));
-                at += step.row * grid.width + step.col;
-                double& here = longest[static_cast<std::size_t>(at)];
-                here = std::max(here, length);
-            }
-        }
-        auto const fast = flow::flow_lengths(drainage);
-        for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            double const slow = longest[static_cast<std::size_t>(i)];
-            RC_ASSERT(std::fabs(static_cast<double>(fast[i]) - slow) <= 1e-5 * slow);
-        }
-    }));
 }
 
 TEST(NetworkLaws, AreThoseOfTheirVerbs) {

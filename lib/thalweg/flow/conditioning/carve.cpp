@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/cells/framed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/conditioning/dem_change.hpp>
