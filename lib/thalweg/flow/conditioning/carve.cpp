@@ -20,6 +20,7 @@
 #include <thalweg/flow/conditioning/dem_change.hpp>
 #include <thalweg/flow/conditioning/internal/flood.hpp>
 #include <thalweg/flow/conditioning/internal/small_step.hpp>
+#include <thalweg/flow/direction.hpp>
 
 namespace thalweg::flow {
 
@@ -249,7 +250,7 @@ private:
         seen_[pit] = stamp_;
         cost_[pit] = 0.0;
         height_[pit] = land_[pit];
-        back_[pit] = -1;
+        back_[pit] = Direction::leaves;
         queue.emplace(0.0, pit);
         while (!queue.empty()) {
             auto const [cost, i] = queue.top();
@@ -276,7 +277,7 @@ private:
                     seen_[n] = stamp_;
                     cost_[n] = there;
                     height_[n] = height;
-                    back_[n] = static_cast<std::int8_t>(k);
+                    back_[n] = direction_of(k);
                     queue.emplace(there, n);
                 }
             }
@@ -287,11 +288,11 @@ private:
     /// Cuts the way that was found. Gives: the volume.
     double cut_back_from(std::int64_t end) {
         double moved = 0.0;
-        for (std::int64_t i = end;; i -= offsets_[static_cast<std::size_t>(back_[i])]) {
+        for (std::int64_t i = end;; i -= offsets_[index_of(back_[i])]) {
             float const height = std::min(land_[i], height_[i]);
             moved += static_cast<double>(land_[i]) - static_cast<double>(height);
             set(i, height, height);
-            if (back_[i] < 0) {
+            if (!goes_on(back_[i])) {
                 return moved;
             }
         }
@@ -312,7 +313,7 @@ private:
     Raster<std::uint32_t> seen_; ///< the stamp of the last search that came here
     Raster<double> cost_;        ///< of that search
     Raster<float> height_;       ///< to which the way through this cell is to be cut
-    Raster<std::int8_t> back_;   ///< the step that led here
+    Raster<Direction> back_;     ///< the step that led here; leaves in the pit
 };
 
 } // namespace
