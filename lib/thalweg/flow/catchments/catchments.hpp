@@ -16,7 +16,7 @@ namespace thalweg::flow {
 /// meeting one, or without data. Takes: cells as river_cells gives them. Throws: BadInput at 2^31 of them; Cancelled.
 Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField const& drainage, Run const& run = {});
 
-/// The land that each reach drains by itself.
+/// The area that each reach drains by itself.
 struct Catchments {
     Raster<std::int32_t> reach;         ///< by cell: number of the reach; -1 for none
     std::vector<std::int64_t> cells;    ///< by reach: of its own catchment; 0 where others own its cells

@@ -23,10 +23,10 @@ struct ConditionedDem {
     DemChange depressions; ///< filled or cut after that
 };
 
-/// Makes a land drain, in the very floats it is written with, with the least change: raise_banks, then fill or carve.
-/// Takes: a land whose river cells stand at the valley's heights; a valley without any where there are no rivers, or
+/// Conditions a DEM hydrologically: its rivers drain it, in the very floats that are written, after the least change.
+/// Takes: a DEM whose river cells stand at the valley's heights; a valley without any where there are no rivers, or
 /// none to be honoured.
-/// Gives: river cells keep their heights bit for bit; otherwise as raise_banks and fill or carve. Method none changes
+/// Gives: river cells keep their heights bit for bit; otherwise as raise_banks, then fill or carve. Method none changes
 /// nothing. Throws: as those.
 ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParams const& params = {},
                          Run const& run = {});

@@ -8,7 +8,7 @@
 
 namespace thalweg::flow {
 
-/// By how much one land differs from another.
+/// By how much one DEM differs from another.
 struct DemChange {
     std::int64_t raised_cells = 0;
     std::int64_t cut_cells = 0;

@@ -7,7 +7,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/direction.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::flow {
 
 /// Calls visit(cell, receiver) for every cell whose water goes on, after all cells that drain into it: from each cell

@@ -10,7 +10,7 @@
 #include <deque>
 #include <vector>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::flow {
 
 /// Cells by height, first in first out among equals (both zeros are equal).

@@ -12,7 +12,7 @@
 #include <thalweg/flow/direction.hpp>
 #include <thalweg/flow/internal/flood_queue.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::flow {
 
 /// Raises a framed DEM (framed.hpp) to the level at which its water spills.

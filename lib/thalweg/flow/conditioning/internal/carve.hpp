@@ -8,7 +8,7 @@
 
 namespace thalweg::flow {
 
-/// Drains depressions with the least earth moved: of each, the cheapest of filling it, of cutting its lowest cell a
+/// Drains depressions with the least volume moved: of each, the cheapest of filling it, of cutting its lowest cell a
 /// way out, and, among rivers, of filling it part of the way (in eighths of its depth) and cutting from there. A cut
 /// leaves the smaller depressions in it to be treated in turn.
 /// Takes: as fill; least: what cells must not be cut below (raise_banks), NaN where any depth will do.

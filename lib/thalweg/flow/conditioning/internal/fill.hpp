@@ -9,7 +9,7 @@
 namespace thalweg::flow {
 
 /// Raises depressions to where they spill, and above that as little as lets water run.
-/// Takes: a land whose river cells stand at the valley's heights (NaN where there is no river); rivers lead out of the
+/// Takes: a DEM whose river cells stand at the valley's heights (NaN where there is no river); rivers lead out of the
 /// grid, down or level.
 /// Gives: every cell with data has a strictly lower neighbour, is a river's, or lies at the grid's border or beside no
 /// data. Only land is raised, none is lowered: each cell to the least height above both itself and the lowest way out,

@@ -8,12 +8,12 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/valley.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::flow {
 
 enum class Lakes : std::uint8_t { level, slope };
 
-/// Raises a framed land (framed.hpp) to the water of its lakes, level or sloping by small steps towards their outlets.
+/// Raises a framed DEM (framed.hpp) to the water of its lakes, level or sloping by small steps towards their outlets.
 /// Water leaves at the border, into no data and into river cells (those with a height in the framed valley).
 void flood(Raster<float>& land, Raster<float> const& rivers, Lakes lakes, Run const& run);
 

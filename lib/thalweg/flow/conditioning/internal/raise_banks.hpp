@@ -18,7 +18,7 @@ struct Banks {
 };
 
 /// Raises the cells beside rivers as little as keeps each river's water in it.
-/// Takes: a land whose river cells stand at the valley's heights.
+/// Takes: a DEM whose river cells stand at the valley's heights.
 /// Gives: of a river cell with a lower river cell beside it, the way down the steepest slope and the lowest neighbour
 /// are river cells; a river cell without one (an outlet, a flat reach) has higher land around it. River cells and cells
 /// without data stay as they are, and no cell is raised higher than this takes.

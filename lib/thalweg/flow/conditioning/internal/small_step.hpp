@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::flow {
 
 /// [m] what water needs to run, at least: about a unit in the last place of a float at 200 m. Near 0, where such units
