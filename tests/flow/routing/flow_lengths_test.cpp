@@ -21,7 +21,8 @@ using flow::route;
 
 TEST(FlowLengths, AreZeroWithoutDataAndWhereNoWaterArrives) {
     for (Raster<float> const& dem : {Raster<float>(frame(3, 2), hole), dem_of(1, {4})}) {
-        for (float const length : flow_lengths(route(dem)).values()) {
+        Raster<float> const lengths = flow_lengths(route(dem));
+        for (float const length : lengths.values()) {
             EXPECT_EQ(length, 0.0F);
         }
     }
