@@ -10,11 +10,13 @@
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/conditioning/condition.hpp>
+#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/routing/route_dinf.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
-#include <thalweg/measure/drainage/drain_dinf.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/surface/drainage/drain.hpp>
 
 namespace {
 
@@ -51,7 +53,7 @@ void set_cells(benchmark::State& state) {
 void bench_drain_relief(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
     for (auto _ : state) {
-        benchmark::DoNotOptimize(measure::drain(dem));
+        benchmark::DoNotOptimize(flow::route(dem));
     }
     set_cells(state);
 }
@@ -59,9 +61,9 @@ BENCHMARK(bench_drain_relief)->Name("drain/relief")->Arg(1024)->Arg(2048)->Arg(4
 
 void bench_drain_dinf(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
-    measure::Drainage const d8 = measure::drain(dem);
+    flow::FlowField const d8 = flow::route(dem);
     for (auto _ : state) {
-        benchmark::DoNotOptimize(measure::drain_dinf(dem, d8));
+        benchmark::DoNotOptimize(flow::route_dinf(dem, d8));
     }
     set_cells(state);
 }
@@ -73,7 +75,7 @@ void bench_drain_noise(benchmark::State& state) {
         dem[i] = static_cast<float>(unit(chance(1, static_cast<std::uint64_t>(i))));
     }
     for (auto _ : state) {
-        benchmark::DoNotOptimize(measure::drain(dem));
+        benchmark::DoNotOptimize(flow::route(dem));
     }
     set_cells(state);
 }
@@ -92,9 +94,9 @@ BENCHMARK(bench_statistics)->Name("statistics")->Arg(4096)->Unit(benchmark::kMil
 void bench_carve_relief(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
     Valley const none{Raster<float>(dem.grid(), std::numeric_limits<float>::quiet_NaN())};
-    auto const method = state.range(1) == 0 ? surface::Drain::fill : surface::Drain::carve;
+    auto const method = state.range(1) == 0 ? flow::Conditioning::fill : flow::Conditioning::carve;
     for (auto _ : state) {
-        surface::DrainedLand const land = surface::drain(dem, none, {method});
+        flow::ConditionedDem const land = flow::condition(dem, none, {method});
         state.counters["volume_m3"] = land.depressions.volume_m3();
     }
     set_cells(state);
@@ -106,21 +108,16 @@ BENCHMARK(bench_carve_relief)
     ->Unit(benchmark::kMillisecond);
 
 /// The streams of a DEM by area, a reach from each head or confluence to the next.
-std::vector<measure::Reach> streams(measure::Drainage const& drainage, std::int64_t area) {
+std::vector<flow::Reach> streams(flow::FlowField const& drainage, std::int64_t area) {
     Grid const& grid = drainage.direction.grid();
-    auto const next = [&](std::int64_t i) {
-        std::int8_t const k = drainage.direction[i];
-        return k < 0 ? std::int64_t{-1}
-                     : i + d8_steps[static_cast<std::size_t>(k)].row * grid.width +
-                           d8_steps[static_cast<std::size_t>(k)].col;
-    };
+    auto const next = [&](std::int64_t i) { return drainage.receiver(i); };
     Raster<std::uint8_t> arriving(grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         if (drainage.area_cells[i] >= area && next(i) >= 0) {
             ++arriving[next(i)];
         }
     }
-    std::vector<measure::Reach> reaches;
+    std::vector<flow::Reach> reaches;
     Raster<std::int64_t> begins(grid, -1);
     std::vector<std::int64_t> ends;
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
@@ -145,9 +142,9 @@ std::vector<measure::Reach> streams(measure::Drainage const& drainage, std::int6
 /// The whole certificate: the DEM's drainage and what the network's say of it.
 void bench_certify(benchmark::State& state) {
     Raster<float> const dem = relief(2048);
-    std::vector<measure::Reach> const reaches = streams(measure::drain(dem), 1000);
+    std::vector<flow::Reach> const reaches = streams(flow::route(dem), 1000);
     for (auto _ : state) {
-        measure::Drainage const drainage = measure::drain(dem);
+        flow::FlowField const drainage = flow::route(dem);
         benchmark::DoNotOptimize(measure::certify(dem, drainage, reaches));
     }
     state.counters["arcs"] = static_cast<double>(reaches.size());
@@ -168,7 +165,7 @@ void bench_areas_nearest(benchmark::State& state) {
         add_arc(rivers, north, south, {});
     }
     for (auto _ : state) {
-        benchmark::DoNotOptimize(measure::areas_nearest(rivers, grid));
+        benchmark::DoNotOptimize(flow::areas_nearest(rivers, grid));
     }
     set_cells(state);
 }

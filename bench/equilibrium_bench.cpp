@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include <thalweg/core/run/memory.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 #include "../tests/surface/channel_trees.hpp"
@@ -66,7 +66,7 @@ void bench_drain_equilibrium(benchmark::State& state) {
     run.threads = 1;
     Raster<float> const dem = surface::equilibrium(rivers(state.range(0)), {}, {}, run).dem;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(measure::drain(dem, run));
+        benchmark::DoNotOptimize(flow::route(dem, run));
     }
     state.SetItemsProcessed(state.iterations() * dem.cells());
 }

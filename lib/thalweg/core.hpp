@@ -7,7 +7,7 @@
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/cells/cells_around.hpp>
 #include <thalweg/core/cells/d8.hpp>
-#include <thalweg/core/cells/flood_queue.hpp>
+#include <thalweg/core/cells/framed.hpp>
 #include <thalweg/core/cells/nearest_cells.hpp>
 #include <thalweg/core/channels.hpp>
 #include <thalweg/core/feature_points.hpp>
@@ -17,6 +17,7 @@
 #include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/network_file.hpp>
 #include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/index.hpp>
 #include <thalweg/core/numbers/normal.hpp>

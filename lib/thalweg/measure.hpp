@@ -3,14 +3,8 @@
 #pragma once
 
 /// All public headers of the module.
-#include <thalweg/measure/drainage/catchments.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
-#include <thalweg/measure/drainage/drain_dinf.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
 #include <thalweg/measure/drainage/extract_ridges.hpp>
-#include <thalweg/measure/drainage/extract_streams.hpp>
-#include <thalweg/measure/drainage/flow_lengths.hpp>
-#include <thalweg/measure/drainage/reaches.hpp>
 #include <thalweg/measure/laws/horton.hpp>
 #include <thalweg/measure/laws/junction_angles.hpp>
 #include <thalweg/measure/laws/line_fit.hpp>

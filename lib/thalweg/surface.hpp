@@ -9,7 +9,5 @@
 #include <thalweg/surface/dilation/dilate_over.hpp>
 #include <thalweg/surface/dilation/increment.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
-#include <thalweg/surface/drainage/drain.hpp>
-#include <thalweg/surface/drainage/land_change.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>

@@ -15,14 +15,17 @@
 #include <thalweg/detail/midpoint.hpp>
 #include <thalweg/detail/project.hpp>
 #include <thalweg/detail/refine.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments/catchments.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/conditioning/condition.hpp>
+#include <thalweg/flow/routing/flow_lengths.hpp>
+#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/routing/route_dinf.hpp>
+#include <thalweg/flow/streams/extract_streams.hpp>
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
-#include <thalweg/measure/drainage/catchments.hpp>
-#include <thalweg/measure/drainage/drain_dinf.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
-#include <thalweg/measure/drainage/extract_streams.hpp>
-#include <thalweg/measure/drainage/flow_lengths.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/choose_lakes.hpp>
@@ -80,7 +83,6 @@
 #include <thalweg/surface/diffusion/internal/problem_through.hpp>
 #include <thalweg/surface/dilation/dilate.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
-#include <thalweg/surface/drainage/drain.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 
@@ -244,10 +246,10 @@ Raster<solver::Complex> transformed(Run const& run) {
 
 /// The rivers that a DEM draws by itself, and their laws.
 void print_laws(Raster<float> const& dem, Run const& run) {
-    measure::Drainage const drainage = measure::drain(dem, run);
-    Raster<float> const flow_length = measure::flow_lengths(drainage, run);
+    flow::FlowField const drainage = flow::route(dem, run);
+    Raster<float> const flow_length = flow::flow_lengths(drainage, run);
     print("flow_lengths", hash_of(flow_length));
-    print("extract_streams", hash_of(measure::extract_streams(drainage, dem, {.support_cells = 20}, run).network));
+    print("extract_streams", hash_of(flow::extract_streams(drainage, dem, {.support_cells = 20}, run).network));
     Fnv fnv;
     auto const found = pipeline::laws_of_dem(dem, drainage, flow_length, {.network_m = 400.0 * dem.grid().cell_m}, run);
     fnv.add(found.support_cells);
@@ -451,7 +453,7 @@ void print_rivers(StreamNetwork const& network, Grid const& grid, Run const& run
     print("assign_types", hash_of(types));
     print("set_heights_by_type",
           hash_of(network::set_heights_by_type(network, types, {.draw = network::SlopeDraw::uniform, .seed = 3}, run)));
-    measure::ContributingAreas const areas = measure::areas_nearest(network, grid, run);
+    flow::ContributingAreas const areas = flow::areas_nearest(network, grid, run);
     network::Graded const graded = network::set_heights_graded(network, areas.us_area_m2, areas.ds_area_m2,
                                                                {.least_area_m2 = grid.cell_m * grid.cell_m}, run);
     print("set_heights_graded", hash_of(graded.network));
@@ -550,17 +552,17 @@ void print_drained(Raster<float> land, Valley const& valley, Run const& run) {
             land[i] += static_cast<float>(chance(7, static_cast<std::uint64_t>(i)) >> 40U) * 0x1p-21F; // up to 8 m
         }
     }
-    print("fill", hash_of(surface::drain(land, valley, {surface::Drain::fill}, run).dem));
-    print("carve", hash_of(surface::drain(land, valley, {surface::Drain::carve}, run).dem));
+    print("fill", hash_of(flow::condition(land, valley, {flow::Conditioning::fill}, run).dem));
+    print("carve", hash_of(flow::condition(land, valley, {flow::Conditioning::carve}, run).dem));
 }
 
 void print_water(Raster<float> const& land, StreamNetwork const& rivers, Run const& run) {
-    measure::Drainage const d8 = measure::drain(land, run);
+    flow::FlowField const d8 = flow::route(land, run);
     print("drain", hash_of(d8.area_cells));
-    measure::DinfDrainage const dinf = measure::drain_dinf(land, d8, run);
+    flow::DinfFlow const dinf = flow::route_dinf(land, d8, run);
     print("drain_dinf", hash_of(dinf.bearing));
     print("drain_dinf, areas", hash_of(dinf.area_cells));
-    print("catchments", hash_of(measure::catchments(measure::reaches_of(rivers), d8, run).reach));
+    print("catchments", hash_of(flow::catchments(flow::reaches_of(rivers), d8, run).reach));
 }
 
 void print_trees(Run const& run) {
@@ -599,7 +601,7 @@ void print_equilibrium(StreamNetwork const& pruned, Grid const& box, Run const& 
     print("rotate", hash_of(turned.network));
     Grid const& grid = turned.grid;
     StreamNetwork const carried = network::carry_outlets(turned.network, grid).network;
-    std::vector<double> const areas = measure::areas_nearest(carried, grid, run).ds_area_m2;
+    std::vector<double> const areas = flow::areas_nearest(carried, grid, run).ds_area_m2;
     StreamNetwork const bent = network::meander(carried, grid, areas, {}, run).network;
     print("meander", hash_of(bent));
     network::ChannelsOfArcs const drawn = network::channels(bent, grid, {}, run);
@@ -618,10 +620,9 @@ void print_equilibrium(StreamNetwork const& pruned, Grid const& box, Run const& 
     network::Shortened const kept = network::shorten(bent, drawn, land.shortened);
     RaisedNetwork const raised = network::raise_from_land(kept.network, kept.drawn.channels, land.dem);
     print("raise_from_land", hash_of(raised));
-    measure::Drainage const drainage = measure::drain(land.dem, run);
-    print("side_valleys", hash_of(network::side_valleys(raised, kept.drawn.channels,
-                                                        {land.dem, drainage.direction, drainage.area_cells}, {60}, run)
-                                      .network));
+    flow::FlowField const drainage = flow::route(land.dem, run);
+    print("side_valleys",
+          hash_of(network::side_valleys(raised, kept.drawn.channels, land.dem, drainage, {60}, run).network));
     surface::EquilibriumParams fixed;
     fixed.heights = surface::RiverHeights::soft;
     Channels given = drawn.channels;

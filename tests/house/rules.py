@@ -9,9 +9,9 @@ import subprocess
 import sys
 
 # Which rooms a room may include, besides itself. Stage rooms meet in pipeline only.
-BELOW = ["core", "geometry", "solver"]
+BELOW = ["core", "geometry", "solver", "flow"]
 STAGES = ["network", "skeleton", "surface", "detail", "blend", "measure", "draw", "io"]
-ROOMS = {"core": [], "geometry": ["core"], "solver": ["core"], "pipeline": BELOW + STAGES}
+ROOMS = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"], "pipeline": BELOW + STAGES}
 ROOMS.update({stage: BELOW for stage in STAGES})
 
 # Which foreign headers (by how their names begin) a room's .cpp files may include.

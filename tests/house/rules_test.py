@@ -22,7 +22,7 @@ PLANTED = [
     ("lib/thalweg/network/order/order.hpp", "#include <thalweg/network/order/internal/require_trees.hpp>", "of network alone"),
     (NETWORK, "#include <CGAL/Arrangement_2.h>", "does not belong to network"),
     (NETWORK, "#include <thalweg/surface/dilation/dilate.hpp>", "stage rooms meet in pipeline only"),
-    (NETWORK, "  #  include <thalweg/measure/drainage/drainage.hpp>", "stage rooms meet in pipeline only"),
+    (NETWORK, "  #  include <thalweg/measure/drainage/certificate.hpp>", "stage rooms meet in pipeline only"),
     ("lib/thalweg/detail/project.cpp", "#include <Eigen/Dense>", "does not belong to detail"),
     (NETWORK, "#include <strange/library.hpp>", "foreign <strange/library.hpp>"),
     (NETWORK, '#include "thin.hpp"', "write <thalweg/...>"),

@@ -12,16 +12,18 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/drainage/internal/agreement.hpp>
 
 #include "dems.hpp"
 
 using namespace thalweg;
+using flow::Reach;
+using flow::route;
 using measure::Agreements;
 using measure::Certificate;
 using measure::certify;
-using measure::drain;
-using measure::Reach;
 
 namespace {
 
@@ -52,7 +54,7 @@ Land valley() {
 }
 
 Certificate certificate_of(Land const& land, std::vector<double> const& areas = {}) {
-    return certify(land.dem, drain(land.dem), land.reaches, {.ds_area_m2 = areas});
+    return certify(land.dem, route(land.dem), land.reaches, {.ds_area_m2 = areas});
 }
 
 std::vector<Finding> of_kind(Certificate const& c, std::string const& kind) {
@@ -75,7 +77,7 @@ Cell at(Land const& land, Finding const& f) {
 
 TEST(Certify, RefusesWhatDoesNotBelongTogether) {
     Land const land = valley();
-    EXPECT_THROW(certify(land.dem, drain(rough_dem(frame(3, 3), 1)), land.reaches), BadInput);
+    EXPECT_THROW(certify(land.dem, route(rough_dem(frame(3, 3), 1)), land.reaches), BadInput);
     EXPECT_THROW(certificate_of(land, {1.0}), BadInput);
 }
 
@@ -180,10 +182,10 @@ TEST(Certify, NothingIsTracedWhereRiversStand) {
     std::vector<Reach> const river = {{{{grid.centre({4, 2}), grid.centre({4, 8})}}, -1, 1}};
     Mask still(grid);
     still[{4, 5}] = 1;
-    Certificate const lake = certify(flat, drain(flat), river, {.still = still});
+    Certificate const lake = certify(flat, route(flat), river, {.still = still});
     EXPECT_EQ(lake.lake_cells, 7);
     EXPECT_EQ(lake.traced[0].f(), 1.0);
-    EXPECT_EQ(certify(flat, drain(flat), river).lake_cells, 0) << "level cells alone are no lake";
+    EXPECT_EQ(certify(flat, route(flat), river).lake_cells, 0) << "level cells alone are no lake";
 }
 
 TEST(Certify, ALakeEndsWhereTheLevelDoes) {
@@ -193,7 +195,7 @@ TEST(Certify, ALakeEndsWhereTheLevelDoes) {
     }
     Mask still(land.dem.grid());
     still[{10, 17}] = 1;
-    Certificate const c = certify(land.dem, drain(land.dem), land.reaches, {.still = still});
+    Certificate const c = certify(land.dem, route(land.dem), land.reaches, {.still = still});
     EXPECT_EQ(c.lake_cells, 5);
     EXPECT_TRUE(passes(c));
 }
@@ -208,12 +210,12 @@ TEST(Certify, WaterEndsInASink) {
     Grid const& grid = land.dem.grid();
     land.reaches[2].lines = {{grid.centre({10, 12}), grid.centre({10, 19})}};
     EXPECT_FALSE(passes(certificate_of(land)));
-    measure::Drainage const drainage = drain(land.dem, std::vector<std::int64_t>{grid.index({10, 19})});
+    flow::FlowField const drainage = route(land.dem, std::vector<std::int64_t>{grid.index({10, 19})});
     EXPECT_TRUE(drainage.depressions.empty());
-    EXPECT_EQ(drainage.direction[(Cell{10, 19})], measure::d8_leaves);
+    EXPECT_EQ(drainage.direction[(Cell{10, 19})], flow::Direction::leaves);
     EXPECT_TRUE(passes(certify(land.dem, drainage, land.reaches)));
-    EXPECT_THROW(drain(land.dem, std::vector<std::int64_t>{grid.cells()}), BadInput);
-    EXPECT_THROW(drain(land.dem, std::vector<std::int64_t>{-1}), BadInput);
+    EXPECT_THROW(route(land.dem, std::vector<std::int64_t>{grid.cells()}), BadInput);
+    EXPECT_THROW(route(land.dem, std::vector<std::int64_t>{-1}), BadInput);
 }
 
 TEST(Certify, WhatIsNotHonouredIsNotAsked) {
@@ -226,12 +228,12 @@ TEST(Certify, WhatIsNotHonouredIsNotAsked) {
     for (std::int64_t col = 3; col < 8; ++col) {
         honoured[{col, 12}] = 0;
     }
-    Certificate const c = certify(land.dem, drain(land.dem), land.reaches, {.honoured = honoured});
+    Certificate const c = certify(land.dem, route(land.dem), land.reaches, {.honoured = honoured});
     EXPECT_TRUE(passes(c));
     EXPECT_EQ(c.waived_cells, 5);
     EXPECT_EQ(c.sources, 2) << "the side river begins anew at column 8";
     honoured[{8, 12}] = honoured[{9, 12}] = 0;
-    Certificate const none = certify(land.dem, drain(land.dem), land.reaches, {.honoured = honoured});
+    Certificate const none = certify(land.dem, route(land.dem), land.reaches, {.honoured = honoured});
     EXPECT_EQ(none.sources, 1);
     EXPECT_EQ(none.waived_cells, 7);
     EXPECT_TRUE(passes(none));
@@ -251,7 +253,7 @@ TEST(Certify, WaterMayCutACorner) {
             stairs.push_back(grid.centre({k + 1, k}));
         }
     }
-    Certificate const c = certify(dem, drain(dem), {{{stairs}, -1, 1}});
+    Certificate const c = certify(dem, route(dem), {{{stairs}, -1, 1}});
     EXPECT_EQ(c.river_cells, 18);
     EXPECT_EQ(c.traced[0].f(), 1.0);
 }
@@ -269,7 +271,7 @@ TEST(Certify, ATraceBesideTheRiverFails) {
 
 TEST(Certify, ComparesAreasWithThoseOfTheFile) {
     Land const land = valley();
-    measure::Drainage const d = drain(land.dem);
+    flow::FlowField const d = route(land.dem);
     std::vector<double> areas = {static_cast<double>(d.area_cells[(Cell{10, 11})]),
                                  static_cast<double>(d.area_cells[(Cell{9, 12})]),
                                  static_cast<double>(d.area_cells[(Cell{10, 29})])};
@@ -290,7 +292,7 @@ TEST(Certify, ListsAThousandOfAKind) {
             dem[{col, row}] = 0.0F;
         }
     }
-    Certificate const c = certify(dem, drain(dem), {});
+    Certificate const c = certify(dem, route(dem), {});
     EXPECT_EQ(c.depressions, pits);
     EXPECT_EQ(c.findings.size(), 1000U);
 }
@@ -298,7 +300,7 @@ TEST(Certify, ListsAThousandOfAKind) {
 TEST(Certify, RiversTracedOnADemPassOnIt) {
     ASSERT_TRUE(rc::check("reaches along the DEM's own ways", [] {
         Raster<float> const dem = *gen_dem(14, 10);
-        measure::Drainage const d = drain(dem);
+        flow::FlowField const d = route(dem);
         auto const sources = *rc::gen::inRange(0, 4);
         Mask passed(dem.grid());
         std::vector<Reach> reaches;
@@ -313,10 +315,10 @@ TEST(Certify, RiversTracedOnADemPassOnIt) {
                 line.push_back(dem.grid().centre(dem.grid().at(i)));
                 joins = passed[i] != 0;
                 passed[i] = 1;
-                if (joins || d.direction[i] < 0) {
+                if (joins || !goes_on(d.direction[i])) {
                     break;
                 }
-                Cell const step = measure::d8_steps[static_cast<std::size_t>(d.direction[i])];
+                Cell const step = d8_steps[index_of(d.direction[i])];
                 i += step.row * dem.width() + step.col;
             }
             if (joins) {
@@ -336,10 +338,10 @@ TEST(Certify, RiversTracedOnADemPassOnIt) {
 TEST(Certify, DepressionsAddUpToTheCellsBelowTheirSpill) {
     ASSERT_TRUE(rc::check("depressions", [] {
         Raster<float> const dem = *gen_dem(12, 10);
-        measure::Drainage const d = drain(dem);
+        flow::FlowField const d = route(dem);
         std::int64_t cells = 0;
         double volume = 0.0;
-        for (measure::Depression const& p : d.depressions) {
+        for (flow::Depression const& p : d.depressions) {
             cells += p.cells;
             volume += p.volume_m3;
             RC_ASSERT(p.max_depth_m > 0.0);

@@ -11,7 +11,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/measure/drainage/flow_lengths.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/measure/laws/internal/concavity.hpp>
 #include <thalweg/measure/laws/internal/hack.hpp>
 #include <thalweg/measure/laws/line_fit.hpp>
@@ -32,7 +32,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 /// Rivers of chance whose areas and heights are made to order.
 struct MadeToOrder {
     RaisedNetwork rivers;
-    ContributingAreas areas;
+    flow::ContributingAreas areas;
     NetworkOrders orders;
     NetworkIndex index;
 
@@ -312,30 +312,6 @@ TEST(JunctionAngles, StairsOfCellsHaveTheDirectionOfTheirChord) {
     double const expected = std::atan2(1.0, 3.0) * 180.0 / 3.14159265358979323846;
     EXPECT_NEAR(junction_angles(net, 30.0).mean_deg, expected, 2.0);
     EXPECT_NEAR(junction_angles(net, 1.0).mean_deg, 0.0, 1e-9);
-}
-
-TEST(FlowLengths, AreTheLongestWayDownToACell) {
-    ASSERT_TRUE(rc::check("as walking down from every cell finds", [] {
-        Raster<float> const dem = *gen_dem(12, 20);
-        Drainage const drainage = drain(dem);
-        Grid const& grid = dem.grid();
-        Numbers longest(static_cast<std::size_t>(grid.cells()), 0.0);
-        for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            double length = 0.0;
-            for (std::int64_t at = i; drainage.direction[at] >= 0;) {
-                Cell const step = d8_steps[static_cast<std::size_t>(drainage.direction[at])];
-                length += grid.cell_m * std::sqrt(static_cast<double>(step.col * step.col + step.row * step.row));
-                at += step.row * grid.width + step.col;
-                double& here = longest[static_cast<std::size_t>(at)];
-                here = std::max(here, length);
-            }
-        }
-        auto const fast = flow_lengths(drainage);
-        for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            double const slow = longest[static_cast<std::size_t>(i)];
-            RC_ASSERT(std::fabs(static_cast<double>(fast[i]) - slow) <= 1e-5 * slow);
-        }
-    }));
 }
 
 TEST(NetworkLaws, AreThoseOfTheirVerbs) {

@@ -10,6 +10,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/perched.hpp>
 #include <thalweg/measure/relief/relief_figures.hpp>
@@ -17,7 +18,7 @@
 #include "graded_land.hpp"
 
 using namespace thalweg;
-using measure::drain;
+using flow::route;
 using measure::local_extremes;
 using measure::LocalExtremes;
 using measure::perched;
@@ -28,7 +29,7 @@ using measure::statistics;
 namespace {
 
 Relief relief_of(Raster<float> const& dem, Run const& run = {}) {
-    return relief(dem, drain(dem, run), statistics(dem, run), {}, run);
+    return relief(dem, route(dem, run), statistics(dem, run), {}, run);
 }
 
 } // namespace
@@ -120,15 +121,15 @@ TEST(Relief, OfLittleLandIsUnknownNotWrong) {
 TEST(Relief, RefusesWhatIsNotOfOneLand) {
     Raster<float> const dem = rough_dem(frame(9, 9), 1);
     Raster<float> const other = rough_dem(frame(8, 9), 1);
-    EXPECT_THROW(relief(dem, drain(dem), statistics(other)), BadInput);
-    EXPECT_THROW(relief(dem, drain(other), statistics(dem)), BadInput);
-    EXPECT_THROW(relief(dem, drain(dem), statistics(dem), {.support_cells = 0}), BadParameter);
+    EXPECT_THROW(relief(dem, route(dem), statistics(other)), BadInput);
+    EXPECT_THROW(relief(dem, route(other), statistics(dem)), BadInput);
+    EXPECT_THROW(relief(dem, route(dem), statistics(dem), {.support_cells = 0}), BadParameter);
 }
 
 TEST(Relief, IsWhatItsPartsFind) {
     GradedLand const land = graded_land(frame(160, 200), 2, 0.45, 0.5);
     Relief const found = relief_of(land.dem);
-    measure::Drainage const drainage = drain(land.dem);
+    flow::FlowField const drainage = route(land.dem);
     EXPECT_EQ(found.slopes.mean_deg, measure::slopes(land.dem).mean_deg);
     EXPECT_EQ(found.slope_area->exponent, measure::slope_area(land.dem, drainage)->exponent);
     EXPECT_EQ(found.chi->r2, measure::chi(land.dem, drainage)->r2);
@@ -139,8 +140,8 @@ TEST(Relief, IsWhatItsPartsFind) {
                      static_cast<double>(forms.cells[8]) / static_cast<double>(forms.cells[2]));
     double length = 0.0;
     for (std::int64_t i = 0; i < drainage.direction.cells(); ++i) {
-        if (drainage.area_cells[i] >= 200 && drainage.direction[i] >= 0) {
-            length += drainage.direction[i] % 2 == 0 ? 1.0 : std::sqrt(2.0);
+        if (drainage.area_cells[i] >= 200 && goes_on(drainage.direction[i])) {
+            length += is_diagonal(drainage.direction[i]) ? std::sqrt(2.0) : 1.0;
         }
     }
     EXPECT_NEAR(found.drainage_density, length / 32000.0, 1e-12);

@@ -8,13 +8,14 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/relief/chi.hpp>
 
 #include "graded_land.hpp"
 
 using namespace thalweg;
+using flow::route;
 using measure::chi;
-using measure::drain;
 using measure::slope_area;
 
 namespace {
@@ -29,17 +30,17 @@ Grid cells_of_30_m(std::int64_t width, std::int64_t height) {
 
 TEST(SlopeArea, NoneOfTooLittleLand) {
     for (Raster<float> const& dem : {dem_of(1, {1.0F}), dem_of(2, {hole, hole}), Raster<float>(frame(8, 8), 1.0F)}) {
-        EXPECT_FALSE(slope_area(dem, drain(dem)));
-        EXPECT_FALSE(chi(dem, drain(dem)));
+        EXPECT_FALSE(slope_area(dem, route(dem)));
+        EXPECT_FALSE(chi(dem, route(dem)));
     }
     Raster<float> const level(frame(200, 200), 1.0F);
-    EXPECT_FALSE(slope_area(level, drain(level)));
-    EXPECT_FALSE(chi(level, drain(level)));
+    EXPECT_FALSE(slope_area(level, route(level)));
+    EXPECT_FALSE(chi(level, route(level)));
 }
 
 TEST(SlopeArea, RefusesNonsense) {
     Raster<float> const dem = rough_dem(frame(9, 9), 1);
-    measure::Drainage const drainage = drain(dem);
+    flow::FlowField const drainage = route(dem);
     EXPECT_THROW(slope_area(dem, drainage, {.support_cells = 0}), BadParameter);
     EXPECT_THROW(slope_area(dem, drainage, {.bins_per_decade = 0}), BadParameter);
     EXPECT_THROW(slope_area(dem, drainage, {.least_places = 0}), BadParameter);
@@ -92,7 +93,7 @@ TEST(SlopeArea, WholeMetresAndNoiseDoNotBendIt) {
 // By its own steepest descent a graded land has nearly the rivers it was made with.
 TEST(SlopeArea, OfTheLandsOwnDrainage) {
     GradedLand const land = graded_land(cells_of_30_m(300, 300), 4, 0.45, 20.0);
-    auto const law = slope_area(land.dem, drain(land.dem));
+    auto const law = slope_area(land.dem, route(land.dem));
     ASSERT_TRUE(law);
     EXPECT_NEAR(-law->exponent, 0.45, 0.1);
 }

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/measure/laws/internal/compensated_sum.hpp>
 
 #include "dems.hpp"
 
@@ -349,7 +349,7 @@ TEST(Statistics, StopsWhenAsked) {
 }
 
 TEST(CompensatedSum, KeepsWhatRoundingDrops) {
-    measure::CompensatedSum sum;
+    CompensatedSum sum;
     for (double const v : {1.0, 1e100, 1.0, -1e100}) {
         sum.add(v);
     }

@@ -5,8 +5,8 @@
 
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/geometry/meetings.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/shorten.hpp>
 #include <thalweg/network/elevation/raise_from_land.hpp>
@@ -33,9 +33,7 @@ struct Scene {
     RaisedNetwork rivers;
     Channels channels;
     Raster<float> dem;
-    measure::Drainage drainage;
-
-    LandWater water() const { return {dem, drainage.direction, drainage.area_cells}; }
+    flow::FlowField drainage;
 };
 
 Scene scene_of(StreamNetwork const& plan, Grid const& grid, std::uint64_t seed) {
@@ -46,7 +44,7 @@ Scene scene_of(StreamNetwork const& plan, Grid const& grid, std::uint64_t seed) 
     surface::EquilibriumLand land = surface::equilibrium(drawn.channels, {}, params);
     Shortened const kept = shorten(carried, drawn, land.shortened);
     Scene scene{raise_from_land(kept.network, kept.drawn.channels, land.dem), kept.drawn.channels, land.dem, {}};
-    scene.drainage = measure::drain(scene.dem);
+    scene.drainage = flow::route(scene.dem);
     return scene;
 }
 
@@ -155,7 +153,7 @@ void expect_lawful(Scene const& scene, SideValleys const& made, std::int64_t sup
 
 TEST(SideValleys, WithoutEnoughWaterNothingIsAdded) {
     Scene const scene = plain_scene();
-    SideValleys const made = side_valleys(scene.rivers, scene.channels, scene.water(), {1'000'000});
+    SideValleys const made = side_valleys(scene.rivers, scene.channels, scene.dem, scene.drainage, {1'000'000});
     EXPECT_EQ(made.grown, 0);
     ASSERT_EQ(boost::num_edges(made.network.plan), boost::num_edges(scene.rivers.plan));
     EXPECT_EQ(made.network.arc_z, scene.rivers.arc_z);
@@ -164,14 +162,15 @@ TEST(SideValleys, WithoutEnoughWaterNothingIsAdded) {
 
 TEST(SideValleys, WhatMakesNoSenseIsRefused) {
     Scene const scene = plain_scene();
-    EXPECT_THROW(side_valleys(scene.rivers, scene.channels, scene.water(), {0}), BadParameter);
-    Raster<std::int64_t> const other(square(91));
-    EXPECT_THROW(side_valleys(scene.rivers, scene.channels, {scene.dem, scene.drainage.direction, other}), BadInput);
+    EXPECT_THROW(side_valleys(scene.rivers, scene.channels, scene.dem, scene.drainage, {0}), BadParameter);
+    flow::FlowField other = scene.drainage;
+    other.area_cells = Raster<std::int64_t>(square(91));
+    EXPECT_THROW(side_valleys(scene.rivers, scene.channels, scene.dem, other), BadInput);
 }
 
 TEST(SideValleys, TheyReachTheGivenRivers) {
     Scene const scene = plain_scene();
-    SideValleys const made = side_valleys(scene.rivers, scene.channels, scene.water(), {40});
+    SideValleys const made = side_valleys(scene.rivers, scene.channels, scene.dem, scene.drainage, {40});
     EXPECT_GT(made.grown, 20);
     expect_lawful(scene, made, 40);
     // By far the most of the land drains to the given outlet: so do most valleys.
@@ -195,6 +194,6 @@ TEST(SideValleys, LawsOfRandomNetworks) {
         StreamNetwork const plan = test::random_skeleton(seed, side);
         RC_PRE(boost::num_edges(plan) > 0);
         Scene const scene = scene_of(plan, square(side), seed);
-        expect_lawful(scene, side_valleys(scene.rivers, scene.channels, scene.water(), {support}), support);
+        expect_lawful(scene, side_valleys(scene.rivers, scene.channels, scene.dem, scene.drainage, {support}), support);
     }));
 }

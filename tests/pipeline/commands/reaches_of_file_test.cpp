@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
 
 using namespace thalweg;
 using pipeline::FileReaches;
@@ -47,7 +48,7 @@ std::string complaint_of(NetworkFile const& file) {
 
 std::vector<std::int64_t> downstream(FileReaches const& reaches) {
     std::vector<std::int64_t> ds;
-    for (measure::Reach const& reach : reaches.reaches) {
+    for (flow::Reach const& reach : reaches.reaches) {
         ds.push_back(reach.ds);
     }
     return ds;

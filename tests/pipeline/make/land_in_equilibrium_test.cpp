@@ -4,7 +4,7 @@
 #include <thalweg/pipeline/make/terrain.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/routing/route.hpp>
 
 #include <gtest/gtest.h>
 
@@ -249,7 +249,7 @@ TEST(LandInEquilibrium, RiversThatEndInsideAreCarriedOrSinks) {
     EXPECT_EQ(count(carried, "carried_outlet"), 1);
     Terrain const sink = made(lines + "inland = \"sink\"\n" + inland + "[surface]\ndrain = \"none\"\n", files);
     EXPECT_EQ(count(sink, "carried_outlet"), 0);
-    measure::Drainage const drainage = measure::drain(sink.surface->dem);
+    flow::FlowField const drainage = flow::route(sink.surface->dem);
     EXPECT_EQ(drainage.depressions.size(), 1U);
     Terrain const drained = made(lines + "inland = \"sink\"\n" + inland + "[surface]\n", files);
     for (Check const& c : drained.checks) {
@@ -368,10 +368,10 @@ TEST(LandInEquilibrium, AForestTilesALargeMap) {
         outlets.push_back(t.grid.index(t.grid.cell_of(t.network.plan[n].at)));
     }
     EXPECT_GT(outlets.size(), 50U);
-    measure::Drainage const drainage = measure::drain(t.surface->dem);
+    flow::FlowField const drainage = flow::route(t.surface->dem);
     std::int64_t drained = 0;
     for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
-        if (drainage.direction[i] < 0) {
+        if (!goes_on(drainage.direction[i])) {
             EXPECT_EQ(std::ranges::count(outlets, i), 1) << t.grid.at(i).col << " " << t.grid.at(i).row;
             drained += drainage.area_cells[i];
         }

@@ -9,8 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/routing/flow_lengths.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/measure/drainage/flow_lengths.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
@@ -113,8 +114,8 @@ TEST(Laws, TheDemsRiversAreAsLongAsTheNetwork) {
     DemLaws const& dem = *terrain.laws.dem;
     EXPECT_TRUE(dem.as_dense);
     EXPECT_GE(dem.laws.drainage_density_m, terrain.laws.network->drainage_density_m);
-    measure::Drainage const drainage = measure::drain(terrain.surface->dem);
-    auto const sparser = laws_of_dem(terrain.surface->dem, drainage, measure::flow_lengths(drainage),
+    flow::FlowField const drainage = flow::route(terrain.surface->dem);
+    auto const sparser = laws_of_dem(terrain.surface->dem, drainage, flow::flow_lengths(drainage),
                                      {.support_cells = dem.support_cells + 1});
     EXPECT_LT(sparser.laws.drainage_density_m, terrain.laws.network->drainage_density_m);
     EXPECT_FALSE(sparser.as_dense);

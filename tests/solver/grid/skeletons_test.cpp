@@ -3,8 +3,8 @@
 // The solver on skeletons as the pipeline makes them and as land has them.
 #include <thalweg/solver/grid/poisson.hpp>
 
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/order/order.hpp>
@@ -45,7 +45,7 @@ Raster<float> rivers_and_ridges(skeleton::RidgesParams::Method method) {
 /// The rivers of a DEM: its cells through which the water of a hundred others runs.
 Raster<float> streams_of_land() {
     Raster<float> dem = io::read_dem(THALWEG_SOURCE_DIR "/samples/jacksboro_srtm3.tif");
-    measure::Drainage const drainage = measure::drain(dem);
+    flow::FlowField const drainage = flow::route(dem);
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         dem[i] = drainage.area_cells[i] >= 100 ? dem[i] : std::numeric_limits<float>::quiet_NaN();
     }

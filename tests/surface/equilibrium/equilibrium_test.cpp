@@ -4,6 +4,7 @@
 
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/direction.hpp>
 
 #include <bit>
 #include <cmath>
@@ -145,11 +146,11 @@ Scene any_scene() {
     return scene;
 }
 
-std::int8_t plain_d8(Raster<float> const& dem, std::int64_t cell) {
+flow::Direction plain_d8(Raster<float> const& dem, std::int64_t cell) {
     if (std::isnan(dem[cell])) {
-        return -2;
+        return flow::Direction::no_data;
     }
-    std::int8_t way = -1;
+    flow::Direction way = flow::Direction::leaves;
     double best = 0.0;
     Cell const at = dem.grid().at(cell);
     for (std::size_t k = 0; k < d8_steps.size(); ++k) {
@@ -158,16 +159,16 @@ std::int8_t plain_d8(Raster<float> const& dem, std::int64_t cell) {
             double const slope = (static_cast<double>(dem[cell]) - static_cast<double>(dem[n])) * d8_per_length[k];
             if (slope > best) {
                 best = slope;
-                way = static_cast<std::int8_t>(k);
+                way = flow::direction_of(k);
             }
         }
     }
     return way;
 }
 
-std::int64_t next(Grid const& grid, std::int64_t cell, std::int8_t way) {
+std::int64_t next(Grid const& grid, std::int64_t cell, flow::Direction way) {
     Cell const at = grid.at(cell);
-    Cell const step = d8_steps[static_cast<std::size_t>(way)];
+    Cell const step = d8_steps[index_of(way)];
     return grid.index({at.col + step.col, at.row + step.row});
 }
 
@@ -264,7 +265,7 @@ TEST(Equilibrium, TinyGridsHaveLand) {
             scene.rivers = {frame(width, height), {0}, {-1}, {}, {}};
             EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
             EXPECT_EQ(land.dem[0], 0.0F);
-            EXPECT_EQ(land.direction[0], -1);
+            EXPECT_EQ(land.direction[0], flow::Direction::leaves);
             for (std::int64_t i = 1; i < land.dem.cells(); ++i) {
                 EXPECT_GT(land.dem[i], 0.0F) << width << " x " << height << " cell " << i;
             }
@@ -278,7 +279,7 @@ TEST(Equilibrium, AGridMayBeAllRiver) {
     EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
     for (std::int64_t i = 1; i < 4; ++i) {
         EXPECT_GT(land.dem[i], land.dem[i - 1]);
-        EXPECT_EQ(land.direction[i], 4);
+        EXPECT_EQ(land.direction[i], flow::Direction::west);
     }
 }
 
@@ -294,7 +295,8 @@ TEST(Equilibrium, LandDrains) {
             RC_ASSERT(!std::isinf(land.dem[i]));
             if (!rivers.contains(i)) {
                 RC_ASSERT(land.direction[i] == plain_d8(land.dem, i));
-                RC_ASSERT((land.direction[i] != -1 || (scene.params.edge != Edge::closed && at_end(scene, i))));
+                RC_ASSERT((land.direction[i] != flow::Direction::leaves ||
+                           (scene.params.edge != Edge::closed && at_end(scene, i))));
             }
         }
         RC_ASSERT(cells_in_depressions(scene, land.dem) == 0);
@@ -317,7 +319,7 @@ TEST(Equilibrium, RiversKeepTheirWater) {
             }
             if (rivers.receiver[n] < 0) {
                 lowest = std::min(lowest, land.dem[i]);
-                RC_ASSERT(land.direction[i] == -1);
+                RC_ASSERT(land.direction[i] == flow::Direction::leaves);
                 continue;
             }
             std::int64_t const below = rivers.cell[static_cast<std::size_t>(rivers.receiver[n])];

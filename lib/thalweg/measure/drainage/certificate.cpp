@@ -41,11 +41,11 @@ void mark_without_corners(std::vector<Vec2> const& line, Mask& marked) {
 
 class Certifier {
 public:
-    Certifier(Raster<float> const& dem, Drainage const& drainage, std::vector<Reach> const& reaches,
+    Certifier(Raster<float> const& dem, flow::FlowField const& drainage, std::vector<flow::Reach> const& reaches,
               Claims const& claims, Run const& run)
         : dem_(dem), drainage_(drainage), reaches_(reaches), claims_(claims), run_(run), grid_(dem.grid()),
           owner_(grid_, no_reach), corner_(grid_), fed_(reaches.size(), 0) {
-        for (RiverCell const& c : river_cells(reaches, grid_, run)) {
+        for (flow::RiverCell const& c : flow::river_cells(reaches, grid_, run)) {
             if (is_honoured(c.cell)) {
                 owner_[c.cell] = static_cast<std::int32_t>(c.reach);
                 rivers_.push_back(c);
@@ -54,7 +54,7 @@ public:
             }
         }
         find_corners();
-        for (Reach const& reach : reaches) {
+        for (flow::Reach const& reach : reaches) {
             ends_.push_back(ends_of(reach));
         }
         for (std::size_t r = 0; r < reaches.size(); ++r) {
@@ -86,7 +86,7 @@ private:
 
     bool is_honoured(std::int64_t cell) const { return claims_.honoured.cells() == 0 || claims_.honoured[cell] != 0; }
 
-    Ends ends_of(Reach const& reach) const {
+    Ends ends_of(flow::Reach const& reach) const {
         Ends ends;
         for (auto const& line : reach.lines) {
             for (Cell const cell : claims_.honoured.cells() == 0 ? cells_of_ends(line) : cells_along(line, grid_)) {
@@ -108,15 +108,15 @@ private:
 
     void find_corners() {
         Mask kept(grid_);
-        for (Reach const& reach : reaches_) {
+        for (flow::Reach const& reach : reaches_) {
             for (auto const& line : reach.lines) {
                 mark_without_corners(line, kept);
             }
         }
-        for (RiverCell const& c : rivers_) {
+        for (flow::RiverCell const& c : rivers_) {
             corner_[c.cell] = kept[c.cell] == 0 ? 1 : 0;
         }
-        std::erase_if(rivers_, [this](RiverCell const& c) { return corner_[c.cell] != 0; });
+        std::erase_if(rivers_, [this](flow::RiverCell const& c) { return corner_[c.cell] != 0; });
     }
 
     void find(char const* kind, std::int64_t feature, Cell at, double amount, std::string text) {
@@ -131,18 +131,11 @@ private:
         return fmt::format("({:.1f}, {:.1f})", p.x, p.y);
     }
 
-    std::int64_t next_of(std::int64_t i) const {
-        std::int8_t const direction = drainage_.direction[i];
-        if (direction < 0) {
-            return -1;
-        }
-        Cell const step = d8_steps[static_cast<std::size_t>(direction)];
-        return i + step.row * grid_.width + step.col;
-    }
+    std::int64_t next_of(std::int64_t i) const { return drainage_.receiver(i); }
 
     std::vector<std::int64_t> with_data() const {
         std::vector<std::int64_t> cells;
-        for (RiverCell const& c : rivers_) {
+        for (flow::RiverCell const& c : rivers_) {
             if (!std::isnan(dem_[c.cell])) {
                 cells.push_back(c.cell);
             }
@@ -182,7 +175,7 @@ private:
                 }
             }
         }
-        for (RiverCell const& c : rivers_) {
+        for (flow::RiverCell const& c : rivers_) {
             out_.lake_cells += lake_[c.cell];
         }
     }
@@ -197,7 +190,7 @@ private:
         out_.depressions = static_cast<std::int64_t>(drainage_.depressions.size());
         out_.pit_cells = drainage_.pits;
         out_.pit_volume_m3 = drainage_.pit_volume_m3;
-        for (Depression const& d : drainage_.depressions) {
+        for (flow::Depression const& d : drainage_.depressions) {
             out_.max_depth_m = std::max(out_.max_depth_m, d.max_depth_m);
             find("depression", 0, d.lowest, d.max_depth_m,
                  fmt::format("depression of {} cells, {:.3g} m deep, lowest at {}", d.cells, d.max_depth_m,
@@ -216,14 +209,16 @@ private:
         return false;
     }
 
-    bool ends_river(RiverCell const& c) const { return reaches_[c.reach].ds < 0 && ends_[c.reach].last == c.cell; }
+    bool ends_river(flow::RiverCell const& c) const {
+        return reaches_[c.reach].ds < 0 && ends_[c.reach].last == c.cell;
+    }
 
-    bool begins_river(RiverCell const& c) const { return fed_[c.reach] == 0 && ends_[c.reach].first == c.cell; }
+    bool begins_river(flow::RiverCell const& c) const { return fed_[c.reach] == 0 && ends_[c.reach].first == c.cell; }
 
     void follow_rivers() {
         std::vector<std::int64_t> without(reaches_.size(), 0);
         std::vector<std::int64_t> first_without(reaches_.size(), -1);
-        for (RiverCell const& c : rivers_) {
+        for (flow::RiverCell const& c : rivers_) {
             Cell const at = grid_.at(c.cell);
             if (std::isnan(dem_[c.cell])) {
                 first_without[c.reach] = without[c.reach]++ == 0 ? c.cell : first_without[c.reach];
@@ -327,7 +322,7 @@ private:
             return;
         }
         std::vector<std::int64_t> most(reaches_.size(), 0);
-        for (RiverCell const& c : rivers_) {
+        for (flow::RiverCell const& c : rivers_) {
             most[c.reach] = std::max(most[c.reach], drainage_.area_cells[c.cell]);
         }
         double const cell_m2 = grid_.cell_m * grid_.cell_m;
@@ -343,15 +338,15 @@ private:
     }
 
     Raster<float> const& dem_;
-    Drainage const& drainage_;
-    std::vector<Reach> const& reaches_;
+    flow::FlowField const& drainage_;
+    std::vector<flow::Reach> const& reaches_;
     Claims const& claims_;
     Run const& run_;
     Grid const& grid_;
     Raster<std::int32_t> owner_;
     Mask lake_;
     Mask corner_; ///< 1: only corners of reaches
-    std::vector<RiverCell> rivers_;
+    std::vector<flow::RiverCell> rivers_;
     std::vector<Ends> ends_;
     std::vector<std::uint8_t> fed_; ///< by reach: another runs into it
     std::map<std::string, std::int64_t> told_;
@@ -379,7 +374,7 @@ std::vector<Check> Certificate::checks() const {
     return all;
 }
 
-Certificate certify(Raster<float> const& dem, Drainage const& drainage, std::vector<Reach> const& reaches,
+Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, std::vector<flow::Reach> const& reaches,
                     Claims const& claims, Run const& run) {
     if (drainage.direction.grid() != dem.grid()) {
         throw BadInput("measure.certify: the drainage is not that of this DEM; drain it first");

@@ -9,8 +9,8 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
-#include <thalweg/measure/drainage/reaches.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/flow_field.hpp>
 
 namespace thalweg::measure {
 
@@ -66,10 +66,10 @@ struct Claims {
 /// where it goes [m]), source_astray (straight distance from its water's end to its outlet [m]), border_cell (0),
 /// outside_dem: a reach that leaves the DEM's data (its cells without). Lists of each kind end with the thousandth.
 /// Takes: reaches with their parts in the DEM's grid; drainage of that DEM, to its sinks where there are any.
-/// Gives: the certificate, of the DEM's own steepest descent (drain) and the reaches' own cells (cells_along), without
-/// corners, which a diagonal step of the reach passes.
-/// Throws: BadInput: drainage or claims are not of this DEM or these reaches; as river_cells; Cancelled.
-Certificate certify(Raster<float> const& dem, Drainage const& drainage, std::vector<Reach> const& reaches,
+/// Gives: the certificate, of the DEM's own steepest descent (flow::route) and the reaches' own cells (cells_along),
+/// without corners, which a diagonal step of the reach passes. Throws: BadInput: drainage or claims are not of this DEM
+/// or these reaches; as river_cells; Cancelled.
+Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, std::vector<flow::Reach> const& reaches,
                     Claims const& claims = {}, Run const& run = {});
 
 } // namespace thalweg::measure

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/drainage/internal/agreement.hpp>
 
 namespace thalweg::measure {
@@ -46,7 +46,7 @@ ExtractedRidges extract_ridges(Raster<float> const& dem, RidgeLines const& ridge
     for (float& z : upside_down.values()) {
         z = -z;
     }
-    auto const [threshold, agreements] = best_threshold(drain(upside_down, run).area_cells, asked, run);
+    auto const [threshold, agreements] = best_threshold(flow::route(upside_down, run).area_cells, asked, run);
     found.threshold_cells = threshold;
     found.extracted = agreements;
     return found;

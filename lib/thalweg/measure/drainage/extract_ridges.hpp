@@ -20,8 +20,8 @@ struct ExtractedRidges {
 
 /// Extracts ridges as the streams of the DEM upside down, and compares them with given ones as certify compares
 /// streams. Takes: a DEM; ridges on its grid. Gives: the agreement at the best of the thresholds that certify tries;
-/// all 0 without ridges. Throws: BadInput: as drain and cells_along do; Cancelled. Source: the thesis of 2015, figure
-/// 8, whose ridges are extracted so by a GIS; O'Callaghan and Mark 1984.
+/// all 0 without ridges. Throws: BadInput: as flow::route and cells_along do; Cancelled. Source: the thesis of 2015,
+/// figure 8, whose ridges are extracted so by a GIS; O'Callaghan and Mark 1984.
 ExtractedRidges extract_ridges(Raster<float> const& dem, RidgeLines const& ridges, Run const& run = {});
 
 } // namespace thalweg::measure

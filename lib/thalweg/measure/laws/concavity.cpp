@@ -5,10 +5,11 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 
 namespace thalweg::measure {
 
-std::optional<PowerLaw> concavity(RaisedNetwork const& network, ContributingAreas const& areas,
+std::optional<PowerLaw> concavity(RaisedNetwork const& network, flow::ContributingAreas const& areas,
                                   PowerLawParams const& params) {
     NetworkIndex const index(network.plan);
     std::size_t const arcs = index.arcs.size();

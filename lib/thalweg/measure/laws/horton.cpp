@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/measure/laws/internal/compensated_sum.hpp>
 #include <thalweg/measure/laws/line_fit.hpp>
 
 namespace thalweg::measure {

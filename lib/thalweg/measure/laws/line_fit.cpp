@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <thalweg/measure/laws/internal/compensated_sum.hpp>
+#include <thalweg/core/numbers/compensated_sum.hpp>
 
 namespace thalweg::measure {
 

@@ -6,15 +6,15 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/measure/laws/internal/compensated_sum.hpp>
 #include <thalweg/measure/laws/internal/concavity.hpp>
 #include <thalweg/measure/laws/internal/hack.hpp>
 
 namespace thalweg::measure {
 
-NetworkLaws network_laws(RaisedNetwork const& network, NetworkOrders const& orders, ContributingAreas const& areas,
-                         NetworkLawsParams const& params) {
+NetworkLaws network_laws(RaisedNetwork const& network, NetworkOrders const& orders,
+                         flow::ContributingAreas const& areas, NetworkLawsParams const& params) {
     if (!(params.land_m2 > 0.0) || std::isinf(params.land_m2)) {
         throw BadParameter(fmt::format("measure.network_laws: the land has {} m2; it must have some", params.land_m2));
     }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/measure/laws/horton.hpp>
 #include <thalweg/measure/laws/junction_angles.hpp>
 #include <thalweg/measure/laws/link_lengths.hpp>
@@ -35,7 +35,7 @@ struct NetworkLawsParams {
 
 /// Every law of a network, drawn or drained, by the verbs beside this one.
 /// Throws: BadParameter when the land or the reach is not above 0; BadInput as the verbs do.
-NetworkLaws network_laws(RaisedNetwork const& network, NetworkOrders const& orders, ContributingAreas const& areas,
-                         NetworkLawsParams const& params);
+NetworkLaws network_laws(RaisedNetwork const& network, NetworkOrders const& orders,
+                         flow::ContributingAreas const& areas, NetworkLawsParams const& params);
 
 } // namespace thalweg::measure

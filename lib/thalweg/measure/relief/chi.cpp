@@ -7,17 +7,17 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/measure/laws/internal/compensated_sum.hpp>
 #include <thalweg/measure/laws/line_fit.hpp>
 
 namespace thalweg::measure {
 
 namespace {
 
-void check(ChiParams const& params, Raster<float> const& dem, Drainage const& drainage) {
+void check(ChiParams const& params, Raster<float> const& dem, flow::FlowField const& drainage) {
     if (!(params.theta >= 0.0 && params.theta <= 2.0) || params.support_cells < 1 || params.least_cells < 3 ||
         params.most_stems < 1) {
         throw BadParameter(fmt::format("measure.chi: theta {}, a support of {} cells, {} stems of at least {}; they "
@@ -30,10 +30,10 @@ void check(ChiParams const& params, Raster<float> const& dem, Drainage const& dr
 }
 
 /// Cells where rivers leave the DEM, those that drain most first.
-std::vector<std::int64_t> mouths(Drainage const& drainage, ChiParams const& params) {
+std::vector<std::int64_t> mouths(flow::FlowField const& drainage, ChiParams const& params) {
     std::vector<std::int64_t> all;
     for (std::int64_t i = 0; i < drainage.direction.cells(); ++i) {
-        if (drainage.direction[i] == d8_leaves && drainage.area_cells[i] >= params.support_cells) {
+        if (drainage.direction[i] == flow::Direction::leaves && drainage.area_cells[i] >= params.support_cells) {
             all.push_back(i);
         }
     }
@@ -45,13 +45,12 @@ std::vector<std::int64_t> mouths(Drainage const& drainage, ChiParams const& para
 }
 
 /// The neighbour that brings most water to a cell, as a direction from there; -1 where none does.
-int main_donor(Drainage const& drainage, Cell cell) {
+int main_donor(flow::FlowField const& drainage, Cell cell) {
     int best = -1;
     std::int64_t most = 0;
     for (std::size_t k = 0; k < d8_steps.size(); ++k) {
         Cell const from{cell.col + d8_steps[k].col, cell.row + d8_steps[k].row};
-        if (!drainage.direction.grid().contains(from) ||
-            drainage.direction[from] != static_cast<std::int8_t>((k + 4) % 8)) {
+        if (!drainage.direction.grid().contains(from) || drainage.direction[from] != opposite(flow::direction_of(k))) {
             continue;
         }
         if (drainage.area_cells[from] > most) {
@@ -63,7 +62,7 @@ int main_donor(Drainage const& drainage, Cell cell) {
 }
 
 /// Chi and height along the stem above a mouth.
-std::vector<Vec2> stem_above(Raster<float> const& dem, Drainage const& drainage, std::int64_t mouth,
+std::vector<Vec2> stem_above(Raster<float> const& dem, flow::FlowField const& drainage, std::int64_t mouth,
                              ChiParams const& params) {
     Grid const& grid = dem.grid();
     std::vector<Vec2> stem{{0.0, static_cast<double>(dem[mouth])}};
@@ -97,7 +96,8 @@ double spread(std::vector<Vec2> const& stem) {
 
 } // namespace
 
-std::optional<Chi> chi(Raster<float> const& dem, Drainage const& drainage, ChiParams const& params, Run const& run) {
+std::optional<Chi> chi(Raster<float> const& dem, flow::FlowField const& drainage, ChiParams const& params,
+                       Run const& run) {
     check(params, dem, drainage);
     Chi found;
     found.theta = params.theta;

@@ -7,7 +7,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/flow_field.hpp>
 
 namespace thalweg::measure {
 
@@ -33,7 +33,7 @@ struct Chi {
 /// greatest area (ties: lowest direction) to the support; none shorter than least_cells. A river in equilibrium with
 /// even uplift is a straight line: r2 = 1. None where no stem is long enough or falls.
 /// Throws: BadParameter; BadInput when DEM and drainage have not one grid; Cancelled. Source: Perron and Royden 2013.
-std::optional<Chi> chi(Raster<float> const& dem, Drainage const& drainage, ChiParams const& params = {},
+std::optional<Chi> chi(Raster<float> const& dem, flow::FlowField const& drainage, ChiParams const& params = {},
                        Run const& run = {});
 
 } // namespace thalweg::measure

@@ -13,9 +13,9 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
-#include <thalweg/measure/laws/internal/compensated_sum.hpp>
 
 namespace thalweg::measure {
 

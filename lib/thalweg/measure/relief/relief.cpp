@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/measure/laws/internal/compensated_sum.hpp>
 
 namespace thalweg::measure {
 
@@ -18,12 +18,12 @@ double share(std::array<double, form_count> const& shares, Form form) {
 }
 
 /// Rivers' length over the area of all cells with data.
-double density(Drainage const& drainage, std::int64_t cells, std::int64_t support_cells) {
+double density(flow::FlowField const& drainage, std::int64_t cells, std::int64_t support_cells) {
     double const cell_m = drainage.direction.grid().cell_m;
     CompensatedSum length;
     for (std::int64_t i = 0; i < drainage.direction.cells(); ++i) {
-        if (drainage.area_cells[i] >= support_cells && drainage.direction[i] >= 0) {
-            length.add(cell_m / d8_per_length[static_cast<std::size_t>(drainage.direction[i])]);
+        if (drainage.area_cells[i] >= support_cells && goes_on(drainage.direction[i])) {
+            length.add(cell_m / d8_per_length[index_of(drainage.direction[i])]);
         }
     }
     return length.value() / (static_cast<double>(cells) * cell_m * cell_m);
@@ -31,7 +31,7 @@ double density(Drainage const& drainage, std::int64_t cells, std::int64_t suppor
 
 } // namespace
 
-Relief relief(Raster<float> const& dem, Drainage const& drainage, Statistics const& statistics,
+Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
               ReliefParams const& params, Run const& run) {
     if (statistics.cells + statistics.nodata != dem.cells()) {
         throw BadInput(fmt::format("measure.relief: statistics of {} cells for a DEM of {}; measure this DEM",

@@ -9,7 +9,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/measure/relief/chi.hpp>
 #include <thalweg/measure/relief/geomorphons.hpp>
 #include <thalweg/measure/relief/local_extremes.hpp>
@@ -46,7 +46,7 @@ struct ReliefParams {
 /// Takes: a DEM with its drainage and statistics. Gives: all the same figures that the parts give; hollows: hollow,
 /// footslope, valley and pit; noses: peak, ridge, shoulder and spur. The same bits for any number of threads.
 /// Throws: BadParameter; BadInput when the three are not of one DEM; Cancelled.
-Relief relief(Raster<float> const& dem, Drainage const& drainage, Statistics const& statistics,
+Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
               ReliefParams const& params = {}, Run const& run = {});
 
 /// Half the sum of the differences of shares: 0 where they are alike, 1 where they have nothing in common.

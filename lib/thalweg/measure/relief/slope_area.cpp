@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/measure/laws/internal/compensated_sum.hpp>
 #include <thalweg/measure/laws/line_fit.hpp>
 
 namespace thalweg::measure {
@@ -26,7 +26,7 @@ struct Reach {
     std::int64_t cells = 0;
 };
 
-void check(SlopeAreaParams const& params, Raster<float> const& dem, Drainage const& drainage) {
+void check(SlopeAreaParams const& params, Raster<float> const& dem, flow::FlowField const& drainage) {
     if (params.support_cells < 1 || params.bins_per_decade < 1 || params.bins_per_decade > 100 ||
         params.least_places < 1 || params.least_bins < 3) {
         throw BadParameter(fmt::format("measure.slope_area: a support of {} cells, {} bins a decade of at least {} "
@@ -39,7 +39,7 @@ void check(SlopeAreaParams const& params, Raster<float> const& dem, Drainage con
     }
 }
 
-std::map<std::int64_t, Reach> reaches_by_area(Raster<float> const& dem, Drainage const& drainage,
+std::map<std::int64_t, Reach> reaches_by_area(Raster<float> const& dem, flow::FlowField const& drainage,
                                               SlopeAreaParams const& params, Run const& run) {
     double const cell_m = dem.grid().cell_m;
     double const bins_a_fold = params.bins_per_decade / exact::log(10.0);
@@ -49,10 +49,10 @@ std::map<std::int64_t, Reach> reaches_by_area(Raster<float> const& dem, Drainage
         if (i % cells_between_checks == 0) {
             run.check();
         }
-        if (drainage.area_cells[i] < params.support_cells || drainage.direction[i] < 0) {
+        if (drainage.area_cells[i] < params.support_cells || !goes_on(drainage.direction[i])) {
             continue;
         }
-        auto const way = static_cast<std::size_t>(drainage.direction[i]);
+        std::size_t const way = index_of(drainage.direction[i]);
         double const log_area = exact::log(static_cast<double>(drainage.area_cells[i]) * cell_m * cell_m);
         Reach& reach = reaches[static_cast<std::int64_t>(std::floor(log_area * bins_a_fold))];
         reach.drop_m.add(static_cast<double>(dem[i]) - static_cast<double>(dem[i + offsets[way]]));
@@ -65,8 +65,8 @@ std::map<std::int64_t, Reach> reaches_by_area(Raster<float> const& dem, Drainage
 
 } // namespace
 
-std::optional<PowerLaw> slope_area(Raster<float> const& dem, Drainage const& drainage, SlopeAreaParams const& params,
-                                   Run const& run) {
+std::optional<PowerLaw> slope_area(Raster<float> const& dem, flow::FlowField const& drainage,
+                                   SlopeAreaParams const& params, Run const& run) {
     check(params, dem, drainage);
     PowerLaw law;
     std::vector<Vec2> line;

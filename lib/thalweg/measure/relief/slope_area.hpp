@@ -7,7 +7,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/measure/laws/power_law.hpp>
 
 namespace thalweg::measure {
@@ -27,7 +27,7 @@ struct SlopeAreaParams {
 /// those of large areas are few, along one river; bins that do not fall are left out. Steps out of the DEM are none.
 /// Throws: BadParameter; BadInput when DEM and drainage have not one grid; Cancelled. Source: Flint 1974; Wobus et al.
 /// 2006 (slope over elevation drops, log bins).
-std::optional<PowerLaw> slope_area(Raster<float> const& dem, Drainage const& drainage,
+std::optional<PowerLaw> slope_area(Raster<float> const& dem, flow::FlowField const& drainage,
                                    SlopeAreaParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::measure

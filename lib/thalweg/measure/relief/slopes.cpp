@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
-#include <thalweg/measure/laws/internal/compensated_sum.hpp>
 
 namespace thalweg::measure {
 

@@ -120,12 +120,18 @@ struct Grown {
     std::optional<Place> join;
 };
 
+/// Where the water of a land runs.
+struct LandWater {
+    Raster<float> const& dem;
+    flow::FlowField const& flow;
+};
+
 /// Which cells are valleys, and what becomes of their water.
 class Valleys {
 public:
     Valleys(Channels const& channels, LandWater const& water, DrawnLines const& lines, std::int64_t support,
             Run const& run)
-        : water_(water), grid_(water.dem.grid()), offsets_(d8_offsets(grid_)), kind_(grid_, nothing) {
+        : water_(water), grid_(water.dem.grid()), kind_(grid_, nothing) {
         std::vector<std::int64_t> cells;
         Mask river(grid_);
         for (std::int64_t const cell : channels.cell) {
@@ -135,7 +141,7 @@ public:
             if (i % (1 << 20) == 0) {
                 run.check();
             }
-            if (river[i] == 0 && water.area_cells[i] >= support && std::isfinite(water.dem[i]) &&
+            if (river[i] == 0 && water.flow.area_cells[i] >= support && std::isfinite(water.dem[i]) &&
                 !lines.come_near({centre(i), centre(i)}, on_line_cells)) {
                 kind_[i] = valley;
                 cells.push_back(i);
@@ -186,14 +192,10 @@ public:
     }
 
 private:
-    std::int64_t below(std::int64_t i) const {
-        std::int8_t const way = water_.direction[i];
-        return way < 0 ? -1 : i + offsets_[static_cast<std::size_t>(way)];
-    }
+    std::int64_t below(std::int64_t i) const { return water_.flow.receiver(i); }
 
     LandWater const& water_;
     Grid grid_;
-    std::array<std::int64_t, 8> offsets_;
     Raster<std::uint8_t> kind_;
     std::int64_t cut_ = 0;
 };
@@ -306,7 +308,7 @@ private:
             order.push_back(g);
         }
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            return water_.area_cells[grown[a].cells.front()] > water_.area_cells[grown[b].cells.front()];
+            return water_.flow.area_cells[grown[a].cells.front()] > water_.flow.area_cells[grown[b].cells.front()];
         });
         std::vector<std::vector<double>> heights(grown.size());
         for (std::size_t const g : order) {
@@ -388,7 +390,7 @@ std::vector<std::size_t> with_upstream(std::vector<Grown> const& grown, std::vec
 
 void require_one_grid(Channels const& channels, LandWater const& water) {
     Grid const& grid = water.dem.grid();
-    if (water.direction.grid() != grid || water.area_cells.grid() != grid || channels.grid != grid) {
+    if (water.flow.grid() != grid || water.flow.area_cells.grid() != grid || channels.grid != grid) {
         throw BadInput(fmt::format("network.side_valleys: channels, land and water lie on several grids, the land's of "
                                    "{} x {} cells; drain this land",
                                    grid.width, grid.height));
@@ -397,8 +399,9 @@ void require_one_grid(Channels const& channels, LandWater const& water) {
 
 } // namespace
 
-SideValleys side_valleys(RaisedNetwork const& given, Channels const& channels, LandWater const& water,
-                         SideValleysParams const& params, Run const& run) {
+SideValleys side_valleys(RaisedNetwork const& given, Channels const& channels, Raster<float> const& dem,
+                         flow::FlowField const& flow, SideValleysParams const& params, Run const& run) {
+    LandWater const water{dem, flow};
     if (params.support_cells < 1) {
         throw BadParameter(
             fmt::format("network.side_valleys: the support is {} cells; it must be at least 1", params.support_cells));

@@ -8,15 +8,9 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/flow/flow_field.hpp>
 
 namespace thalweg::network {
-
-/// Where the water of a land runs.
-struct LandWater {
-    Raster<float> const& dem;
-    Raster<std::int8_t> const& direction;   ///< as d8_steps; below 0 where water leaves, or there is no land
-    Raster<std::int64_t> const& area_cells; ///< cells that drain through a cell, itself included
-};
 
 struct SideValleysParams {
     std::int64_t support_cells = 200; ///< [1, ...] cells that must drain through a cell for a valley to run there
@@ -37,7 +31,7 @@ struct SideValleys {
 /// first cell of the border. Heights are those of the cells, not below what lies downstream. No two arcs meet but in
 /// nodes. Throws: BadParameter when the support is below 1; BadInput for rasters on another grid; Cancelled. Source:
 /// O'Callaghan and Mark 1984.
-SideValleys side_valleys(RaisedNetwork const& given, Channels const& channels, LandWater const& water,
-                         SideValleysParams const& params = {}, Run const& run = {});
+SideValleys side_valleys(RaisedNetwork const& given, Channels const& channels, Raster<float> const& dem,
+                         flow::FlowField const& flow, SideValleysParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

@@ -10,9 +10,10 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/frame/same_frame.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
 #include <thalweg/pipeline/commands/internal/reaches_of_file.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 
@@ -21,14 +22,14 @@ namespace thalweg::pipeline {
 namespace {
 
 /// By reach, the contributing area the file gives its lower end.
-std::vector<double> areas_of(NetworkFile const& file, std::vector<measure::Reach> const& reaches) {
+std::vector<double> areas_of(NetworkFile const& file, std::vector<flow::Reach> const& reaches) {
     std::unordered_map<std::int64_t, double> by_id;
     for (NetworkFile::FileArc const& arc : file.arcs) {
         by_id.try_emplace(arc.id, arc.ds_area_m2);
     }
     std::vector<double> areas;
     areas.reserve(reaches.size());
-    for (measure::Reach const& reach : reaches) {
+    for (flow::Reach const& reach : reaches) {
         areas.push_back(file.says.areas ? by_id.at(reach.id) : std::numeric_limits<double>::quiet_NaN());
     }
     return areas;
@@ -66,9 +67,9 @@ measure::Certificate certify_files(NetworkFile const& network, std::string const
     claims.still = either(still_cells(network, land.grid()), cells_in(rasters.lakes, land.grid()));
     claims.drawn = cells_in(rasters.drawn, land.grid());
     claims.honoured = rasters.waive ? claims.drawn : Mask{};
-    measure::Drainage const drainage = measure::drain(land, sinks_of(network, land), run);
+    flow::FlowField const drainage = flow::route(land, sinks_of(network, land), run);
     measure::Certificate certificate = measure::certify(land, drainage, found.reaches, claims, run);
-    for (measure::Reach const& reach : found.reaches) {
+    for (flow::Reach const& reach : found.reaches) {
         if (reach.lines.empty()) {
             certificate.findings.push_back(
                 {"outside_dem", reach.id, {}, 0.0, fmt::format("arc {} lies outside the DEM", reach.id)});

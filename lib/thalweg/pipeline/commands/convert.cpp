@@ -14,11 +14,12 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/frame/same_frame.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/io/network/write_postgis.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
 #include <thalweg/network/elevation/drape.hpp>
 #include <thalweg/network/import/from_file.hpp>
 #include <thalweg/network/order/order.hpp>
@@ -73,7 +74,7 @@ void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, C
         ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
     } else if (dem != nullptr) {
         converted.areas = "d8";
-        measure::ContributingAreas areas = measure::areas_d8(source.network.plan, measure::drain(*dem, run), run);
+        flow::ContributingAreas areas = flow::areas_d8(source.network.plan, flow::route(*dem, run), run);
         source.us_area_m2 = std::move(areas.us_area_m2);
         source.ds_area_m2 = std::move(areas.ds_area_m2);
         ready.node_area_m2 = std::move(areas.node_m2);

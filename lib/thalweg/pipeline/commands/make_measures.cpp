@@ -14,8 +14,10 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/suggest.hpp>
+#include <thalweg/flow/catchments/catchments.hpp>
+#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/routing/route_dinf.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/measure/drainage/drain_dinf.hpp>
 #include <thalweg/pipeline/commands/internal/reaches_of_file.hpp>
 #include <thalweg/pipeline/commands/internal/require_metres.hpp>
 #include <thalweg/pipeline/make/internal/catchment_rows.hpp>
@@ -71,11 +73,12 @@ std::set<std::string> wanted_of(MakeMeasuresParams const& params, Measured const
 }
 
 /// Powers of two clockwise from the east, as most programs for water have D8 directions.
-Raster<std::uint8_t> d8_codes(Raster<std::int8_t> const& direction) {
+Raster<std::uint8_t> d8_codes(Raster<flow::Direction> const& direction) {
     Raster<std::uint8_t> codes(direction.grid());
     for (std::int64_t i = 0; i < codes.cells(); ++i) {
-        int const way = direction[i];
-        codes[i] = way == measure::d8_no_data ? io::no_code : static_cast<std::uint8_t>(way < 0 ? 0 : 1 << way);
+        flow::Direction const way = direction[i];
+        codes[i] = way == flow::Direction::no_data ? io::no_code
+                                                   : static_cast<std::uint8_t>(goes_on(way) ? 1 << index_of(way) : 0);
     }
     return codes;
 }
@@ -85,7 +88,7 @@ Raster<double> dinf_angles(Raster<float> const& bearing) {
     Raster<double> angles(bearing.grid(), std::numeric_limits<double>::quiet_NaN());
     for (std::int64_t i = 0; i < angles.cells(); ++i) {
         auto const eighths = static_cast<double>(bearing[i]);
-        if (bearing[i] == measure::dinf_leaves) {
+        if (bearing[i] == flow::dinf_leaves) {
             angles[i] = -1.0;
         } else if (!std::isnan(eighths)) {
             angles[i] = (eighths == 0.0 ? 0.0 : 8.0 - eighths) * (exact::pi / 4.0);
@@ -147,10 +150,10 @@ private:
     std::vector<std::string> names_;
 };
 
-MeasuredCatchments write_catchments(NetworkFile const& file, measure::Drainage const& drainage, std::string const& path,
+MeasuredCatchments write_catchments(NetworkFile const& file, flow::FlowField const& drainage, std::string const& path,
                                     Run const& run) {
     FileReaches const rivers = reaches_of_file(file, drainage.direction.grid());
-    measure::Catchments const catchments = measure::catchments(rivers.reaches, drainage, run);
+    flow::Catchments const catchments = flow::catchments(rivers.reaches, drainage, run);
     auto const rows = catchment_rows(rivers.reaches, rivers.basins, catchments);
     return {io::write_catchments({catchments.reach, rows}, path, run),
             static_cast<std::int64_t>(rows.size()),
@@ -209,11 +212,11 @@ MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& 
         }
     }
 
-    measure::Drainage const drainage = measure::drain(dem, run);
+    flow::FlowField const drainage = flow::route(dem, run);
     MadeMeasures made;
     made.pits = drainage.pits;
     made.cells = std::count_if(drainage.direction.values().begin(), drainage.direction.values().end(),
-                               [](std::int8_t way) { return way != measure::d8_no_data; });
+                               [](flow::Direction way) { return way != flow::Direction::no_data; });
     made.area_m2 = static_cast<double>(made.cells) * dem.grid().cell_m * dem.grid().cell_m;
     if (wanted.count(d8) != 0) {
         Raster<double> const areas = areas_m2(drainage);
@@ -224,7 +227,7 @@ MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& 
         io::write_codes(d8_codes(drainage.direction), out.path("direction_d8.tif"), run);
     }
     if (wanted.count(dinf) + wanted.count(directions) != 0) {
-        measure::DinfDrainage const parted = measure::drain_dinf(dem, drainage, run);
+        flow::DinfFlow const parted = flow::route_dinf(dem, drainage, run);
         if (wanted.count(dinf) != 0) {
             Raster<double> const areas = areas_m2(parted.area_cells);
             made.dinf_m2 = greatest(areas);

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
 #include <thalweg/network/import/clip_lines.hpp>
 
 namespace thalweg::pipeline {
@@ -61,7 +62,7 @@ std::vector<std::vector<Vec2>> parts_in(std::vector<Vec3> const& line, Grid cons
 }
 
 /// By reach, the basin of the file where it has them; else 1, 2, ... by the node at its outlet.
-std::vector<std::int64_t> basins_of(NetworkFile const& file, std::vector<measure::Reach> const& reaches,
+std::vector<std::int64_t> basins_of(NetworkFile const& file, std::vector<flow::Reach> const& reaches,
                                     std::vector<std::size_t> const& first_arc) {
     std::vector<std::int64_t> basins;
     bool const told = file.says.basin && std::all_of(file.arcs.begin(), file.arcs.end(),
@@ -122,7 +123,7 @@ FileReaches reaches_of_file(NetworkFile const& file, Grid const& grid) {
         leaves[reach] = leaves[reach] || !inside(arc.line, grid);
         result.reaches[reach].ds = place_in(places, arc.ds_arc);
     }
-    measure::steps_to_outlet(result.reaches); // says where rivers run in a circle
+    flow::steps_to_outlet(result.reaches); // says where rivers run in a circle
     for (std::size_t i = 0; i < result.reaches.size(); ++i) {
         bool const none = result.reaches[i].lines.empty();
         result.outside += none ? 1 : 0;

@@ -20,9 +20,9 @@ template <class T> Raster<double> in_m2(Raster<T> const& cells) {
 
 } // namespace
 
-std::vector<io::CatchmentRow> catchment_rows(std::vector<measure::Reach> const& reaches,
+std::vector<io::CatchmentRow> catchment_rows(std::vector<flow::Reach> const& reaches,
                                              std::vector<std::int64_t> const& basins,
-                                             measure::Catchments const& catchments) {
+                                             flow::Catchments const& catchments) {
     std::vector<io::CatchmentRow> rows;
     rows.reserve(reaches.size());
     for (std::size_t a = 0; a < reaches.size(); ++a) {
@@ -33,7 +33,7 @@ std::vector<io::CatchmentRow> catchment_rows(std::vector<measure::Reach> const& 
     return rows;
 }
 
-Raster<double> areas_m2(measure::Drainage const& drainage) {
+Raster<double> areas_m2(flow::FlowField const& drainage) {
     return in_m2(drainage.area_cells);
 }
 

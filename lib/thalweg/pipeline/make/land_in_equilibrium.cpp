@@ -4,6 +4,8 @@
 
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/io/raster/read_polygons.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/choose_lakes.hpp>
@@ -193,7 +195,7 @@ std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t>
 Raster<std::int32_t> lakes_of(Terrain& terrain, network::ChannelsOfArcs const& rivers, Run const& run) {
     EquilibriumRecipe const& wanted = terrain.recipe.surface->equilibrium;
     if (wanted.lake_share > 0.0) {
-        measure::ContributingAreas const areas = measure::areas_nearest(terrain.network.plan, terrain.grid, run);
+        flow::ContributingAreas const areas = flow::areas_nearest(terrain.network.plan, terrain.grid, run);
         return network::choose_lakes(rivers, areas.ds_area_m2,
                                      {.share = wanted.lake_share, .seed = terrain.recipe.seed}, run);
     }
@@ -321,13 +323,12 @@ void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.surface->dem = std::move(land.dem);
 }
 
-void add_side_valleys(Terrain& terrain, measure::Drainage const& drainage, Diary& diary, Run const& run) {
+void add_side_valleys(Terrain& terrain, flow::FlowField const& drainage, Diary& diary, Run const& run) {
     if (!terrain.recipe.network || !terrain.recipe.network->fill_space) {
         return;
     }
     network::SideValleys made = diary.stage("valleys", [&] {
-        return network::side_valleys(terrain.network, terrain.channels,
-                                     {terrain.surface->dem, drainage.direction, drainage.area_cells},
+        return network::side_valleys(terrain.network, terrain.channels, terrain.surface->dem, drainage,
                                      {terrain.recipe.network->support_cells}, run);
     });
     terrain.equilibrium->side_valleys = made.grown;

@@ -3,8 +3,10 @@
 #include <thalweg/pipeline/make/laws.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/routing/flow_lengths.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/frame/ground_cell.hpp>
-#include <thalweg/measure/drainage/flow_lengths.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
@@ -19,7 +21,7 @@ constexpr double cells_of_junction = 10.0;
 
 /// flow_length: of the DEM under the network, or null.
 measure::NetworkLaws laws_of(RaisedNetwork const& network, NetworkOrders const& orders,
-                             measure::ContributingAreas const& areas, Grid const& grid, std::int64_t land_cells,
+                             flow::ContributingAreas const& areas, Grid const& grid, std::int64_t land_cells,
                              Raster<float> const* flow_length) {
     measure::NetworkLawsParams params;
     params.land_m2 = static_cast<double>(land_cells) * grid.cell_m * grid.cell_m;
@@ -36,21 +38,22 @@ measure::NetworkLaws laws_of(RaisedNetwork const& network, NetworkOrders const& 
 
 } // namespace
 
-DemLaws laws_of_dem(Raster<float> const& dem, measure::Drainage const& drainage, Raster<float> const& flow_length,
+DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, Raster<float> const& flow_length,
                     DemLawsParams const& params, Run const& run) {
     Grid const& grid = dem.grid();
     auto const ways = drainage.direction.values();
-    auto const land = std::count_if(ways.begin(), ways.end(), [](std::int8_t d) { return d != measure::d8_no_data; });
+    auto const land =
+        std::count_if(ways.begin(), ways.end(), [](flow::Direction d) { return d != flow::Direction::no_data; });
     if (land == 0) {
         throw BadInput("pipeline.laws_of_dem: no cell of the DEM has data");
     }
     DemLaws found;
     found.as_dense = params.network_m > 0.0;
     found.support_cells =
-        found.as_dense ? measure::support_for_length(drainage, params.network_m, run) : params.support_cells;
+        found.as_dense ? flow::support_for_length(drainage, params.network_m, run) : params.support_cells;
     found.support_m2 = static_cast<double>(found.support_cells) * grid.cell_m * grid.cell_m;
-    measure::ExtractedStreams const streams =
-        measure::extract_streams(drainage, dem, {.support_cells = found.support_cells}, run);
+    flow::ExtractedStreams const streams =
+        flow::extract_streams(drainage, dem, {.support_cells = found.support_cells}, run);
     found.laws =
         laws_of(streams.network, network::order(streams.network.plan), streams.areas, grid, land, &flow_length);
     return found;
@@ -61,15 +64,15 @@ DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params, Run c
     grid.cell_m = io::ground_cell(grid).side_m;
     Raster<float> on_ground(grid);
     std::copy(dem.values().begin(), dem.values().end(), on_ground.values().begin());
-    measure::Drainage const drainage = measure::drain(on_ground, run);
-    return laws_of_dem(on_ground, drainage, measure::flow_lengths(drainage, run), params, run);
+    flow::FlowField const drainage = flow::route(on_ground, run);
+    return laws_of_dem(on_ground, drainage, flow::flow_lengths(drainage, run), params, run);
 }
 
-RiverLaws laws_of_terrain(Terrain const& terrain, measure::Drainage const* drainage, Run const& run) {
+RiverLaws laws_of_terrain(Terrain const& terrain, flow::FlowField const* drainage, Run const& run) {
     RiverLaws found;
     std::optional<Raster<float>> flow_length;
     if (drainage != nullptr) {
-        flow_length = measure::flow_lengths(*drainage, run);
+        flow_length = flow::flow_lengths(*drainage, run);
     }
     DemLawsParams params;
     if (boost::num_edges(terrain.network.plan) > 0) {

@@ -7,8 +7,8 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
-#include <thalweg/measure/drainage/extract_streams.hpp>
+#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/flow/streams/extract_streams.hpp>
 #include <thalweg/measure/laws/network_laws.hpp>
 
 namespace thalweg::pipeline {
@@ -28,7 +28,7 @@ struct RiverLaws {
 };
 
 struct DemLawsParams {
-    std::int64_t support_cells = measure::ExtractStreamsParams{}.support_cells; ///< as extract_streams
+    std::int64_t support_cells = flow::ExtractStreamsParams{}.support_cells; ///< as extract_streams
     double network_m = 0.0; ///< [m] length of a network beside the DEM: the support is then the greatest at which its
                             ///< rivers are as long, so that both have one drainage density; 0 for none
 };
@@ -36,7 +36,7 @@ struct DemLawsParams {
 /// Laws of the network that a DEM's water draws by D8, from the cells through which enough of it drains.
 /// Takes: a DEM with its drainage and flow lengths. Gives: Hack's lengths from the divide; directions at junctions over
 /// ten cells. Throws: BadInput when the DEM has no data; as extract_streams does; Cancelled.
-DemLaws laws_of_dem(Raster<float> const& dem, measure::Drainage const& drainage, Raster<float> const& flow_length,
+DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, Raster<float> const& flow_length,
                     DemLawsParams const& params = {}, Run const& run = {});
 
 /// The same of any DEM, drained for it, with the side that its cells have on the ground (io::ground_cell): a geographic
@@ -48,6 +48,6 @@ struct Terrain;
 /// Both laws of a terrain whose rivers have orders and areas.
 /// Takes: drainage: of the terrain's surface, null where it has none: Hack's lengths are then from the sources. Gives:
 /// the DEM's rivers as long together as those drawn, where there are any. Throws: as laws_of_dem.
-RiverLaws laws_of_terrain(Terrain const& terrain, measure::Drainage const* drainage, Run const& run = {});
+RiverLaws laws_of_terrain(Terrain const& terrain, flow::FlowField const* drainage, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -3,8 +3,9 @@
 #include <thalweg/pipeline/make/relief.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/frame/ground_cell.hpp>
-#include <thalweg/measure/drainage/reaches.hpp>
 #include <thalweg/measure/relief/perched.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 
@@ -18,11 +19,11 @@ LandRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
     grid.cell_m = io::ground_cell(grid).side_m;
     Raster<float> on_ground(grid);
     std::copy(dem.values().begin(), dem.values().end(), on_ground.values().begin());
-    return {measure::relief(on_ground, measure::drain(on_ground, run), measure::statistics(on_ground, run), {}, run),
+    return {measure::relief(on_ground, flow::route(on_ground, run), measure::statistics(on_ground, run), {}, run),
             std::nullopt};
 }
 
-LandRelief relief_of_terrain(Terrain const& terrain, measure::Drainage const& drainage, Run const& run) {
+LandRelief relief_of_terrain(Terrain const& terrain, flow::FlowField const& drainage, Run const& run) {
     Raster<float> const& dem = terrain.surface->dem;
     LandRelief found{measure::relief(dem, drainage, *terrain.statistics, {}, run), std::nullopt};
     double const asked =

@@ -10,7 +10,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/measure/relief/real_lands.hpp>
 #include <thalweg/measure/relief/relief.hpp>
 
@@ -30,7 +30,7 @@ struct Terrain;
 
 /// Relief of a terrain with a surface and its statistics.
 /// Gives: perched where it has rivers: by the mean slope that the recipe asks for, else that of the land.
-LandRelief relief_of_terrain(Terrain const& terrain, measure::Drainage const& drainage, Run const& run = {});
+LandRelief relief_of_terrain(Terrain const& terrain, flow::FlowField const& drainage, Run const& run = {});
 
 /// A figure as report.json and the page tell it.
 struct ReliefRow {

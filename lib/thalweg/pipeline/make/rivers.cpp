@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/make/internal/rivers.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/network/elevation/keep_heights.hpp>
 #include <thalweg/network/elevation/set_heights_graded.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
@@ -39,7 +39,7 @@ RaisedNetwork raise(Planned const& planned, Terrain& terrain, Run const& run) {
                                             run);
     }
     if (wanted.heights == Heights::graded) {
-        measure::ContributingAreas const areas = measure::areas_nearest(planned.plan, terrain.grid, run);
+        flow::ContributingAreas const areas = flow::areas_nearest(planned.plan, terrain.grid, run);
         double const cell = terrain.grid.cell_m * terrain.grid.cell_m;
         return network::set_heights_graded(planned.plan, areas.us_area_m2, areas.ds_area_m2,
                                            {wanted.slope, wanted.concavity, cell}, run)
@@ -70,7 +70,7 @@ void let_wander(Planned& planned, Terrain& terrain, Diary& diary, Run const& run
         throw BadParameter("network.meander cannot bend rivers whose heights come from their file; set "
                            "network.heights = \"graded\" or leave meander out");
     }
-    measure::ContributingAreas const areas = measure::areas_nearest(planned.plan, terrain.grid, run);
+    flow::ContributingAreas const areas = flow::areas_nearest(planned.plan, terrain.grid, run);
     network::MeanderParams const params{.gain = *rivers.meander, .seed = terrain.recipe.seed};
     network::Meandered bent = diary.stage("meander", [&] {
         return terrain.land.cells() > 0 ? network::meander(planned.plan, terrain.land, areas.ds_area_m2, params, run)

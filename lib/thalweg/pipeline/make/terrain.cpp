@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/terrain.hpp>
 
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/conditioning/condition.hpp>
+#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/routing/route_dinf.hpp>
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/measure/drainage/drain_dinf.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/pipeline/make/internal/around_rivers.hpp>
 #include <thalweg/pipeline/make/internal/catchment_rows.hpp>
@@ -48,15 +52,15 @@ void drain_land(Terrain& terrain, Diary& diary, Run const& run) {
     if (!terrain.surface || !terrain.recipe.surface) {
         return;
     }
-    std::optional<surface::Drain>& method = terrain.recipe.surface->drain;
-    method = method.value_or(terrain.recipe.network ? surface::Drain::carve : surface::Drain::none);
-    if (*method == surface::Drain::none) {
+    std::optional<flow::Conditioning>& method = terrain.recipe.surface->drain;
+    method = method.value_or(terrain.recipe.network ? flow::Conditioning::carve : flow::Conditioning::none);
+    if (*method == flow::Conditioning::none) {
         return;
     }
     Valley const none{Raster<float>(terrain.grid, std::numeric_limits<float>::quiet_NaN())};
-    surface::DrainedLand land = diary.stage("carve", [&] {
-        return surface::drain(std::move(terrain.surface->dem), terrain.recipe.network ? terrain.valley : none,
-                              {*method}, run);
+    flow::ConditionedDem land = diary.stage("carve", [&] {
+        return flow::condition(std::move(terrain.surface->dem), terrain.recipe.network ? terrain.valley : none,
+                               {*method}, run);
     });
     terrain.surface->dem = std::move(land.dem);
     terrain.drained = {land.banks, land.depressions};
@@ -80,7 +84,7 @@ void check_drainage(Terrain& terrain, std::int64_t depressions) {
 
 void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     if (!terrain.surface) {
-        terrain.areas = measure::areas_nearest(terrain.network.plan, terrain.grid, run);
+        terrain.areas = flow::areas_nearest(terrain.network.plan, terrain.grid, run);
         terrain.laws = laws_of_terrain(terrain, nullptr, run);
         return;
     }
@@ -89,20 +93,19 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     terrain.hypsometry = measure::hypsometry(dem, run);
     run.at(0.0, fmt::format("drain {} cells", terrain.grid.cells()).c_str());
     bool const sinks = terrain.recipe.network && terrain.recipe.network->inland == InlandEnds::sink;
-    measure::Drainage const drainage = diary.stage("drain", [&] {
+    flow::FlowField const drainage = diary.stage("drain", [&] {
         StreamNetwork const& plan = terrain.network.plan;
-        return measure::drain(
+        return flow::route(
             dem, sinks ? cells_of(inland_ends(plan, dem), plan, terrain.grid) : std::vector<std::int64_t>{}, run);
     });
     terrain.pits = drainage.pits;
     terrain.pit_volume_m3 = drainage.pit_volume_m3;
     if (terrain.recipe.network) {
         add_side_valleys(terrain, drainage, diary, run);
-        terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
+        terrain.areas = flow::areas_d8(terrain.network.plan, drainage, run);
         if (terrain.recipe.output.catchments) {
-            terrain.catchments = diary.stage("catchments", [&] {
-                return measure::catchments(measure::reaches_of(terrain.network.plan), drainage, run);
-            });
+            terrain.catchments = diary.stage(
+                "catchments", [&] { return flow::catchments(flow::reaches_of(terrain.network.plan), drainage, run); });
         }
         terrain.sinks = sinks ? inland_ends(terrain.network.plan, dem) : std::vector<NodeId>{};
         terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
@@ -115,7 +118,7 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
             if (replaces_rivers(terrain.recipe)) {
                 claims.honoured = claims.drawn;
             }
-            return measure::certify(dem, drainage, measure::reaches_of(terrain.network.plan), claims, run);
+            return measure::certify(dem, drainage, flow::reaches_of(terrain.network.plan), claims, run);
         });
     }
     if (terrain.recipe.skeleton && terrain.recipe.skeleton->ridges != Ridges::none) {
@@ -131,7 +134,7 @@ void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
     }
     if (terrain.recipe.output.accumulation) {
         terrain.water_areas = diary.stage("areas", [&] {
-            return WaterAreas{areas_m2(drainage), areas_m2(measure::drain_dinf(dem, drainage, run).area_cells)};
+            return WaterAreas{areas_m2(drainage), areas_m2(flow::route_dinf(dem, drainage, run).area_cells)};
         });
     }
     terrain.laws = diary.stage("laws", [&] { return laws_of_terrain(terrain, &drainage, run); });

@@ -19,9 +19,10 @@
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/detail/project.hpp>
-#include <thalweg/measure/drainage/catchments.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments/catchments.hpp>
+#include <thalweg/flow/conditioning/dem_change.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
 #include <thalweg/measure/drainage/extract_ridges.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
@@ -74,8 +75,8 @@ struct PatchStory {
 
 /// What it took to make the land drain.
 struct DrainStory {
-    surface::LandChange banks;
-    surface::LandChange depressions;
+    flow::DemChange banks;
+    flow::DemChange depressions;
 };
 
 /// Contributing areas [m2] by cell, NaN without data.
@@ -109,7 +110,7 @@ struct Terrain {
     NetworkOrders orders;
     network::StreamCounts streams; ///< side branches, as drawn
     network::RiverTypes types;     ///< by arc, where rivers have types; else empty
-    measure::ContributingAreas areas;
+    flow::ContributingAreas areas;
     RiverLaws laws;
     Valley valley;
     RidgeLines ridges;                                      ///< between streams, where they are asked for
@@ -131,7 +132,7 @@ struct Terrain {
     std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
     double pit_volume_m3 = 0.0;
     std::optional<measure::Certificate> certificate; ///< of rivers and surface, where both are there
-    std::optional<measure::Catchments> catchments;   ///< of the arcs on the surface, where they are asked for
+    std::optional<flow::Catchments> catchments;      ///< of the arcs on the surface, where they are asked for
     std::optional<WaterAreas> water_areas;           ///< by cell of the surface, where they are asked for
     NetworkStory story;
     std::vector<Check> checks;

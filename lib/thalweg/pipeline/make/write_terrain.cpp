@@ -8,6 +8,7 @@
 #include <thalweg/draw/profile.hpp>
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/draw/wireframe.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/dataset_files.hpp>
 #include <thalweg/io/mesh/read_points.hpp>
@@ -177,7 +178,7 @@ void write_network(Terrain const& t, io::OutputFolder const& out, Run const& run
 
 void write_water(Terrain const& t, io::OutputFolder const& out, Run const& run) {
     if (t.catchments) {
-        auto const rows = catchment_rows(measure::reaches_of(t.network.plan), t.orders.arc_basin, *t.catchments);
+        auto const rows = catchment_rows(flow::reaches_of(t.network.plan), t.orders.arc_basin, *t.catchments);
         io::write_catchments({t.catchments->reach, rows}, out.path("catchments.gpkg"), run);
     }
     if (t.water_areas) {

@@ -4,6 +4,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/conditioning/condition.hpp>
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
@@ -193,8 +194,8 @@ std::vector<std::string> stages_of_surface(Recipe const& recipe) {
 
 std::vector<std::string> stages_after(Recipe const& recipe) {
     std::vector<std::string> stages(recipe.patches.size(), "blend");
-    surface::Drain const usual = recipe.network ? surface::Drain::carve : surface::Drain::none;
-    if (recipe.surface && recipe.surface->drain.value_or(usual) != surface::Drain::none) {
+    flow::Conditioning const usual = recipe.network ? flow::Conditioning::carve : flow::Conditioning::none;
+    if (recipe.surface && recipe.surface->drain.value_or(usual) != flow::Conditioning::none) {
         stages.emplace_back("carve");
     }
     stages.insert(stages.end(), {"measure", "drain"});

@@ -11,6 +11,7 @@
 
 #include <thalweg/core/height_unit.hpp>
 #include <thalweg/detail/midpoint.hpp>
+#include <thalweg/flow/conditioning/condition.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/network/schema.hpp>
 #include <thalweg/network/elevation/rosgen.hpp>
@@ -26,7 +27,6 @@
 #include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/surface/diffusion/diffuse.hpp>
 #include <thalweg/surface/dilation/dilate.hpp>
-#include <thalweg/surface/drainage/drain.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 namespace thalweg::pipeline {
@@ -170,7 +170,7 @@ struct SurfaceRecipe {
     Interpolation interpolation = Interpolation::linear; ///< of a TIN
     std::optional<double> tolerance;                     ///< (0, 0.1] of a solution; none: that of each method
     skeleton::RegressParams regress;
-    std::optional<surface::Drain> drain; ///< none: carve where there are rivers, else surface::Drain::none
+    std::optional<flow::Conditioning> drain; ///< none: carve where there are rivers, else flow::Conditioning::none
 };
 
 /// The land that the statistics are brought to.

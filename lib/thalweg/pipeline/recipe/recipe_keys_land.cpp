@@ -4,6 +4,7 @@
 #include <thalweg/pipeline/recipe/internal/recipe_sections.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/conditioning/condition.hpp>
 
 #include <fmt/format.h>
 
@@ -172,12 +173,12 @@ void add_surface_keys(std::vector<Key>& keys) {
     keys.push_back(file("surface.mask", "raster on the grid: cells with 0 or no data get no height",
                         in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.mask; })));
     add_equilibrium_keys(keys);
-    using MaybeDrain = std::optional<surface::Drain>;
+    using MaybeDrain = std::optional<flow::Conditioning>;
     keys.push_back(choice<MaybeDrain>("surface.drain",
                                       {{"auto", std::nullopt},
-                                       {"carve", surface::Drain::carve},
-                                       {"fill", surface::Drain::fill},
-                                       {"none", surface::Drain::none}},
+                                       {"carve", flow::Conditioning::carve},
+                                       {"fill", flow::Conditioning::fill},
+                                       {"none", flow::Conditioning::none}},
                                       "hydrological conditioning: confine channels, then breach or fill depressions; "
                                       "auto: carve where there are rivers, else none",
                                       in_surface<MaybeDrain>([](SurfaceRecipe& s) -> MaybeDrain& { return s.drain; })));

@@ -8,6 +8,7 @@
 
 #include <thalweg/core/run/memory.hpp>
 
+#include <thalweg/flow/conditioning/dem_change.hpp>
 #include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
 #include <thalweg/pipeline/report/law_rows.hpp>
 
@@ -211,7 +212,7 @@ ordered_json certificate_object(measure::Certificate const& c) {
               {"max_difference", c.max_area_difference}}}};
 }
 
-ordered_json change_object(surface::LandChange const& c) {
+ordered_json change_object(flow::DemChange const& c) {
     return {{"raised_cells", c.raised_cells}, {"cut_cells", c.cut_cells}, {"max_raise_m", c.max_raise_m},
             {"max_cut_m", c.max_cut_m},       {"raised_m3", c.raised_m3}, {"cut_m3", c.cut_m3}};
 }

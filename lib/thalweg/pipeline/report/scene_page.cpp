@@ -3,6 +3,8 @@
 #include <thalweg/pipeline/report/internal/scene_page.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
 
@@ -38,7 +40,7 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
     terrain.surface->dem = *scene.dem;
     terrain.statistics = measure::statistics(*scene.dem, run);
     terrain.hypsometry = measure::hypsometry(*scene.dem, run);
-    measure::Drainage const drainage = measure::drain(*scene.dem, run);
+    flow::FlowField const drainage = flow::route(*scene.dem, run);
     terrain.pits = drainage.pits;
     terrain.pit_volume_m3 = drainage.pit_volume_m3;
     if (scene.network) {
@@ -46,7 +48,7 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
         terrain.orders = scene.orders;
         std::size_t const arcs = boost::num_edges(terrain.network.plan);
         if (lies_on(terrain.network, terrain.grid)) {
-            terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
+            terrain.areas = flow::areas_d8(terrain.network.plan, drainage, run);
         } else {
             terrain.areas.us_area_m2.assign(arcs, 0.0);
             terrain.areas.ds_area_m2.assign(arcs, 0.0);

@@ -5,9 +5,9 @@
 #include <thalweg/core/cells/nearest_cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/surface/dilation/internal/check_valley.hpp>
 #include <thalweg/surface/dilation/internal/flat_share.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
-#include <thalweg/surface/drainage/internal/check_valley.hpp>
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/dilation/dilate.hpp>
 
+#include <thalweg/surface/dilation/internal/check_valley.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
-#include <thalweg/surface/drainage/internal/check_valley.hpp>
 
 #include <cmath>
 #include <limits>

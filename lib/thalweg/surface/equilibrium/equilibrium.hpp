@@ -9,6 +9,7 @@
 #include <thalweg/core/channels.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/flow/direction.hpp>
 
 namespace thalweg::surface {
 
@@ -51,7 +52,7 @@ struct EquilibriumParams {
 
 struct EquilibriumLand {
     Raster<float> dem;                   ///< [m] NaN at sea
-    Raster<std::int8_t> direction;       ///< where the water of each cell goes: as d8_steps; -1 where it leaves; -2 sea
+    Raster<flow::Direction> direction;   ///< where the water of each cell goes; no_data at sea
     std::vector<std::int64_t> shortened; ///< numbers of channel cells that are none any more: tips that stood perched
     std::vector<std::int64_t> walled;    ///< numbers of channel cells that stand on walls (fixed, soft)
     double max_lowered_m = 0.0;          ///< soft: greatest depth below the given heights

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/equilibrium/internal/rise_of.hpp>
 
-#include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/steepest_descent.hpp>
 
 #include <fmt/format.h>
 
@@ -71,14 +71,7 @@ Tangents horn_tangents(Raster<float> const& land) {
 Tangents descents(Raster<float> const& land) {
     Tangents tangents;
     for (std::int64_t i = 0; i < land.cells(); ++i) {
-        Cell const c = land.grid().at(i);
-        double steepest = 0.0;
-        for (std::size_t k = 0; k < d8_steps.size(); ++k) {
-            if (Cell const n{c.col + d8_steps[k].col, c.row + d8_steps[k].row}; land.grid().contains(n)) {
-                double const slope = (static_cast<double>(land[i]) - static_cast<double>(land[n])) * d8_per_length[k];
-                steepest = slope > steepest ? slope : steepest;
-            }
-        }
+        double const steepest = flow::steepest_descent(land, land.grid().at(i)).slope;
         if (steepest > 0.0) { // what has nowhere to go says nothing
             tangents.add(static_cast<float>(steepest));
         }

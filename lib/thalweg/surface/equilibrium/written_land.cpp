@@ -4,6 +4,8 @@
 
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/flow/direction.hpp>
+#include <thalweg/flow/steepest_descent.hpp>
 #include <thalweg/surface/equilibrium/internal/give_up_tips.hpp>
 #include <thalweg/surface/equilibrium/internal/perched_rivers.hpp>
 #include <thalweg/surface/equilibrium/internal/rise_of.hpp>
@@ -17,9 +19,6 @@
 namespace thalweg::surface {
 
 namespace {
-
-constexpr std::int8_t leaves = -1;
-constexpr std::int8_t at_sea = -2;
 
 /// Copies the caller's grid out of the level; NaN at sea.
 Raster<float> cropped(LandLevel const& level, Window const& window) {
@@ -47,34 +46,15 @@ float lowest_end(Raster<float> const& dem, Channels const& rivers) {
     return low;
 }
 
-std::int8_t steepest_descent(Raster<float> const& dem, Cell c) {
-    float const z = dem[c];
-    if (std::isnan(z)) {
-        return at_sea;
-    }
-    double best = 0.0;
-    std::int8_t way = leaves;
-    for (std::size_t k = 0; k < d8_steps.size(); ++k) {
-        Cell const n{c.col + d8_steps[k].col, c.row + d8_steps[k].row};
-        if (!dem.grid().contains(n)) {
-            continue;
-        }
-        double const slope = (static_cast<double>(z) - static_cast<double>(dem[n])) * d8_per_length[k];
-        if (slope > best) { // never towards NaN
-            best = slope;
-            way = static_cast<std::int8_t>(k);
-        }
-    }
-    return way;
-}
-
-Raster<std::int8_t> directions(Raster<float> const& dem, Channels const& rivers,
-                               std::vector<std::int64_t> const& shortened, Run const& run) {
-    Raster<std::int8_t> out(dem.grid());
+Raster<flow::Direction> directions(Raster<float> const& dem, Channels const& rivers,
+                                   std::vector<std::int64_t> const& shortened, Run const& run) {
+    Raster<flow::Direction> out(dem.grid(), flow::Direction::no_data);
     parallel_ranges(run, dem.height(), 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             for (std::int64_t col = 0; col < dem.width(); ++col) {
-                out[Cell{col, row}] = steepest_descent(dem, {col, row});
+                if (Cell const c{col, row}; !std::isnan(dem[c])) {
+                    out[c] = flow::steepest_descent(dem, c).direction;
+                }
             }
         }
     });
@@ -84,14 +64,14 @@ Raster<std::int8_t> directions(Raster<float> const& dem, Channels const& rivers,
             continue;
         }
         if (r < 0) {
-            out[rivers.cell[n]] = leaves;
+            out[rivers.cell[n]] = flow::Direction::leaves;
             continue;
         }
         Cell const from = dem.grid().at(rivers.cell[n]);
         Cell const to = dem.grid().at(rivers.cell[static_cast<std::size_t>(r)]);
         for (std::size_t k = 0; k < d8_steps.size(); ++k) {
             if (d8_steps[k] == Cell{to.col - from.col, to.row - from.row}) {
-                out[rivers.cell[n]] = static_cast<std::int8_t>(k);
+                out[rivers.cell[n]] = flow::direction_of(k);
             }
         }
     }

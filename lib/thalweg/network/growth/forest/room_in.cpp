@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells/framed.hpp>
 
 namespace thalweg::network {
 

@@ -7,18 +7,18 @@
 
 #include <thalweg/core/grid.hpp>
 #include <thalweg/core/network_file.hpp>
-#include <thalweg/measure/drainage/reaches.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
 
 /// Private to this room.
 namespace thalweg::pipeline {
 
 /// What the arcs of a network file are to the land of a DEM.
 struct FileReaches {
-    std::vector<measure::Reach> reaches; ///< an arc's parts in the grid
-    std::vector<std::int64_t> basins;    ///< by reach: that of the file, else 1, 2, ... by outlet
-    std::int64_t cut = 0;                ///< reaches that leave the grid
-    std::int64_t outside = 0;            ///< reaches that have no part in it
-    std::int64_t nowhere = 0;            ///< lines with a vertex that is no number, which count as outside
+    std::vector<flow::Reach> reaches; ///< an arc's parts in the grid
+    std::vector<std::int64_t> basins; ///< by reach: that of the file, else 1, 2, ... by outlet
+    std::int64_t cut = 0;             ///< reaches that leave the grid
+    std::int64_t outside = 0;         ///< reaches that have no part in it
+    std::int64_t nowhere = 0;         ///< lines with a vertex that is no number, which count as outside
 };
 
 /// The reaches of anyone's network. It need not be a set of trees: only ids and arcs downstream are asked for. One

@@ -5,19 +5,21 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/flow/catchments/catchments.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/io/raster/write_catchments.hpp>
-#include <thalweg/measure/drainage/catchments.hpp>
 
 /// Private to this room.
 namespace thalweg::pipeline {
 
 /// What a file says of catchments. basins: by reach.
-std::vector<io::CatchmentRow> catchment_rows(std::vector<measure::Reach> const& reaches,
+std::vector<io::CatchmentRow> catchment_rows(std::vector<flow::Reach> const& reaches,
                                              std::vector<std::int64_t> const& basins,
-                                             measure::Catchments const& catchments);
+                                             flow::Catchments const& catchments);
 
 /// Contributing areas in m2 for a file, NaN without data.
-Raster<double> areas_m2(measure::Drainage const& drainage);
+Raster<double> areas_m2(flow::FlowField const& drainage);
 Raster<double> areas_m2(Raster<double> const& area_cells);
 
 } // namespace thalweg::pipeline

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/pipeline/make/internal/diary.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 
@@ -21,6 +21,6 @@ double usual_slope_deg(double cell_m);
 void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run);
 
 /// Makes arcs of the side valleys the land has grown, where the recipe wants them.
-void add_side_valleys(Terrain& terrain, measure::Drainage const& drainage, Diary& diary, Run const& run);
+void add_side_valleys(Terrain& terrain, flow::FlowField const& drainage, Diary& diary, Run const& run);
 
 } // namespace thalweg::pipeline

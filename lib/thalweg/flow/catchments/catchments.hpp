@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/flow_field.hpp>
+
+namespace thalweg::flow {
+
+/// By cell, the place in cells of the river cell that its water meets first by D8; -1 where it leaves the grid without
+/// meeting one, or without data. Takes: cells as river_cells gives them. Throws: BadInput at 2^31 of them; Cancelled.
+Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField const& drainage, Run const& run = {});
+
+/// The area that each reach drains by itself.
+struct Catchments {
+    Raster<std::int32_t> reach;         ///< by cell: number of the reach; -1 for none
+    std::vector<std::int64_t> cells;    ///< by reach: of its own catchment; 0 where others own its cells
+    std::vector<std::int64_t> upstream; ///< by reach: cells of its catchment and of all those upstream
+    std::int64_t without = 0;           ///< cells with data in no catchment
+};
+
+/// Incremental catchments of reaches: a cell belongs to the one that owns the first river cell its water meets by D8.
+/// Gives: each cell with data in exactly one catchment, or in none when its water leaves the grid without meeting a
+/// river; upstream as areas_d8 has ds_area, in cells. Throws: as river_cells; BadInput at 2^31 reaches; Cancelled.
+Catchments catchments(std::vector<Reach> const& reaches, FlowField const& drainage, Run const& run = {});
+
+} // namespace thalweg::flow

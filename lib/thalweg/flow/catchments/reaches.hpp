@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/grid.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/core/vec.hpp>
+
+namespace thalweg::flow {
+
+/// A piece of river as water knows it: where it runs, and what it runs into. Those of anyone's file too, whose parts
+/// may lie outside a DEM and need not meet.
+struct Reach {
+    std::vector<std::vector<Vec2>> lines; ///< [m] those parts of it that lie in the grid
+    std::int64_t ds = -1;                 ///< number of the reach downstream, -1 for none
+    std::int64_t id = 0;                  ///< by which messages name it
+};
+
+/// The arcs of a network, by number, with their arc_id. Throws: BadInput naming the node where a river parts.
+std::vector<Reach> reaches_of(StreamNetwork const& network);
+
+/// By reach: the reaches to the outlet, itself included: 1 for those that run into none.
+/// Throws: BadInput naming a reach when its ds is the number of none, or rivers run in a circle.
+std::vector<std::int64_t> steps_to_outlet(std::vector<Reach> const& reaches);
+
+/// A cell under rivers and the reach that owns it.
+struct RiverCell {
+    std::int64_t cell = 0;
+    std::size_t reach = 0;
+};
+
+/// The cells under reaches (cells_along), ascending, each once. One under several belongs to the reach with the fewest
+/// steps to the outlet (ties: lower number): the cell of a confluence to the reach that leaves it.
+/// Throws: BadInput naming a reach with a line outside the grid; as steps_to_outlet; Cancelled.
+std::vector<RiverCell> river_cells(std::vector<Reach> const& reaches, Grid const& grid, Run const& run = {});
+
+} // namespace thalweg::flow

@@ -1,0 +1,350 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/flow/conditioning/internal/carve.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells/framed.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/conditioning/dem_change.hpp>
+#include <thalweg/flow/conditioning/internal/flood.hpp>
+#include <thalweg/flow/conditioning/internal/small_step.hpp>
+#include <thalweg/flow/direction.hpp>
+
+namespace thalweg::flow {
+
+namespace {
+
+/// Cells whose water stands at one level.
+struct Lake {
+    std::vector<std::int64_t> cells;
+    float level = 0.0F;
+};
+
+/// A height by which a queue hands out the lowest first, ties by index.
+template <class Key>
+using Lowest =
+    std::priority_queue<std::pair<Key, std::int64_t>, std::vector<std::pair<Key, std::int64_t>>, std::greater<>>;
+
+class Carver {
+public:
+    Carver(Raster<float> const& dem, Raster<float> const& valley, Raster<float> const& least, int heights,
+           Run const& run)
+        : heights_(heights), land_(framed(dem)), level_(land_), rivers_(framed(valley)), least_(framed(least)),
+          run_(run), offsets_(d8_offsets(land_.grid())), seen_(land_.grid()), cost_(land_.grid()),
+          height_(land_.grid()), back_(land_.grid()) {
+        flood(level_, rivers_, Lakes::level, run_);
+    }
+
+    /// Cuts where that is cheaper than filling. Gives: the land, which is still to be filled.
+    Raster<float> cut() {
+        std::vector<std::int64_t> all;
+        for (std::int64_t i = 0; i < land_.cells(); ++i) {
+            if (level_[i] > land_[i]) {
+                all.push_back(i);
+            }
+        }
+        std::vector<Lake> lakes = lakes_among(all);
+        // Lower pits first: what lies lower than a pit then drains already.
+        std::vector<std::tuple<float, std::int64_t, std::size_t>> order;
+        for (std::size_t k = 0; k < lakes.size(); ++k) {
+            std::int64_t const pit = pit_of(lakes[k]);
+            order.emplace_back(land_[pit], pit, k);
+        }
+        std::sort(order.begin(), order.end());
+        std::size_t done = 0;
+        for (auto const& [z, pit, k] : order) {
+            if (++done % 64 == 0) {
+                run_.at(static_cast<double>(done) / static_cast<double>(order.size()), "carve");
+            }
+            settle(lakes[k].cells);
+            lakes[k] = {};
+        }
+        return std::move(land_);
+    }
+
+private:
+    /// Before a change, to take it back.
+    struct Was {
+        std::int64_t cell;
+        float land;
+        float level;
+    };
+
+    std::int64_t pit_of(Lake const& lake) const {
+        return *std::min_element(lake.cells.begin(), lake.cells.end(), [this](std::int64_t a, std::int64_t b) {
+            return land_[a] != land_[b] ? land_[a] < land_[b] : a < b;
+        });
+    }
+
+    /// The lakes that stand on some of these cells, by their first cell.
+    std::vector<Lake> lakes_among(std::vector<std::int64_t> const& cells) {
+        std::vector<Lake> lakes;
+        ++stamp_;
+        for (std::int64_t const first : cells) {
+            if (seen_[first] == stamp_ || !(level_[first] > land_[first])) {
+                continue;
+            }
+            Lake lake{{first}, level_[first]};
+            seen_[first] = stamp_;
+            for (std::size_t k = 0; k < lake.cells.size(); ++k) {
+                for (std::int64_t const step : offsets_) {
+                    std::int64_t const n = lake.cells[k] + step;
+                    if (seen_[n] != stamp_ && level_[n] > land_[n]) { // never NaN
+                        seen_[n] = stamp_;
+                        lake.cells.push_back(n);
+                    }
+                }
+            }
+            std::sort(lake.cells.begin(), lake.cells.end());
+            lakes.push_back(std::move(lake));
+        }
+        return lakes;
+    }
+
+    /// Levels of these cells, after the land has changed there or beside them.
+    void flood_again(std::vector<std::int64_t> const& cells) {
+        ++stamp_;
+        for (std::int64_t const i : cells) {
+            seen_[i] = stamp_; // still dry
+        }
+        Lowest<float> queue;
+        for (std::int64_t const i : cells) {
+            float lowest = std::numeric_limits<float>::infinity();
+            for (std::int64_t const step : offsets_) {
+                if (seen_[i + step] != stamp_ && level_[i + step] < lowest) { // never NaN
+                    lowest = level_[i + step];
+                }
+            }
+            level_[i] = std::max(land_[i], lowest);
+            if (std::isfinite(lowest)) {
+                queue.emplace(level_[i], i);
+            }
+        }
+        while (!queue.empty()) {
+            auto const [z, i] = queue.top();
+            queue.pop();
+            if (z > level_[i]) {
+                continue;
+            }
+            for (std::int64_t const step : offsets_) {
+                std::int64_t const n = i + step;
+                if (seen_[n] == stamp_ && std::max(land_[n], z) < level_[n]) {
+                    level_[n] = std::max(land_[n], z);
+                    queue.emplace(level_[n], n);
+                }
+            }
+        }
+    }
+
+    /// Settles what stands on these cells now: earlier cuts may have lowered the water there.
+    void settle(std::vector<std::int64_t> const& cells) {
+        flood_again(cells);
+        for (Lake const& lake : lakes_among(cells)) {
+            drain(lake, 0);
+            changes_.clear();
+        }
+    }
+
+    double volume_below(Lake const& lake, float height) const {
+        double volume = 0.0;
+        for (std::int64_t const i : lake.cells) {
+            volume += std::max(0.0, static_cast<double>(height) - static_cast<double>(land_[i]));
+        }
+        return volume;
+    }
+
+    double raise_to(Lake const& lake, float height) {
+        double const volume = volume_below(lake, height);
+        for (std::int64_t const i : lake.cells) {
+            if (land_[i] < height) {
+                set(i, height, level_[i]);
+            }
+        }
+        return volume;
+    }
+
+    /// Of cuts from the pit's own height and from some between it and the water's, where that of the one begins which
+    /// moves the least: where a river's bank must not be cut, a pit below it is better filled as far as the bank.
+    std::optional<float> cheapest_cut(Lake const& lake, double full) {
+        std::optional<float> best;
+        float const bottom = land_[pit_of(lake)];
+        double bound = full;
+        for (int k = 0; k < heights_; ++k) {
+            float const share = static_cast<float>(k) / static_cast<float>(heights_);
+            float const from = bottom + (lake.level - bottom) * share;
+            double const filled = volume_below(lake, from);
+            if (!(filled < bound)) {
+                break;
+            }
+            std::size_t const mark = changes_.size();
+            raise_to(lake, from);
+            if (std::int64_t const end = way_out(pit_of(lake), bound - filled); end != nowhere) {
+                best = from;
+                bound = filled + cost_[end];
+            }
+            take_back(mark);
+        }
+        return best;
+    }
+
+    /// Fills a lake or cuts it. Gives: the volume moved, in metres times cells.
+    double drain(Lake const& lake, int depth) {
+        double full = 0.0;
+        for (std::int64_t const i : lake.cells) {
+            full += static_cast<double>(lake.level) - static_cast<double>(land_[i]);
+        }
+        std::size_t const mark = changes_.size();
+        if (auto const from = depth < deepest ? cheapest_cut(lake, full) : std::nullopt) {
+            double moved = raise_to(lake, *from);
+            moved += cut_back_from(way_out(pit_of(lake), full));
+            flood_again(lake.cells);
+            for (Lake const& rest : lakes_among(lake.cells)) {
+                moved += drain(rest, depth + 1);
+            }
+            if (moved < full) {
+                return moved;
+            }
+            take_back(mark);
+        }
+        for (std::int64_t const i : lake.cells) {
+            set(i, lake.level, lake.level);
+        }
+        return full;
+    }
+
+    void set(std::int64_t i, float land, float level) {
+        changes_.push_back({i, land_[i], level_[i]});
+        land_[i] = land;
+        level_[i] = level;
+    }
+
+    void take_back(std::size_t mark) {
+        for (; changes_.size() > mark; changes_.pop_back()) {
+            Was const& was = changes_.back();
+            land_[was.cell] = was.land;
+            level_[was.cell] = was.level;
+        }
+    }
+
+    bool leaves(std::int64_t i) const {
+        return std::any_of(offsets_.begin(), offsets_.end(),
+                           [&](std::int64_t step) { return std::isnan(land_[i + step]); });
+    }
+
+    /// The last cell to be cut of the way from a pit to what drains that moves the least, less than a bound.
+    std::int64_t way_out(std::int64_t pit, double bound) {
+        ++stamp_;
+        Lowest<double> queue;
+        seen_[pit] = stamp_;
+        cost_[pit] = 0.0;
+        height_[pit] = land_[pit];
+        back_[pit] = Direction::leaves;
+        queue.emplace(0.0, pit);
+        while (!queue.empty()) {
+            auto const [cost, i] = queue.top();
+            queue.pop();
+            if (cost > cost_[i]) {
+                continue;
+            }
+            float const height = just_below(height_[i]);
+            bool done = leaves(i);
+            for (std::size_t k = 0; !done && k < offsets_.size(); ++k) {
+                std::int64_t const n = i + offsets_[k];
+                done = land_[n] <= height && level_[n] == land_[n];
+            }
+            if (done) {
+                return i;
+            }
+            for (std::size_t k = 0; k < offsets_.size(); ++k) {
+                std::int64_t const n = i + offsets_[k];
+                if (!std::isnan(rivers_[n]) || (least_[n] > height && land_[n] > height)) {
+                    continue;
+                }
+                double const there = cost + std::max(0.0, static_cast<double>(land_[n]) - static_cast<double>(height));
+                if (there < bound && (seen_[n] != stamp_ || there < cost_[n])) {
+                    seen_[n] = stamp_;
+                    cost_[n] = there;
+                    height_[n] = height;
+                    back_[n] = direction_of(k);
+                    queue.emplace(there, n);
+                }
+            }
+        }
+        return nowhere;
+    }
+
+    /// Cuts the way that was found. Gives: the volume.
+    double cut_back_from(std::int64_t end) {
+        double moved = 0.0;
+        for (std::int64_t i = end;; i -= offsets_[index_of(back_[i])]) {
+            float const height = std::min(land_[i], height_[i]);
+            moved += static_cast<double>(land_[i]) - static_cast<double>(height);
+            set(i, height, height);
+            if (!goes_on(back_[i])) {
+                return moved;
+            }
+        }
+    }
+
+    static constexpr std::int64_t nowhere = -1;
+    int heights_;                      ///< at which a cut may begin, the pit's own the first
+    static constexpr int deepest = 64; ///< lakes in lakes; what lies deeper is filled
+
+    Raster<float> land_;
+    Raster<float> level_;
+    Raster<float> rivers_;
+    Raster<float> least_;
+    Run const& run_;
+    std::array<std::int64_t, 8> offsets_;
+    std::vector<Was> changes_;
+    std::uint32_t stamp_ = 0;
+    Raster<std::uint32_t> seen_; ///< the stamp of the last search that came here
+    Raster<double> cost_;        ///< of that search
+    Raster<float> height_;       ///< to which the way through this cell is to be cut
+    Raster<Direction> back_;     ///< the step that led here; leaves in the pit
+};
+
+} // namespace
+
+Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float> const& least, Run const& run) {
+    check_drainable(dem, valley);
+    if (least.grid() != dem.grid()) {
+        throw BadInput(fmt::format("flow.carve: the least heights have {} x {} cells, the land {} x {}; make both "
+                                   "on one grid",
+                                   least.width(), least.height(), dem.width(), dem.height()));
+    }
+    // Pits below a river's banks want to be filled before they are cut. A cut that is the better one for its lake may
+    // leave others more to do: so the better of both ways of the whole land.
+    bool const banks =
+        std::any_of(least.values().begin(), least.values().end(), [](float z) { return !std::isnan(z); });
+    std::optional<Raster<float>> best;
+    double moved = 0.0;
+    for (int const heights : {1, 8}) {
+        if (heights > 1 && !banks) {
+            break;
+        }
+        Raster<float> cut = Carver(dem, valley.z, least, heights, run).cut();
+        flood(cut, framed(valley.z), Lakes::slope, run);
+        Raster<float> drained = unframed(cut, dem.grid());
+        double const volume = change_between(dem, drained).volume_m3();
+        if (!best || volume < moved) {
+            best = std::move(drained);
+            moved = volume;
+        }
+    }
+    return *std::move(best);
+}
+
+} // namespace thalweg::flow

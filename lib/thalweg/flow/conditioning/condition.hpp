@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/valley.hpp>
+#include <thalweg/flow/conditioning/dem_change.hpp>
+
+namespace thalweg::flow {
+
+enum class Conditioning : std::uint8_t { none, fill, carve };
+
+struct ConditionParams {
+    Conditioning method = Conditioning::carve;
+};
+
+struct ConditionedDem {
+    Raster<float> dem;
+    DemChange banks;       ///< raised so that rivers keep their water (raise_banks)
+    DemChange depressions; ///< filled or cut after that
+};
+
+/// Conditions a DEM hydrologically: its rivers drain it, in the very floats that are written, after the least change.
+/// Takes: a DEM whose river cells stand at the valley's heights; a valley without any where there are no rivers, or
+/// none to be honoured.
+/// Gives: river cells keep their heights bit for bit; otherwise as raise_banks, then fill or carve. Method none changes
+/// nothing. Throws: as those.
+ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParams const& params = {},
+                         Run const& run = {});
+
+} // namespace thalweg::flow

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/flow/routing/route.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells/framed.hpp>
+#include <thalweg/core/numbers/compensated_sum.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/flow/internal/each_downstream.hpp>
+#include <thalweg/flow/internal/priority_flood.hpp>
+#include <thalweg/flow/steepest_descent.hpp>
+
+namespace thalweg::flow {
+
+namespace {
+
+using Sinks = std::vector<std::int64_t>; ///< cells, ascending
+
+bool contains(Sinks const& sinks, std::int64_t cell) {
+    return std::binary_search(sinks.begin(), sinks.end(), cell);
+}
+
+/// Raises depressions to the level at which they spill. Gives: the way back to where the flood came from.
+Raster<Direction> raise_to_spill(Raster<float>& level, Sinks const& sinks, Run const& run) {
+    auto const is_sink = [&](std::int64_t i) { return contains(sinks, i); };
+    return priority_flood(
+        level, is_sink, [](float z) { return z; }, "drain", run);
+}
+
+/// Turns cells that have a lower neighbour towards the one down the steepest slope. With the flood's way for the others
+/// there is no cycle: each step leads lower, or level to a cell that the flood reached earlier.
+void descend(Raster<float> const& level, Sinks const& sinks, Raster<Direction>& direction, Run const& run) {
+    auto const offsets = d8_offsets(level.grid());
+    parallel_ranges(run, level.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) {
+            if (std::isnan(level[i]) || contains(sinks, i)) {
+                continue;
+            }
+            Descent const down = steepest_descent(level[i], [&](std::size_t k) { return level[i + offsets[k]]; });
+            direction[i] = down.direction == Direction::leaves ? direction[i] : down.direction;
+        }
+    });
+}
+
+void accumulate(FlowField& drainage, Run const& run) {
+    for (std::int64_t i = 0; i < drainage.area_cells.cells(); ++i) {
+        drainage.area_cells[i] = drainage.direction[i] == Direction::no_data ? 0 : 1;
+    }
+    each_downstream(drainage.direction, run, [&](std::int64_t cell, std::int64_t receiver) {
+        drainage.area_cells[receiver] += drainage.area_cells[cell];
+    });
+}
+
+/// The depressions of a DEM under its water, which is gone afterwards.
+std::vector<Depression> take_depressions(Raster<float> const& dem, Raster<float>& level, Run const& run) {
+    std::vector<Depression> found;
+    Grid const& grid = dem.grid();
+    auto const inner = [&](std::int64_t i) {
+        Cell const c = level.grid().at(i);
+        return Cell{c.col - 1, c.row - 1};
+    };
+    auto const offsets = d8_offsets(level.grid());
+    std::vector<std::int64_t> open;
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        run.check();
+        for (std::int64_t col = 0; col < grid.width; ++col) {
+            std::int64_t const first = level.grid().index({col + 1, row + 1});
+            if (!(level[first] > dem[Cell{col, row}])) {
+                continue;
+            }
+            Depression depression{{col, row}};
+            CompensatedSum depth_m;
+            auto const take = [&](std::int64_t i, Cell c) {
+                double const depth = static_cast<double>(level[i]) - static_cast<double>(dem[c]);
+                if (dem[c] < dem[depression.lowest] ||
+                    (dem[c] == dem[depression.lowest] && grid.index(c) < grid.index(depression.lowest))) {
+                    depression.lowest = c;
+                }
+                ++depression.cells;
+                depression.max_depth_m = std::max(depression.max_depth_m, depth);
+                depth_m.add(depth);
+                level[i] = dem[c];
+                open.push_back(i);
+            };
+            take(first, {col, row});
+            while (!open.empty()) {
+                std::int64_t const i = open.back();
+                open.pop_back();
+                for (std::int64_t const step : offsets) {
+                    std::int64_t const n = i + step;
+                    if (std::isnan(level[n])) {
+                        continue;
+                    }
+                    if (Cell const c = inner(n); level[n] > dem[c]) {
+                        take(n, c);
+                    }
+                }
+            }
+            depression.volume_m3 = depth_m.value() * grid.cell_m * grid.cell_m;
+            found.push_back(depression);
+        }
+    }
+    return found;
+}
+
+/// In the framed DEM, ascending.
+Sinks framed_sinks(Raster<float> const& dem, Grid const& framed, std::vector<std::int64_t> const& sinks) {
+    Sinks cells;
+    for (std::int64_t const sink : sinks) {
+        if (sink < 0 || sink >= dem.cells() || std::isnan(dem[sink])) {
+            throw BadInput(fmt::format("flow.route: the sink in cell {} has no height; give cells of the DEM", sink));
+        }
+        Cell const c = dem.grid().at(sink);
+        cells.push_back(framed.index({c.col + 1, c.row + 1}));
+    }
+    std::sort(cells.begin(), cells.end());
+    return cells;
+}
+
+} // namespace
+
+FlowField route(Raster<float> const& dem, Run const& run) {
+    return route(dem, {}, run);
+}
+
+FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks, Run const& run) {
+    Grid const& grid = dem.grid();
+    if (grid.cells() == 0) {
+        throw BadInput("flow.route: the DEM has no cells");
+    }
+    auto const values = dem.values();
+    auto const infinite = std::find_if(values.begin(), values.end(), [](float z) { return std::isinf(z); });
+    if (infinite != values.end()) {
+        Cell const cell = grid.at(infinite - values.begin());
+        throw BadInput(
+            fmt::format("flow.route: the height at column {}, row {} is infinite; mark cells without data as NaN",
+                        cell.col, cell.row));
+    }
+    FlowField result{Raster<Direction>(grid), Raster<std::int64_t>(grid)};
+    {
+        Raster<float> level = framed(dem);
+        Sinks const ends = framed_sinks(dem, level.grid(), sinks);
+        Raster<Direction> direction = raise_to_spill(level, ends, run);
+        descend(level, ends, direction, run);
+        CompensatedSum raised_m;
+        for (std::int64_t r = 0; r < grid.height; ++r) {
+            auto const before = dem.row(r);
+            auto const after = level.row(r + 1).subspan(1, before.size());
+            for (std::size_t c = 0; c < before.size(); ++c) {
+                if (after[c] > before[c]) {
+                    ++result.pits;
+                    raised_m.add(static_cast<double>(after[c]) - before[c]);
+                }
+            }
+            auto const ways = direction.row(r + 1).subspan(1, before.size());
+            std::copy(ways.begin(), ways.end(), result.direction.row(r).begin());
+        }
+        result.pit_volume_m3 = raised_m.value() * grid.cell_m * grid.cell_m;
+        result.depressions = take_depressions(dem, level, run);
+    }
+    accumulate(result, run);
+    return result;
+}
+
+} // namespace thalweg::flow

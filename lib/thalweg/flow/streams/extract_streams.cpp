@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/flow/streams/extract_streams.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+
+namespace thalweg::flow {
+
+namespace {
+
+/// The cells of rivers in which nodes lie, ascending.
+std::vector<std::int64_t> node_cells(FlowField const& drainage, std::int64_t support, Run const& run) {
+    Raster<std::int64_t> const& area = drainage.area_cells;
+    Raster<std::int8_t> arriving(area.grid());
+    for (std::int64_t i = 0; i < area.cells(); ++i) {
+        if (i % cells_between_checks == 0) {
+            run.check();
+        }
+        if (std::int64_t const next = area[i] >= support ? drainage.receiver(i) : -1; next >= 0) {
+            ++arriving[next];
+        }
+    }
+    std::vector<std::int64_t> nodes;
+    for (std::int64_t i = 0; i < area.cells(); ++i) {
+        bool const leaves = area[i] >= support && drainage.receiver(i) < 0;
+        if (area[i] >= support && (leaves ? arriving[i] > 0 : arriving[i] != 1)) {
+            nodes.push_back(i);
+        }
+    }
+    return nodes;
+}
+
+/// So many steps of water from cell to cell.
+struct Steps {
+    std::int64_t straight = 0;
+    std::int64_t diagonal = 0;
+
+    void add(Direction way) { ++(is_diagonal(way) ? diagonal : straight); }
+    void add(Steps const& more) {
+        straight += more.straight;
+        diagonal += more.diagonal;
+    }
+    /// Their length in sides of cells.
+    double cells() const { return static_cast<double>(straight) + static_cast<double>(diagonal) * std::sqrt(2.0); }
+};
+
+/// What outlets drain beside the arcs that end in them goes to the first of these, as areas_d8 has it.
+void give_outlets(StreamNetwork const& plan, ContributingAreas& areas) {
+    NetworkIndex const index(plan);
+    for (NodeId const outlet : index.outlets) {
+        double const brought =
+            std::accumulate(index.in[outlet].begin(), index.in[outlet].end(), 0.0, [&](double sum, std::int64_t a) {
+                return sum + areas.ds_area_m2[static_cast<std::size_t>(a)];
+            });
+        areas.ds_area_m2[static_cast<std::size_t>(index.in[outlet].front())] += areas.node_m2[outlet] - brought;
+    }
+}
+
+} // namespace
+
+ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const& dem,
+                                 ExtractStreamsParams const& params, Run const& run) {
+    Grid const& grid = drainage.area_cells.grid();
+    if (params.support_cells < 1) {
+        throw BadParameter(
+            fmt::format("flow.extract_streams: the support is {} cells; it must be at least 1", params.support_cells));
+    }
+    if (grid.width != dem.width() || grid.height != dem.height()) {
+        throw BadInput(fmt::format("flow.extract_streams: a DEM of {} x {} cells and the drainage of {} x {}; drain "
+                                   "the DEM itself",
+                                   dem.width(), dem.height(), grid.width, grid.height));
+    }
+    ExtractedStreams streams;
+    StreamNetwork& plan = streams.network.plan;
+    streams.areas.source = "d8";
+    double const cell_m2 = grid.cell_m * grid.cell_m;
+    auto const area_m2 = [&](std::int64_t cell) { return static_cast<double>(drainage.area_cells[cell]) * cell_m2; };
+
+    auto const cells = node_cells(drainage, params.support_cells, run);
+    for (std::int64_t const cell : cells) {
+        NodeId const node = boost::add_vertex(plan);
+        plan[node].at = grid.centre(grid.at(cell));
+        streams.network.node_z.push_back(dem[cell]);
+        streams.areas.node_m2.push_back(area_m2(cell));
+    }
+    for (std::size_t from = 0; from < cells.size(); ++from) {
+        run.check();
+        std::int64_t at = drainage.receiver(cells[from]);
+        if (at < 0) {
+            continue;
+        }
+        Arc arc;
+        arc.line.push_back(plan[from].at);
+        std::vector<double> z{dem[cells[from]]};
+        std::int64_t last = cells[from];
+        auto to = cells.end();
+        for (;; last = at, at = drainage.receiver(at)) {
+            arc.line.push_back(grid.centre(grid.at(at)));
+            z.push_back(dem[at]);
+            to = std::lower_bound(cells.begin(), cells.end(), at);
+            if (to != cells.end() && *to == at) {
+                break;
+            }
+        }
+        add_arc(plan, from, static_cast<NodeId>(to - cells.begin()), std::move(arc));
+        streams.network.arc_z.push_back(std::move(z));
+        streams.areas.us_area_m2.push_back(area_m2(cells[from]));
+        streams.areas.ds_area_m2.push_back(area_m2(last));
+    }
+    give_outlets(plan, streams.areas);
+    return streams;
+}
+
+std::int64_t support_for_length(FlowField const& drainage, double length_m, Run const& run) {
+    if (!(length_m > 0.0) || std::isinf(length_m)) {
+        throw BadParameter(fmt::format("flow.support_for_length: the length is {} m; it must be above 0", length_m));
+    }
+    Raster<std::int64_t> const& area = drainage.area_cells;
+    auto const octave_of = [&](std::int64_t cell) {
+        return static_cast<std::size_t>(std::bit_width(static_cast<std::uint64_t>(area[cell]))) - 1;
+    };
+    std::array<Steps, 64> octaves{}; // by the highest bit of the area
+    for (std::int64_t i = 0; i < area.cells(); ++i) {
+        if (i % cells_between_checks == 0) {
+            run.check();
+        }
+        if (goes_on(drainage.direction[i])) {
+            octaves[octave_of(i)].add(drainage.direction[i]);
+        }
+    }
+    double const enough = length_m / area.grid().cell_m;
+    Steps larger; // those of areas above the octave in which the support lies
+    std::size_t octave = octaves.size();
+    for (Steps with = larger; octave-- > 0; larger = with) {
+        with.add(octaves[octave]);
+        if (with.cells() >= enough) {
+            break;
+        }
+    }
+    if (octave >= octaves.size()) {
+        return 1;
+    }
+    std::vector<std::pair<std::int64_t, Direction>> within;
+    for (std::int64_t i = 0; i < area.cells(); ++i) {
+        if (goes_on(drainage.direction[i]) && octave_of(i) == octave) {
+            within.emplace_back(area[i], drainage.direction[i]);
+        }
+    }
+    std::sort(within.begin(), within.end(), std::greater<>());
+    for (auto const& [support, way] : within) {
+        larger.add(way);
+        if (larger.cells() >= enough) {
+            return support;
+        }
+    }
+    return 1;
+}
+
+} // namespace thalweg::flow

@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/flow/routing/route.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+
+#include <measure/dems.hpp>
+#include <measure/trees.hpp>
+
+using namespace thalweg;
+using flow::areas_d8;
+using flow::areas_nearest;
+using flow::ContributingAreas;
+
+namespace {
+
+using Numbers = std::vector<double>;
+
+/// A river down the middle column of five rows, joined from the west in its middle cell.
+StreamNetwork small_rivers() {
+    StreamNetwork net;
+    auto const north = add_node(net, {2.5, 4.5});
+    auto const west = add_node(net, {0.5, 2.5});
+    auto const joint = add_node(net, {2.5, 2.5});
+    auto const mouth = add_node(net, {2.5, 0.5});
+    add_arc(net, north, joint, {});
+    add_arc(net, west, joint, {});
+    add_arc(net, joint, mouth, {});
+    return net;
+}
+
+/// Areas by walking: which arc each cell of the grid belongs to, and whether an arc's water passes another.
+ContributingAreas nearest_slowly(StreamNetwork const& network, Grid const& grid) {
+    NetworkIndex const index(network);
+    std::size_t const arcs = index.arcs.size();
+    auto const next = [&](std::size_t a) { return index.out[index.to[a]]; };
+    auto const passes = [&](std::size_t a, std::size_t b) {
+        std::int64_t at = static_cast<std::int64_t>(a);
+        while (at >= 0 && at != static_cast<std::int64_t>(b)) {
+            at = next(static_cast<std::size_t>(at));
+        }
+        return at >= 0;
+    };
+    std::map<std::int64_t, std::pair<std::int64_t, std::size_t>> owner; // cell -> arcs to the outlet, arc
+    for (std::size_t a = 0; a < arcs; ++a) {
+        std::int64_t depth = 0;
+        for (std::int64_t at = static_cast<std::int64_t>(a); at >= 0; at = next(static_cast<std::size_t>(at))) {
+            ++depth;
+        }
+        for (Cell const c : cells_along(network[index.arcs[a]].line, grid)) {
+            auto const [it, added] = owner.try_emplace(grid.index(c), depth, a);
+            it->second = std::min(it->second, std::pair{depth, a});
+        }
+    }
+    double const cell_m2 = grid.cell_m * grid.cell_m;
+    ContributingAreas areas{Numbers(arcs, 0.0), Numbers(arcs, 0.0), Numbers(boost::num_vertices(network), 0.0)};
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        std::tuple<std::int64_t, std::int64_t> best{grid.cells() * 4, 0};
+        for (auto const& [v, whose] : owner) {
+            std::int64_t const apart =
+                std::abs(grid.at(i).col - grid.at(v).col) + std::abs(grid.at(i).row - grid.at(v).row);
+            best = std::min(best, std::tuple{apart, v});
+        }
+        std::int64_t const cell = std::get<1>(best);
+        std::size_t const a = owner.at(cell).second;
+        bool const at_start = cell == grid.index(grid.cell_of(network[index.from[a]].at));
+        for (std::size_t b = 0; b < arcs; ++b) {
+            if (passes(a, b)) {
+                areas.ds_area_m2[b] += cell_m2;
+                areas.us_area_m2[b] += a != b || at_start ? cell_m2 : 0.0;
+            }
+        }
+    }
+    for (std::size_t b = 0; b < arcs; ++b) {
+        areas.node_m2[index.from[b]] = areas.us_area_m2[b];
+        areas.node_m2[index.to[b]] += next(b) < 0 ? areas.ds_area_m2[b] : 0.0;
+    }
+    return areas;
+}
+
+/// Rivers on lattices finer or coarser than the cells: reaches share cells, and nodes do.
+rc::Gen<std::pair<StreamNetwork, Grid>> gen_rivers() {
+    return rc::gen::exec([] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        auto const cols = *evenly<std::int64_t>(1, 9);
+        auto const rows = *evenly<std::int64_t>(2, 9);
+        double const spacing = *rc::gen::element(0.3, 0.5, 1.0, 1.7, 3.0);
+        auto const cells = [&](std::int64_t points) {
+            return static_cast<std::int64_t>(std::ceil(static_cast<double>(points) * spacing)) +
+                   *evenly<std::int64_t>(0, 4);
+        };
+        Grid const grid = frame(cells(cols), cells(rows));
+        return std::pair{random_rivers(seed, cols, rows, spacing).plan, grid};
+    });
+}
+
+} // namespace
+
+TEST(AreasNearest, NoRiversNoAreas) {
+    ContributingAreas const areas = areas_nearest({}, frame(3, 3));
+    EXPECT_TRUE(areas.us_area_m2.empty());
+    EXPECT_TRUE(areas.node_m2.empty());
+    StreamNetwork lonely;
+    add_node(lonely, {0.5, 0.5});
+    EXPECT_EQ(areas_nearest(lonely, frame(3, 3)).node_m2, Numbers{0.0});
+}
+
+TEST(AreasNearest, RefusesWhatIsNoTreeOrOutside) {
+    StreamNetwork net = small_rivers();
+    try {
+        areas_nearest(net, frame(5, 4));
+        FAIL() << "a vertex outside the grid passed";
+    } catch (BadInput const& e) {
+        EXPECT_NE(std::string(e.what()).find("arc 1"), std::string::npos) << e.what();
+    }
+    add_arc(net, 2, 1, {});
+    EXPECT_THROW(areas_nearest(net, frame(5, 5)), BadInput);
+    StreamNetwork circle;
+    for (double const x : {0.5, 1.5}) {
+        add_node(circle, {x, 0.5});
+    }
+    add_arc(circle, 0, 1, {});
+    add_arc(circle, 1, 0, {});
+    EXPECT_THROW(areas_nearest(circle, frame(5, 5)), BadInput);
+}
+
+TEST(AreasNearest, SmallRivers) {
+    // By column and row from the north-west: arc 1 owns (2,0), (2,1), arc 2 (0,2), (1,2), arc 3 the rest of column 2.
+    // Of the cells that are as near to two, (0,0) goes to (2,0), (1,1) to (2,1), (1,3) to (1,2) and (0,4) to (0,2).
+    Grid grid = frame(5, 5);
+    ContributingAreas const areas = areas_nearest(small_rivers(), grid);
+    EXPECT_EQ(areas.us_area_m2, (Numbers{5, 4, 18}));
+    EXPECT_EQ(areas.ds_area_m2, (Numbers{9, 6, 25}));
+    EXPECT_EQ(areas.node_m2, (Numbers{5, 4, 18, 25}));
+    EXPECT_STREQ(areas.source, "nearest");
+    grid.cell_m = 10.0;
+    grid.north = 50.0;
+    StreamNetwork wide = small_rivers();
+    for (NodeId n = 0; n < 4; ++n) {
+        wide[n].at = {wide[n].at.x * 10.0, wide[n].at.y * 10.0};
+    }
+    for (ArcId const a : NetworkIndex(wide).arcs) {
+        wide[a].line = {wide[boost::source(a, wide)].at, wide[boost::target(a, wide)].at};
+    }
+    EXPECT_EQ(areas_nearest(wide, grid).ds_area_m2, (Numbers{900, 600, 2500}));
+}
+
+TEST(AreasNearest, FollowTheDefinitionAndItsLaws) {
+    ASSERT_TRUE(rc::check("areas are those found by walking, and grow downstream to the whole grid", [] {
+        auto const [network, grid] = *gen_rivers();
+        ContributingAreas const fast = areas_nearest(network, grid);
+        ContributingAreas const slow = nearest_slowly(network, grid);
+        RC_ASSERT(fast.us_area_m2 == slow.us_area_m2);
+        RC_ASSERT(fast.ds_area_m2 == slow.ds_area_m2);
+        RC_ASSERT(fast.node_m2 == slow.node_m2);
+
+        NetworkIndex const index(network);
+        double at_outlets = 0.0;
+        for (NodeId const n : index.outlets) {
+            at_outlets += fast.node_m2[n];
+        }
+        RC_ASSERT(at_outlets == static_cast<double>(grid.cells()));
+        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+            RC_ASSERT(fast.us_area_m2[a] <= fast.ds_area_m2[a]);
+            double arriving = 0.0;
+            for (auto const b : index.in[index.from[a]]) {
+                arriving += fast.ds_area_m2[static_cast<std::size_t>(b)];
+            }
+            RC_ASSERT(arriving <= fast.us_area_m2[a]);
+        }
+    }));
+}
+
+TEST(AreasD8, SmallRiversInTheirValley) {
+    // The bed falls by 2 a row and along the tributary by 1 a column; the banks fall towards the beds.
+    Raster<float> const dem = dem_of(5, {30, 29, 20, 29, 30, //
+                                         30, 29, 18, 29, 30, //
+                                         18, 17, 16, 29, 30, //
+                                         30, 29, 14, 29, 30, //
+                                         30, 29, 12, 29, 30});
+    auto const drainage = flow::route(dem);
+    ContributingAreas const areas = areas_d8(small_rivers(), drainage);
+    auto const& d8 = drainage.area_cells;
+    auto const at = [&](std::int64_t col, std::int64_t row) { return static_cast<double>(d8[Cell{col, row}]); };
+    // The tributary stays a river to its confluence, though the DEM is steepest diagonally past it.
+    EXPECT_EQ(at(2, 2), 11.0);
+    EXPECT_EQ(areas.us_area_m2, (Numbers{at(2, 0), at(0, 2), 16.0}));
+    EXPECT_EQ(areas.ds_area_m2, (Numbers{at(2, 1), at(1, 2), at(2, 4)}));
+    EXPECT_EQ(areas.node_m2, (Numbers{at(2, 0), at(0, 2), 16.0, at(2, 4)}));
+    EXPECT_EQ(areas.node_m2.back(), 25.0);
+    EXPECT_STREQ(areas.source, "d8");
+}
+
+TEST(AreasD8, ArcInsideOneCellAndNodesOffTheGrid) {
+    StreamNetwork net;
+    for (double const y : {0.9, 0.5, 0.1}) {
+        add_node(net, {0.5, y});
+    }
+    add_arc(net, 0, 1, {});
+    add_arc(net, 1, 2, {});
+    auto const drainage = flow::route(dem_of(2, {1, 2}));
+    EXPECT_EQ(areas_d8(net, drainage).us_area_m2, (Numbers{0, 2}));
+    EXPECT_EQ(areas_d8(net, drainage).ds_area_m2, (Numbers{0, 2}));
+    add_node(net, {0.5, 7.0});
+    add_arc(net, 3, 0, {});
+    EXPECT_THROW(areas_d8(net, drainage), BadInput);
+}
+
+TEST(AreasD8, WaterOfARiverStaysInItWhereTheDemLeavesIt) {
+    // Beside the river's second cell stands a lower bank, and beyond it the edge: D8 leaves the river there.
+    Raster<float> const dem = dem_of(5, {30, 29, 20, 29, 30, //
+                                         30, 29, 18, 5,  4,  //
+                                         30, 29, 16, 29, 30, //
+                                         30, 29, 14, 29, 30, //
+                                         30, 29, 12, 29, 30});
+    StreamNetwork net;
+    add_node(net, {2.5, 4.5});
+    add_node(net, {2.5, 0.5});
+    add_arc(net, 0, 1, {});
+    auto const drainage = flow::route(dem);
+    ContributingAreas const areas = areas_d8(net, drainage);
+    EXPECT_LT((drainage.area_cells[Cell{2, 4}]), 15) << "the upper river is lost to the accumulation of the DEM";
+    EXPECT_GE(areas.ds_area_m2[0], 15.0);
+}
+
+TEST(AreasD8, FollowTheDefinitionAndItsLaws) {
+    ASSERT_TRUE(rc::check("every cell counts where its water first meets a river, and stays in it", [] {
+        auto const [net, grid] = *gen_rivers();
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        Raster<float> dem(grid);
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            dem[i] = static_cast<float>(chance(seed, static_cast<std::uint64_t>(i)) % 9);
+        }
+        auto const drainage = flow::route(dem);
+        ContributingAreas const areas = areas_d8(net, drainage);
+
+        std::set<std::int64_t> river;
+        NetworkIndex const index(net);
+        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+            for (Cell const c : cells_along(net[index.arcs[a]].line, grid)) {
+                river.insert(grid.index(c));
+            }
+            RC_ASSERT(areas.us_area_m2[a] <= areas.ds_area_m2[a]);
+            double arriving = 0.0;
+            for (std::int64_t const up : index.in[index.from[a]]) {
+                arriving += areas.ds_area_m2[static_cast<std::size_t>(up)];
+            }
+            RC_ASSERT(arriving <= areas.us_area_m2[a]);
+        }
+        std::int64_t reaching = 0;
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            std::int64_t at = i;
+            while (river.count(at) == 0 && goes_on(drainage.direction[at])) {
+                Cell const step = d8_steps[index_of(drainage.direction[at])];
+                at = grid.index({grid.at(at).col + step.col, grid.at(at).row + step.row});
+            }
+            reaching += river.count(at) != 0 ? 1 : 0;
+        }
+        double outlets = 0.0;
+        for (NodeId const n : index.outlets) {
+            outlets += areas.node_m2[n];
+        }
+        RC_ASSERT(outlets == static_cast<double>(reaching) * grid.cell_m * grid.cell_m);
+    }));
+}
