@@ -62,10 +62,9 @@ KnownBefore known_of_grid(Grid const& grid) {
     return {grid, grid.cells(), false, false};
 }
 
-KnownBefore known_of_lines(Recipe recipe, Run const& run) {
+KnownBefore known_of_lines(Recipe const& recipe, Run const& run) {
     RiverLines const lines = read_lines(recipe, run);
-    settle_on_lines(recipe, lines, run);
-    KnownBefore known = known_of_grid(frame_lines(lines, recipe.grid));
+    KnownBefore known = known_of_grid(frame_lines(lines, settle_on_lines(recipe, lines, run).recipe.grid));
     known.lines_have_z = lines.has_z;
     known.lines_have_coast =
         recipe.network->lines.coastlines == Coastlines::sea &&
