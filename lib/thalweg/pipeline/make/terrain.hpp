@@ -27,6 +27,7 @@
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/network/elevation/assign_types.hpp>
 #include <thalweg/network/order/count_streams.hpp>
+#include <thalweg/pipeline/make/drawn_land.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/network_story.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
@@ -36,42 +37,10 @@
 
 namespace thalweg::pipeline {
 
-/// How a solver came to its end.
-struct SolverStory {
-    std::int64_t iterations = 0;
-    double residual = 0.0; ///< relative
-};
-
-/// What became of a patch.
-struct PatchStory {
-    std::int64_t cells = 0;  ///< that it replaced
-    std::int64_t kept = 0;   ///< under it that rivers keep
-    double seam_max_m = 0.0; ///< as blend::Pasted
-    double seam_rms_m = 0.0;
-};
-
-/// What it took to make the land drain.
-struct DrainStory {
-    surface::LandChange banks;
-    surface::LandChange depressions;
-};
-
 /// Contributing areas [m2] by cell, NaN without data.
 struct WaterAreas {
     Raster<double> d8;
     Raster<double> dinf;
-};
-
-/// How a land came into equilibrium with its rivers.
-struct EquilibriumStory {
-    std::int64_t channel_cells = 0;   ///< in which rivers run
-    std::int64_t shortened_cells = 0; ///< of perched tips that are rivers no more
-    std::int64_t walled_cells = 0;    ///< of rivers whose given heights only walls hold up
-    double max_lowered_m = 0.0;       ///< soft: below the given heights
-    double p95_lowered_m = 0.0;
-    double rise = 0.0;             ///< as surface::EquilibriumLand
-    std::int64_t side_valleys = 0; ///< arcs that the land has grown, where they are asked for
-    std::int64_t side_valleys_left_out = 0;
 };
 
 /// A terrain with all that led to it.
