@@ -14,6 +14,7 @@
 #include <thalweg/network/elevation/raise_from_land.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
+#include <thalweg/pipeline/commands/internal/append.hpp>
 #include <thalweg/pipeline/make/internal/read_cells.hpp>
 #include <thalweg/pipeline/make/internal/type_rivers.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
@@ -170,15 +171,11 @@ DrawnLand with_walls_checked(DrawnLand drawn, surface::EquilibriumLand const& la
         std::int64_t const cell = channels.cell[static_cast<std::size_t>(land.walled[i])];
         Vec2 const at = drawn.grid.centre(drawn.grid.at(cell));
         drawn.findings.push_back({"walled_cell", 0, at, static_cast<double>(land.dem[cell]),
-                                    fmt::format("the river at ({:.1f}, {:.1f}) stands {:.5g} m high, on a wall: the "
-                                                "land around is lower",
-                                                at.x, at.y, land.dem[cell])});
+                                  fmt::format("the river at ({:.1f}, {:.1f}) stands {:.5g} m high, on a wall: the "
+                                              "land around is lower",
+                                              at.x, at.y, land.dem[cell])});
     }
     return drawn;
-}
-
-void append(std::vector<Finding>& all, std::vector<Finding> const& more) {
-    all.insert(all.end(), more.begin(), more.end());
 }
 
 /// One note for all lakes of a file that no cell shows.
@@ -208,8 +205,8 @@ Lakes lakes_of(DrawnLand const& drawn, network::ChannelsOfArcs const& rivers, Ru
     EquilibriumRecipe const& wanted = drawn.recipe.surface->equilibrium;
     if (wanted.lake_share > 0.0) {
         measure::ContributingAreas const areas = measure::areas_nearest(drawn.network.plan, drawn.grid, run);
-        return {network::choose_lakes(rivers, areas.ds_area_m2,
-                                      {.share = wanted.lake_share, .seed = drawn.recipe.seed}, run)};
+        return {network::choose_lakes(rivers, areas.ds_area_m2, {.share = wanted.lake_share, .seed = drawn.recipe.seed},
+                                      run)};
     }
     if (wanted.lakes.empty()) {
         return {};

@@ -27,6 +27,7 @@
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/network/elevation/assign_types.hpp>
 #include <thalweg/network/order/count_streams.hpp>
+#include <thalweg/pipeline/make/assess.hpp>
 #include <thalweg/pipeline/make/drawn_land.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/network_story.hpp>
@@ -36,12 +37,6 @@
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
-
-/// Contributing areas [m2] by cell, NaN without data.
-struct WaterAreas {
-    Raster<double> d8;
-    Raster<double> dinf;
-};
 
 /// A terrain with all that led to it.
 struct Terrain {

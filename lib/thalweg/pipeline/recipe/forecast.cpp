@@ -124,6 +124,7 @@ KnownBefore known_of_rivers(Recipe const& recipe, Run const& run) {
 
 KnownBefore known_of_points(Recipe recipe, Run const& run) {
     FeaturePoints const points = given_points(recipe, run);
+    recipe.grid.crs = points.crs;
     return known_of_grid(frame_land(points, recipe.grid));
 }
 
@@ -196,10 +197,11 @@ std::vector<std::string> stages_after(Recipe const& recipe) {
     if (recipe.surface && recipe.surface->drain.value_or(usual) != surface::Drain::none) {
         stages.emplace_back("carve");
     }
-    stages.insert(stages.end(), {"measure", "drain"});
+    stages.emplace_back("drain");
     if (recipe.network && recipe.network->fill_space) {
         stages.emplace_back("valleys");
     }
+    stages.emplace_back("measure");
     if (recipe.network && recipe.output.catchments) {
         stages.emplace_back("catchments");
     }

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <thalweg/measure/drainage/drainage.hpp>
-#include <thalweg/pipeline/make/internal/diary.hpp>
 #include <thalweg/pipeline/make/drawn_land.hpp>
+#include <thalweg/pipeline/make/internal/diary.hpp>
 
 /// Land in equilibrium with its rivers. Private to this room.
 namespace thalweg::pipeline {
