@@ -11,6 +11,7 @@
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/mesh/read_points.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/make/frame.hpp>
 #include <thalweg/pipeline/make/internal/read_cells.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>

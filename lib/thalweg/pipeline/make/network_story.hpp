@@ -24,16 +24,16 @@ struct NetworkStory {
     std::int64_t particles = 0; ///< of the cluster (dla) or the forest
     std::int64_t walkers = 0;   ///< released for it
     std::optional<TokunagaStory> tokunaga;
-    bool wide = false;              ///< the cluster stopped at its greatest radius
-    bool full = false;              ///< the forest stopped where no particle found room
-    bool cut = false;               ///< the branch reached the grid's margin before the last particle
-    std::int64_t arcs_traced = 0;   ///< before pruning
-    std::int64_t arcs_kept = 0;     ///< by pruning; merged ones count once
-    network::HeightReport heights;  ///< under modes that set heights
-    bool heights_of_file = false;   ///< taken because the lines have them, not because they were asked for
-    std::int64_t lowered_cells = 0; ///< shared valley cells lowered to keep every path falling
+    bool wide = false;                  ///< the cluster stopped at its greatest radius
+    bool full = false;                  ///< the forest stopped where no particle found room
+    bool cut = false;                   ///< the branch reached the grid's margin before the last particle
+    std::int64_t arcs_traced = 0;       ///< before pruning
+    std::int64_t arcs_kept = 0;         ///< by pruning; merged ones count once
+    network::HeightReport heights = {}; ///< under modes that set heights
+    bool heights_of_file = false;       ///< taken because the lines have them, not because they were asked for
+    std::int64_t lowered_cells = 0;     ///< shared valley cells lowered to keep every path falling
     double max_lowered_m = 0.0;
-    std::vector<Finding> repairs; ///< of adopted lines, and outlets carried to the border
+    std::vector<Finding> repairs = {}; ///< of adopted lines, and outlets carried to the border
 };
 
 } // namespace thalweg::pipeline

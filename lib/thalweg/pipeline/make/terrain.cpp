@@ -12,7 +12,7 @@
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/recipe/internal/conversions.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-#include <thalweg/pipeline/recipe/unused_keys.hpp>
+#include <thalweg/pipeline/recipe/internal/unused_keys.hpp>
 
 #include <fmt/format.h>
 
@@ -85,7 +85,12 @@ DrawnLand land_with(Rivers const& rivers, Diary& diary, Run const& run) {
     return rivers.recipe.surface ? draw_around_rivers(rivers, points, diary, run) : without_land(rivers);
 }
 
-/// All of it in one value.
+} // namespace
+
+bool Terrain::passed() const {
+    return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
+}
+
 Terrain together(Rivers rivers, DrawnLand drawn, Assessment found) {
     Terrain terrain;
     terrain.recipe = std::move(drawn.recipe);
@@ -127,21 +132,15 @@ Terrain together(Rivers rivers, DrawnLand drawn, Assessment found) {
     return terrain;
 }
 
-} // namespace
-
-bool Terrain::passed() const {
-    return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
-}
-
 Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
     check_recipe(wanted);
     io::RecipeFiles const confined;
     Diary diary(run);
     Rivers rivers = wanted.network ? make_rivers(wanted, run) : Rivers{};
-    DrawnLand drawn = wanted.network ? land_with(rivers, diary, run) : land_alone(wanted, diary, run);
     if (keep && wanted.network) {
-        keep("valley", drawn.valley.z);
+        keep("valley", rivers.valley.z);
     }
+    DrawnLand drawn = wanted.network ? land_with(rivers, diary, run) : land_alone(wanted, diary, run);
     drawn = made_to_drain(with_patches(std::move(drawn), diary, run), diary, run);
     if (keep && drawn.surface) {
         keep("surface", drawn.surface->dem);

@@ -79,6 +79,9 @@ struct Terrain {
     bool passed() const; ///< every check is ok
 };
 
+/// Rivers, land and what is measured of them in one value.
+Terrain together(Rivers rivers, DrawnLand drawn, Assessment found);
+
 /// Called with intermediates: "valley", "surface".
 using Keep = std::function<void(std::string_view, Raster<float> const&)>;
 
