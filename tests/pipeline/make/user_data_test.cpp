@@ -27,15 +27,15 @@ Terrain terrain() {
     t.orders = network::order(t.network.plan);
     t.areas.us_area_m2 = t.areas.ds_area_m2 = {-1.0, -1.0, -1.0};
     t.areas.node_m2 = {-1.0, -1.0, -1.0, -1.0};
-    t.attributes.columns = {{"name", AttributeTable::Type::text}, {"name_of_the_river", AttributeTable::Type::text}};
+    t.file.attributes.columns = {{"name", AttributeTable::Type::text}, {"name_of_the_river", AttributeTable::Type::text}};
     for (std::string const name : {"one", "two", "three", "four", "five"}) {
-        t.attributes.rows.push_back({name, name});
+        t.file.attributes.rows.push_back({name, name});
     }
-    t.sources = pipeline::LineSources(t.network.plan, {{{1, 0.0, 20.0}}, {{2, 0.0, 44.72}}, {{3, 0.0, 20.0}}});
-    t.secondary = {{4, {{5, 5, 0}, {6, 6, 0}}, "minor channel", 4}};
+    t.file.sources = pipeline::LineSources(t.network.plan, {{{1, 0.0, 20.0}}, {{2, 0.0, 44.72}}, {{3, 0.0, 20.0}}});
+    t.file.secondary = {{4, {{5, 5, 0}, {6, 6, 0}}, "minor channel", 4}};
     for (std::int64_t feature = 1; feature <= 5; ++feature) {
         auto const x = static_cast<double>(feature);
-        t.drawn.push_back({feature, {{x, 0, 0}, {x, 9, 0}}, "", feature});
+        t.file.drawn.push_back({feature, {{x, 0, 0}, {x, 9, 0}}, "", feature});
     }
     return t;
 }
@@ -44,7 +44,7 @@ Terrain terrain() {
 
 TEST(UserData, GrownRiversHaveNone) {
     Terrain t = terrain();
-    t.sources = {};
+    t.file.sources = {};
     EXPECT_FALSE(pipeline::user_data(t, t.network.plan));
     EXPECT_TRUE(pipeline::shortened_names(t).empty());
     EXPECT_TRUE(pipeline::secondary_of(Terrain{}).empty());

@@ -38,50 +38,51 @@ std::vector<Vec3> in_space(std::vector<Vec2> const& line, std::vector<double> co
     return out;
 }
 
-/// Ridges between streams, where the recipe asks for them.
-void make_ridges(Terrain& terrain, Diary& diary, Run const& run) {
-    SkeletonRecipe const& wanted = *terrain.recipe.skeleton;
+/// The land with ridges between its streams.
+DrawnLand with_ridges(DrawnLand drawn, Diary& diary, Run const& run) {
+    SkeletonRecipe const& wanted = *drawn.recipe.skeleton;
     skeleton::RidgesParams params;
     params.method = wanted.ridges == Ridges::voronoi ? skeleton::RidgesParams::Method::voronoi
                                                      : skeleton::RidgesParams::Method::segments;
     params.gain = wanted.ridge_gain;
     params.farthest_m = wanted.ridge_farthest_m;
-    terrain.ridges = diary.stage("ridge", [&] {
-        return skeleton::ridges(terrain.network, network::streams(terrain.network.plan, terrain.orders), terrain.grid,
-                                params, run);
+    drawn.ridges = diary.stage("ridge", [&] {
+        return skeleton::ridges(drawn.network, network::streams(drawn.network.plan, drawn.orders), drawn.grid, params,
+                                run);
     });
-    diary.say(fmt::format("{} ridges", terrain.ridges.lines.size()));
+    diary.say(fmt::format("{} ridges", drawn.ridges.lines.size()));
+    return drawn;
 }
 
 /// Random points between the rivers, where the recipe asks for them.
-FeaturePoints scattered(Terrain& terrain, Mask const& inside, Diary& diary, Run const& run) {
-    SkeletonRecipe const& wanted = *terrain.recipe.skeleton;
+skeleton::Scattered scattered(DrawnLand const& drawn, Mask const& inside, Diary& diary, Run const& run) {
+    SkeletonRecipe const& wanted = *drawn.recipe.skeleton;
     skeleton::ScatterBetweenParams params;
-    params.seed = terrain.recipe.seed;
+    params.seed = drawn.recipe.seed;
     params.count = wanted.scatter;
     params.spacing_cells = wanted.spacing_cells;
     params.gain = wanted.ridge_gain;
     params.farthest_m = wanted.ridge_farthest_m;
     params.law = wanted.law;
     skeleton::Scattered points =
-        diary.stage("scatter", [&] { return skeleton::scatter_between(terrain.valley, inside, params, run); });
+        diary.stage("scatter", [&] { return skeleton::scatter_between(drawn.valley, inside, params, run); });
     diary.say(fmt::format("{} points", points.points.points.size()));
-    check_scattered(terrain, points.missing, params.count, run);
-    return std::move(points.points);
+    return points;
 }
 
 /// The triangles of points, rivers and ridges, whose lines are breaklines.
-void make_skeleton_tin(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
+DrawnLand with_tin(DrawnLand drawn, FeaturePoints const& points, Diary& diary, Run const& run) {
     std::vector<std::vector<Vec3>> breaklines;
     std::size_t number = 0;
-    for (auto const& arc : boost::make_iterator_range(boost::edges(terrain.network.plan))) {
-        breaklines.push_back(in_space(terrain.network.plan[arc].line, terrain.network.arc_z[number++]));
+    for (auto const& arc : boost::make_iterator_range(boost::edges(drawn.network.plan))) {
+        breaklines.push_back(in_space(drawn.network.plan[arc].line, drawn.network.arc_z[number++]));
     }
-    for (RidgeLine const& ridge : terrain.ridges.lines) {
+    for (RidgeLine const& ridge : drawn.ridges.lines) {
         breaklines.push_back(ridge.line);
     }
-    terrain.tin = diary.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
-    diary.say(fmt::format("{} triangles of {} vertices", terrain.tin->triangles.size(), terrain.tin->vertices.size()));
+    drawn.tin = diary.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
+    diary.say(fmt::format("{} triangles of {} vertices", drawn.tin->triangles.size(), drawn.tin->vertices.size()));
+    return drawn;
 }
 
 /// The cells the land has: those of the recipe's mask, or all; without the sea.
@@ -103,11 +104,11 @@ Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
 }
 
 /// Land over the skeleton's triangles. Valley cells keep their heights.
-Raster<float> over_triangles(Terrain const& terrain, Run const& run) {
+Raster<float> over_triangles(DrawnLand const& drawn, Run const& run) {
     Raster<float> land =
-        surface::rasterise_tin(*terrain.tin, terrain.grid, {surface::RasteriseTinParams::Outside::nearest}, run);
+        surface::rasterise_tin(*drawn.tin, drawn.grid, {surface::RasteriseTinParams::Outside::nearest}, run);
     for (std::int64_t i = 0; i < land.cells(); ++i) {
-        land[i] = std::isnan(terrain.valley.z[i]) ? land[i] : terrain.valley.z[i];
+        land[i] = std::isnan(drawn.valley.z[i]) ? land[i] : drawn.valley.z[i];
     }
     return land;
 }
@@ -122,91 +123,102 @@ void warn_of_jumps(surface::Dilated const& drawn, surface::IncrementParams const
     }
 }
 
-surface::Dilated dilated(Terrain const& terrain, Mask const& inside, Run const& run) {
-    SurfaceRecipe const& wanted = *terrain.recipe.surface;
-    bool const whole = wanted.mask.empty() && terrain.land.values().empty();
+surface::Dilated dilated(DrawnLand const& drawn, Mask const& inside, Run const& run) {
+    SurfaceRecipe const& wanted = *drawn.recipe.surface;
+    bool const whole = wanted.mask.empty() && drawn.land.values().empty();
     if (wanted.base == Base::paper) { // without a mask by the closed form
-        return whole ? surface::dilate(terrain.valley, wanted.dilate, run)
-                     : surface::dilate(terrain.valley, inside, wanted.dilate, run);
+        return whole ? surface::dilate(drawn.valley, wanted.dilate, run)
+                     : surface::dilate(drawn.valley, inside, wanted.dilate, run);
     }
     surface::HarmonicParams params;
     params.tolerance = wanted.tolerance.value_or(params.tolerance);
-    Raster<float> const base = wanted.base == Base::tin ? over_triangles(terrain, run)
-                                                        : surface::harmonic(terrain.valley, inside, params, run);
-    return whole ? surface::dilate_over(terrain.valley, base, wanted.dilate, run)
-                 : surface::dilate_over(terrain.valley, base, inside, wanted.dilate, run);
+    Raster<float> const base =
+        wanted.base == Base::tin ? over_triangles(drawn, run) : surface::harmonic(drawn.valley, inside, params, run);
+    return whole ? surface::dilate_over(drawn.valley, base, wanted.dilate, run)
+                 : surface::dilate_over(drawn.valley, base, inside, wanted.dilate, run);
 }
 
 /// What a land is diffused from: rivers, ridges, points, and what follows from them beside them.
-Skeleton gathered(Terrain const& terrain, FeaturePoints const& points, Run const& run) {
-    SkeletonRecipe const wanted = terrain.recipe.skeleton.value_or(SkeletonRecipe{});
+Skeleton gathered(DrawnLand const& drawn, FeaturePoints const& points, Run const& run) {
+    SkeletonRecipe const wanted = drawn.recipe.skeleton.value_or(SkeletonRecipe{});
     skeleton::DrawSkeletonParams params;
     params.noise.amplitude_m = wanted.ridge_noise_m;
     params.noise.wavelength_m = wanted.ridge_wavelength_m;
-    params.noise.seed = terrain.recipe.seed;
-    Skeleton drawn = skeleton::draw_skeleton(terrain.valley, terrain.ridges, points, params, run).skeleton;
+    params.noise.seed = drawn.recipe.seed;
+    Skeleton skeleton = skeleton::draw_skeleton(drawn.valley, drawn.ridges, points, params, run).skeleton;
     if (wanted.midpoint_inverse_cells > 0.0) {
-        drawn = skeleton::midpoint_inverse(drawn, {wanted.midpoint_inverse_cells}, run);
+        skeleton = skeleton::midpoint_inverse(skeleton, {wanted.midpoint_inverse_cells}, run);
     }
-    return drawn;
+    return skeleton;
 }
 
-surface::Dilated diffused(Terrain& terrain, FeaturePoints const& points, Mask const& inside, Run const& run) {
-    surface::DiffuseParams params = terrain.recipe.surface->diffuse;
-    params.seed = terrain.recipe.seed;
-    params.tolerance = terrain.recipe.surface->tolerance.value_or(params.tolerance);
-    surface::Diffused land = surface::diffuse(gathered(terrain, points, run), inside, params, run);
-    terrain.diffusion = {land.iterations, land.residual};
+/// A surface, and how it was solved for where it was.
+struct Surface {
     surface::Dilated drawn;
-    drawn.dem = std::move(land.dem);
-    return drawn;
+    std::optional<SolverStory> diffusion = {};
+};
+
+Surface diffused(DrawnLand const& drawn, FeaturePoints const& points, Mask const& inside, Run const& run) {
+    surface::DiffuseParams params = drawn.recipe.surface->diffuse;
+    params.seed = drawn.recipe.seed;
+    params.tolerance = drawn.recipe.surface->tolerance.value_or(params.tolerance);
+    surface::Diffused land = surface::diffuse(gathered(drawn, points, run), inside, params, run);
+    Surface made;
+    made.drawn.dem = std::move(land.dem);
+    made.diffusion = SolverStory{land.iterations, land.residual};
+    return made;
 }
 
 /// Adds fractal detail to land with rivers: none in the valleys, all of it some cells away.
-void add_detail(Terrain& terrain, Raster<float>& dem, Run const& run) {
+DrawnLand with_detail_beside_rivers(DrawnLand drawn, Run const& run) {
     constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
-    if (levels_of(terrain.recipe) == 0) {
-        return;
+    if (levels_of(drawn.recipe) == 0) {
+        return drawn;
     }
-    Raster<float> const noise = detail_alone(terrain.recipe, terrain.grid, run);
-    surface::Expansion const expansion = surface::expand(terrain.valley, run);
+    Detailed const detail = detail_alone(std::move(drawn.recipe), drawn.grid, run);
+    drawn.recipe = detail.recipe;
+    Raster<float> const& noise = detail.land;
+    Raster<float>& dem = drawn.surface->dem;
+    surface::Expansion const expansion = surface::expand(drawn.valley, run);
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         double const share = 1.0 - exact::exp(-static_cast<double>(expansion.level[i]) / near_cells);
         dem[i] = static_cast<float>(static_cast<double>(dem[i]) + share * static_cast<double>(noise[i]));
     }
+    return drawn;
 }
 
-surface::Dilated draw(Terrain& terrain, FeaturePoints const& points, Mask const& inside, Run const& run) {
-    SurfaceRecipe const& wanted = *terrain.recipe.surface;
+Surface surface_of(DrawnLand const& drawn, FeaturePoints const& points, Mask const& inside, Run const& run) {
+    SurfaceRecipe const& wanted = *drawn.recipe.surface;
     if (wanted.method == Method::tin) {
-        surface::Dilated drawn;
-        drawn.dem = over_triangles(terrain, run);
+        Surface made;
+        made.drawn.dem = over_triangles(drawn, run);
         for (std::int64_t i = 0; i < inside.cells(); ++i) {
             if (inside[i] == 0) {
-                drawn.dem[i] = std::numeric_limits<float>::quiet_NaN();
+                made.drawn.dem[i] = std::numeric_limits<float>::quiet_NaN();
             }
         }
-        return drawn;
+        return made;
     }
-    return wanted.method == Method::diffuse ? diffused(terrain, points, inside, run) : dilated(terrain, inside, run);
+    return wanted.method == Method::diffuse ? diffused(drawn, points, inside, run)
+                                            : Surface{dilated(drawn, inside, run)};
 }
 
 /// Whether the slopes rise as high above their rivers as it was asked.
-void check_relief(Terrain& terrain) {
+std::vector<Check> relief_checks(DrawnLand const& drawn) {
     constexpr double allowed = 0.01;
-    double const asked = terrain.recipe.surface->dilate.relief_m;
-    if (asked > 0.0) {
-        double const error = std::fabs(terrain.surface->rise_m / asked - 1.0);
-        terrain.checks.push_back({"relief_error", error, allowed, error <= allowed});
+    double const asked = drawn.recipe.surface->dilate.relief_m;
+    if (!(asked > 0.0)) {
+        return {};
     }
+    double const error = std::fabs(drawn.surface->rise_m / asked - 1.0);
+    return {{"relief_error", error, allowed, error <= allowed}};
 }
 
-std::string about(Terrain const& terrain) {
-    SurfaceRecipe const& wanted = *terrain.recipe.surface;
+std::string about(DrawnLand const& drawn) {
+    SurfaceRecipe const& wanted = *drawn.recipe.surface;
     switch (wanted.method) {
-    case Method::dilate:
-        return fmt::format("{}, {} levels", wanted.dilate.increment.increment, terrain.surface->levels);
-    case Method::diffuse: return fmt::format("diffused, {} iterations", terrain.diffusion->iterations);
+    case Method::dilate: return fmt::format("{}, {} levels", wanted.dilate.increment.increment, drawn.surface->levels);
+    case Method::diffuse: return fmt::format("diffused, {} iterations", drawn.diffusion->iterations);
     case Method::equilibrium:
     case Method::tin:
     case Method::regress: break;
@@ -216,37 +228,56 @@ std::string about(Terrain const& terrain) {
 
 } // namespace
 
-void draw_around_rivers(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run const& run) {
-    Recipe const& recipe = terrain.recipe;
-    SurfaceRecipe const& wanted = *recipe.surface;
+DrawnLand without_land(Rivers const& rivers) {
+    DrawnLand drawn;
+    drawn.recipe = rivers.recipe;
+    drawn.grid = rivers.grid;
+    drawn.land = rivers.land;
+    drawn.network = rivers.network;
+    drawn.orders = rivers.orders;
+    drawn.streams = rivers.streams;
+    drawn.types = rivers.types;
+    drawn.valley = rivers.valley;
+    return drawn;
+}
+
+DrawnLand draw_around_rivers(Rivers const& rivers, FeaturePoints const& given, Diary& diary, Run const& run) {
+    DrawnLand drawn = without_land(rivers);
+    bool const balanced = in_equilibrium(rivers.recipe);
     Mask inside;
-    FeaturePoints own;
-    if (in_equilibrium(recipe)) { // whose rivers have their heights from it
-        draw_in_equilibrium(terrain, diary, run);
+    if (balanced) { // whose rivers have their heights from it
+        drawn = draw_in_equilibrium(std::move(drawn), rivers.story.heights_of_file, diary, run);
     } else {
-        inside = inside_of(recipe, terrain.land, terrain.valley);
+        inside = inside_of(drawn.recipe, drawn.land, drawn.valley);
     }
-    bool const scatters = recipe.skeleton && recipe.skeleton->scatter > 0;
-    if (scatters) {
-        own = scattered(terrain, inside, diary, run);
+    std::optional<SkeletonRecipe> const skeleton = drawn.recipe.skeleton;
+    std::optional<FeaturePoints> own;
+    if (skeleton && skeleton->scatter > 0) {
+        skeleton::Scattered found = scattered(drawn, inside, diary, run);
+        drawn.checks.push_back(points_missing(found.missing, skeleton->scatter, run));
+        own = std::move(found.points);
     }
-    FeaturePoints const& points = scatters ? own : given;
-    if (recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
-        make_ridges(terrain, diary, run);
+    FeaturePoints const& points = own ? *own : given;
+    if (skeleton && skeleton->ridges != Ridges::none) {
+        drawn = with_ridges(std::move(drawn), diary, run);
     }
+    SurfaceRecipe const wanted = *drawn.recipe.surface;
     bool const over_tin = wanted.method == Method::tin || (wanted.method == Method::dilate && wanted.base == Base::tin);
-    if (over_tin || (recipe.skeleton && recipe.skeleton->tin)) {
-        make_skeleton_tin(terrain, points, diary, run);
+    if (over_tin || (skeleton && skeleton->tin)) {
+        drawn = with_tin(std::move(drawn), points, diary, run);
     }
-    if (!in_equilibrium(recipe)) {
-        terrain.surface = diary.stage("fill", [&] { return draw(terrain, points, inside, run); });
-        diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height, about(terrain)));
+    if (!balanced) {
+        Surface made = diary.stage("fill", [&] { return surface_of(drawn, points, inside, run); });
+        drawn.surface = std::move(made.drawn);
+        drawn.diffusion = made.diffusion;
+        diary.say(fmt::format("{}x{}, {}", drawn.grid.width, drawn.grid.height, about(drawn)));
         if (wanted.method == Method::dilate) {
-            check_relief(terrain);
-            warn_of_jumps(*terrain.surface, wanted.dilate.increment, run);
+            std::vector<Check> const checks = relief_checks(drawn);
+            drawn.checks.insert(drawn.checks.end(), checks.begin(), checks.end());
+            warn_of_jumps(*drawn.surface, wanted.dilate.increment, run);
         }
     }
-    add_detail(terrain, terrain.surface->dem, run);
+    return with_detail_beside_rivers(std::move(drawn), run);
 }
 
 } // namespace thalweg::pipeline

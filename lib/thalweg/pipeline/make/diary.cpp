@@ -7,7 +7,7 @@
 namespace thalweg::pipeline {
 
 void Diary::say(std::string const& words) const {
-    auto const& [name, seconds] = terrain_.timings_s.back();
+    auto const& [name, seconds] = timings_s_.back();
     run_.tell(name, fmt::format("{:<56}{:6.1f} s", words, seconds));
 }
 

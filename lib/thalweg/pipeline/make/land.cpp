@@ -11,6 +11,7 @@
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/mesh/read_points.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/make/frame.hpp>
 #include <thalweg/pipeline/make/internal/read_cells.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
@@ -122,11 +123,9 @@ Raster<float> random_land(Recipe const& recipe, Grid const& coarse, int levels, 
 }
 
 /// The points that the land goes through: those of the file, or drawn at random with the extremes among them.
-FeaturePoints points_of(Terrain& terrain, FeaturePoints const& given, Run const& run) {
-    Recipe const& recipe = terrain.recipe;
-    Grid const& grid = terrain.grid;
+skeleton::Scattered points_of(Recipe const& recipe, Grid const& grid, FeaturePoints const& given, Run const& run) {
     if (!recipe.skeleton || recipe.skeleton->scatter == 0) {
-        return given;
+        return {.points = given};
     }
     StatisticsRecipe const& s = asked(recipe);
     skeleton::ScatterParams params;
@@ -148,9 +147,7 @@ FeaturePoints points_of(Terrain& terrain, FeaturePoints const& given, Run const&
     };
     params.highest = place(s.max);
     params.lowest = place(s.min);
-    skeleton::Scattered scattered = skeleton::scatter(grid, params, run);
-    check_scattered(terrain, scattered.missing, params.count, run);
-    return std::move(scattered.points);
+    return skeleton::scatter(grid, params, run);
 }
 
 /// What points without [surface] are drawn by.
@@ -160,12 +157,21 @@ SurfaceRecipe over_triangles() {
     return surface;
 }
 
-Raster<float> land_of_points(Terrain& terrain, FeaturePoints const& points, Grid const& grid, Run const& run) {
-    SurfaceRecipe const wanted = terrain.recipe.surface.value_or(over_triangles());
-    StatisticsRecipe const& s = asked(terrain.recipe);
+/// Land through points, and what it was made with.
+struct LandOfPoints {
+    Raster<float> land;
+    std::optional<Tin> tin = {};
+    std::optional<SolverStory> diffusion = {};
+};
+
+/// Takes: grid: that of the land, whose cells may be coarser than the recipe's, of cell_m.
+LandOfPoints land_of_points(Recipe const& recipe, double cell_m, FeaturePoints const& points, Grid const& grid,
+                            Run const& run) {
+    SurfaceRecipe const wanted = recipe.surface.value_or(over_triangles());
+    StatisticsRecipe const& s = asked(recipe);
     if (wanted.method == Method::regress) {
         skeleton::RegressParams params = wanted.regress;
-        double const step = grid.cell_m / terrain.grid.cell_m;
+        double const step = grid.cell_m / cell_m;
         params.length_x = (s.length ? (*s.length)[0] : default_length_cells) / step;
         params.length_y = (s.length ? (*s.length)[1] : default_length_cells) / step;
         params.slope_rad = s.slope.value_or(0.0);
@@ -174,32 +180,28 @@ Raster<float> land_of_points(Terrain& terrain, FeaturePoints const& points, Grid
             run.say(fmt::format("warning: the points determine {} of {} terms of the regression", regression.rank,
                                 regression.terms));
         }
-        return std::move(regression.surface);
+        return {std::move(regression.surface)};
     }
     if (wanted.method == Method::diffuse) {
         Valley const no_rivers{Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
         surface::DiffuseParams params = wanted.diffuse;
-        params.seed = terrain.recipe.seed;
+        params.seed = recipe.seed;
         params.tolerance = wanted.tolerance.value_or(params.tolerance);
         surface::Diffused land =
             surface::diffuse(skeleton::draw_skeleton(no_rivers, {}, points, {}, run).skeleton, params, run);
-        terrain.diffusion = {land.iterations, land.residual};
-        return std::move(land.dem);
+        return {std::move(land.dem), {}, SolverStory{land.iterations, land.residual}};
     }
-    terrain.tin = geometry::triangulate(points.points, {}, run).tin;
-    if (wanted.interpolation == Interpolation::natural) {
-        return geometry::natural_neighbours(points.points, grid, {geometry::NaturalNeighboursParams::Outside::nearest},
-                                            run);
-    }
-    return surface::rasterise_tin(*terrain.tin, grid, {surface::RasteriseTinParams::Outside::nearest}, run);
+    Tin tin = geometry::triangulate(points.points, {}, run).tin;
+    bool const natural = wanted.interpolation == Interpolation::natural;
+    Raster<float> land = natural
+                             ? geometry::natural_neighbours(points.points, grid,
+                                                            {geometry::NaturalNeighboursParams::Outside::nearest}, run)
+                             : surface::rasterise_tin(tin, grid, {surface::RasteriseTinParams::Outside::nearest}, run);
+    return {std::move(land), std::move(tin)};
 }
 
-/// Adds the detail that the recipe wants, where it wants any. H and sigma as used go into the recipe.
-Raster<float> with_detail(Recipe& recipe, Raster<float> coarse, Grid const& grid, Run const& run) {
-    int const levels = levels_of(recipe);
-    if (levels == 0) {
-        return coarse;
-    }
+/// Adds the detail that the recipe wants.
+Detailed with_detail(Recipe recipe, Raster<float> const& coarse, Grid const& grid, Run const& run) {
     detail::MidpointParams& wanted = recipe.detail->midpoint;
     detail::MidpointParams params = wanted;
     params.width = grid.width;
@@ -210,7 +212,7 @@ Raster<float> with_detail(Recipe& recipe, Raster<float> coarse, Grid const& grid
     wanted.sigma = displaced.sigma;
     Raster<float> land(grid); // the very frame, not one reckoned back from the coarse cells
     std::copy(displaced.dem.values().begin(), displaced.dem.values().end(), land.values().begin());
-    return land;
+    return {std::move(recipe), std::move(land)};
 }
 
 detail::Targets targets_of(StatisticsRecipe const& s) {
@@ -292,37 +294,40 @@ std::vector<detail::FixedHeight> heights_to_keep(Recipe const& recipe, FeaturePo
 
 /// Projects a land on the statistics. One from which they cannot be reached, smoother or more jagged between neighbours
 /// than they ask for, takes its fine forms from a Gaussian land: as few of them as will do.
-Raster<float> brought_to_statistics(Terrain& terrain, Raster<float> land, std::vector<detail::FixedHeight> const& kept,
-                                    Run const& run) {
-    Recipe const& recipe = terrain.recipe;
+struct Brought {
+    detail::Projection projection;
+    double fine_forms_cells = 0.0; ///< [cells] as DrawnLand
+};
+
+Brought brought_to_statistics(Recipe const& recipe, Raster<float> land, std::vector<detail::FixedHeight> const& kept,
+                              Run const& run) {
     StatisticsRecipe const& s = *recipe.statistics;
+    Grid const grid = land.grid();
     detail::ProjectParams params;
     params.prior = covariance_of(s, 1.0);
-    terrain.projection = naming_keys([&] { return detail::project(land, targets_of(s), kept, params, run); });
-    if (!terrain.projection->converged && s.skeleton != Prior::grf) {
+    Brought brought{naming_keys([&] { return detail::project(land, targets_of(s), kept, params, run); })};
+    if (!brought.projection.converged && s.skeleton != Prior::grf) {
         land = standardised(std::move(land), s, run);
         Recipe other = recipe;
         other.statistics->skeleton = Prior::grf;
-        Raster<float> const gaussian = standardised(random_land(other, terrain.grid, 0, run), s, run);
+        Raster<float> const gaussian = standardised(random_land(other, grid, 0, run), s, run);
         for (double cells = 1.0; cells <= most_fine_cells; cells *= 2.0) {
             detail::Projection again =
                 detail::project(detail::with_fine_forms(land, gaussian, cells, run), targets_of(s), kept, params, run);
             if (again.converged) {
-                terrain.fine_forms_cells = cells;
-                terrain.projection = std::move(again);
+                brought.fine_forms_cells = cells;
+                brought.projection = std::move(again);
                 break;
             }
         }
     }
-    Raster<float> dem = std::move(terrain.projection->dem);
-    terrain.projection->dem = Raster<float>();
-    return dem;
+    return brought;
 }
 
 /// Cells that the mask of [surface] leaves out get no height.
-void leave_out(Recipe const& recipe, Raster<float>& land) {
+Raster<float> left_out(Raster<float> land, Recipe const& recipe) {
     if (!recipe.surface || recipe.surface->mask.empty()) {
-        return;
+        return land;
     }
     Mask const inside = read_mask_of_land(file_in(recipe, recipe.surface->mask), land.grid());
     if (std::all_of(inside.values().begin(), inside.values().end(), [](std::uint8_t v) { return v == 0; })) {
@@ -331,6 +336,7 @@ void leave_out(Recipe const& recipe, Raster<float>& land) {
     for (std::int64_t i = 0; i < land.cells(); ++i) {
         land[i] = inside[i] != 0 ? land[i] : std::numeric_limits<float>::quiet_NaN();
     }
+    return land;
 }
 
 /// Says which lengths only a fit can tell: correlation is measured over lags of up to half an axis.
@@ -350,18 +356,20 @@ void warn_of_lengths(StatisticsRecipe const& s, Grid const& grid, Run const& run
     warn("Ly", (*s.length)[1], "rows", grid.height);
 }
 
-void check_residuals(Terrain& terrain) {
-    for (detail::Residual const& r : terrain.projection->residuals) {
+std::vector<Check> residual_checks(detail::Projection const& projection) {
+    std::vector<Check> checks;
+    for (detail::Residual const& r : projection.residuals) {
         bool const dimension = r.name == "dimension";
         double const error = dimension ? std::fabs(r.got - r.asked) : std::fabs(r.error);
         double const limit = dimension ? allowed_dimension_error : allowed_error;
-        terrain.checks.push_back({"statistics_" + r.name, error, limit, error <= limit});
+        checks.push_back({"statistics_" + r.name, error, limit, error <= limit});
     }
+    return checks;
 }
 
 } // namespace
 
-FeaturePoints given_points(Recipe& recipe, Run const& run) {
+FeaturePoints given_points(Recipe const& recipe, Run const& run) {
     FeaturePoints points;
     std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
     if (recipe.skeleton && !recipe.skeleton->points.empty()) {
@@ -369,17 +377,19 @@ FeaturePoints given_points(Recipe& recipe, Run const& run) {
         std::string const path = file_in(recipe, name);
         points = io::read_points({.path = path, .crs = crs}, run);
     }
-    recipe.grid.crs = !points.crs.empty() ? points.crs : io::projected_crs(crs.empty() ? "EPSG:32631" : crs);
+    if (points.crs.empty()) {
+        points.crs = io::projected_crs(crs.empty() ? "EPSG:32631" : crs);
+    }
     return points;
 }
 
-void check_scattered(Terrain& terrain, std::int64_t missing, std::int64_t wanted, Run const& run) {
-    terrain.checks.push_back({"points_missing", static_cast<double>(missing), 0.0, missing == 0});
+Check points_missing(std::int64_t missing, std::int64_t wanted, Run const& run) {
     if (missing > 0) {
         run.say(fmt::format("warning: {} of {} points found no room; a smaller skeleton.spacing or skeleton.scatter "
                             "leaves them some",
                             missing, wanted));
     }
+    return {"points_missing", static_cast<double>(missing), 0.0, missing == 0};
 }
 
 void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string const& name) {
@@ -431,9 +441,10 @@ Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted) {
     return grid;
 }
 
-void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run const& run) {
-    Recipe& recipe = terrain.recipe;
-    Grid const& grid = terrain.grid;
+DrawnLand make_land(Recipe const& recipe, Grid const& grid, FeaturePoints const& given, Diary& diary, Run const& run) {
+    DrawnLand drawn;
+    drawn.recipe = recipe;
+    drawn.grid = grid;
     int const levels = levels_of(recipe);
     Grid const coarse = coarse_grid(grid, levels);
     if (recipe.statistics) { // before any work
@@ -441,29 +452,44 @@ void make_land(Terrain& terrain, FeaturePoints const& given, Diary& diary, Run c
         warn_of_lengths(*recipe.statistics, grid, run);
     }
     bool const from_points = !recipe.statistics || recipe.statistics->skeleton == Prior::points;
-    FeaturePoints const points = from_points ? points_of(terrain, given, run) : FeaturePoints{};
-    Raster<float> land = diary.stage("land", [&] {
-        return from_points ? land_of_points(terrain, points, coarse, run) : random_land(recipe, coarse, levels, run);
+    skeleton::Scattered const points = from_points ? points_of(recipe, grid, given, run) : skeleton::Scattered{};
+    if (from_points && recipe.skeleton && recipe.skeleton->scatter > 0) {
+        drawn.checks.push_back(points_missing(points.missing, recipe.skeleton->scatter, run));
+    }
+    LandOfPoints made = diary.stage("land", [&] {
+        return from_points ? land_of_points(recipe, grid.cell_m, points.points, coarse, run)
+                           : LandOfPoints{random_land(recipe, coarse, levels, run)};
     });
-    diary.say(from_points ? fmt::format("{} points", points.points.size())
+    drawn.tin = std::move(made.tin);
+    drawn.diffusion = made.diffusion;
+    Raster<float> land = std::move(made.land);
+    diary.say(from_points ? fmt::format("{} points", points.points.points.size())
                           : fmt::format("random, {}x{} cells of {} m", coarse.width, coarse.height, coarse.cell_m));
     if (levels > 0) {
-        land = diary.stage("detail", [&] { return with_detail(recipe, std::move(land), grid, run); });
+        Detailed detailed = diary.stage("detail", [&] { return with_detail(recipe, land, grid, run); });
+        drawn.recipe = std::move(detailed.recipe);
+        land = std::move(detailed.land);
         diary.say(fmt::format("midpoint displacement, {} levels", levels));
     }
     if (recipe.statistics) {
-        land = diary.stage("project", [&] {
-            return brought_to_statistics(terrain, std::move(land), heights_to_keep(recipe, given, grid), run);
+        Brought brought = diary.stage("project", [&] {
+            return brought_to_statistics(drawn.recipe, std::move(land), heights_to_keep(recipe, given, grid), run);
         });
-        diary.say(fmt::format("{} statistics within {:.2g} %, {} steps{}", terrain.projection->residuals.size(),
-                              100.0 * terrain.projection->largest_error, terrain.projection->iterations,
-                              terrain.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian surface" : ""));
-        check_residuals(terrain);
+        diary.say(fmt::format("{} statistics within {:.2g} %, {} steps{}", brought.projection.residuals.size(),
+                              100.0 * brought.projection.largest_error, brought.projection.iterations,
+                              brought.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian surface" : ""));
+        std::vector<Check> const checks = residual_checks(brought.projection);
+        drawn.checks.insert(drawn.checks.end(), checks.begin(), checks.end());
+        land = std::move(brought.projection.dem);
+        brought.projection.dem = Raster<float>();
+        drawn.projection = std::move(brought.projection);
+        drawn.fine_forms_cells = brought.fine_forms_cells;
     } else {
-        leave_out(recipe, land);
+        land = left_out(std::move(land), recipe);
     }
-    terrain.surface.emplace();
-    terrain.surface->dem = std::move(land);
+    drawn.surface.emplace();
+    drawn.surface->dem = std::move(land);
+    return drawn;
 }
 
 void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height) {
@@ -491,9 +517,10 @@ void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height)
         enough <= most_levels ? fmt::format("detail.levels = {}, or ", enough) : ""));
 }
 
-Raster<float> detail_alone(Recipe& recipe, Grid const& grid, Run const& run) {
+Detailed detail_alone(Recipe recipe, Grid const& grid, Run const& run) {
     recipe.detail->midpoint.hurst = recipe.detail->midpoint.hurst.value_or(3.0 - default_dimension);
-    return with_detail(recipe, Raster<float>(coarse_grid(grid, levels_of(recipe)), 0.0F), grid, run);
+    Raster<float> const flat(coarse_grid(grid, levels_of(recipe)), 0.0F);
+    return with_detail(std::move(recipe), flat, grid, run);
 }
 
 } // namespace thalweg::pipeline

@@ -16,8 +16,9 @@
 #include <thalweg/network/elevation/raise_from_land.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
+#include <thalweg/pipeline/commands/internal/append.hpp>
 #include <thalweg/pipeline/make/internal/read_cells.hpp>
-#include <thalweg/pipeline/make/internal/rivers.hpp>
+#include <thalweg/pipeline/make/internal/type_rivers.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>
@@ -43,12 +44,18 @@ bool has_sea(Mask const& land) {
     return std::any_of(land.values().begin(), land.values().end(), [](std::uint8_t is_land) { return is_land == 0; });
 }
 
-surface::Edge edge_of(Recipe const& recipe, Terrain const& terrain, Mask const& land) {
-    bool const by_coastlines = recipe.network->source == Source::lines && terrain.land.cells() > 0;
+surface::Edge edge_of(DrawnLand const& drawn, Mask const& land) {
+    bool const by_coastlines = drawn.recipe.network->source == Source::lines && drawn.land.cells() > 0;
     return by_coastlines ? surface::Edge::mainland : has_sea(land) ? surface::Edge::coast : surface::Edge::open;
 }
 
-surface::EquilibriumParams params_of(Recipe& recipe, surface::Edge edge) {
+/// What a recipe asks of the land, and the recipe with what it left open.
+struct Asked {
+    Recipe recipe;
+    surface::EquilibriumParams params;
+};
+
+Asked asked_of(Recipe recipe, surface::Edge edge) {
     EquilibriumRecipe& wanted = recipe.surface->equilibrium;
     wanted.edge = wanted.edge.value_or(edge);
     double const relief_m = recipe.surface->dilate.relief_m;
@@ -73,7 +80,7 @@ surface::EquilibriumParams params_of(Recipe& recipe, surface::Edge edge) {
     params.roughness = wanted.roughness;
     params.edge = *wanted.edge;
     params.seed = recipe.seed;
-    return params;
+    return {std::move(recipe), params};
 }
 
 /// The heights that are asked of channels: all that the rivers have, or those of sources and where they end.
@@ -110,26 +117,26 @@ Mask land_of(Mask one, Mask const& other, Channels const& channels) {
     return one;
 }
 
-surface::EquilibriumFields fields_of(Terrain const& terrain, Channels const& channels, Run const& run) {
-    Recipe const& recipe = terrain.recipe;
-    Grid const& grid = terrain.grid;
+surface::EquilibriumFields fields_of(DrawnLand const& drawn, Channels const& channels, Run const& run) {
+    Recipe const& recipe = drawn.recipe;
+    Grid const& grid = drawn.grid;
     SurfaceRecipe const& wanted = *recipe.surface;
     surface::EquilibriumFields fields;
-    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid), terrain.land, channels);
+    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid), drawn.land, channels);
     fields.uplift = read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run);
     fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
     return fields;
 }
 
 /// What was asked of the land, and what came out.
-void check_target(Terrain& terrain, surface::EquilibriumLand const& land, surface::EquilibriumParams const& params,
-                  Run const& run) {
+DrawnLand with_target_checked(DrawnLand drawn, surface::EquilibriumLand const& land,
+                              surface::EquilibriumParams const& params, Run const& run) {
     constexpr double allowed = 0.05;
     if (params.heights != surface::RiverHeights::graded && !params.bring_to_target) {
-        return; // nothing was
+        return drawn; // nothing was
     }
     double const error = std::fabs(land.target_share - 1.0);
-    terrain.checks.push_back({params.relief_m ? "relief_error" : "mean_slope_error", error, allowed, error <= allowed});
+    drawn.checks.push_back({params.relief_m ? "relief_error" : "mean_slope_error", error, allowed, error <= allowed});
     if (error > allowed) {
         double const asked = params.relief_m ? *params.relief_m : params.mean_slope_deg;
         char const* const unit = params.relief_m ? "m" : "degrees";
@@ -137,8 +144,9 @@ void check_target(Terrain& terrain, surface::EquilibriumLand const& land, surfac
             fmt::format("surface.{} = {:.6g} {} cannot be reached with the heights of the rivers: it is {:.4g} {}",
                         params.relief_m ? "relief" : "mean_slope", asked, unit, land.target_share * asked, unit);
         run.say("warning: " + text);
-        terrain.findings.push_back({"target_missed", 0, {}, land.target_share * asked, text});
+        drawn.findings.push_back({"target_missed", 0, {}, land.target_share * asked, text});
     }
+    return drawn;
 }
 
 double most_walled(Channels const& channels) {
@@ -150,10 +158,11 @@ bool too_walled(surface::EquilibriumLand const& land, Channels const& channels) 
 }
 
 /// River cells that only walls hold up.
-void check_walls(Terrain& terrain, surface::EquilibriumLand const& land, Channels const& channels, Run const& run) {
+DrawnLand with_walls_checked(DrawnLand drawn, surface::EquilibriumLand const& land, Channels const& channels,
+                             Run const& run) {
     constexpr std::size_t listed = 1000;
     bool const ok = !too_walled(land, channels);
-    terrain.checks.push_back(
+    drawn.checks.push_back(
         {"walled_cells", static_cast<double>(land.walled.size()), std::floor(most_walled(channels)), ok});
     if (!ok) {
         run.say(fmt::format("warning: {} of {} river cells stand on walls above the terrain. network.heights = "
@@ -162,16 +171,13 @@ void check_walls(Terrain& terrain, surface::EquilibriumLand const& land, Channel
     }
     for (std::size_t i = 0; i < std::min(listed, land.walled.size()); ++i) {
         std::int64_t const cell = channels.cell[static_cast<std::size_t>(land.walled[i])];
-        Vec2 const at = terrain.grid.centre(terrain.grid.at(cell));
-        terrain.findings.push_back({"walled_cell", 0, at, static_cast<double>(land.dem[cell]),
-                                    fmt::format("the river at ({:.1f}, {:.1f}) stands {:.5g} m high, on a wall: the "
-                                                "land around is lower",
-                                                at.x, at.y, land.dem[cell])});
+        Vec2 const at = drawn.grid.centre(drawn.grid.at(cell));
+        drawn.findings.push_back({"walled_cell", 0, at, static_cast<double>(land.dem[cell]),
+                                  fmt::format("the river at ({:.1f}, {:.1f}) stands {:.5g} m high, on a wall: the "
+                                              "land around is lower",
+                                              at.x, at.y, land.dem[cell])});
     }
-}
-
-void take_notes(Terrain& terrain, std::vector<Finding> const& notes) {
-    terrain.story.repairs.insert(terrain.story.repairs.end(), notes.begin(), notes.end());
+    return drawn;
 }
 
 /// One note for all lakes of a file that no cell shows.
@@ -192,30 +198,36 @@ std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t>
 }
 
 /// By cell the number of its lake, 0 for none; without cells where no lakes are asked for.
-Raster<std::int32_t> lakes_of(Terrain& terrain, network::ChannelsOfArcs const& rivers, Run const& run) {
-    EquilibriumRecipe const& wanted = terrain.recipe.surface->equilibrium;
+struct Lakes {
+    Raster<std::int32_t> labels;
+    std::vector<Finding> notes = {};
+};
+
+Lakes lakes_of(DrawnLand const& drawn, network::ChannelsOfArcs const& rivers, Run const& run) {
+    EquilibriumRecipe const& wanted = drawn.recipe.surface->equilibrium;
     if (wanted.lake_share > 0.0) {
-        flow::ContributingAreas const areas = flow::areas_nearest(terrain.network.plan, terrain.grid, run);
-        return network::choose_lakes(rivers, areas.ds_area_m2,
-                                     {.share = wanted.lake_share, .seed = terrain.recipe.seed}, run);
+        measure::ContributingAreas const areas = measure::areas_nearest(drawn.network.plan, drawn.grid, run);
+        return {network::choose_lakes(rivers, areas.ds_area_m2, {.share = wanted.lake_share, .seed = drawn.recipe.seed},
+                                      run)};
     }
     if (wanted.lakes.empty()) {
         return {};
     }
-    Polygons const polygons = io::read_polygons(file_in(terrain.recipe, wanted.lakes), terrain.grid.crs, run);
-    Raster<std::int32_t> labels = blend::number_polygons(polygons, terrain.grid);
-    take_notes(terrain, unseen_lakes(polygons, labels));
-    return labels;
+    Polygons const polygons = io::read_polygons(file_in(drawn.recipe, wanted.lakes), drawn.grid.crs, run);
+    Lakes lakes{blend::number_polygons(polygons, drawn.grid)};
+    lakes.notes = unseen_lakes(polygons, lakes.labels);
+    return lakes;
 }
 
-void tell(Terrain& terrain, surface::EquilibriumLand const& land, Channels const& channels) {
-    EquilibriumStory& story = terrain.equilibrium.emplace();
+EquilibriumStory story_of(surface::EquilibriumLand const& land, Channels const& channels) {
+    EquilibriumStory story;
     story.channel_cells = static_cast<std::int64_t>(channels.cell.size());
     story.shortened_cells = static_cast<std::int64_t>(land.shortened.size());
     story.walled_cells = static_cast<std::int64_t>(land.walled.size());
     story.max_lowered_m = land.max_lowered_m;
     story.p95_lowered_m = land.p95_lowered_m;
     story.rise = land.rise;
+    return story;
 }
 
 void warn_of_heights(Raster<float> const& dem, Run const& run) {
@@ -234,16 +246,31 @@ void warn_of_heights(Raster<float> const& dem, Run const& run) {
     }
 }
 
-/// Lays the lakes that are asked for into the channels.
-void flood(Terrain& terrain, network::ChannelsOfArcs& rivers, Run const& run) {
-    Raster<std::int32_t> const labels = lakes_of(terrain, rivers, run);
-    if (labels.cells() == 0) {
-        return;
+/// Channels with the lakes that are asked for.
+struct WithLakes {
+    network::ChannelsOfArcs rivers;
+    std::int64_t lakes = 0;
+    std::vector<Finding> notes = {};
+};
+
+WithLakes with_lakes(network::ChannelsOfArcs rivers, DrawnLand const& drawn, Run const& run) {
+    Lakes lakes = lakes_of(drawn, rivers, run);
+    if (lakes.labels.cells() == 0) {
+        return {std::move(rivers)};
     }
-    network::Flooded flooded = network::flood_lakes(rivers, labels, run);
-    take_notes(terrain, flooded.notes);
-    terrain.lakes = static_cast<std::int64_t>(flooded.lakes.size());
-    rivers = std::move(flooded.drawn);
+    network::Flooded flooded = network::flood_lakes(rivers, lakes.labels, run);
+    append(lakes.notes, flooded.notes);
+    return {std::move(flooded.drawn), static_cast<std::int64_t>(flooded.lakes.size()), std::move(lakes.notes)};
+}
+
+/// The land with other arcs in plan, and the types that they get.
+DrawnLand with_types(DrawnLand drawn, StreamNetwork plan, Run const& run) {
+    Typed typed = type_rivers(std::move(plan), *drawn.recipe.network, run);
+    drawn.network.plan = std::move(typed.plan);
+    if (!typed.types.type.empty()) {
+        drawn.types = std::move(typed.types);
+    }
+    return drawn;
 }
 
 Valley valley_of(Channels const& channels, Raster<float> const& dem) {
@@ -274,82 +301,88 @@ bool in_equilibrium(Recipe const& recipe) {
     return recipe.network && recipe.surface && recipe.surface->method == Method::equilibrium;
 }
 
-void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run) {
-    Recipe& recipe = terrain.recipe;
+DrawnLand draw_in_equilibrium(DrawnLand drawn, bool heights_of_file, Diary& diary, Run const& run) {
     network::ChannelsOfArcs rivers =
-        diary.stage("channels", [&] { return network::channels(terrain.network.plan, terrain.grid, {}, run); });
-    take_notes(terrain, rivers.notes);
-    if (recipe.network->heights != Heights::graded) {
-        rivers.channels.z = asked_heights(terrain.network, rivers.channels, recipe.network->heights);
+        diary.stage("channels", [&] { return network::channels(drawn.network.plan, drawn.grid, {}, run); });
+    append(drawn.notes, rivers.notes);
+    Heights const heights = drawn.recipe.network->heights;
+    if (heights != Heights::graded) {
+        rivers.channels.z = asked_heights(drawn.network, rivers.channels, heights);
     }
-    flood(terrain, rivers, run);
-    surface::EquilibriumFields const fields = fields_of(terrain, rivers.channels, run);
-    run.at(0.0, fmt::format("fill {} cells", terrain.grid.cells()).c_str());
-    surface::Edge const edge = edge_of(recipe, terrain, fields.land);
-    surface::EquilibriumParams params = params_of(recipe, edge);
+    WithLakes flooded = with_lakes(std::move(rivers), drawn, run);
+    append(drawn.notes, flooded.notes);
+    drawn.lakes = flooded.lakes;
+    rivers = std::move(flooded.rivers);
+    surface::EquilibriumFields const fields = fields_of(drawn, rivers.channels, run);
+    run.at(0.0, fmt::format("fill {} cells", drawn.grid.cells()).c_str());
+    surface::Edge const edge = edge_of(drawn, fields.land);
+    Asked asked = asked_of(std::move(drawn.recipe), edge);
     auto const solve = [&] {
-        return diary.stage("fill", [&] { return surface::equilibrium(rivers.channels, fields, params, run); });
+        return diary.stage("fill", [&] { return surface::equilibrium(rivers.channels, fields, asked.params, run); });
     };
     surface::EquilibriumLand land = solve();
-    if (terrain.story.heights_of_file && too_walled(land, rivers.channels)) {
+    if (heights_of_file && too_walled(land, rivers.channels)) {
         run.say(fmt::format("warning: the heights in {} would put {} of {} river cells on walls above the terrain. "
                             "Rivers are lowered there: network.heights = \"soft\"; \"file\" keeps their heights.",
-                            recipe.network->lines.path, land.walled.size(), rivers.channels.cell.size()));
-        recipe.network->heights = Heights::soft;
-        params = params_of(recipe, edge);
+                            asked.recipe.network->lines.path, land.walled.size(), rivers.channels.cell.size()));
+        asked.recipe.network->heights = Heights::soft;
+        asked = asked_of(std::move(asked.recipe), edge);
         land = solve();
     }
-    tell(terrain, land, rivers.channels);
-    check_target(terrain, land, params, run);
-    if (params.heights != surface::RiverHeights::graded) {
-        check_walls(terrain, land, rivers.channels, run);
+    drawn.recipe = std::move(asked.recipe);
+    drawn.equilibrium = story_of(land, rivers.channels);
+    drawn = with_target_checked(std::move(drawn), land, asked.params, run);
+    if (asked.params.heights != surface::RiverHeights::graded) {
+        drawn = with_walls_checked(std::move(drawn), land, rivers.channels, run);
     }
     warn_of_heights(land.dem, run);
     if (!land.shortened.empty()) {
-        network::Shortened shortened = network::shorten(terrain.network.plan, rivers, land.shortened);
-        take_notes(terrain, shortened.notes);
-        terrain.network.plan = std::move(shortened.network);
+        network::Shortened shortened = network::shorten(drawn.network.plan, rivers, land.shortened);
+        append(drawn.notes, shortened.notes);
         rivers = std::move(shortened.drawn);
-        assign_types(terrain.network.plan, terrain, run);
+        drawn = with_types(std::move(drawn), std::move(shortened.network), run);
     }
-    diary.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", terrain.grid.width, terrain.grid.height,
+    diary.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", drawn.grid.width, drawn.grid.height,
                           rivers.channels.cell.size()));
-    terrain.network = network::raise_from_land(terrain.network.plan, rivers.channels, land.dem);
-    terrain.orders = network::order(terrain.network.plan);
-    terrain.streams = network::count_streams(terrain.network.plan);
-    terrain.valley = valley_of(rivers.channels, land.dem);
-    terrain.channels = std::move(rivers.channels);
-    terrain.surface.emplace();
-    terrain.surface->dem = std::move(land.dem);
+    drawn.network = network::raise_from_land(drawn.network.plan, rivers.channels, land.dem);
+    drawn.orders = network::order(drawn.network.plan);
+    drawn.streams = network::count_streams(drawn.network.plan);
+    drawn.valley = valley_of(rivers.channels, land.dem);
+    drawn.channels = std::move(rivers.channels);
+    drawn.surface.emplace();
+    drawn.surface->dem = std::move(land.dem);
+    return drawn;
 }
 
-void add_side_valleys(Terrain& terrain, flow::FlowField const& drainage, Diary& diary, Run const& run) {
-    if (!terrain.recipe.network || !terrain.recipe.network->fill_space) {
-        return;
+DrawnLand with_side_valleys(DrawnLand drawn, measure::Drainage const& drainage, Diary& diary, Run const& run) {
+    if (!drawn.recipe.network || !drawn.recipe.network->fill_space) {
+        return drawn;
     }
+    std::int64_t const support_cells = drawn.recipe.network->support_cells;
     network::SideValleys made = diary.stage("valleys", [&] {
-        return network::side_valleys(terrain.network, terrain.channels, terrain.surface->dem, drainage,
-                                     {terrain.recipe.network->support_cells}, run);
+        return network::side_valleys(drawn.network, drawn.channels,
+                                     {drawn.surface->dem, drainage.direction, drainage.area_cells}, {support_cells},
+                                     run);
     });
-    terrain.equilibrium->side_valleys = made.grown;
-    terrain.equilibrium->side_valleys_left_out = made.left_out;
-    diary.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown,
-                          terrain.recipe.network->support_cells,
+    drawn.equilibrium->side_valleys = made.grown;
+    drawn.equilibrium->side_valleys_left_out = made.left_out;
+    diary.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown, support_cells,
                           static_cast<std::int64_t>(boost::num_edges(made.network.plan)) - made.grown));
-    terrain.network = std::move(made.network);
-    terrain.network.plan =
-        network::prune(terrain.network.plan, {0.0, terrain.grid.cell_m}, run).network; // lengths at which each is kept
-    assign_types(terrain.network.plan, terrain, run);
-    terrain.orders = network::order(terrain.network.plan);
-    terrain.streams = network::count_streams(terrain.network.plan);
-    for (ArcId const arc : NetworkIndex(terrain.network.plan).arcs) {
-        Arc const& of = terrain.network.plan[arc];
-        bool const leaves = boost::out_degree(boost::target(arc, terrain.network.plan), terrain.network.plan) == 0;
+    drawn.network = std::move(made.network);
+    // Lengths at which each is kept.
+    StreamNetwork kept = network::prune(drawn.network.plan, {0.0, drawn.grid.cell_m}, run).network;
+    drawn = with_types(std::move(drawn), std::move(kept), run);
+    drawn.orders = network::order(drawn.network.plan);
+    drawn.streams = network::count_streams(drawn.network.plan);
+    for (ArcId const arc : NetworkIndex(drawn.network.plan).arcs) {
+        Arc const& of = drawn.network.plan[arc];
+        bool const leaves = boost::out_degree(boost::target(arc, drawn.network.plan), drawn.network.plan) == 0;
         for (std::size_t v = 0; !of.given && v + (leaves ? 0 : 1) < of.line.size(); ++v) { // the last may join a line
-            std::int64_t const cell = terrain.grid.index(terrain.grid.cell_of(of.line[v]));
-            terrain.valley.z[cell] = terrain.surface->dem[cell];
+            std::int64_t const cell = drawn.grid.index(drawn.grid.cell_of(of.line[v]));
+            drawn.valley.z[cell] = drawn.surface->dem[cell];
         }
     }
+    return drawn;
 }
 
 } // namespace thalweg::pipeline

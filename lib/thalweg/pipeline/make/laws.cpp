@@ -9,7 +9,7 @@
 #include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/drawn_land.hpp>
 
 #include <algorithm>
 
@@ -68,22 +68,22 @@ DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params, Run c
     return laws_of_dem(on_ground, drainage, flow::flow_lengths(drainage, run), params, run);
 }
 
-RiverLaws laws_of_terrain(Terrain const& terrain, flow::FlowField const* drainage, Run const& run) {
+RiverLaws laws_of_land(DrawnLand const& drawn, measure::ContributingAreas const& areas, std::int64_t land_cells,
+                       measure::Drainage const* drainage, Run const& run) {
     RiverLaws found;
     std::optional<Raster<float>> flow_length;
     if (drainage != nullptr) {
         flow_length = flow::flow_lengths(*drainage, run);
     }
     DemLawsParams params;
-    if (boost::num_edges(terrain.network.plan) > 0) {
-        std::int64_t const land = terrain.statistics ? terrain.statistics->cells : terrain.grid.cells();
-        found.network = laws_of(terrain.network, terrain.orders, terrain.areas, terrain.grid, land,
-                                flow_length ? &*flow_length : nullptr);
+    if (boost::num_edges(drawn.network.plan) > 0) {
+        found.network =
+            laws_of(drawn.network, drawn.orders, areas, drawn.grid, land_cells, flow_length ? &*flow_length : nullptr);
         params.network_m =
-            found.network->drainage_density_m * static_cast<double>(land) * terrain.grid.cell_m * terrain.grid.cell_m;
+            found.network->drainage_density_m * static_cast<double>(land_cells) * drawn.grid.cell_m * drawn.grid.cell_m;
     }
     if (drainage != nullptr) {
-        found.dem = laws_of_dem(terrain.surface->dem, *drainage, *flow_length, params, run);
+        found.dem = laws_of_dem(drawn.surface->dem, *drainage, *flow_length, params, run);
     }
     return found;
 }

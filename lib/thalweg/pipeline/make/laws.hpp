@@ -43,11 +43,13 @@ DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, R
 /// one's too. Throws: also as ground_cell.
 DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params = {}, Run const& run = {});
 
-struct Terrain;
+struct DrawnLand;
 
-/// Both laws of a terrain whose rivers have orders and areas.
-/// Takes: drainage: of the terrain's surface, null where it has none: Hack's lengths are then from the sources. Gives:
-/// the DEM's rivers as long together as those drawn, where there are any. Throws: as laws_of_dem.
-RiverLaws laws_of_terrain(Terrain const& terrain, flow::FlowField const* drainage, Run const& run = {});
+/// Both laws of land and rivers.
+/// Takes: areas: of the rivers; land_cells: that have heights, or the grid's; drainage: of the surface, null where
+/// there is none: Hack's lengths are then from the sources. Gives: the DEM's rivers as long together as those drawn,
+/// where there are any. Throws: as laws_of_dem.
+RiverLaws laws_of_land(DrawnLand const& drawn, measure::ContributingAreas const& areas, std::int64_t land_cells,
+                       measure::Drainage const* drainage, Run const& run = {});
 
 } // namespace thalweg::pipeline

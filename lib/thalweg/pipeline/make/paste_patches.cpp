@@ -35,22 +35,22 @@ MakeBlendParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
 
 } // namespace
 
-void paste_patches(Terrain& terrain, Diary& diary, Run const& run) {
-    for (PatchRecipe const& patch : terrain.recipe.patches) {
-        bool const keeps = patch.rivers == PatchRivers::keep && terrain.recipe.network.has_value();
+DrawnLand with_patches(DrawnLand drawn, Diary& diary, Run const& run) {
+    for (PatchRecipe const& patch : drawn.recipe.patches) {
+        bool const keeps = patch.rivers == PatchRivers::keep && drawn.recipe.network.has_value();
         MadeBlend made = diary.stage("blend", [&] {
-            return blend_into(terrain.surface->dem, keeps ? river_mask(terrain.valley) : Mask{},
-                              params_of(terrain.recipe, patch), run);
+            return blend_into(drawn.surface->dem, keeps ? river_mask(drawn.valley) : Mask{},
+                              params_of(drawn.recipe, patch), run);
         });
-        terrain.surface->dem = std::move(made.pasted.dem);
-        terrain.patches.push_back(
-            {made.pasted.cells, made.pasted.kept, made.pasted.seam_max_m, made.pasted.seam_rms_m});
+        drawn.surface->dem = std::move(made.pasted.dem);
+        drawn.patches.push_back({made.pasted.cells, made.pasted.kept, made.pasted.seam_max_m, made.pasted.seam_rms_m});
         diary.say(
             fmt::format("{} cells of {}, seam {:.2g} m", made.pasted.cells, patch.source, made.pasted.seam_rms_m));
     }
-    if (terrain.recipe.network && replaces_rivers(terrain.recipe)) {
-        terrain.valley = honoured_valley(std::move(terrain.valley), terrain.network.plan, terrain.surface->dem);
+    if (drawn.recipe.network && replaces_rivers(drawn.recipe)) {
+        drawn.valley = honoured_valley(std::move(drawn.valley), drawn.network.plan, drawn.surface->dem);
     }
+    return drawn;
 }
 
 } // namespace thalweg::pipeline

@@ -27,18 +27,25 @@ namespace thalweg::pipeline {
 
 namespace {
 
+/// The recipe with the CRS of its grid.
+Recipe with_crs(Recipe recipe) {
+    std::string const& region = recipe.network->forest.region;
+    std::string& crs = recipe.grid.crs;
+    crs = !crs.empty()     ? io::projected_crs(crs)
+          : region.empty() ? io::projected_crs("EPSG:32631")
+                           : io::crs_for_polygons(file_in(recipe, region));
+    return recipe;
+}
+
 /// The land on its grid: the region's polygons, an island, or all of it.
-Mask land_of(Recipe& recipe, Run const& run) {
+Mask land_of(Recipe const& recipe, Run const& run) {
     ForestRecipe const& wanted = recipe.network->forest;
     if (wanted.region.empty()) {
-        recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
         Grid const grid = frame_tree(1, recipe.grid);
         return wanted.shape == LandShape::island ? network::shape_island(grid, {wanted.ruggedness, recipe.seed}, run)
                                                  : Mask(grid, 1);
     }
-    std::string const path = file_in(recipe, wanted.region);
-    recipe.grid.crs = recipe.grid.crs.empty() ? io::crs_for_polygons(path) : io::projected_crs(recipe.grid.crs);
-    Polygons const polygons = io::read_polygons(path, recipe.grid.crs, run);
+    Polygons const polygons = io::read_polygons(file_in(recipe, wanted.region), recipe.grid.crs, run);
     return blend::mask_polygons(polygons, frame_polygons(polygons, recipe.grid));
 }
 
@@ -140,10 +147,15 @@ std::vector<Cell> outlets_of(Recipe const& recipe, Mask& land, std::vector<Findi
 
 } // namespace
 
-Planned plan_forest(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
-    ForestRecipe& wanted = recipe.network->forest;
-    std::vector<Finding>& notes = terrain.story.repairs;
-    Mask land = diary.stage("shape", [&] { return land_of(recipe, run); });
+Planned plan_forest(Recipe given, Diary& diary, Run const& run) {
+    NetworkStory story;
+    std::vector<Finding>& notes = story.repairs;
+    Recipe recipe;
+    Mask land = diary.stage("shape", [&] {
+        recipe = with_crs(std::move(given));
+        return land_of(recipe, run);
+    });
+    ForestRecipe const& wanted = recipe.network->forest;
     std::vector<Cell> const outlets = outlets_of(recipe, land, notes, run);
     network::ForestParams params = wanted.growth;
     params.step_cells = wanted.spacing_cells / 2;
@@ -152,12 +164,16 @@ Planned plan_forest(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& r
         diary.stage("grow", [&] { return network::plant_forest(land, outlets, params, run); });
     notes.insert(notes.end(), planted.notes.begin(), planted.notes.end());
     diary.say(fmt::format("{} trees of {} particles  seed {}", planted.outlets, planted.particles, recipe.seed));
-    terrain.story.particles = planted.particles;
-    terrain.story.walkers = planted.walkers;
-    terrain.story.full = planted.stop == network::ForestStop::full;
+    story.particles = planted.particles;
+    story.walkers = planted.walkers;
+    story.full = planted.stop == network::ForestStop::full;
     Grid const grid = land.grid();
     bool const all_land = std::ranges::all_of(land.values(), [](std::uint8_t v) { return v != 0; });
-    return {std::move(planted.network), grid, {}, all_land ? Mask{} : std::move(land)};
+    return {.recipe = std::move(recipe),
+            .plan = std::move(planted.network),
+            .grid = grid,
+            .land = all_land ? Mask{} : std::move(land),
+            .story = std::move(story)};
 }
 
 std::vector<Finding> pruned_outlets(StreamNetwork const& before, StreamNetwork const& after) {

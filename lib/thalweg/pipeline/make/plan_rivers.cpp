@@ -85,10 +85,10 @@ void warn_of_crowding(network::ChosenCell const& chosen, Run const& run) {
                                               : "Take a part of the rivers, or set a smaller grid.cell."));
 }
 
-/// The mean slope, where the recipe has neither it nor a relief, nor the rivers heights.
-void settle_slope(Recipe& recipe, bool has_z) {
+/// A recipe with a mean slope, where it has neither one nor a relief, nor the rivers heights.
+Recipe with_slope(Recipe recipe, bool has_z) {
     if (!in_equilibrium(recipe)) {
-        return;
+        return recipe;
     }
     Heights const heights = recipe.network->heights;
     bool const graded = heights == Heights::graded || (heights == Heights::automatic && !has_z);
@@ -98,6 +98,7 @@ void settle_slope(Recipe& recipe, bool has_z) {
         usual != surface::EquilibriumParams{}.mean_slope_deg) {
         wanted.mean_slope_deg = usual;
     }
+    return recipe;
 }
 
 /// What the file holds that is not a river.
@@ -195,11 +196,10 @@ RiverLines read_lines(Recipe const& recipe, Run const& run) {
     return std::move(filled.lines);
 }
 
-std::string settle_on_lines(Recipe& recipe, RiverLines const& lines, Run const& run) {
+OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run) {
     recipe.grid.crs = lines.crs;
     if (recipe.grid.cell_m > 0.0) {
-        settle_slope(recipe, lines.has_z);
-        return "";
+        return {with_slope(std::move(recipe), lines.has_z), ""};
     }
     if (recipe.grid.width == 0) {
         require_no_stray_vertex(lines);
@@ -207,12 +207,12 @@ std::string settle_on_lines(Recipe& recipe, RiverLines const& lines, Run const& 
     network::ChosenCell const chosen =
         network::choose_cell(lines, {.width = recipe.grid.width, .height = recipe.grid.height}, run);
     recipe.grid.cell_m = chosen.cell_m;
-    settle_slope(recipe, lines.has_z);
     warn_of_crowding(chosen, run);
-    return reason(chosen);
+    return {with_slope(std::move(recipe), lines.has_z), reason(chosen)};
 }
 
-Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
+Planned plan_dla(Recipe recipe, Diary& diary, Run const& run) {
+    NetworkStory story;
     NetworkRecipe& wanted = *recipe.network;
     recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
     if (recipe.grid.width > 0) {
@@ -222,11 +222,11 @@ Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run)
     wanted.dla.seed = recipe.seed;
     run.at(0.0, fmt::format("grow {} particles", wanted.dla.particles).c_str());
     network::Cluster const cluster = diary.stage("grow", [&] { return network::grow_dla(wanted.dla, run); });
-    terrain.story.wide = cluster.stop == network::GrowthStop::radius;
+    story.wide = cluster.stop == network::GrowthStop::radius;
     diary.say(fmt::format("{} particles  seed {}  radius {:.0f} cells{}", cluster.cells.size(), recipe.seed,
-                          cluster.radius, terrain.story.wide ? ", where it stops" : ""));
-    terrain.story.particles = static_cast<std::int64_t>(cluster.cells.size());
-    terrain.story.walkers = cluster.walkers;
+                          cluster.radius, story.wide ? ", where it stops" : ""));
+    story.particles = static_cast<std::int64_t>(cluster.cells.size());
+    story.walkers = cluster.walkers;
 
     wanted.rotate_deg = wanted.rotate_deg.value_or(in_equilibrium(recipe) ? network::turn_by_chance(recipe.seed) : 0.0);
     double const turn_deg = *wanted.rotate_deg;
@@ -236,23 +236,24 @@ Planned plan_dla(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run)
         branch_params.max_height = room_for_network(recipe.grid.height);
     }
     network::Branch const branch = network::pick_branch(cluster, branch_params);
-    terrain.story.cut = branch.cut;
+    story.cut = branch.cut;
     FramedBranch const framed = frame_branch(branch, turn_deg == 0.0 ? recipe.grid : loosely_framed(recipe.grid));
     Mask const skeleton = diary.stage("thin", [&] { return network::thin(framed.mask, run); });
     StreamNetwork plan = diary.stage("trace", [&] { return network::trace(skeleton, {framed.mouth}, run); });
-    if (turn_deg == 0.0) {
-        return {std::move(plan), framed.mask.grid(), {}};
+    Grid grid = framed.mask.grid();
+    if (turn_deg != 0.0) {
+        network::Rotated turned = network::rotate(plan, turned_frame(branch, grid, recipe.grid, turn_deg), {turn_deg});
+        plan = std::move(turned.network);
+        grid = turned.grid;
     }
-    network::Rotated turned =
-        network::rotate(plan, turned_frame(branch, framed.mask.grid(), recipe.grid, turn_deg), {turn_deg});
-    return {std::move(turned.network), turned.grid, {}};
+    return {.recipe = std::move(recipe), .plan = std::move(plan), .grid = grid, .story = std::move(story)};
 }
 
-Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
-    LinesRecipe const& wanted = recipe.network->lines;
-    RiverLines lines = diary.stage("read", [&] { return read_lines(recipe, run); });
+Planned plan_lines(Recipe given, Diary& diary, Run const& run) {
+    RiverLines lines = diary.stage("read", [&] { return read_lines(given, run); });
     diary.say(fmt::format("{} lines from {}", lines.lines.size(), lines.name));
-    std::string const why = settle_on_lines(recipe, lines, run);
+    auto [recipe, why] = settle_on_lines(std::move(given), lines, run);
+    LinesRecipe const& wanted = recipe.network->lines;
     Grid const grid = frame_lines(lines, recipe.grid);
     run.tell("grid", fmt::format("{}x{} cells of {} m{}", grid.width, grid.height, grid.cell_m, why));
     if (recipe.grid.clip) {
@@ -266,37 +267,39 @@ Planned plan_lines(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& ru
             lines, {.snap_m = wanted.snap_m, .orientation = wanted.orientation, .divergences = wanted.divergences},
             run);
     });
-    terrain.story.repairs = left_out(lines);
-    terrain.story.repairs.insert(terrain.story.repairs.end(), adopted.repairs.begin(), adopted.repairs.end());
-    terrain.secondary = lines.secondary;
+    NetworkStory story;
+    story.repairs = left_out(lines);
+    story.repairs.insert(story.repairs.end(), adopted.repairs.begin(), adopted.repairs.end());
+    RiverFile file;
+    file.secondary = lines.secondary;
     for (RiverLine const& line : lines.lines) {
-        terrain.drawn.push_back({line.feature, line.vertices, "", line.feature});
+        file.drawn.push_back({line.feature, line.vertices, "", line.feature});
     }
-    terrain.attributes = std::move(lines.attributes);
-    terrain.sources = LineSources(adopted.network, adopted.stretches);
-    terrain.secondary.insert(terrain.secondary.end(), adopted.secondary.begin(), adopted.secondary.end());
-    diary.say(fmt::format("{} arcs, {} repairs{}", boost::num_edges(adopted.network), terrain.story.repairs.size(),
-                          terrain.secondary.empty() ? "" : fmt::format(", {} secondary", terrain.secondary.size())));
+    file.attributes = std::move(lines.attributes);
+    file.sources = LineSources(adopted.network, adopted.stretches);
+    file.secondary.insert(file.secondary.end(), adopted.secondary.begin(), adopted.secondary.end());
+    diary.say(fmt::format("{} arcs, {} repairs{}", boost::num_edges(adopted.network), story.repairs.size(),
+                          file.secondary.empty() ? "" : fmt::format(", {} secondary", file.secondary.size())));
 
     warn_of_gaps(adopted.network, grid, wanted.snap_m, run);
-    Planned planned{std::move(adopted.network), grid, {}};
-    if (wanted.coastlines == Coastlines::sea) {
-        planned.land = land_of_coastlines(lines, grid, diary, run);
-    }
+    Mask land = wanted.coastlines == Coastlines::sea ? land_of_coastlines(lines, grid, diary, run) : Mask{};
     Heights& heights = recipe.network->heights;
     if (heights == Heights::automatic) {
-        terrain.story.heights_of_file = lines.has_z;
+        story.heights_of_file = lines.has_z;
         heights = lines.has_z ? Heights::file : in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;
     }
     bool const or_straight = heights == Heights::soft || heights == Heights::fixed || heights == Heights::ends;
+    std::optional<RaisedNetwork> file_heights;
     if (heights == Heights::file || (or_straight && lines.has_z)) {
         if (!lines.has_z) {
             throw BadInput(fmt::format("network.heights = \"file\", but {} has lines without Z; choose other heights",
                                        lines.name));
         }
-        planned.file_heights = network::take_file_heights({planned.plan, adopted.arc_z, {}}, lines);
+        file_heights = network::take_file_heights({adopted.network, adopted.arc_z, {}}, lines);
     }
-    return planned;
+    return {
+        std::move(recipe), std::move(adopted.network), grid, std::move(file_heights), std::move(land), std::move(file),
+        std::move(story)};
 }
 
 } // namespace thalweg::pipeline

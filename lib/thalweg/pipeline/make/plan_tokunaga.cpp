@@ -109,13 +109,12 @@ void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Run
     }
 }
 
-Planned fill_region(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
+Planned fill_region(Recipe recipe, Diary& diary, Run const& run) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
     recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
     network::TokunagaTree const tree =
         diary.stage("grow", [&] { return network::grow_tokunaga(tree_of(recipe), run); });
-    terrain.story.tokunaga.emplace();
-    TokunagaStory& story = *terrain.story.tokunaga;
+    TokunagaStory story;
     story.tree = network::count_streams(downstream(tree));
     diary.say(fmt::format("lambda {}  order {}  {} links", wanted.generator, wanted.order, tree.links.size()));
 
@@ -138,10 +137,13 @@ Planned fill_region(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& r
     diary.say(
         fmt::format("{} of {} links placed, {:.0f} m apart", embedded.placed, tree.links.size(), embedded.spacing_m));
     judge_room(embedded.placed, embedded.dropped, grid, run);
-    return {std::move(embedded.network), grid, {}};
+    return {.recipe = std::move(recipe),
+            .plan = std::move(embedded.network),
+            .grid = grid,
+            .story = {.tokunaga = std::move(story)}};
 }
 
-Planned follow_strokes(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
+Planned follow_strokes(Recipe recipe, Diary& diary, Run const& run) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
     std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
     RiverLines const strokes = diary.stage("read", [&] {
@@ -163,12 +165,15 @@ Planned follow_strokes(Recipe& recipe, Terrain& terrain, Diary& diary, Run const
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
     network::GrownStrokes grown =
         diary.stage("grow", [&] { return network::grow_strokes(strokes, grid, params, run); });
-    terrain.story.tokunaga.emplace();
-    terrain.story.tokunaga->placed = grown.placed;
-    terrain.story.tokunaga->dropped = grown.dropped;
+    TokunagaStory story;
+    story.placed = grown.placed;
+    story.dropped = grown.dropped;
     diary.say(fmt::format("{} of {} links placed", grown.placed, grown.placed + grown.dropped));
     judge_room(grown.placed, grown.dropped, grid, run);
-    return {std::move(grown.network), grid, {}};
+    return {.recipe = std::move(recipe),
+            .plan = std::move(grown.network),
+            .grid = grid,
+            .story = {.tokunaga = std::move(story)}};
 }
 
 } // namespace
@@ -183,9 +188,9 @@ network::TokunagaParams tree_of(Recipe const& recipe) {
     return params;
 }
 
-Planned plan_tokunaga(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
-    return recipe.network->tokunaga.strokes.empty() ? fill_region(recipe, terrain, diary, run)
-                                                    : follow_strokes(recipe, terrain, diary, run);
+Planned plan_tokunaga(Recipe recipe, Diary& diary, Run const& run) {
+    bool const fills = recipe.network->tokunaga.strokes.empty();
+    return fills ? fill_region(std::move(recipe), diary, run) : follow_strokes(std::move(recipe), diary, run);
 }
 
 } // namespace thalweg::pipeline

@@ -26,11 +26,12 @@ struct LandRelief {
 /// one's too, though its cells are taken for squares. Throws: as measure::statistics and ground_cell do; Cancelled.
 LandRelief relief_of_dem(Raster<float> const& dem, Run const& run = {});
 
-struct Terrain;
+struct DrawnLand;
 
-/// Relief of a terrain with a surface and its statistics.
+/// Relief of a surface with its statistics.
 /// Gives: perched where it has rivers: by the mean slope that the recipe asks for, else that of the land.
-LandRelief relief_of_terrain(Terrain const& terrain, flow::FlowField const& drainage, Run const& run = {});
+LandRelief relief_of_land(DrawnLand const& drawn, measure::Statistics const& statistics,
+                          measure::Drainage const& drainage, Run const& run = {});
 
 /// A figure as report.json and the page tell it.
 struct ReliefRow {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/internal/rivers.hpp>
+#include <thalweg/pipeline/make/rivers.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments/areas.hpp>
@@ -16,6 +16,7 @@
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/make/internal/plan_rivers.hpp>
+#include <thalweg/pipeline/make/internal/type_rivers.hpp>
 #include <thalweg/pipeline/recipe/internal/conversions.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
@@ -29,39 +30,43 @@ namespace thalweg::pipeline {
 
 namespace {
 
-RaisedNetwork raise(Planned const& planned, Terrain& terrain, Run const& run) {
-    NetworkRecipe const& wanted = *terrain.recipe.network;
+struct Raised {
+    RaisedNetwork network;
+    network::HeightReport report = {}; ///< under modes that set heights
+};
+
+Raised raise(Planned const& planned, network::RiverTypes const& types, Run const& run) {
+    NetworkRecipe const& wanted = *planned.recipe.network;
     if (planned.file_heights) {
-        return network::keep_heights(planned.plan, *planned.file_heights, wanted.slope);
+        return {network::keep_heights(planned.plan, *planned.file_heights, wanted.slope)};
     }
     if (wanted.heights == Heights::rosgen) {
-        return network::set_heights_by_type(planned.plan, terrain.types, {wanted.rosgen_slope, terrain.recipe.seed},
-                                            run);
+        return {network::set_heights_by_type(planned.plan, types, {wanted.rosgen_slope, planned.recipe.seed}, run)};
     }
     if (wanted.heights == Heights::graded) {
-        flow::ContributingAreas const areas = flow::areas_nearest(planned.plan, terrain.grid, run);
-        double const cell = terrain.grid.cell_m * terrain.grid.cell_m;
-        return network::set_heights_graded(planned.plan, areas.us_area_m2, areas.ds_area_m2,
-                                           {wanted.slope, wanted.concavity, cell}, run)
-            .network;
+        measure::ContributingAreas const areas = measure::areas_nearest(planned.plan, planned.grid, run);
+        double const cell = planned.grid.cell_m * planned.grid.cell_m;
+        return {network::set_heights_graded(planned.plan, areas.us_area_m2, areas.ds_area_m2,
+                                            {wanted.slope, wanted.concavity, cell}, run)
+                    .network};
     }
     network::HeightMode const mode = wanted.heights == Heights::straight       ? network::HeightMode::straight
                                      : wanted.heights == Heights::along_stream ? network::HeightMode::along_stream
                                                                                : network::HeightMode::straight_repaired;
     network::Raised raised = network::set_heights(planned.plan, {mode, wanted.slope}, run);
-    terrain.story.heights = raised.report;
-    return std::move(raised.network);
+    return {std::move(raised.network), raised.report};
 }
 
 /// Bends rivers, where the recipe wants it, once it is said how much. Those that end on a coast stay as they grew, in
 /// all directions alike: bent ones would leave the land.
-void let_wander(Planned& planned, Terrain& terrain, Diary& diary, Run const& run) {
-    NetworkRecipe& rivers = *terrain.recipe.network;
-    bool const has_coast = !terrain.land.values().empty();
-    bool const grown_for_land = rivers.source != Source::lines && in_equilibrium(terrain.recipe) && !has_coast;
+Planned let_wander(Planned planned, Diary& diary, Run const& run) {
+    NetworkRecipe& rivers = *planned.recipe.network;
+    Mask const& land = planned.land;
+    bool const has_coast = !land.values().empty();
+    bool const grown_for_land = rivers.source != Source::lines && in_equilibrium(planned.recipe) && !has_coast;
     rivers.meander = rivers.meander.value_or(grown_for_land ? 1.0 : 0.0);
     if (*rivers.meander == 0.0 && !grown_for_land) {
-        return;
+        return planned;
     }
     if (has_coast) {
         throw BadParameter("network.meander cannot bend rivers that end on a coast; leave it out");
@@ -70,15 +75,16 @@ void let_wander(Planned& planned, Terrain& terrain, Diary& diary, Run const& run
         throw BadParameter("network.meander cannot bend rivers whose heights come from their file; set "
                            "network.heights = \"graded\" or leave meander out");
     }
-    flow::ContributingAreas const areas = flow::areas_nearest(planned.plan, terrain.grid, run);
-    network::MeanderParams const params{.gain = *rivers.meander, .seed = terrain.recipe.seed};
+    measure::ContributingAreas const areas = measure::areas_nearest(planned.plan, planned.grid, run);
+    network::MeanderParams const params{.gain = *rivers.meander, .seed = planned.recipe.seed};
     network::Meandered bent = diary.stage("meander", [&] {
-        return terrain.land.cells() > 0 ? network::meander(planned.plan, terrain.land, areas.ds_area_m2, params, run)
-                                        : network::meander(planned.plan, terrain.grid, areas.ds_area_m2, params, run);
+        return land.cells() > 0 ? network::meander(planned.plan, land, areas.ds_area_m2, params, run)
+                                : network::meander(planned.plan, planned.grid, areas.ds_area_m2, params, run);
     });
     diary.say(fmt::format("{} vertices, at most {:.0f} m aside", bent.vertices, bent.max_shift_m));
-    terrain.sources = terrain.sources.bent(planned.plan, bent.network);
+    planned.file.sources = planned.file.sources.bent(planned.plan, bent.network);
     planned.plan = std::move(bent.network);
+    return planned;
 }
 
 /// A word where outlets went far over ground of which the file says nothing.
@@ -106,35 +112,39 @@ void warn_of_long_ways(std::vector<Finding> const& notes, StreamNetwork const& p
 
 /// Outlets inside the grid: carried to where rivers may end, where the recipe wants it. Those at the sea reach it in
 /// any case; what lies beside a river is land.
-void carry_outlets(StreamNetwork& plan, bool join, Terrain& terrain, Run const& run) {
+Planned with_outlets_carried(Planned planned, Run const& run) {
     constexpr std::int64_t at_sea_cells = 4;
-    bool const all = terrain.recipe.network->inland != InlandEnds::sink;
+    InlandEnds const inland = planned.recipe.network->inland;
+    bool const all = inland != InlandEnds::sink;
+    network::CarryParams const params{.join = !planned.file_heights}; // given heights may not fall into another's
     auto const take = [&](network::Carried carried) {
-        warn_of_long_ways(carried.notes, plan, run);
-        terrain.story.repairs.insert(terrain.story.repairs.end(), carried.notes.begin(), carried.notes.end());
-        plan = std::move(carried.network);
+        warn_of_long_ways(carried.notes, planned.plan, run);
+        std::vector<Finding>& repairs = planned.story.repairs;
+        repairs.insert(repairs.end(), carried.notes.begin(), carried.notes.end());
+        planned.plan = std::move(carried.network);
     };
-    if (terrain.land.cells() == 0 && terrain.recipe.network->inland == InlandEnds::coast) {
-        terrain.land = network::land_behind_outlets(plan, terrain.grid, run);
+    if (planned.land.cells() == 0 && inland == InlandEnds::coast) {
+        planned.land = network::land_behind_outlets(planned.plan, planned.grid, run);
     }
-    if (terrain.land.cells() == 0) {
+    if (planned.land.cells() == 0) {
         if (all) {
-            take(network::carry_outlets(plan, terrain.grid, {.join = join}));
+            take(network::carry_outlets(planned.plan, planned.grid, params));
         }
-        return;
+        return planned;
     }
     // A river that is carried may close the way of another.
     for (std::size_t moved = 1, rounds = 0; moved > 0 && rounds < 4; ++rounds) {
-        terrain.land = network::land_along_rivers(std::move(terrain.land), plan);
+        planned.land = network::land_along_rivers(std::move(planned.land), planned.plan);
         network::Carried carried =
-            network::carry_outlets(plan, terrain.land, all ? terrain.grid.cells() : at_sea_cells, {.join = join});
+            network::carry_outlets(planned.plan, planned.land, all ? planned.grid.cells() : at_sea_cells, params);
         moved =
             static_cast<std::size_t>(std::count_if(carried.notes.begin(), carried.notes.end(), [](Finding const& f) {
                 return f.kind == "carried_outlet" || f.kind == "joined_outlet";
             }));
         take(std::move(carried));
     }
-    terrain.land = network::land_along_rivers(std::move(terrain.land), plan);
+    planned.land = network::land_along_rivers(std::move(planned.land), planned.plan);
+    return planned;
 }
 
 std::size_t vertices_of(StreamNetwork const& plan) {
@@ -161,41 +171,36 @@ network::Pruned prune(StreamNetwork const& plan, NetworkRecipe const& rivers, do
     return pruned;
 }
 
-Planned plan(Recipe& recipe, Terrain& terrain, Diary& diary, Run const& run) {
+/// Short branches pruned away, as the recipe wants it.
+Planned pruned(Planned planned, Diary& diary, Run const& run) {
+    NetworkRecipe const& rivers = *planned.recipe.network;
+    network::Pruned kept = diary.stage(
+        "prune", [&] { return prune(planned.plan, rivers, *rivers.prune_cells, planned.grid.cell_m, run); });
+    NetworkStory& story = planned.story;
+    story.arcs_traced = kept.arcs_before;
+    story.arcs_kept = static_cast<std::int64_t>(boost::num_edges(kept.network));
+    diary.say(fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, story.arcs_kept, kept.arcs_before));
+    if (rivers.source == Source::forest) { // its rivers end where the land does
+        std::vector<Finding> const gone = pruned_outlets(planned.plan, kept.network);
+        story.repairs.insert(story.repairs.end(), gone.begin(), gone.end());
+    }
+    planned.plan = std::move(kept.network);
+    return planned;
+}
+
+Planned plan(Recipe const& recipe, Diary& diary, Run const& run) {
     switch (recipe.network->source) {
-    case Source::dla: return plan_dla(recipe, terrain, diary, run);
-    case Source::tokunaga: return plan_tokunaga(recipe, terrain, diary, run);
-    case Source::forest: return plan_forest(recipe, terrain, diary, run);
+    case Source::dla: return plan_dla(recipe, diary, run);
+    case Source::tokunaga: return plan_tokunaga(recipe, diary, run);
+    case Source::forest: return plan_forest(recipe, diary, run);
     case Source::lines: break;
     }
-    return plan_lines(recipe, terrain, diary, run);
+    return plan_lines(recipe, diary, run);
 }
 
-} // namespace
-
-void assign_types(StreamNetwork& plan, Terrain& terrain, Run const& run) {
-    NetworkRecipe const& wanted = *terrain.recipe.network;
-    if (wanted.heights != Heights::rosgen && !(wanted.coast_m > 0.0)) {
-        return;
-    }
-    network::AssignTypesParams params;
-    params.choice = wanted.rosgen ? network::TypeChoice::one : network::TypeChoice::by_order;
-    params.one = wanted.rosgen.value_or(params.one);
-    params.coast_m = wanted.coast_m;
-    terrain.types = network::assign_types(plan, network::order(plan), params, run);
-    NetworkIndex const index(plan);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        plan[index.arcs[a]].type = network::name_of(terrain.types.type[a]);
-    }
-}
-
-void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
-    Recipe& recipe = terrain.recipe;
+/// What a recipe leaves to the source of its rivers.
+Recipe with_defaults(Recipe recipe) {
     NetworkRecipe& rivers = *recipe.network;
-    Planned planned = plan(recipe, terrain, diary, run);
-    take_frame(terrain, planned.grid);
-    report_conversions(terrain, run);
-    Grid const& grid = terrain.grid;
     if (rivers.heights == Heights::automatic) {
         rivers.heights = in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;
     }
@@ -203,38 +208,52 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
         bool const all_over = rivers.source == Source::dla || rivers.source == Source::forest;
         rivers.prune_cells = all_over ? 20.0 : 0.0;
     }
+    return recipe;
+}
 
-    network::Pruned pruned =
-        diary.stage("prune", [&] { return prune(planned.plan, rivers, *rivers.prune_cells, grid.cell_m, run); });
-    terrain.story.arcs_traced = pruned.arcs_before;
-    terrain.story.arcs_kept = static_cast<std::int64_t>(boost::num_edges(pruned.network));
-    diary.say(
-        fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, terrain.story.arcs_kept, pruned.arcs_before));
-    std::vector<Finding>& repairs = terrain.story.repairs;
-    if (rivers.source == Source::forest) { // its rivers end where the land does
-        std::vector<Finding> const gone = pruned_outlets(planned.plan, pruned.network);
-        repairs.insert(repairs.end(), gone.begin(), gone.end());
-    }
-    terrain.land = std::move(planned.land);
-    planned.plan = std::move(pruned.network);
-    if (rivers.source != Source::forest) {
-        carry_outlets(planned.plan, !planned.file_heights, terrain, run); // given heights may not fall into another's
-    }
+/// The network on its grid, with what the recipe left to it.
+Planned on_its_grid(Planned planned, Run const& run) {
+    planned.recipe = framed(std::move(planned.recipe), planned.grid);
+    std::vector<Finding> const notes = report_conversions(planned.recipe, planned.grid, run);
+    planned.story.repairs.insert(planned.story.repairs.end(), notes.begin(), notes.end());
+    planned.recipe = with_defaults(std::move(planned.recipe));
+    return planned;
+}
 
-    let_wander(planned, terrain, diary, run);
+} // namespace
 
-    assign_types(planned.plan, terrain, run);
-    if (in_equilibrium(recipe) && rivers.heights == Heights::graded) { // their heights are the land's
-        terrain.network.plan = std::move(planned.plan);
-        return;
+Rivers make_rivers(Recipe const& recipe, Run const& run) {
+    Diary diary(run);
+    Planned planned = pruned(on_its_grid(plan(recipe, diary, run), run), diary, run);
+    if (planned.recipe.network->source != Source::forest) {
+        planned = with_outlets_carried(std::move(planned), run);
     }
-    terrain.network = diary.stage("raise", [&] { return raise(planned, terrain, run); });
-    terrain.orders = network::order(terrain.network.plan);
-    terrain.streams = network::count_streams(terrain.network.plan);
-    network::Rasterised rasterised = network::rasterise(terrain.network, grid);
-    terrain.valley = std::move(rasterised.valley);
-    terrain.story.lowered_cells = rasterised.lowered_cells;
-    terrain.story.max_lowered_m = rasterised.max_lowered_m;
+    planned = let_wander(std::move(planned), diary, run);
+    Typed typed = type_rivers(std::move(planned.plan), *planned.recipe.network, run);
+    planned.plan = std::move(typed.plan);
+
+    Rivers rivers;
+    if (in_equilibrium(planned.recipe) && planned.recipe.network->heights == Heights::graded) {
+        rivers.network.plan = std::move(planned.plan); // their heights are the land's
+    } else {
+        Raised raised = diary.stage("raise", [&] { return raise(planned, typed.types, run); });
+        planned.story.heights = raised.report;
+        network::Rasterised rasterised = network::rasterise(raised.network, planned.grid);
+        planned.story.lowered_cells = rasterised.lowered_cells;
+        planned.story.max_lowered_m = rasterised.max_lowered_m;
+        rivers.network = std::move(raised.network);
+        rivers.orders = network::order(rivers.network.plan);
+        rivers.streams = network::count_streams(rivers.network.plan);
+        rivers.valley = std::move(rasterised.valley);
+    }
+    rivers.recipe = std::move(planned.recipe);
+    rivers.grid = planned.grid;
+    rivers.file = std::move(planned.file);
+    rivers.land = std::move(planned.land);
+    rivers.types = std::move(typed.types);
+    rivers.story = std::move(planned.story);
+    rivers.timings_s = diary.take();
+    return rivers;
 }
 
 } // namespace thalweg::pipeline

@@ -8,15 +8,13 @@
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/flow/routing/route_dinf.hpp>
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/measure/topology/topology.hpp>
+#include <thalweg/pipeline/commands/internal/append.hpp>
 #include <thalweg/pipeline/make/internal/around_rivers.hpp>
-#include <thalweg/pipeline/make/internal/catchment_rows.hpp>
 #include <thalweg/pipeline/make/internal/diary.hpp>
 #include <thalweg/pipeline/make/internal/land.hpp>
 #include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/make/internal/paste_patches.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
-#include <thalweg/pipeline/make/internal/rivers.hpp>
 #include <thalweg/pipeline/recipe/internal/conversions.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/pipeline/recipe/internal/unused_keys.hpp>
@@ -24,7 +22,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -32,128 +29,65 @@ namespace thalweg::pipeline {
 
 namespace {
 
-/// Arcs that rise somewhere. Level ones are what the schema allows: lakes, tidal reaches.
-std::int64_t uphill_arcs(RaisedNetwork const& network) {
-    return std::count_if(network.arc_z.begin(), network.arc_z.end(), [](std::vector<double> const& z) {
-        return std::adjacent_find(z.begin(), z.end(), std::less<>()) != z.end();
+/// The land with heights that drain, as the recipe wants it.
+DrawnLand made_to_drain(DrawnLand drawn, Diary& diary, Run const& run) {
+    if (!drawn.surface || !drawn.recipe.surface) {
+        return drawn;
+    }
+    std::optional<surface::Drain>& method = drawn.recipe.surface->drain;
+    method = method.value_or(drawn.recipe.network ? surface::Drain::carve : surface::Drain::none);
+    if (*method == surface::Drain::none) {
+        return drawn;
+    }
+    Valley const none{Raster<float>(drawn.grid, std::numeric_limits<float>::quiet_NaN())};
+    surface::DrainedLand land = diary.stage("carve", [&] {
+        return surface::drain(std::move(drawn.surface->dem), drawn.recipe.network ? drawn.valley : none, {*method},
+                              run);
     });
-}
-
-std::int64_t valley_cells_moved(Valley const& valley, Raster<float> const& dem) {
-    std::int64_t moved = 0;
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        moved += !std::isnan(valley.z[i]) && !(valley.z[i] == dem[i]);
-    }
-    return moved;
-}
-
-/// Makes the land drain, as the recipe wants it.
-void drain_land(Terrain& terrain, Diary& diary, Run const& run) {
-    if (!terrain.surface || !terrain.recipe.surface) {
-        return;
-    }
-    std::optional<flow::Conditioning>& method = terrain.recipe.surface->drain;
-    method = method.value_or(terrain.recipe.network ? flow::Conditioning::carve : flow::Conditioning::none);
-    if (*method == flow::Conditioning::none) {
-        return;
-    }
-    Valley const none{Raster<float>(terrain.grid, std::numeric_limits<float>::quiet_NaN())};
-    flow::ConditionedDem land = diary.stage("carve", [&] {
-        return flow::condition(std::move(terrain.surface->dem), terrain.recipe.network ? terrain.valley : none,
-                               {*method}, run);
-    });
-    terrain.surface->dem = std::move(land.dem);
-    terrain.drained = {land.banks, land.depressions};
+    drawn.surface->dem = std::move(land.dem);
+    drawn.drained = {land.banks, land.depressions};
     diary.say(fmt::format("banks raised {:.0f} m3; depressions filled {:.0f} m3, cut {:.0f} m3", land.banks.raised_m3,
                           land.depressions.raised_m3, land.depressions.cut_m3));
+    return drawn;
 }
 
-Check none_of(char const* name, std::int64_t count) {
-    return {name, static_cast<double>(count), 0.0, count == 0};
-}
-
-/// Of a land that was made to drain: whether it does, by its rivers where it honours them.
-void check_drainage(Terrain& terrain, std::int64_t depressions) {
-    if (!terrain.certificate) {
-        terrain.checks.push_back(none_of("depressions", depressions));
-        return;
-    }
-    std::vector<Check> const checks = terrain.certificate->checks();
-    terrain.checks.insert(terrain.checks.end(), checks.begin(), checks.end());
-}
-
-void measure_land(Terrain& terrain, Diary& diary, Run const& run) {
-    if (!terrain.surface) {
-        terrain.areas = flow::areas_nearest(terrain.network.plan, terrain.grid, run);
-        terrain.laws = laws_of_terrain(terrain, nullptr, run);
-        return;
-    }
-    Raster<float> const& dem = terrain.surface->dem;
-    terrain.statistics = diary.stage("measure", [&] { return measure::statistics(dem, run); });
-    terrain.hypsometry = measure::hypsometry(dem, run);
-    run.at(0.0, fmt::format("drain {} cells", terrain.grid.cells()).c_str());
-    bool const sinks = terrain.recipe.network && terrain.recipe.network->inland == InlandEnds::sink;
-    flow::FlowField const drainage = diary.stage("drain", [&] {
-        StreamNetwork const& plan = terrain.network.plan;
-        return flow::route(
-            dem, sinks ? cells_of(inland_ends(plan, dem), plan, terrain.grid) : std::vector<std::int64_t>{}, run);
+measure::Drainage drainage_of(DrawnLand const& drawn, Diary& diary, Run const& run) {
+    Raster<float> const& dem = drawn.surface->dem;
+    StreamNetwork const& plan = drawn.network.plan;
+    bool const sinks = drawn.recipe.network && drawn.recipe.network->inland == InlandEnds::sink;
+    run.at(0.0, fmt::format("drain {} cells", drawn.grid.cells()).c_str());
+    return diary.stage("drain", [&] {
+        return measure::drain(
+            dem, sinks ? cells_of(inland_ends(plan, dem), plan, drawn.grid) : std::vector<std::int64_t>{}, run);
     });
-    terrain.pits = drainage.pits;
-    terrain.pit_volume_m3 = drainage.pit_volume_m3;
-    if (terrain.recipe.network) {
-        add_side_valleys(terrain, drainage, diary, run);
-        terrain.areas = flow::areas_d8(terrain.network.plan, drainage, run);
-        if (terrain.recipe.output.catchments) {
-            terrain.catchments = diary.stage(
-                "catchments", [&] { return flow::catchments(flow::reaches_of(terrain.network.plan), drainage, run); });
-        }
-        terrain.sinks = sinks ? inland_ends(terrain.network.plan, dem) : std::vector<NodeId>{};
-        terrain.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
-        terrain.certificate = diary.stage("certify", [&] {
-            measure::Claims claims;
-            claims.ds_area_m2 = terrain.areas.ds_area_m2;
-            claims.still = either(still_cells(measure::as_file(terrain.network, terrain.orders), terrain.grid),
-                                  lake_cells(terrain.channels));
-            claims.drawn = river_mask(terrain.valley);
-            if (replaces_rivers(terrain.recipe)) {
-                claims.honoured = claims.drawn;
-            }
-            return measure::certify(dem, drainage, flow::reaches_of(terrain.network.plan), claims, run);
-        });
-    }
-    if (terrain.recipe.skeleton && terrain.recipe.skeleton->ridges != Ridges::none) {
-        terrain.surface_ridges =
-            diary.stage("ridges", [&] { return measure::extract_ridges(dem, terrain.ridges, run); });
-        measure::Agreement const& within_a_cell = terrain.surface_ridges->extracted[1];
-        diary.say(
-            fmt::format("{:.0f} % of those asked for are ridges of the surface, {:.0f} % of its own are asked for",
-                        100.0 * within_a_cell.recall, 100.0 * within_a_cell.precision));
-    }
-    if (terrain.drained) {
-        check_drainage(terrain, static_cast<std::int64_t>(drainage.depressions.size()));
-    }
-    if (terrain.recipe.output.accumulation) {
-        terrain.water_areas = diary.stage("areas", [&] {
-            return WaterAreas{areas_m2(drainage), areas_m2(flow::route_dinf(dem, drainage, run).area_cells)};
-        });
-    }
-    terrain.laws = diary.stage("laws", [&] { return laws_of_terrain(terrain, &drainage, run); });
-    terrain.relief = diary.stage("relief", [&] { return relief_of_terrain(terrain, drainage, run); });
 }
 
-void check_rivers(Terrain& terrain, Diary& diary, Run const& run) {
-    measure::TopologyReport topology = diary.stage(
-        "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run); });
-    terrain.checks.insert(terrain.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
-    terrain.checks.insert(terrain.checks.end(), topology.checks.begin(), topology.checks.end());
-    terrain.findings.insert(terrain.findings.end(), topology.findings.begin(), topology.findings.end());
-    if (terrain.drained && terrain.certificate) {
-        std::vector<Check> const checks = terrain.certificate->checks();
-        if (!std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; })) { // else nobody looks
-            std::vector<Finding> const& more = terrain.certificate->findings;
-            terrain.findings.insert(terrain.findings.end(), more.begin(), more.end());
-        }
+/// Land without rivers, on its grid, with a note on each conversion.
+DrawnLand land_alone(Recipe const& wanted, Diary& diary, Run const& run) {
+    FeaturePoints const points = given_points(wanted, run);
+    Recipe recipe = wanted;
+    recipe.grid.crs = points.crs;
+    Grid const grid = frame_land(points, recipe.grid);
+    recipe = framed(std::move(recipe), grid);
+    if (recipe.skeleton) {
+        require_on_grid(points, grid, recipe.skeleton->points);
     }
+    std::vector<Finding> notes = report_conversions(recipe, grid, run);
+    check_detail(recipe, grid.width, grid.height);
+    DrawnLand drawn = make_land(recipe, grid, points, diary, run);
+    drawn.notes = std::move(notes);
+    return drawn;
+}
+
+DrawnLand land_with(Rivers const& rivers, Diary& diary, Run const& run) {
+    refuse_unused_keys(rivers.recipe); // now that the rivers' heights are known
+    FeaturePoints points;
+    if (rivers.recipe.skeleton) {
+        points = given_points(rivers.recipe, run);
+        require_on_grid(points, rivers.grid, rivers.recipe.skeleton->points);
+    }
+    check_detail(rivers.recipe, rivers.grid.width, rivers.grid.height);
+    return rivers.recipe.surface ? draw_around_rivers(rivers, points, diary, run) : without_land(rivers);
 }
 
 } // namespace
@@ -162,47 +96,72 @@ bool Terrain::passed() const {
     return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
 }
 
+Terrain together(Rivers rivers, DrawnLand drawn, Assessment found) {
+    Terrain terrain;
+    terrain.recipe = std::move(drawn.recipe);
+    terrain.grid = drawn.grid;
+    terrain.network = std::move(drawn.network);
+    terrain.file = std::move(rivers.file);
+    terrain.land = std::move(drawn.land);
+    terrain.orders = std::move(drawn.orders);
+    terrain.streams = std::move(drawn.streams);
+    terrain.types = std::move(drawn.types);
+    terrain.areas = std::move(found.areas);
+    terrain.laws = std::move(found.laws);
+    terrain.valley = std::move(drawn.valley);
+    terrain.ridges = std::move(drawn.ridges);
+    terrain.surface_ridges = std::move(found.surface_ridges);
+    terrain.surface = std::move(drawn.surface);
+    terrain.channels = std::move(drawn.channels);
+    terrain.lakes = drawn.lakes;
+    terrain.sinks = std::move(found.sinks);
+    terrain.equilibrium = drawn.equilibrium;
+    terrain.diffusion = drawn.diffusion;
+    terrain.patches = std::move(drawn.patches);
+    terrain.drained = drawn.drained;
+    terrain.tin = std::move(drawn.tin);
+    terrain.projection = std::move(drawn.projection);
+    terrain.fine_forms_cells = drawn.fine_forms_cells;
+    terrain.statistics = std::move(found.statistics);
+    terrain.hypsometry = std::move(found.hypsometry);
+    terrain.relief = std::move(found.relief);
+    terrain.pits = found.pits;
+    terrain.pit_volume_m3 = found.pit_volume_m3;
+    terrain.certificate = std::move(found.certificate);
+    terrain.catchments = std::move(found.catchments);
+    terrain.water_areas = std::move(found.water_areas);
+    terrain.story = std::move(rivers.story);
+    append(terrain.story.repairs, std::move(drawn.notes));
+    terrain.checks = std::move(found.checks);
+    terrain.findings = std::move(found.findings);
+    return terrain;
+}
+
 Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
     check_recipe(wanted);
     io::RecipeFiles const confined;
-    Terrain terrain;
-    terrain.recipe = wanted;
-    Diary diary(run, terrain);
-    FeaturePoints points;
-    if (wanted.network) {
-        make_rivers(terrain, diary, run);
-        refuse_unused_keys(terrain.recipe); // now that the rivers' heights are known
-        if (wanted.skeleton) {
-            points = given_points(terrain.recipe, run);
-            require_on_grid(points, terrain.grid, terrain.recipe.skeleton->points);
-        }
-    } else {
-        points = given_points(terrain.recipe, run);
-        take_frame(terrain, frame_land(points, terrain.recipe.grid));
-        if (terrain.recipe.skeleton) {
-            require_on_grid(points, terrain.grid, terrain.recipe.skeleton->points);
-        }
-        report_conversions(terrain, run);
-    }
-    check_detail(terrain.recipe, terrain.grid.width, terrain.grid.height);
+    Diary diary(run);
+    Rivers rivers = wanted.network ? make_rivers(wanted, run) : Rivers{};
     if (keep && wanted.network) {
-        keep("valley", terrain.valley.z);
+        keep("valley", rivers.valley.z);
     }
-
-    if (!wanted.network) {
-        make_land(terrain, points, diary, run);
-    } else if (wanted.surface) {
-        draw_around_rivers(terrain, points, diary, run);
+    DrawnLand drawn = wanted.network ? land_with(rivers, diary, run) : land_alone(wanted, diary, run);
+    drawn = made_to_drain(with_patches(std::move(drawn), diary, run), diary, run);
+    if (keep && drawn.surface) {
+        keep("surface", drawn.surface->dem);
     }
-    paste_patches(terrain, diary, run);
-    drain_land(terrain, diary, run);
-    if (keep && terrain.surface) {
-        keep("surface", terrain.surface->dem);
+    std::optional<measure::Drainage> drainage;
+    if (drawn.surface) {
+        drainage = drainage_of(drawn, diary, run);
+        drawn = with_side_valleys(std::move(drawn), *drainage, diary, run);
     }
-    measure_land(terrain, diary, run);
-    if (wanted.network) {
-        check_rivers(terrain, diary, run);
-    }
+    Assessment found = assess(drawn, drainage, run);
+    drainage.reset();
+    Timings timings_s = std::move(rivers.timings_s);
+    append(timings_s, diary.take());
+    append(timings_s, std::move(found.timings_s));
+    Terrain terrain = together(std::move(rivers), std::move(drawn), std::move(found));
+    terrain.timings_s = std::move(timings_s);
     return terrain;
 }
 

@@ -28,85 +28,24 @@
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/network/elevation/assign_types.hpp>
 #include <thalweg/network/order/count_streams.hpp>
+#include <thalweg/pipeline/make/assess.hpp>
+#include <thalweg/pipeline/make/drawn_land.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
-#include <thalweg/pipeline/make/line_sources.hpp>
+#include <thalweg/pipeline/make/network_story.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
+#include <thalweg/pipeline/make/river_file.hpp>
+#include <thalweg/pipeline/make/timings.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
-
-/// What became of a network grown by Tokunaga's law.
-struct TokunagaStory {
-    network::StreamCounts tree; ///< of the tree as it was grown; empty for strokes
-    std::int64_t placed = 0;    ///< links that found room
-    std::int64_t dropped = 0;
-};
-
-/// What the network went through, for the report.
-struct NetworkStory {
-    std::int64_t particles = 0; ///< of the cluster (dla) or the forest
-    std::int64_t walkers = 0;   ///< released for it
-    std::optional<TokunagaStory> tokunaga;
-    bool wide = false;              ///< the cluster stopped at its greatest radius
-    bool full = false;              ///< the forest stopped where no particle found room
-    bool cut = false;               ///< the branch reached the grid's margin before the last particle
-    std::int64_t arcs_traced = 0;   ///< before pruning
-    std::int64_t arcs_kept = 0;     ///< by pruning; merged ones count once
-    network::HeightReport heights;  ///< under modes that set heights
-    bool heights_of_file = false;   ///< taken because the lines have them, not because they were asked for
-    std::int64_t lowered_cells = 0; ///< shared valley cells lowered to keep every path falling
-    double max_lowered_m = 0.0;
-    std::vector<Finding> repairs; ///< of adopted lines, and outlets carried to the border
-};
-
-/// How a solver came to its end.
-struct SolverStory {
-    std::int64_t iterations = 0;
-    double residual = 0.0; ///< relative
-};
-
-/// What became of a patch.
-struct PatchStory {
-    std::int64_t cells = 0;  ///< that it replaced
-    std::int64_t kept = 0;   ///< under it that rivers keep
-    double seam_max_m = 0.0; ///< as blend::Pasted
-    double seam_rms_m = 0.0;
-};
-
-/// What it took to make the land drain.
-struct DrainStory {
-    flow::DemChange banks;
-    flow::DemChange depressions;
-};
-
-/// Contributing areas [m2] by cell, NaN without data.
-struct WaterAreas {
-    Raster<double> d8;
-    Raster<double> dinf;
-};
-
-/// How a land came into equilibrium with its rivers.
-struct EquilibriumStory {
-    std::int64_t channel_cells = 0;   ///< in which rivers run
-    std::int64_t shortened_cells = 0; ///< of perched tips that are rivers no more
-    std::int64_t walled_cells = 0;    ///< of rivers whose given heights only walls hold up
-    double max_lowered_m = 0.0;       ///< soft: below the given heights
-    double p95_lowered_m = 0.0;
-    double rise = 0.0;             ///< as surface::EquilibriumLand
-    std::int64_t side_valleys = 0; ///< arcs that the land has grown, where they are asked for
-    std::int64_t side_valleys_left_out = 0;
-};
 
 /// A terrain with all that led to it.
 struct Terrain {
     Recipe recipe; ///< every default resolved: made again, it gives the same terrain
     Grid grid;
     RaisedNetwork network;
-    std::vector<SecondaryLine> secondary; ///< lines of the file that are not in the network
-    std::vector<SecondaryLine> drawn;     ///< lines of the file as they are drawn, without reasons
-    AttributeTable attributes;            ///< of the file's lines
-    LineSources sources;                  ///< the file's lines in the network
-    Mask land;                            ///< 0: sea, which has no heights; without cells: all is land
+    RiverFile file; ///< of which the rivers are
+    Mask land;      ///< 0: sea, which has no heights; without cells: all is land
     NetworkOrders orders;
     network::StreamCounts streams; ///< side branches, as drawn
     network::RiverTypes types;     ///< by arc, where rivers have types; else empty
@@ -136,10 +75,13 @@ struct Terrain {
     std::optional<WaterAreas> water_areas;           ///< by cell of the surface, where they are asked for
     NetworkStory story;
     std::vector<Check> checks;
-    std::vector<Finding> findings;                         ///< of the checks
-    std::vector<std::pair<std::string, double>> timings_s; ///< by stage, in order
-    bool passed() const;                                   ///< every check is ok
+    std::vector<Finding> findings; ///< of the checks
+    Timings timings_s;
+    bool passed() const; ///< every check is ok
 };
+
+/// Rivers, land and what is measured of them in one value.
+Terrain together(Rivers rivers, DrawnLand drawn, Assessment found);
 
 /// Called with intermediates: "valley", "surface".
 using Keep = std::function<void(std::string_view, Raster<float> const&)>;

@@ -8,10 +8,10 @@
 namespace thalweg::pipeline {
 
 std::optional<io::UserData> user_data(Terrain const& t, StreamNetwork const& plan) {
-    if (!t.sources.knows_any()) {
+    if (!t.file.sources.knows_any()) {
         return std::nullopt;
     }
-    io::UserData user{t.attributes, {}, t.sources.of(plan)};
+    io::UserData user{t.file.attributes, {}, t.file.sources.of(plan)};
     for (ArcId const arc : NetworkIndex(plan).arcs) {
         user.record.push_back(plan[arc].feature);
     }
@@ -19,17 +19,17 @@ std::optional<io::UserData> user_data(Terrain const& t, StreamNetwork const& pla
 }
 
 std::vector<SecondaryLine> secondary_of(Terrain const& t) {
-    std::vector<SecondaryLine> secondary = t.secondary;
+    std::vector<SecondaryLine> secondary = t.file.secondary;
     std::set<std::int64_t> known;
-    for (SecondaryLine const& line : t.secondary) {
+    for (SecondaryLine const& line : t.file.secondary) {
         known.insert(line.feature);
     }
-    for (auto const& of_arc : t.sources.of(t.network.plan)) {
+    for (auto const& of_arc : t.file.sources.of(t.network.plan)) {
         for (Stretch const& s : of_arc) {
             known.insert(s.feature);
         }
     }
-    for (SecondaryLine line : t.drawn) {
+    for (SecondaryLine line : t.file.drawn) {
         if (known.count(line.feature) == 0) {
             line.reason = "pruned or shortened";
             secondary.push_back(std::move(line));

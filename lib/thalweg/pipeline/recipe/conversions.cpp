@@ -16,48 +16,61 @@ namespace thalweg::pipeline {
 
 namespace {
 
-void report_file(Terrain& terrain, std::string const& name, std::string const& layer, Run const& run) {
-    if (name.empty()) {
-        return;
-    }
-    for (std::string const& words : io::conversions_of(file_in(terrain.recipe, name), layer, terrain.grid.crs)) {
-        run.say(fmt::format("{:<6} {}", "units", words));
-        terrain.story.repairs.push_back({"converted", 0, {}, 0.0, words});
-    }
-}
+/// A file's path and layer.
+struct NamedLayer {
+    std::string name;
+    std::string layer;
+};
 
-/// Far from its central meridian a UTM zone measures other lengths than the ground has.
-void warn_of_stretch(Terrain& terrain, Run const& run) {
-    constexpr double much = 0.01;
-    constexpr double percent = 100.0;
-    double const stretch = io::zone_stretch(terrain.grid);
-    if (!(stretch > much)) {
-        return;
-    }
-    std::string const words =
-        fmt::format("the grid reaches far beyond its UTM zone {}: lengths are up to {:.1f} % too long there. Name "
-                    "another CRS: --crs EPSG:n",
-                    terrain.grid.crs, percent * stretch);
-    run.say("warning: " + words);
-    terrain.story.repairs.push_back({"stretched", 0, {}, stretch, words});
-}
-
-} // namespace
-
-void report_conversions(Terrain& terrain, Run const& run) {
-    Recipe const& recipe = terrain.recipe;
+/// The files that a recipe names, in the order of their keys.
+std::vector<NamedLayer> files_of(Recipe const& recipe) {
+    std::vector<NamedLayer> files;
     for (Key const& key : all_keys()) {
         auto const value = names_file(key) && key.section() != "patch" ? key.take(recipe) : std::nullopt;
         if (value) {
             bool const of_rivers = key.help.path == "network.lines.path";
-            report_file(terrain, std::get<std::string>(*value), of_rivers ? recipe.network->lines.layer : "", run);
+            files.push_back({std::get<std::string>(*value), of_rivers ? recipe.network->lines.layer : ""});
         }
     }
     for (PatchRecipe const& patch : recipe.patches) {
-        report_file(terrain, patch.source, "", run);
-        report_file(terrain, patch.mask, "", run);
+        files.push_back({patch.source, ""});
+        files.push_back({patch.mask, ""});
     }
-    warn_of_stretch(terrain, run);
+    return files;
+}
+
+/// Far from its central meridian a UTM zone measures other lengths than the ground has.
+std::vector<Finding> warn_of_stretch(Grid const& grid, Run const& run) {
+    constexpr double much = 0.01;
+    constexpr double percent = 100.0;
+    double const stretch = io::zone_stretch(grid);
+    if (!(stretch > much)) {
+        return {};
+    }
+    std::string const words =
+        fmt::format("the grid reaches far beyond its UTM zone {}: lengths are up to {:.1f} % too long there. Name "
+                    "another CRS: --crs EPSG:n",
+                    grid.crs, percent * stretch);
+    run.say("warning: " + words);
+    return {{"stretched", 0, {}, stretch, words}};
+}
+
+} // namespace
+
+std::vector<Finding> report_conversions(Recipe const& recipe, Grid const& grid, Run const& run) {
+    std::vector<Finding> notes;
+    for (NamedLayer const& file : files_of(recipe)) {
+        if (file.name.empty()) {
+            continue;
+        }
+        for (std::string const& words : io::conversions_of(file_in(recipe, file.name), file.layer, grid.crs)) {
+            run.say(fmt::format("{:<6} {}", "units", words));
+            notes.push_back({"converted", 0, {}, 0.0, words});
+        }
+    }
+    std::vector<Finding> const stretched = warn_of_stretch(grid, run);
+    notes.insert(notes.end(), stretched.begin(), stretched.end());
+    return notes;
 }
 
 } // namespace thalweg::pipeline

@@ -63,10 +63,9 @@ KnownBefore known_of_grid(Grid const& grid) {
     return {grid, grid.cells(), false, false};
 }
 
-KnownBefore known_of_lines(Recipe recipe, Run const& run) {
+KnownBefore known_of_lines(Recipe const& recipe, Run const& run) {
     RiverLines const lines = read_lines(recipe, run);
-    settle_on_lines(recipe, lines, run);
-    KnownBefore known = known_of_grid(frame_lines(lines, recipe.grid));
+    KnownBefore known = known_of_grid(frame_lines(lines, settle_on_lines(recipe, lines, run).recipe.grid));
     known.lines_have_z = lines.has_z;
     known.lines_have_coast =
         recipe.network->lines.coastlines == Coastlines::sea &&
@@ -126,6 +125,7 @@ KnownBefore known_of_rivers(Recipe const& recipe, Run const& run) {
 
 KnownBefore known_of_points(Recipe recipe, Run const& run) {
     FeaturePoints const points = given_points(recipe, run);
+    recipe.grid.crs = points.crs;
     return known_of_grid(frame_land(points, recipe.grid));
 }
 
@@ -198,10 +198,11 @@ std::vector<std::string> stages_after(Recipe const& recipe) {
     if (recipe.surface && recipe.surface->drain.value_or(usual) != flow::Conditioning::none) {
         stages.emplace_back("carve");
     }
-    stages.insert(stages.end(), {"measure", "drain"});
+    stages.emplace_back("drain");
     if (recipe.network && recipe.network->fill_space) {
         stages.emplace_back("valleys");
     }
+    stages.emplace_back("measure");
     if (recipe.network && recipe.output.catchments) {
         stages.emplace_back("catchments");
     }

@@ -111,11 +111,8 @@ Recipe recipe_from(std::string const& path) {
 Recipe settled_recipe(Recipe const& wanted, Run const& run) {
     check_recipe(wanted);
     io::RecipeFiles const confined;
-    Recipe recipe = wanted;
-    if (recipe.network && recipe.network->source == Source::lines) {
-        settle_on_lines(recipe, read_lines(recipe, run), run);
-    }
-    return with_absolute_files(recipe);
+    bool const on_lines = wanted.network && wanted.network->source == Source::lines;
+    return with_absolute_files(on_lines ? settle_on_lines(wanted, read_lines(wanted, run), run).recipe : wanted);
 }
 
 } // namespace thalweg::pipeline

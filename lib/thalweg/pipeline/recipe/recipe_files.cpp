@@ -49,11 +49,11 @@ Recipe with_absolute_files(Recipe recipe) {
     return recipe;
 }
 
-void take_frame(Terrain& terrain, Grid const& grid) {
-    terrain.grid = grid;
-    terrain.recipe.grid.width = grid.width;
-    terrain.recipe.grid.height = grid.height;
-    terrain.recipe.grid.origin = {grid.west, grid.north};
+Recipe framed(Recipe recipe, Grid const& grid) {
+    recipe.grid.width = grid.width;
+    recipe.grid.height = grid.height;
+    recipe.grid.origin = {grid.west, grid.north};
+    return recipe;
 }
 
 } // namespace thalweg::pipeline

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace thalweg::pipeline {
 
@@ -33,33 +34,35 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
     if (!scene.dem) {
         throw BadInput("pipeline.scene_page: there is no DEM to show");
     }
-    Terrain terrain;
-    terrain.recipe.output.title = scene.title;
-    terrain.grid = scene.dem->grid();
-    terrain.surface.emplace();
-    terrain.surface->dem = *scene.dem;
-    terrain.statistics = measure::statistics(*scene.dem, run);
-    terrain.hypsometry = measure::hypsometry(*scene.dem, run);
-    flow::FlowField const drainage = flow::route(*scene.dem, run);
-    terrain.pits = drainage.pits;
-    terrain.pit_volume_m3 = drainage.pit_volume_m3;
+    DrawnLand drawn;
+    drawn.recipe.output.title = scene.title;
+    drawn.grid = scene.dem->grid();
+    drawn.surface.emplace();
+    drawn.surface->dem = *scene.dem;
+    Assessment found;
+    found.statistics = measure::statistics(*scene.dem, run);
+    found.hypsometry = measure::hypsometry(*scene.dem, run);
+    measure::Drainage const drainage = measure::drain(*scene.dem, run);
+    found.pits = drainage.pits;
+    found.pit_volume_m3 = drainage.pit_volume_m3;
     if (scene.network) {
-        terrain.network = *scene.network;
-        terrain.orders = scene.orders;
-        std::size_t const arcs = boost::num_edges(terrain.network.plan);
-        if (lies_on(terrain.network, terrain.grid)) {
-            terrain.areas = flow::areas_d8(terrain.network.plan, drainage, run);
+        drawn.network = *scene.network;
+        drawn.orders = scene.orders;
+        std::size_t const arcs = boost::num_edges(drawn.network.plan);
+        if (lies_on(drawn.network, drawn.grid)) {
+            found.areas = measure::areas_d8(drawn.network.plan, drainage, run);
         } else {
-            terrain.areas.us_area_m2.assign(arcs, 0.0);
-            terrain.areas.ds_area_m2.assign(arcs, 0.0);
-            terrain.areas.node_m2.assign(boost::num_vertices(terrain.network.plan), 0.0);
+            found.areas.us_area_m2.assign(arcs, 0.0);
+            found.areas.ds_area_m2.assign(arcs, 0.0);
+            found.areas.node_m2.assign(boost::num_vertices(drawn.network.plan), 0.0);
         }
-        auto const topology = measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run);
-        terrain.checks = topology.checks;
-        terrain.findings = topology.findings;
+        auto const topology = measure::check_topology(measure::as_file(drawn.network, drawn.orders), {}, run);
+        found.checks = topology.checks;
+        found.findings = topology.findings;
     }
-    terrain.laws = laws_of_terrain(terrain, &drainage, run);
-    terrain.relief = relief_of_dem(*scene.dem, run);
+    found.laws = laws_of_land(drawn, found.areas, found.statistics->cells, &drainage, run);
+    found.relief = relief_of_dem(*scene.dem, run);
+    Terrain const terrain = together({}, std::move(drawn), std::move(found));
     double const relief = terrain.statistics->max.z - terrain.statistics->min.z;
     PageParams params;
     params.contour_interval_m = scene.contour_interval_m > 0.0 ? scene.contour_interval_m : round_interval(relief);

@@ -3,13 +3,18 @@
 #pragma once
 
 #include <thalweg/core/feature_points.hpp>
+#include <thalweg/pipeline/make/drawn_land.hpp>
 #include <thalweg/pipeline/make/internal/diary.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/rivers.hpp>
 
 /// The land around rivers. Private to this room.
 namespace thalweg::pipeline {
 
-/// Draws the land the recipe asks for through the rivers' cells, which keep their heights, and through the points.
-void draw_around_rivers(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run);
+/// Draws the land that the rivers' recipe asks for through their cells, which keep their heights, and through the
+/// points.
+DrawnLand draw_around_rivers(Rivers const& rivers, FeaturePoints const& points, Diary& diary, Run const& run);
+
+/// Rivers without land around them.
+DrawnLand without_land(Rivers const& rivers);
 
 } // namespace thalweg::pipeline

@@ -4,9 +4,10 @@
 
 #include <chrono>
 #include <string>
+#include <utility>
 
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/timings.hpp>
 
 /// Private to this room.
 namespace thalweg::pipeline {
@@ -14,23 +15,26 @@ namespace thalweg::pipeline {
 /// Times the stages and says a line for each.
 class Diary {
 public:
-    Diary(Run const& run, Terrain& terrain) : run_(run), terrain_(terrain) {}
+    explicit Diary(Run const& run) : run_(run) {}
 
     template <class Stage> auto stage(char const* name, Stage&& work) {
         run_.at(0.0, name);
         auto const begin = std::chrono::steady_clock::now();
         auto result = work();
         std::chrono::duration<double> const taken = std::chrono::steady_clock::now() - begin;
-        terrain_.timings_s.emplace_back(name, taken.count());
+        timings_s_.emplace_back(name, taken.count());
         run_.at(1.0, name);
         return result;
     }
     /// About the last stage.
     void say(std::string const& words) const;
 
+    /// What the stages took, in order; none is left.
+    Timings take() { return std::exchange(timings_s_, {}); }
+
 private:
     Run const& run_;
-    Terrain& terrain_;
+    Timings timings_s_;
 };
 
 } // namespace thalweg::pipeline

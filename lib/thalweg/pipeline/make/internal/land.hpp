@@ -3,14 +3,14 @@
 #pragma once
 
 #include <thalweg/core/feature_points.hpp>
+#include <thalweg/pipeline/make/drawn_land.hpp>
 #include <thalweg/pipeline/make/internal/diary.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
 
 /// Land from numbers and from points (paper 001). Private to this room.
 namespace thalweg::pipeline {
 
-/// The points of [skeleton]: of a file, or none. Names the grid's CRS where the recipe leaves it out.
-FeaturePoints given_points(Recipe& recipe, Run const& run);
+/// The points of [skeleton]: of a file, or none. Their CRS is that of the grid, also where there are none.
+FeaturePoints given_points(Recipe const& recipe, Run const& run);
 
 /// The grid asked for, or the points' box and 5 % around it on multiples of the cell.
 Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted);
@@ -19,11 +19,10 @@ Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted);
 void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string const& name);
 
 /// The check points_missing: random points that found no room, with a warning.
-void check_scattered(Terrain& terrain, std::int64_t missing, std::int64_t wanted, Run const& run);
+Check points_missing(std::int64_t missing, std::int64_t wanted, Run const& run);
 
 /// Land without rivers: a random one or that of points, with fractal detail, brought to the statistics.
-/// Fills in what of the terrain tells about it: surface, tin, projection, checks.
-void make_land(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run);
+DrawnLand make_land(Recipe const& recipe, Grid const& grid, FeaturePoints const& points, Diary& diary, Run const& run);
 
 /// How many times detail halves the cells; 0 without it.
 int levels_of(Recipe const& recipe);
@@ -32,7 +31,13 @@ int levels_of(Recipe const& recipe);
 /// coarse cells, on a lattice whose torus is not too large (where H is estimated, the smallest that may come of it).
 void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height);
 
-/// Relief of this fractal detail alone, on ground that is flat. The recipe gets H where it leaves it out.
-Raster<float> detail_alone(Recipe& recipe, Grid const& grid, Run const& run);
+/// Land with fractal detail, and the recipe with H and sigma as used.
+struct Detailed {
+    Recipe recipe;
+    Raster<float> land;
+};
+
+/// Relief of this fractal detail alone, on ground that is flat.
+Detailed detail_alone(Recipe recipe, Grid const& grid, Run const& run);
 
 } // namespace thalweg::pipeline

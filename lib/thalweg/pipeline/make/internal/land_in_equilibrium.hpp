@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/pipeline/make/drawn_land.hpp>
 #include <thalweg/pipeline/make/internal/diary.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
 
 /// Land in equilibrium with its rivers. Private to this room.
 namespace thalweg::pipeline {
@@ -17,10 +17,11 @@ bool in_equilibrium(Recipe const& recipe);
 double usual_slope_deg(double cell_m);
 
 /// Draws the land around the planned rivers, takes tips off these that would stand perched, and gives them and their
-/// cells the land's heights. Takes: a terrain with a network in plan; its heights too, where they are asked for.
-void draw_in_equilibrium(Terrain& terrain, Diary& diary, Run const& run);
+/// cells the land's heights. Takes: a network in plan; its heights too, where they are asked for; heights_of_file:
+/// these are taken because the lines have them, and give way where they would need walls.
+DrawnLand draw_in_equilibrium(DrawnLand drawn, bool heights_of_file, Diary& diary, Run const& run);
 
 /// Makes arcs of the side valleys the land has grown, where the recipe wants them.
-void add_side_valleys(Terrain& terrain, flow::FlowField const& drainage, Diary& diary, Run const& run);
+DrawnLand with_side_valleys(DrawnLand drawn, measure::Drainage const& drainage, Diary& diary, Run const& run);
 
 } // namespace thalweg::pipeline

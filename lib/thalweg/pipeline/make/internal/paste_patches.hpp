@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <thalweg/pipeline/make/drawn_land.hpp>
 #include <thalweg/pipeline/make/internal/diary.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
 
 /// Real relief in the land. Private to this room.
 namespace thalweg::pipeline {
 
 /// Pastes the recipe's patches into the land, in their order; rivers keep their cells' heights unless a patch says so.
-void paste_patches(Terrain& terrain, Diary& diary, Run const& run);
+DrawnLand with_patches(DrawnLand drawn, Diary& diary, Run const& run);
 
 } // namespace thalweg::pipeline

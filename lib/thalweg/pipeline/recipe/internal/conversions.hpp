@@ -2,15 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <vector>
 
-/// Private to this module.
+#include <thalweg/core/finding.hpp>
+#include <thalweg/core/grid.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+
+/// Private to this room.
 namespace thalweg::pipeline {
 
-/// Logs what reading changed in the files that the recipe names (CRS, units), and where the grid's UTM zone measures
-/// wrong lengths; notes both for the report.
-/// Takes: a terrain whose grid is known.
-void report_conversions(Terrain& terrain, Run const& run);
+/// Says what the files of a recipe are converted from, and how far the grid leaves its UTM zone.
+/// Gives: a note for each: "converted", "stretched".
+std::vector<Finding> report_conversions(Recipe const& recipe, Grid const& grid, Run const& run);
 
 } // namespace thalweg::pipeline

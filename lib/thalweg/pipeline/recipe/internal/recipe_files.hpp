@@ -4,8 +4,7 @@
 
 #include <string>
 
-#include <thalweg/core/raster.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/core/grid.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 /// What a recipe names. Private to this room.
@@ -20,7 +19,7 @@ bool is_address(std::string const& name);
 /// The recipe with every file it names found from anywhere.
 Recipe with_absolute_files(Recipe recipe);
 
-/// The terrain lies on this grid, and its recipe says so.
-void take_frame(Terrain& terrain, Grid const& grid);
+/// The recipe of a terrain on this grid.
+Recipe framed(Recipe recipe, Grid const& grid);
 
 } // namespace thalweg::pipeline

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <thalweg/core/finding.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/measure/drainage/catchments.hpp>
+#include <thalweg/measure/drainage/certificate.hpp>
+#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/measure/drainage/extract_ridges.hpp>
+#include <thalweg/measure/relief/hypsometry.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/pipeline/make/drawn_land.hpp>
+#include <thalweg/pipeline/make/laws.hpp>
+#include <thalweg/pipeline/make/relief.hpp>
+#include <thalweg/pipeline/make/timings.hpp>
+
+namespace thalweg::pipeline {
+
+/// Contributing areas [m2] by cell, NaN without data.
+struct WaterAreas {
+    Raster<double> d8;
+    Raster<double> dinf;
+};
+
+/// What is measured of land and rivers, and whether they are what was asked for.
+struct Assessment {
+    measure::ContributingAreas areas; ///< of the arcs
+    RiverLaws laws;
+    std::vector<NodeId> sinks;                     ///< where rivers end inland, as they were asked to
+    std::optional<measure::Statistics> statistics; ///< of the surface, like the rest
+    std::optional<measure::Hypsometry> hypsometry;
+    std::optional<LandRelief> relief; ///< with the rivers
+    std::int64_t pits = 0;            ///< cells that lie in depressions
+    double pit_volume_m3 = 0.0;
+    std::optional<measure::ExtractedRidges> surface_ridges; ///< beside the ridges asked for
+    std::optional<measure::Certificate> certificate;        ///< of rivers and surface, where both are there
+    std::optional<measure::Catchments> catchments;          ///< of the arcs, where they are asked for
+    std::optional<WaterAreas> water_areas;                  ///< where they are asked for
+    std::vector<Check> checks;
+    std::vector<Finding> findings; ///< of the checks
+    Timings timings_s;
+};
+
+/// Measures and checks land and rivers.
+/// Takes: drainage: of the surface, where there is one.
+Assessment assess(DrawnLand const& drawn, std::optional<measure::Drainage> const& drainage, Run const& run = {});
+
+} // namespace thalweg::pipeline

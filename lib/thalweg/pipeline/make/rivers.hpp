@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/core/valley.hpp>
+#include <thalweg/network/elevation/assign_types.hpp>
+#include <thalweg/network/order/count_streams.hpp>
+#include <thalweg/pipeline/make/network_story.hpp>
+#include <thalweg/pipeline/make/river_file.hpp>
+#include <thalweg/pipeline/make/timings.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+
+namespace thalweg::pipeline {
+
+/// Where rivers run on their grid, and how high, unless the terrain decides that.
+struct Rivers {
+    Recipe recipe; ///< with what follows from the rivers: frame, CRS, heights, prune, meander
+    Grid grid;
+    RaisedNetwork network;     ///< without heights where they follow from a terrain in equilibrium
+    RiverFile file;            ///< of which the rivers are
+    Mask land;                 ///< 0: sea, which has no heights; without cells: all is land
+    network::RiverTypes types; ///< by arc, where rivers have types; else empty
+    NetworkOrders orders;      ///< where the network has heights, like the rest
+    network::StreamCounts streams;
+    Valley valley;
+    NetworkStory story;
+    Timings timings_s;
+};
+
+/// The rivers that a recipe with [network] asks for.
+/// Throws: BadParameter, BadInput, IoError, Cancelled.
+Rivers make_rivers(Recipe const& recipe, Run const& run = {});
+
+} // namespace thalweg::pipeline
