@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/assess.hpp>
 
-#include <thalweg/measure/drainage/drain_dinf.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/flow/routing/route_dinf.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/pipeline/commands/internal/append.hpp>
 #include <thalweg/pipeline/make/internal/catchment_rows.hpp>
@@ -39,7 +42,7 @@ Check none_of(char const* name, std::int64_t count) {
 }
 
 /// What the rivers claim of the surface.
-measure::Claims claims_of(DrawnLand const& drawn, measure::ContributingAreas const& areas) {
+measure::Claims claims_of(DrawnLand const& drawn, flow::ContributingAreas const& areas) {
     measure::Claims claims;
     claims.ds_area_m2 = areas.ds_area_m2;
     claims.still =
@@ -52,34 +55,34 @@ measure::Claims claims_of(DrawnLand const& drawn, measure::ContributingAreas con
 }
 
 /// What is measured of rivers on their surface.
-Assessment with_rivers(Assessment found, DrawnLand const& drawn, measure::Drainage const& drainage, Diary& diary,
+Assessment with_rivers(Assessment found, DrawnLand const& drawn, flow::FlowField const& drainage, Diary& diary,
                        Run const& run) {
     StreamNetwork const& plan = drawn.network.plan;
     Raster<float> const& dem = drawn.surface->dem;
-    found.areas = measure::areas_d8(plan, drainage, run);
+    found.areas = flow::areas_d8(plan, drainage, run);
     if (drawn.recipe.output.catchments) {
         found.catchments =
-            diary.stage("catchments", [&] { return measure::catchments(measure::reaches_of(plan), drainage, run); });
+            diary.stage("catchments", [&] { return flow::catchments(flow::reaches_of(plan), drainage, run); });
     }
     if (drawn.recipe.network->inland == InlandEnds::sink) {
         found.sinks = inland_ends(plan, dem);
     }
     found.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(drawn.valley, dem)));
     found.certificate = diary.stage("certify", [&] {
-        return measure::certify(dem, drainage, measure::reaches_of(plan), claims_of(drawn, found.areas), run);
+        return measure::certify(dem, drainage, flow::reaches_of(plan), claims_of(drawn, found.areas), run);
     });
     return found;
 }
 
 /// Of a surface that was made to drain: whether it does, by its rivers where it honours them.
-std::vector<Check> drainage_checks(Assessment const& found, measure::Drainage const& drainage) {
+std::vector<Check> drainage_checks(Assessment const& found, flow::FlowField const& drainage) {
     return found.certificate
                ? found.certificate->checks()
                : std::vector<Check>{none_of("depressions", static_cast<std::int64_t>(drainage.depressions.size()))};
 }
 
 /// What is measured of a surface, with the rivers on it.
-Assessment of_surface(DrawnLand const& drawn, measure::Drainage const& drainage, Diary& diary, Run const& run) {
+Assessment of_surface(DrawnLand const& drawn, flow::FlowField const& drainage, Diary& diary, Run const& run) {
     Raster<float> const& dem = drawn.surface->dem;
     Assessment found;
     found.statistics = diary.stage("measure", [&] { return measure::statistics(dem, run); });
@@ -101,7 +104,7 @@ Assessment of_surface(DrawnLand const& drawn, measure::Drainage const& drainage,
     }
     if (drawn.recipe.output.accumulation) {
         found.water_areas = diary.stage("areas", [&] {
-            return WaterAreas{areas_m2(drainage), areas_m2(measure::drain_dinf(dem, drainage, run).area_cells)};
+            return WaterAreas{areas_m2(drainage), areas_m2(flow::route_dinf(dem, drainage, run).area_cells)};
         });
     }
     found.laws =
@@ -122,13 +125,13 @@ std::vector<Finding> findings_of(std::optional<measure::Certificate> const& cert
 
 } // namespace
 
-Assessment assess(DrawnLand const& drawn, std::optional<measure::Drainage> const& drainage, Run const& run) {
+Assessment assess(DrawnLand const& drawn, std::optional<flow::FlowField> const& drainage, Run const& run) {
     Diary diary(run);
     Assessment found;
     if (drawn.surface) {
         found = of_surface(drawn, *drainage, diary, run);
     } else {
-        found.areas = measure::areas_nearest(drawn.network.plan, drawn.grid, run);
+        found.areas = flow::areas_nearest(drawn.network.plan, drawn.grid, run);
         found.laws = laws_of_land(drawn, found.areas, drawn.grid.cells(), nullptr, run);
     }
     std::vector<Check> checks = drawn.checks;

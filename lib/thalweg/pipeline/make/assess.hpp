@@ -8,9 +8,11 @@
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/measure/drainage/catchments.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments/catchments.hpp>
+#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
-#include <thalweg/measure/drainage/drainage.hpp>
 #include <thalweg/measure/drainage/extract_ridges.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
@@ -29,7 +31,7 @@ struct WaterAreas {
 
 /// What is measured of land and rivers, and whether they are what was asked for.
 struct Assessment {
-    measure::ContributingAreas areas; ///< of the arcs
+    flow::ContributingAreas areas; ///< of the arcs
     RiverLaws laws;
     std::vector<NodeId> sinks;                     ///< where rivers end inland, as they were asked to
     std::optional<measure::Statistics> statistics; ///< of the surface, like the rest
@@ -39,7 +41,7 @@ struct Assessment {
     double pit_volume_m3 = 0.0;
     std::optional<measure::ExtractedRidges> surface_ridges; ///< beside the ridges asked for
     std::optional<measure::Certificate> certificate;        ///< of rivers and surface, where both are there
-    std::optional<measure::Catchments> catchments;          ///< of the arcs, where they are asked for
+    std::optional<flow::Catchments> catchments;             ///< of the arcs, where they are asked for
     std::optional<WaterAreas> water_areas;                  ///< where they are asked for
     std::vector<Check> checks;
     std::vector<Finding> findings; ///< of the checks
@@ -48,6 +50,6 @@ struct Assessment {
 
 /// Measures and checks land and rivers.
 /// Takes: drainage: of the surface, where there is one.
-Assessment assess(DrawnLand const& drawn, std::optional<measure::Drainage> const& drainage, Run const& run = {});
+Assessment assess(DrawnLand const& drawn, std::optional<flow::FlowField> const& drainage, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -14,12 +14,13 @@
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/detail/project.hpp>
+#include <thalweg/flow/conditioning/condition.hpp>
+#include <thalweg/flow/conditioning/dem_change.hpp>
 #include <thalweg/network/elevation/assign_types.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/surface/dilation/dilate.hpp>
-#include <thalweg/surface/drainage/drain.hpp>
 
 namespace thalweg::pipeline {
 
@@ -39,8 +40,8 @@ struct PatchStory {
 
 /// What it took to make the land drain.
 struct DrainStory {
-    surface::LandChange banks;
-    surface::LandChange depressions;
+    flow::DemChange banks;
+    flow::DemChange depressions;
 };
 
 /// How a land came into equilibrium with its rivers.

@@ -206,7 +206,7 @@ struct Lakes {
 Lakes lakes_of(DrawnLand const& drawn, network::ChannelsOfArcs const& rivers, Run const& run) {
     EquilibriumRecipe const& wanted = drawn.recipe.surface->equilibrium;
     if (wanted.lake_share > 0.0) {
-        measure::ContributingAreas const areas = measure::areas_nearest(drawn.network.plan, drawn.grid, run);
+        flow::ContributingAreas const areas = flow::areas_nearest(drawn.network.plan, drawn.grid, run);
         return {network::choose_lakes(rivers, areas.ds_area_m2, {.share = wanted.lake_share, .seed = drawn.recipe.seed},
                                       run)};
     }
@@ -354,15 +354,13 @@ DrawnLand draw_in_equilibrium(DrawnLand drawn, bool heights_of_file, Diary& diar
     return drawn;
 }
 
-DrawnLand with_side_valleys(DrawnLand drawn, measure::Drainage const& drainage, Diary& diary, Run const& run) {
+DrawnLand with_side_valleys(DrawnLand drawn, flow::FlowField const& drainage, Diary& diary, Run const& run) {
     if (!drawn.recipe.network || !drawn.recipe.network->fill_space) {
         return drawn;
     }
     std::int64_t const support_cells = drawn.recipe.network->support_cells;
     network::SideValleys made = diary.stage("valleys", [&] {
-        return network::side_valleys(drawn.network, drawn.channels,
-                                     {drawn.surface->dem, drainage.direction, drainage.area_cells}, {support_cells},
-                                     run);
+        return network::side_valleys(drawn.network, drawn.channels, drawn.surface->dem, drainage, {support_cells}, run);
     });
     drawn.equilibrium->side_valleys = made.grown;
     drawn.equilibrium->side_valleys_left_out = made.left_out;

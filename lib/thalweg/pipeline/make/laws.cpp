@@ -68,8 +68,8 @@ DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params, Run c
     return laws_of_dem(on_ground, drainage, flow::flow_lengths(drainage, run), params, run);
 }
 
-RiverLaws laws_of_land(DrawnLand const& drawn, measure::ContributingAreas const& areas, std::int64_t land_cells,
-                       measure::Drainage const* drainage, Run const& run) {
+RiverLaws laws_of_land(DrawnLand const& drawn, flow::ContributingAreas const& areas, std::int64_t land_cells,
+                       flow::FlowField const* drainage, Run const& run) {
     RiverLaws found;
     std::optional<Raster<float>> flow_length;
     if (drainage != nullptr) {

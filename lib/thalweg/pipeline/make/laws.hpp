@@ -7,6 +7,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/flow_field.hpp>
 #include <thalweg/flow/streams/extract_streams.hpp>
 #include <thalweg/measure/laws/network_laws.hpp>
@@ -49,7 +50,7 @@ struct DrawnLand;
 /// Takes: areas: of the rivers; land_cells: that have heights, or the grid's; drainage: of the surface, null where
 /// there is none: Hack's lengths are then from the sources. Gives: the DEM's rivers as long together as those drawn,
 /// where there are any. Throws: as laws_of_dem.
-RiverLaws laws_of_land(DrawnLand const& drawn, measure::ContributingAreas const& areas, std::int64_t land_cells,
-                       measure::Drainage const* drainage, Run const& run = {});
+RiverLaws laws_of_land(DrawnLand const& drawn, flow::ContributingAreas const& areas, std::int64_t land_cells,
+                       flow::FlowField const* drainage, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -24,7 +24,7 @@ LandRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
 }
 
 LandRelief relief_of_land(DrawnLand const& drawn, measure::Statistics const& statistics,
-                          measure::Drainage const& drainage, Run const& run) {
+                          flow::FlowField const& drainage, Run const& run) {
     Raster<float> const& dem = drawn.surface->dem;
     LandRelief found{measure::relief(dem, drainage, statistics, {}, run), std::nullopt};
     double const asked = drawn.recipe.surface ? drawn.recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;

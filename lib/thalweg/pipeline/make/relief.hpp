@@ -31,7 +31,7 @@ struct DrawnLand;
 /// Relief of a surface with its statistics.
 /// Gives: perched where it has rivers: by the mean slope that the recipe asks for, else that of the land.
 LandRelief relief_of_land(DrawnLand const& drawn, measure::Statistics const& statistics,
-                          measure::Drainage const& drainage, Run const& run = {});
+                          flow::FlowField const& drainage, Run const& run = {});
 
 /// A figure as report.json and the page tell it.
 struct ReliefRow {

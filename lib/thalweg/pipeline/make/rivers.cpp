@@ -44,7 +44,7 @@ Raised raise(Planned const& planned, network::RiverTypes const& types, Run const
         return {network::set_heights_by_type(planned.plan, types, {wanted.rosgen_slope, planned.recipe.seed}, run)};
     }
     if (wanted.heights == Heights::graded) {
-        measure::ContributingAreas const areas = measure::areas_nearest(planned.plan, planned.grid, run);
+        flow::ContributingAreas const areas = flow::areas_nearest(planned.plan, planned.grid, run);
         double const cell = planned.grid.cell_m * planned.grid.cell_m;
         return {network::set_heights_graded(planned.plan, areas.us_area_m2, areas.ds_area_m2,
                                             {wanted.slope, wanted.concavity, cell}, run)
@@ -75,7 +75,7 @@ Planned let_wander(Planned planned, Diary& diary, Run const& run) {
         throw BadParameter("network.meander cannot bend rivers whose heights come from their file; set "
                            "network.heights = \"graded\" or leave meander out");
     }
-    measure::ContributingAreas const areas = measure::areas_nearest(planned.plan, planned.grid, run);
+    flow::ContributingAreas const areas = flow::areas_nearest(planned.plan, planned.grid, run);
     network::MeanderParams const params{.gain = *rivers.meander, .seed = planned.recipe.seed};
     network::Meandered bent = diary.stage("meander", [&] {
         return land.cells() > 0 ? network::meander(planned.plan, land, areas.ds_area_m2, params, run)

@@ -34,15 +34,15 @@ DrawnLand made_to_drain(DrawnLand drawn, Diary& diary, Run const& run) {
     if (!drawn.surface || !drawn.recipe.surface) {
         return drawn;
     }
-    std::optional<surface::Drain>& method = drawn.recipe.surface->drain;
-    method = method.value_or(drawn.recipe.network ? surface::Drain::carve : surface::Drain::none);
-    if (*method == surface::Drain::none) {
+    std::optional<flow::Conditioning>& method = drawn.recipe.surface->drain;
+    method = method.value_or(drawn.recipe.network ? flow::Conditioning::carve : flow::Conditioning::none);
+    if (*method == flow::Conditioning::none) {
         return drawn;
     }
     Valley const none{Raster<float>(drawn.grid, std::numeric_limits<float>::quiet_NaN())};
-    surface::DrainedLand land = diary.stage("carve", [&] {
-        return surface::drain(std::move(drawn.surface->dem), drawn.recipe.network ? drawn.valley : none, {*method},
-                              run);
+    flow::ConditionedDem land = diary.stage("carve", [&] {
+        return flow::condition(std::move(drawn.surface->dem), drawn.recipe.network ? drawn.valley : none, {*method},
+                               run);
     });
     drawn.surface->dem = std::move(land.dem);
     drawn.drained = {land.banks, land.depressions};
@@ -51,13 +51,13 @@ DrawnLand made_to_drain(DrawnLand drawn, Diary& diary, Run const& run) {
     return drawn;
 }
 
-measure::Drainage drainage_of(DrawnLand const& drawn, Diary& diary, Run const& run) {
+flow::FlowField drainage_of(DrawnLand const& drawn, Diary& diary, Run const& run) {
     Raster<float> const& dem = drawn.surface->dem;
     StreamNetwork const& plan = drawn.network.plan;
     bool const sinks = drawn.recipe.network && drawn.recipe.network->inland == InlandEnds::sink;
     run.at(0.0, fmt::format("drain {} cells", drawn.grid.cells()).c_str());
     return diary.stage("drain", [&] {
-        return measure::drain(
+        return flow::route(
             dem, sinks ? cells_of(inland_ends(plan, dem), plan, drawn.grid) : std::vector<std::int64_t>{}, run);
     });
 }
@@ -150,7 +150,7 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
     if (keep && drawn.surface) {
         keep("surface", drawn.surface->dem);
     }
-    std::optional<measure::Drainage> drainage;
+    std::optional<flow::FlowField> drainage;
     if (drawn.surface) {
         drainage = drainage_of(drawn, diary, run);
         drawn = with_side_valleys(std::move(drawn), *drainage, diary, run);

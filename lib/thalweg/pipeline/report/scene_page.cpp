@@ -42,7 +42,7 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
     Assessment found;
     found.statistics = measure::statistics(*scene.dem, run);
     found.hypsometry = measure::hypsometry(*scene.dem, run);
-    measure::Drainage const drainage = measure::drain(*scene.dem, run);
+    flow::FlowField const drainage = flow::route(*scene.dem, run);
     found.pits = drainage.pits;
     found.pit_volume_m3 = drainage.pit_volume_m3;
     if (scene.network) {
@@ -50,7 +50,7 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
         drawn.orders = scene.orders;
         std::size_t const arcs = boost::num_edges(drawn.network.plan);
         if (lies_on(drawn.network, drawn.grid)) {
-            found.areas = measure::areas_d8(drawn.network.plan, drainage, run);
+            found.areas = flow::areas_d8(drawn.network.plan, drainage, run);
         } else {
             found.areas.us_area_m2.assign(arcs, 0.0);
             found.areas.ds_area_m2.assign(arcs, 0.0);

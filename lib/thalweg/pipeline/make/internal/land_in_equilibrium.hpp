@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/measure/drainage/drainage.hpp>
+#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/pipeline/make/drawn_land.hpp>
 #include <thalweg/pipeline/make/internal/diary.hpp>
 
@@ -22,6 +23,6 @@ double usual_slope_deg(double cell_m);
 DrawnLand draw_in_equilibrium(DrawnLand drawn, bool heights_of_file, Diary& diary, Run const& run);
 
 /// Makes arcs of the side valleys the land has grown, where the recipe wants them.
-DrawnLand with_side_valleys(DrawnLand drawn, measure::Drainage const& drainage, Diary& diary, Run const& run);
+DrawnLand with_side_valleys(DrawnLand drawn, flow::FlowField const& drainage, Diary& diary, Run const& run);
 
 } // namespace thalweg::pipeline
