@@ -31,6 +31,7 @@
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/run/suggest.hpp>
 #include <thalweg/core/skeleton.hpp>
