@@ -92,7 +92,7 @@ void BM_dilate_closed(benchmark::State& state) {
     count(state, state.range(0));
 }
 
-void closed_reused(benchmark::State& state, surface::separable::Lanes lanes) {
+void closed_reused(benchmark::State& state, Lanes lanes) {
     Valley const& valley = rivers_of(state.range(0));
     Raster<float> dem(valley.z.grid());
     Run const run = one_thread();
@@ -106,10 +106,10 @@ void closed_reused(benchmark::State& state, surface::separable::Lanes lanes) {
 }
 
 void BM_dilate_closed_reused(benchmark::State& state) {
-    closed_reused(state, surface::separable::widest_lanes());
+    closed_reused(state, widest_lanes());
 }
 void BM_dilate_closed_reused_plain(benchmark::State& state) {
-    closed_reused(state, surface::separable::Lanes::plain);
+    closed_reused(state, Lanes::plain);
 }
 
 #define SIDES Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond)

@@ -27,6 +27,7 @@
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/lanes.hpp>
 #include <thalweg/core/run/large_pages.hpp>
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/parallel.hpp>

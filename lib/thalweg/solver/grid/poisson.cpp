@@ -27,7 +27,7 @@ GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run
     }
     GridSolution solution;
     if (contents.free > 0) {
-        GridRows const& rows = grid_rows(widest_grid_lanes());
+        GridRows const& rows = grid_rows(widest_lanes());
         ColouredProblem iterate = coloured(problem, contents, run);
         if (double const zero = residual_norm(iterate, rows, run); zero > 0.0) {
             set_guess(problem, contents, iterate, run);

@@ -106,7 +106,7 @@ GridSolution relax_explicit(GridProblem problem, ExplicitParams const& params, R
     }
     GridSolution solution;
     if (contents.free > 0) {
-        GridRows const& rows = grid_rows(widest_grid_lanes());
+        GridRows const& rows = grid_rows(widest_lanes());
         ColouredProblem iterate = coloured(problem, contents, run);
         double const zero = residual_norm(iterate, rows, run);
         if (run.device == Device::opencl) {
