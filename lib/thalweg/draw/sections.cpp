@@ -204,8 +204,8 @@ void draw_key(Cairo* sheet, Box room, Grid const& grid, MainStem const& stem, st
         draw_line(sheet, begin, end, 0.11 * unit, ink);
         double const length = std::max(1e-9, distance(begin, end));
         Vec2 const off{(end.x - begin.x) / length * 0.8 * unit, (end.y - begin.y) / length * 0.8 * unit};
-        Vec2 const at_begin{begin.x - off.x, begin.y - off.y};
-        Vec2 const at_end{end.x + off.x, end.y + off.y};
+        Vec2 const at_begin = begin - off;
+        Vec2 const at_end = end + off;
         bool const crowded = room_at(at_begin) < 1.4 * unit && room_at(at_end) > room_at(at_begin);
         taken.push_back(crowded ? at_end : at_begin);
         draw_text(sheet, {taken.back().x, taken.back().y + 0.36 * unit}, letter_of(k), letter, Anchor::middle);

@@ -324,9 +324,9 @@ void draw_north(Cairo* sheet, Vec2 at, View const& view, double unit) {
     Vec2 const along{tip.x * 26.0 * unit, -tip.y * 26.0 * unit};
     Vec2 const side = view.at({1.0, 0.0}, 0.0);
     Vec2 const across{side.x * 6.0 * unit, -side.y * 6.0 * unit};
-    Vec2 const head{at.x + along.x, at.y + along.y};
+    Vec2 const head = at + along;
     Vec2 const neck{at.x + 0.35 * along.x, at.y + 0.35 * along.y};
-    draw_line(sheet, {at.x - along.x, at.y - along.y}, neck, 0.9 * unit, faint_ink);
+    draw_line(sheet, at - along, neck, 0.9 * unit, faint_ink);
     cairo_move_to(sheet, head.x, head.y);
     cairo_line_to(sheet, neck.x + across.x, neck.y + across.y);
     cairo_line_to(sheet, neck.x - across.x, neck.y - across.y);

@@ -56,8 +56,8 @@ double origin_of(double low, double high) {
 
 struct Origin {
     Vec2 at;
-    Vec2 to_local(Vec2 p) const { return {p.x - at.x, p.y - at.y}; }
-    Vec2 to_ground(Vec2 p) const { return {p.x + at.x, p.y + at.y}; }
+    Vec2 to_local(Vec2 p) const { return p - at; }
+    Vec2 to_ground(Vec2 p) const { return p + at; }
     Diagram::Site to_local(Diagram::Site site) const {
         site.a = to_local(site.a);
         site.b = to_local(site.b);

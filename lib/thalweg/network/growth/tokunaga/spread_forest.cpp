@@ -16,21 +16,6 @@ constexpr std::uint64_t spread_stage = 0x737072656164; // "spread"
 constexpr std::size_t no_link = std::numeric_limits<std::size_t>::max();
 constexpr double sharpest_fork = 0.9396926; // cosine of 20 degrees
 
-Vec2 operator+(Vec2 a, Vec2 b) {
-    return {a.x + b.x, a.y + b.y};
-}
-Vec2 operator-(Vec2 a, Vec2 b) {
-    return {a.x - b.x, a.y - b.y};
-}
-Vec2 operator*(double f, Vec2 a) {
-    return {f * a.x, f * a.y};
-}
-double dot(Vec2 a, Vec2 b) {
-    return a.x * b.x + a.y * b.y;
-}
-double norm(Vec2 a) {
-    return std::sqrt(dot(a, a));
-}
 Vec2 unit_of(Vec2 a) {
     double const length = norm(a);
     return length > 0.0 ? Vec2{a.x / length, a.y / length} : Vec2{0.0, 1.0};
