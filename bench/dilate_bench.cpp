@@ -64,7 +64,8 @@ Run one_thread() {
     return run;
 }
 
-template <std::int64_t side> void memcpy_grid(benchmark::State& state) {
+void BM_dilate_memcpy(benchmark::State& state) {
+    std::int64_t const side = state.range(0);
     Valley const& valley = rivers_of(side);
     Raster<float> copy(valley.z.grid());
     for (auto _ : state) {
@@ -92,7 +93,7 @@ void BM_dilate_closed(benchmark::State& state) {
     count(state, state.range(0));
 }
 
-void closed_reused(benchmark::State& state, surface::separable::Lanes lanes) {
+void closed_reused(benchmark::State& state, Lanes lanes) {
     Valley const& valley = rivers_of(state.range(0));
     Raster<float> dem(valley.z.grid());
     Run const run = one_thread();
@@ -106,16 +107,14 @@ void closed_reused(benchmark::State& state, surface::separable::Lanes lanes) {
 }
 
 void BM_dilate_closed_reused(benchmark::State& state) {
-    closed_reused(state, surface::separable::widest_lanes());
+    closed_reused(state, widest_lanes());
 }
 void BM_dilate_closed_reused_plain(benchmark::State& state) {
-    closed_reused(state, surface::separable::Lanes::plain);
+    closed_reused(state, Lanes::plain);
 }
 
 #define SIDES Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond)
-BENCHMARK(memcpy_grid<1024>)->Name("BM_memcpy_1024")->Unit(benchmark::kMillisecond);
-BENCHMARK(memcpy_grid<4096>)->Name("BM_memcpy_4096")->Unit(benchmark::kMillisecond);
-BENCHMARK(memcpy_grid<8192>)->Name("BM_memcpy_8192")->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_dilate_memcpy)->Arg(1024)->Arg(4096)->Arg(8192)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_dilate_frontier)->SIDES;
 BENCHMARK(BM_dilate_closed)->SIDES->Arg(8192);
 BENCHMARK(BM_dilate_closed_reused)->SIDES->Arg(8192);

@@ -50,16 +50,16 @@ void set_cells(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0));
 }
 
-void bench_drain_relief(benchmark::State& state) {
+void BM_drain_relief(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
     for (auto _ : state) {
         benchmark::DoNotOptimize(flow::route(dem));
     }
     set_cells(state);
 }
-BENCHMARK(bench_drain_relief)->Name("drain/relief")->Arg(1024)->Arg(2048)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_drain_relief)->Arg(1024)->Arg(2048)->Arg(4096)->Unit(benchmark::kMillisecond);
 
-void bench_drain_dinf(benchmark::State& state) {
+void BM_drain_dinf(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
     flow::FlowField const d8 = flow::route(dem);
     for (auto _ : state) {
@@ -67,9 +67,9 @@ void bench_drain_dinf(benchmark::State& state) {
     }
     set_cells(state);
 }
-BENCHMARK(bench_drain_dinf)->Name("drain_dinf/relief")->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_drain_dinf)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
 
-void bench_drain_noise(benchmark::State& state) {
+void BM_drain_noise(benchmark::State& state) {
     Raster<float> dem(Grid{state.range(0), state.range(0), 1.0, 0.0, 0.0, ""});
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         dem[i] = static_cast<float>(unit(chance(1, static_cast<std::uint64_t>(i))));
@@ -79,19 +79,19 @@ void bench_drain_noise(benchmark::State& state) {
     }
     set_cells(state);
 }
-BENCHMARK(bench_drain_noise)->Name("drain/noise")->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_drain_noise)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 
-void bench_statistics(benchmark::State& state) {
+void BM_relief_statistics(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
     for (auto _ : state) {
         benchmark::DoNotOptimize(measure::statistics(dem));
     }
     set_cells(state);
 }
-BENCHMARK(bench_statistics)->Name("statistics")->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_relief_statistics)->Arg(4096)->Unit(benchmark::kMillisecond);
 
 /// Against drain/relief: what making a land drain costs beside measuring it.
-void bench_carve_relief(benchmark::State& state) {
+void BM_carve_relief(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
     Valley const none{Raster<float>(dem.grid(), std::numeric_limits<float>::quiet_NaN())};
     auto const method = state.range(1) == 0 ? flow::Conditioning::fill : flow::Conditioning::carve;
@@ -101,8 +101,7 @@ void bench_carve_relief(benchmark::State& state) {
     }
     set_cells(state);
 }
-BENCHMARK(bench_carve_relief)
-    ->Name("carve/relief")
+BENCHMARK(BM_carve_relief)
     ->ArgsProduct({{1024, 2048, 4096}, {0, 1}})
     ->ArgNames({"side", "carve"})
     ->Unit(benchmark::kMillisecond);
@@ -140,9 +139,9 @@ std::vector<flow::Reach> streams(flow::FlowField const& drainage, std::int64_t a
 }
 
 /// The whole certificate: the DEM's drainage and what the network's say of it.
-void bench_certify(benchmark::State& state) {
-    Raster<float> const dem = relief(2048);
-    std::vector<flow::Reach> const reaches = streams(flow::route(dem), 1000);
+void BM_certify(benchmark::State& state) {
+    Raster<float> const dem = relief(state.range(0));
+    std::vector<measure::Reach> const reaches = streams(measure::drain(dem), 1000);
     for (auto _ : state) {
         flow::FlowField const drainage = flow::route(dem);
         benchmark::DoNotOptimize(measure::certify(dem, drainage, reaches));
@@ -150,10 +149,10 @@ void bench_certify(benchmark::State& state) {
     state.counters["arcs"] = static_cast<double>(reaches.size());
     state.SetItemsProcessed(state.iterations() * dem.cells());
 }
-BENCHMARK(bench_certify)->Name("certify/2048")->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_certify)->Arg(2048)->Unit(benchmark::kMillisecond);
 
 /// A hundred parallel rivers from north to south.
-void bench_areas_nearest(benchmark::State& state) {
+void BM_areas_nearest(benchmark::State& state) {
     Grid const grid{state.range(0), state.range(0), 1.0, 0.0, static_cast<double>(state.range(0)), ""};
     StreamNetwork rivers;
     for (std::int64_t k = 0; k < 100; ++k) {
@@ -169,6 +168,6 @@ void bench_areas_nearest(benchmark::State& state) {
     }
     set_cells(state);
 }
-BENCHMARK(bench_areas_nearest)->Name("areas_nearest")->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_areas_nearest)->Arg(4096)->Unit(benchmark::kMillisecond);
 
 } // namespace

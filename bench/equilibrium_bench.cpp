@@ -33,7 +33,7 @@ std::int64_t held_bytes() {
 
 /// On one core; bytes_per_cell: what the process has held at most less what it held before, the rivers among it, where
 /// no benchmark before it held more.
-void bench_equilibrium(benchmark::State& state) {
+void BM_equilibrium(benchmark::State& state) {
     Channels const channels = rivers(state.range(0));
     surface::EquilibriumParams params;
     params.roughness = state.range(1) == 0 ? 0.0 : params.roughness;
@@ -50,8 +50,7 @@ void bench_equilibrium(benchmark::State& state) {
     }
     state.SetItemsProcessed(state.iterations() * channels.grid.cells());
 }
-BENCHMARK(bench_equilibrium)
-    ->Name("equilibrium")
+BENCHMARK(BM_equilibrium)
     ->Args({1024, 1})
     ->Args({2048, 1})
     ->Args({4096, 1})
@@ -61,7 +60,7 @@ BENCHMARK(bench_equilibrium)
     ->Unit(benchmark::kMillisecond);
 
 /// The yardstick: what finding the ways of water on the finished land costs.
-void bench_drain_equilibrium(benchmark::State& state) {
+void BM_drain_equilibrium(benchmark::State& state) {
     Run run;
     run.threads = 1;
     Raster<float> const dem = surface::equilibrium(rivers(state.range(0)), {}, {}, run).dem;
@@ -70,6 +69,6 @@ void bench_drain_equilibrium(benchmark::State& state) {
     }
     state.SetItemsProcessed(state.iterations() * dem.cells());
 }
-BENCHMARK(bench_drain_equilibrium)->Name("drain/equilibrium")->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_drain_equilibrium)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
 
 } // namespace

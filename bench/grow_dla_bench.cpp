@@ -30,18 +30,18 @@ template <class Grow> void measure(benchmark::State& state, Grow grow) {
     state.SetItemsProcessed(state.iterations() * params.particles);
 }
 
-void unit_step_dla(benchmark::State& state) {
+void BM_unit_step_dla(benchmark::State& state) {
     measure(state, unit_step::grow);
 }
 
-void grow_dla(benchmark::State& state) {
+void BM_grow_dla(benchmark::State& state) {
     measure(state, [](thalweg::network::DlaParams const& params) { return thalweg::network::grow_dla(params); });
 }
 
 } // namespace
 
-BENCHMARK(unit_step_dla)->Args({10000, 100, 1})->Args({10000, 85, 3})->Unit(benchmark::kMillisecond);
-BENCHMARK(grow_dla)
+BENCHMARK(BM_unit_step_dla)->Args({10000, 100, 1})->Args({10000, 85, 3})->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_grow_dla)
     ->Args({10000, 100, 1})
     ->Args({10000, 85, 3})
     ->Args({100000, 100, 1})

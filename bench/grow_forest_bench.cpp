@@ -23,7 +23,7 @@ thalweg::Grid square(std::int64_t side) {
     return grid;
 }
 
-void plain_forest_by_steps(benchmark::State& state) {
+void BM_plain_forest_by_steps(benchmark::State& state) {
     thalweg::Mask const land(square(state.range(0)), 1);
     thalweg::network::ForestParams params;
     params.step_cells = state.range(1);
@@ -34,7 +34,7 @@ void plain_forest_by_steps(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * land.cells());
 }
 
-void plant_forest(benchmark::State& state) {
+void BM_plant_forest(benchmark::State& state) {
     thalweg::Mask const land(square(state.range(0)), 1);
     auto const outlets = thalweg::network::spread_outlets(land, thalweg::network::coast_cells(land));
     thalweg::network::ForestParams params;
@@ -46,7 +46,7 @@ void plant_forest(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * land.cells());
 }
 
-void shape_island(benchmark::State& state) {
+void BM_shape_island(benchmark::State& state) {
     for ([[maybe_unused]] auto _ : state) {
         auto const land = thalweg::network::shape_island(square(state.range(0)));
         benchmark::DoNotOptimize(land.values().data());
@@ -56,12 +56,12 @@ void shape_island(benchmark::State& state) {
 
 } // namespace
 
-BENCHMARK(plain_forest_by_steps)->Args({40, 5})->Unit(benchmark::kMillisecond);
-BENCHMARK(plant_forest)
+BENCHMARK(BM_plain_forest_by_steps)->Args({40, 5})->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_plant_forest)
     ->Args({40, 5})
     ->Args({512, 5})
     ->Args({1024, 5})
     ->Args({2048, 5})
     ->Args({2048, 10})
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(shape_island)->Arg(1024)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_shape_island)->Arg(1024)->Unit(benchmark::kMillisecond);

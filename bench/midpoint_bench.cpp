@@ -57,7 +57,7 @@ void BM_midpoint_memcpy(benchmark::State& state) {
     count(state);
 }
 
-void reused(benchmark::State& state, Stencil stencil, Noise noise, Lanes lanes) {
+void BM_midpoint_reused(benchmark::State& state, Stencil stencil, Noise noise, Lanes lanes) {
     Refinement refinement;
     refinement.coarse = &coarse_land();
     refinement.levels = 8;
@@ -88,21 +88,11 @@ void BM_midpoint(benchmark::State& state) {
 
 #define THREADS Arg(1)->Arg(2)->ArgName("threads")->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond)
 BENCHMARK(BM_midpoint_memcpy)->THREADS;
-BENCHMARK_CAPTURE(reused, 4_uniform, Stencil::four, Noise::uniform, widest_lanes())
-    ->Name("BM_midpoint_reused/4/uniform")
-    ->THREADS;
-BENCHMARK_CAPTURE(reused, 4_normal, Stencil::four, Noise::normal, widest_lanes())
-    ->Name("BM_midpoint_reused/4/normal")
-    ->THREADS;
-BENCHMARK_CAPTURE(reused, 16_uniform, Stencil::sixteen, Noise::uniform, widest_lanes())
-    ->Name("BM_midpoint_reused/16/uniform")
-    ->THREADS;
-BENCHMARK_CAPTURE(reused, 16_normal, Stencil::sixteen, Noise::normal, widest_lanes())
-    ->Name("BM_midpoint_reused/16/normal")
-    ->THREADS;
-BENCHMARK_CAPTURE(reused, 16_normal_plain, Stencil::sixteen, Noise::normal, Lanes::plain)
-    ->Name("BM_midpoint_reused/16/normal/plain")
-    ->THREADS;
+BENCHMARK_CAPTURE(BM_midpoint_reused, 4_uniform, Stencil::four, Noise::uniform, widest_lanes())->THREADS;
+BENCHMARK_CAPTURE(BM_midpoint_reused, 4_normal, Stencil::four, Noise::normal, widest_lanes())->THREADS;
+BENCHMARK_CAPTURE(BM_midpoint_reused, 16_uniform, Stencil::sixteen, Noise::uniform, widest_lanes())->THREADS;
+BENCHMARK_CAPTURE(BM_midpoint_reused, 16_normal, Stencil::sixteen, Noise::normal, widest_lanes())->THREADS;
+BENCHMARK_CAPTURE(BM_midpoint_reused, 16_normal_plain, Stencil::sixteen, Noise::normal, Lanes::plain)->THREADS;
 BENCHMARK(BM_midpoint)->THREADS;
 #undef THREADS
 

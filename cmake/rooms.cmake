@@ -3,7 +3,10 @@
 add_library(thalweg_options INTERFACE)
 # No contraction, no fast-math, no -march: the same recipe gives the same bytes on every machine.
 target_compile_options(thalweg_options INTERFACE
-  -Wall -Wextra -Wconversion -Werror -ffp-contract=off)
+  -Wall -Wextra -Wconversion -ffp-contract=off)
+if(THALWEG_WERROR)
+  target_compile_options(thalweg_options INTERFACE -Werror)
+endif()
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Files that are compiled as one see one another's names, and g++ knows no main file whose types are its own;
   # at -O3 it takes an inlined vector for memory that was never allocated.

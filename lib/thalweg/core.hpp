@@ -28,10 +28,12 @@
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/lanes.hpp>
 #include <thalweg/core/run/large_pages.hpp>
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/run/suggest.hpp>
 #include <thalweg/core/skeleton.hpp>

@@ -10,6 +10,7 @@
 #include <thalweg/geometry/medial_lines.hpp>
 #include <thalweg/geometry/meetings.hpp>
 #include <thalweg/geometry/natural_neighbours.hpp>
+#include <thalweg/geometry/point_grid.hpp>
 #include <thalweg/geometry/segments_near.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>

@@ -354,7 +354,7 @@ std::string refusal(Raster<float> const& coarse, MidpointParams const& params) {
 
 TEST(Midpoint, RefusesWhatItCannotUse) {
     Raster<float> coarse = land::by_chance(4, 3, 1);
-    EXPECT_NE(refusal(coarse, with(2, Stencil::sixteen, 1.2, 1.0)).find("H is 1.2; choose from 0.05 to 0.95"),
+    EXPECT_NE(refusal(coarse, with(2, Stencil::sixteen, 1.2, 1.0)).find("H is 1.2; it must be between 0.05 and 0.95"),
               std::string::npos);
     EXPECT_NE(refusal(coarse, with(2, Stencil::sixteen, std::nan(""), 1.0)), "");
     EXPECT_NE(refusal(coarse, with(2, Stencil::sixteen, 0.5, -1.0)).find("sigma is -1 m"), std::string::npos);

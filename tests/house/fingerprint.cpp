@@ -511,7 +511,7 @@ void print_blend(Raster<float> const& target, Tin const& tin, Run const& run) {
 Raster<double> poisson_plain(solver::GridProblem problem, Run const& run) {
     auto const contents = solver::look_through(problem, "fingerprint", run);
     auto iterate = solver::coloured(problem, contents, run);
-    auto const& rows = solver::grid_rows(solver::GridLanes::plain);
+    auto const& rows = solver::grid_rows(Lanes::plain);
     double const zero = solver::residual_norm(iterate, rows, run);
     solver::set_guess(problem, contents, iterate, run);
     auto levels = solver::coarse_levels(problem.kind, run);

@@ -10,6 +10,7 @@
 #include <thalweg/blend/internal/follow.hpp>
 #include <thalweg/blend/internal/opening.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::blend {
 namespace {
@@ -18,9 +19,7 @@ using solver::free_cell;
 using solver::outside_cell;
 
 void check(Raster<float> const& target, Mask const& region, DeformParams const& params) {
-    if (!std::isfinite(params.scale)) {
-        throw BadParameter(fmt::format("blend.deform: a scale of {}; it must be a finite number", params.scale));
-    }
+    require_in("blend.deform", "scale", params.scale, Range::finite());
     if (region.grid() != target.grid()) {
         throw BadInput(fmt::format("blend.deform: a region of {} x {} cells for a target of {} x {}: they share a grid",
                                    region.width(), region.height(), target.width(), target.height()));

@@ -13,6 +13,7 @@
 #include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::blend {
 namespace {
@@ -22,10 +23,7 @@ using solver::free_cell;
 using solver::outside_cell;
 
 void check(Raster<float> const& target, Patch const& patch, PasteParams const& params) {
-    if (!(params.feather_cells >= 0.0 && params.feather_cells <= 1e6)) {
-        throw BadParameter(
-            fmt::format("blend.paste: a feather of {} cells; it must lie between 0 and 1e6", params.feather_cells));
-    }
+    require_in("blend.paste", "feather", params.feather_cells, Range::between(0.0, 1e6), "cells");
     auto const require = [&](Grid const& grid, char const* what) {
         if (grid != target.grid()) {
             throw BadInput(fmt::format("blend.paste: {} of {} x {} cells from ({}, {}) for a target of {} x {} cells "

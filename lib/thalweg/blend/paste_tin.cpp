@@ -25,14 +25,6 @@ bool is_finite(Vec3 const& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-double dot(Vec3 const& a, Vec3 const& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-Vec3 difference(Vec3 const& a, Vec3 const& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 void check(Tin const& parameter, std::vector<CoordinateGradients> const& guidance) {
     if (guidance.size() != parameter.triangles.size()) {
         throw BadInput(fmt::format("blend.paste_tin: guidance for {} triangles, the mesh has {}", guidance.size(),
@@ -132,7 +124,7 @@ System system_of(Tin const& parameter, std::vector<CoordinateGradients> const& g
         std::uint32_t const column = system.unknown[j];
         if (column == no_unknown) {
             for (std::size_t k = 0; k < 3; ++k) {
-                system.right[k][row] += weight * coordinate(difference(*places[j], parameter.vertices[j]), k);
+                system.right[k][row] += weight * coordinate(*places[j] - parameter.vertices[j], k);
             }
         } else if (column < row) {
             system.entries.push_back({row, column, -weight});
@@ -145,8 +137,7 @@ System system_of(Tin const& parameter, std::vector<CoordinateGradients> const& g
         auto const& t = parameter.triangles[i];
         auto const hats = hat_gradients_by_area(parameter.vertices[t[0]], parameter.vertices[t[1]],
                                                 parameter.vertices[t[2]], measured);
-        std::array<Vec3, 3> const more = {difference(guidance[i].x, own[i].x), difference(guidance[i].y, own[i].y),
-                                          difference(guidance[i].z, own[i].z)};
+        std::array<Vec3, 3> const more = {guidance[i].x - own[i].x, guidance[i].y - own[i].y, guidance[i].z - own[i].z};
         for (std::size_t k = 0; k < 3; ++k) {
             add(t[(k + 1) % 3], t[(k + 2) % 3], cotangents[i][k]);
             add(t[(k + 2) % 3], t[(k + 1) % 3], cotangents[i][k]);

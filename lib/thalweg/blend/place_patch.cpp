@@ -13,6 +13,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::blend {
 namespace {
@@ -149,16 +150,9 @@ private:
 };
 
 void check(PlacePatchParams const& params) {
-    if (!(std::fabs(params.rotate_deg) <= 360.0)) {
-        throw BadParameter(fmt::format("blend.place_patch: a rotation of {} degrees; it must lie between -360 and 360",
-                                       params.rotate_deg));
-    }
-    if (!(params.scale > 0.0) || !std::isfinite(params.scale)) {
-        throw BadParameter(fmt::format("blend.place_patch: a scale of {}; it must be above 0", params.scale));
-    }
-    if (!std::isfinite(params.gain)) {
-        throw BadParameter(fmt::format("blend.place_patch: a gain of {}; it must be a finite number", params.gain));
-    }
+    require_in("blend.place_patch", "rotation", params.rotate_deg, Range::between(-360.0, 360.0), "degrees");
+    require_in("blend.place_patch", "scale", params.scale, Range::above(0.0));
+    require_in("blend.place_patch", "gain", params.gain, Range::finite());
     if (params.at && (!std::isfinite(params.at->x) || !std::isfinite(params.at->y))) {
         throw BadParameter(
             fmt::format("blend.place_patch: a patch at ({}, {}); give finite coordinates", params.at->x, params.at->y));

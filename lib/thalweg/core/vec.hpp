@@ -21,6 +21,43 @@ struct Vec3 {
     friend bool operator==(Vec3 const&, Vec3 const&) = default;
 };
 
+constexpr Vec2 operator+(Vec2 a, Vec2 b) {
+    return {a.x + b.x, a.y + b.y};
+}
+constexpr Vec2 operator-(Vec2 a, Vec2 b) {
+    return {a.x - b.x, a.y - b.y};
+}
+constexpr Vec2 operator*(double s, Vec2 a) {
+    return {s * a.x, s * a.y};
+}
+constexpr double dot(Vec2 a, Vec2 b) {
+    return a.x * b.x + a.y * b.y;
+}
+
+constexpr Vec3 operator+(Vec3 const& a, Vec3 const& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+constexpr Vec3 operator-(Vec3 const& a, Vec3 const& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+constexpr Vec3 operator*(double s, Vec3 const& a) {
+    return {s * a.x, s * a.y, s * a.z};
+}
+constexpr double dot(Vec3 const& a, Vec3 const& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+constexpr Vec3 cross(Vec3 const& a, Vec3 const& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Length. Only the square root is used: std::hypot has other bits on other machines.
+inline double norm(Vec2 a) {
+    return std::sqrt(dot(a, a));
+}
+inline double norm(Vec3 const& a) {
+    return std::sqrt(dot(a, a));
+}
+
 /// The place on the ground, without its height.
 constexpr Vec2 plan(Vec3 const& p) {
     return {p.x, p.y};
@@ -44,11 +81,9 @@ constexpr double cross(Vec2 o, Vec2 a, Vec2 b) {
     return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
-/// Distance [m]. Only the square root is used: std::hypot has other bits on other machines.
+/// Distance [m].
 inline double distance(Vec2 a, Vec2 b) {
-    double const dx = a.x - b.x;
-    double const dy = a.y - b.y;
-    return std::sqrt(dx * dx + dy * dy);
+    return norm(a - b);
 }
 
 } // namespace thalweg

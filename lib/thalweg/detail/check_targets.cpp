@@ -11,15 +11,16 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::detail {
 
 namespace {
 
-void check_range(char const* what, std::optional<double> const& value, double above, double below) {
-    if (value && !(*value > above && *value < below)) {
-        throw BadParameter(
-            fmt::format("detail.project: a {} of {}; it must lie between {} and {}", what, *value, above, below));
+void check_range(char const* what, std::optional<double> const& value, double above, double below,
+                 char const* unit = "") {
+    if (value) {
+        require_in("detail.project", what, *value, Range::inside(above, below), unit);
     }
 }
 
@@ -39,7 +40,7 @@ void check_extreme(Raster<float> const& dem, char const* what, std::optional<Fix
             fmt::format("detail.project: the {} at column {}, row {} lies in a hole; give a cell with data", what,
                         cell.col, cell.row));
     }
-    check_range(what, extreme->z, -1e9, 1e9);
+    check_range(what, extreme->z, -1e9, 1e9, "m");
 }
 
 } // namespace
@@ -47,11 +48,11 @@ void check_extreme(Raster<float> const& dem, char const* what, std::optional<Fix
 void check_targets(Raster<float> const& dem, Targets const& targets) {
     check_extreme(dem, "highest point", targets.max);
     check_extreme(dem, "lowest point", targets.min);
-    check_range("mean [m]", targets.mean, -1e9, 1e9);
-    check_range("deviation [m]", targets.std, 0.0, 1e9);
-    check_range("correlation length lx [cells]", targets.lx_cells, 0.0, 1e9);
-    check_range("correlation length ly [cells]", targets.ly_cells, 0.0, 1e9);
-    check_range("slope [rad]", targets.slope_rad, 0.0, exact::pi / 2.0);
+    check_range("mean", targets.mean, -1e9, 1e9, "m");
+    check_range("deviation", targets.std, 0.0, 1e9, "m");
+    check_range("correlation length lx", targets.lx_cells, 0.0, 1e9, "cells");
+    check_range("correlation length ly", targets.ly_cells, 0.0, 1e9, "cells");
+    check_range("slope", targets.slope_rad, 0.0, exact::pi / 2.0, "rad");
     check_range("fractal dimension", targets.dimension, 2.0, 3.0);
     double const infinity = std::numeric_limits<double>::infinity();
     double const max = targets.max ? targets.max->z : infinity;

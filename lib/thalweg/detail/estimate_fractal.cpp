@@ -5,6 +5,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
 
 #include <fmt/format.h>
 
@@ -118,9 +119,8 @@ Fractal fit(Sums const& sums, EstimateParams const& params) {
 }
 
 void check_hurst(EstimateParams const& params) {
-    if (params.hurst && !(*params.hurst >= least_hurst && *params.hurst <= greatest_hurst)) {
-        throw BadParameter(fmt::format("detail.estimate_fractal: H is held at {}; choose one from {} to {}",
-                                       *params.hurst, least_hurst, greatest_hurst));
+    if (params.hurst) {
+        require_in("detail.estimate_fractal", "H", *params.hurst, Range::between(least_hurst, greatest_hurst));
     }
 }
 

@@ -5,6 +5,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
 
 #include <fmt/format.h>
 
@@ -84,10 +85,7 @@ Raster<double> difference_of_means(Raster<float> const& land, Raster<float> cons
 } // namespace
 
 Raster<float> with_fine_forms(Raster<float> const& land, Raster<float> const& fine, double cells, Run const& run) {
-    if (!(cells > 0.0 && cells <= 1000.0)) {
-        throw BadParameter(
-            fmt::format("detail.with_fine_forms: a window of {} cells; give more than 0 and at most 1000", cells));
-    }
+    require_in("detail.with_fine_forms", "window", cells, {0.0, 1000.0, false, true}, "cells");
     auto const finite = [](float z) { return std::isfinite(z); };
     if (land.grid() != fine.grid() || !std::all_of(land.values().begin(), land.values().end(), finite) ||
         !std::all_of(fine.values().begin(), fine.values().end(), finite)) {

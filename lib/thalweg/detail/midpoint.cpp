@@ -4,6 +4,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/detail/estimate_fractal.hpp>
 #include <thalweg/detail/internal/condition_surface.hpp>
 #include <thalweg/detail/refine.hpp>
@@ -22,22 +23,17 @@ constexpr double greatest_height_m = 1e30; // sums of sixteen such heights are f
 constexpr std::int64_t longest_side = std::int64_t{1} << 40;
 
 void check_params(MidpointParams const& params) {
-    if (params.levels < 0 || params.levels > most_levels) {
-        throw BadParameter(
-            fmt::format("detail.midpoint: levels is {}; choose from 0 to {}", params.levels, most_levels));
-    }
+    require_in("detail.midpoint", "levels", params.levels, Range::between(0, most_levels));
     if (params.width < 0 || params.height < 0) {
         throw BadParameter(fmt::format("detail.midpoint: a result of {} x {} cells; give a width and "
                                        "height above 0, or 0 for all the coarse raster covers",
                                        params.width, params.height));
     }
-    if (params.hurst && !(*params.hurst >= least_hurst && *params.hurst <= greatest_hurst)) {
-        throw BadParameter(
-            fmt::format("detail.midpoint: H is {}; choose from {} to {}", *params.hurst, least_hurst, greatest_hurst));
+    if (params.hurst) {
+        require_in("detail.midpoint", "H", *params.hurst, Range::between(least_hurst, greatest_hurst));
     }
-    if (params.sigma && !(*params.sigma >= 0.0 && *params.sigma <= greatest_height_m)) {
-        throw BadParameter(
-            fmt::format("detail.midpoint: sigma is {} m; choose from 0 to {} m", *params.sigma, greatest_height_m));
+    if (params.sigma) {
+        require_in("detail.midpoint", "sigma", *params.sigma, Range::between(0.0, greatest_height_m), "m");
     }
     if (params.stencil == Stencil::exact && params.noise != Noise::normal) {
         throw BadParameter("detail.midpoint: the exact surface has normal increments only; choose normal noise, or a "

@@ -34,42 +34,10 @@ constexpr std::int64_t longest = 4096;
 
 static_assert(std::endian::native == std::endian::little, "slices of words are read from memory");
 
-#ifdef __clang__ // unrolls what is constant unasked, and warns of the rest
-#define THALWEG_UNROLL
-#else
-#define THALWEG_UNROLL _Pragma("GCC unroll 8")
-#endif
-
-namespace plain {
-#define THALWEG_TARGET
-#define THALWEG_LANES 4
-#include <thalweg/detail/internal/noise_lanes.inc>
-#undef THALWEG_TARGET
-#undef THALWEG_LANES
-} // namespace plain
-
-#ifdef __x86_64__
-namespace avx2 {
-#define THALWEG_TARGET __attribute__((target("avx2")))
-#define THALWEG_LANES 8
-#include <thalweg/detail/internal/noise_lanes.inc>
-#undef THALWEG_TARGET
-#undef THALWEG_LANES
-} // namespace avx2
-#else
-namespace avx2 = plain;
-#endif
-#undef THALWEG_UNROLL
+#define THALWEG_KERNELS <thalweg/detail/internal/noise_lanes.inc>
+#include <thalweg/core/run/lanes.inc>
 
 } // namespace
-
-Lanes widest_lanes() {
-#ifdef __x86_64__
-    return __builtin_cpu_supports("avx2") ? Lanes::avx2 : Lanes::plain;
-#else
-    return Lanes::plain;
-#endif
-}
 
 void noise_row(Noise noise, NoisePlace const& place, std::int64_t first, std::span<float> out, Lanes lanes) {
     std::array<std::uint64_t, longest / 2> words; // NOLINT: what is read is written first

@@ -5,19 +5,14 @@
 #include <cstdint>
 #include <span>
 
+#include <thalweg/core/run/lanes.hpp>
+
 namespace thalweg::detail {
 
 enum class Noise : std::uint8_t {
     normal, ///< from 31 and 32 bits of chance for two numbers; as normal up to 6.6 deviations, where it ends
     uniform ///< in 65536 steps between -sqrt(3) and sqrt(3)
 };
-
-/// Instructions the kernels are compiled for: the same bytes from each.
-enum class Lanes : std::uint8_t {
-    plain, ///< what every processor of the architecture has
-    avx2
-};
-Lanes widest_lanes(); ///< of this processor
 
 /// Where a row of noise belongs: to every second column of a row of the lattice that a level makes.
 struct NoisePlace {

@@ -18,6 +18,7 @@
 #include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/detail/check_targets.hpp>
 #include <thalweg/detail/internal/limiter.hpp>
 #include <thalweg/solver/linear/cholesky.hpp>
@@ -319,17 +320,9 @@ void step(Land& land, FieldStatistics const& is, std::vector<Goal> const& goals,
 
 void check(Raster<float> const& dem, ProjectParams const& params) {
     solver::check(params.prior, "detail.project");
-    if (params.iterations < 0 || params.iterations > 1000) {
-        throw BadParameter(
-            fmt::format("detail.project: {} iterations; it must lie between 0 and 1000", params.iterations));
-    }
-    if (!(params.tolerance >= 0.0 && params.tolerance <= 1.0)) {
-        throw BadParameter(
-            fmt::format("detail.project: a tolerance of {}; it must lie between 0 and 1", params.tolerance));
-    }
-    if (!(params.gap_m > 0.0)) {
-        throw BadParameter(fmt::format("detail.project: a gap of {} m; it must be greater than 0", params.gap_m));
-    }
+    require_in("detail.project", "iterations", params.iterations, Range::between(0, 1000));
+    require_in("detail.project", "tolerance", params.tolerance, Range::between(0.0, 1.0));
+    require_in("detail.project", "gap", params.gap_m, Range::above(0.0).or_infinite(), "m");
     auto const values = dem.values();
     if (std::any_of(values.begin(), values.end(), [](float z) { return std::isinf(z); })) {
         throw BadInput("detail.project: a height is infinite; mark cells without data as NaN");

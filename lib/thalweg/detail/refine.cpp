@@ -30,25 +30,8 @@ struct Points {
     bool stream = false;           ///< in a woven row: whether it is stored past the cache
 };
 
-namespace plain {
-#define THALWEG_TARGET
-#define THALWEG_LANES 4
-#include <thalweg/detail/internal/refine_lanes.inc>
-#undef THALWEG_TARGET
-#undef THALWEG_LANES
-} // namespace plain
-
-#ifdef __x86_64__
-namespace avx2 {
-#define THALWEG_TARGET __attribute__((target("avx2")))
-#define THALWEG_LANES 8
-#include <thalweg/detail/internal/refine_lanes.inc>
-#undef THALWEG_TARGET
-#undef THALWEG_LANES
-} // namespace avx2
-#else
-namespace avx2 = plain;
-#endif
+#define THALWEG_KERNELS <thalweg/detail/internal/refine_lanes.inc>
+#include <thalweg/core/run/lanes.inc>
 
 using MakePoints = void (*)(Points const&, std::int64_t, std::int64_t);
 

@@ -249,12 +249,6 @@ Picture paint(double width, double height, Format format, std::function<void(Cai
     return picture;
 }
 
-void demand_pixels(std::string_view what, int pixels, int low, int high) {
-    if (pixels < low || pixels > high) {
-        throw BadParameter(fmt::format("{} is {}, must lie in [{}, {}] pixels", what, pixels, low, high));
-    }
-}
-
 void set_colour(Cairo* sheet, Colour colour) {
     cairo_set_source_rgba(sheet, colour.red, colour.green, colour.blue, colour.alpha);
 }

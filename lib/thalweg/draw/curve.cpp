@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/draw/internal/axes.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 
@@ -58,8 +59,8 @@ void draw_curve(Cairo* sheet, Box box, std::vector<Vec2> const& points, std::str
 } // namespace
 
 Picture curve(std::vector<double> const& increments, CurveParams const& params) {
-    demand_pixels("draw.curve: width_px", params.width_px, 200, 8000);
-    demand_pixels("draw.curve: height_px", params.height_px, 200, 8000);
+    require_in("draw.curve", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    require_in("draw.curve", "height_px", params.height_px, Range::between(200, 8000), "pixels");
     std::vector<Vec2> steps;
     std::vector<Vec2> sums;
     double sum = 0.0;

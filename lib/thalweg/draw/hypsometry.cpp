@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/draw/internal/axes.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 
@@ -34,8 +35,8 @@ void demand_curve(std::vector<Vec2> const& curve, double integral) {
 } // namespace
 
 Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryParams const& params) {
-    demand_pixels("draw.hypsometry: width_px", params.width_px, 200, 8000);
-    demand_pixels("draw.hypsometry: height_px", params.height_px, 200, 8000);
+    require_in("draw.hypsometry", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    require_in("draw.hypsometry", "height_px", params.height_px, Range::between(200, 8000), "pixels");
     demand_curve(curve, integral);
     double const width = params.width_px;
     double const height = params.height_px;

@@ -9,6 +9,7 @@
 #include <cairo.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 
 namespace thalweg::draw {
@@ -38,8 +39,8 @@ LinesBox box_of_lines(std::vector<std::vector<Vec2>> const& lines) {
 } // namespace
 
 Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& params) {
-    demand_pixels("draw.lines: width_px", params.width_px, 200, 8000);
-    demand_pixels("draw.lines: height_px", params.height_px, 200, 8000);
+    require_in("draw.lines", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    require_in("draw.lines", "height_px", params.height_px, Range::between(200, 8000), "pixels");
     double const width = params.width_px;
     double const height = params.height_px;
     double const unit = 0.014 * std::min(width, height);

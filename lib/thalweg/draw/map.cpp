@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/draw/internal/axes.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 #include <thalweg/draw/internal/legend.hpp>
@@ -29,11 +30,8 @@ void demand_finite(std::vector<Vec2> const& line, char const* what, std::size_t 
 }
 
 void demand_sheet(MapSheet const& sheet, MapParams const& params) {
-    demand_pixels("draw.map: width_px", params.width_px, 200, 8000);
-    if (!(params.contour_interval_m >= 0.0) || !std::isfinite(params.contour_interval_m)) {
-        throw BadParameter(
-            fmt::format("draw.map: contour_interval_m is {}, must be 0 or more", params.contour_interval_m));
-    }
+    require_in("draw.map", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    require_in("draw.map", "contour_interval_m", params.contour_interval_m, Range::at_least(0.0));
     Grid const& grid = sheet.dem.grid();
     if (grid.width < 1 || grid.height < 1) {
         throw BadInput(

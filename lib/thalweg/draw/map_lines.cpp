@@ -175,7 +175,7 @@ void label_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, 
             double const length = distance(seat.from, seat.to);
             double const drop = 0.36 * style.size / length;
             draw_text(canvas, {at.x - (seat.to.y - seat.from.y) * drop, at.y + (seat.to.x - seat.from.x) * drop}, label,
-                      style, Anchor::middle, {seat.to.x - seat.from.x, seat.to.y - seat.from.y});
+                      style, Anchor::middle, seat.to - seat.from);
             taken.push_back(at);
         }
     }

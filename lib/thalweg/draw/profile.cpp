@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/draw/internal/axes.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 
@@ -84,8 +85,8 @@ Plot scales_of(std::vector<Reach> const& reaches, Box box) {
 } // namespace
 
 Picture profile(RaisedNetwork const& network, NetworkOrders const& orders, ProfileParams const& params) {
-    demand_pixels("draw.profile: width_px", params.width_px, 200, 8000);
-    demand_pixels("draw.profile: height_px", params.height_px, 200, 8000);
+    require_in("draw.profile", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    require_in("draw.profile", "height_px", params.height_px, Range::between(200, 8000), "pixels");
     std::vector<Reach> const reaches = reaches_of(network, orders);
     double const width = params.width_px;
     double const height = params.height_px;

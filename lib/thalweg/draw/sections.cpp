@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/draw/cut_sections.hpp>
 #include <thalweg/draw/internal/axes.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
@@ -203,8 +204,8 @@ void draw_key(Cairo* sheet, Box room, Grid const& grid, MainStem const& stem, st
         draw_line(sheet, begin, end, 0.11 * unit, ink);
         double const length = std::max(1e-9, distance(begin, end));
         Vec2 const off{(end.x - begin.x) / length * 0.8 * unit, (end.y - begin.y) / length * 0.8 * unit};
-        Vec2 const at_begin{begin.x - off.x, begin.y - off.y};
-        Vec2 const at_end{end.x + off.x, end.y + off.y};
+        Vec2 const at_begin = begin - off;
+        Vec2 const at_end = end + off;
         bool const crowded = room_at(at_begin) < 1.4 * unit && room_at(at_end) > room_at(at_begin);
         taken.push_back(crowded ? at_end : at_begin);
         draw_text(sheet, {taken.back().x, taken.back().y + 0.36 * unit}, letter_of(k), letter, Anchor::middle);
@@ -225,10 +226,8 @@ void draw_scale_of_x(Cairo* sheet, Box box, Ticks const& ticks, double metres_a_
 
 Picture sections(Raster<float> const& dem, RaisedNetwork const* network, NetworkOrders const* orders,
                  SectionsParams const& params) {
-    demand_pixels("draw.sections: width_px", params.width_px, 200, 8000);
-    if (params.count < 1 || params.count > 9) {
-        throw BadParameter(fmt::format("draw.sections: count is {}, must lie in [1, 9]", params.count));
-    }
+    require_in("draw.sections", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    require_in("draw.sections", "count", params.count, Range::between(1, 9));
     if (network != nullptr && (orders == nullptr || orders->strahler.size() != boost::num_edges(network->plan))) {
         throw BadInput(fmt::format("draw.sections: a network of {} arcs comes with {} orders; order this network",
                                    boost::num_edges(network->plan), orders == nullptr ? 0 : orders->strahler.size()));

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/draw/internal/axes.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 #include <thalweg/draw/internal/fishnet.hpp>
@@ -24,16 +25,12 @@ constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr int orders_shown = 3; // the smaller streams would only hide the net
 
 void demand_scene(WireframeScene const& scene, WireframeParams const& params) {
-    demand_pixels("draw.wireframe: width_px", params.width_px, 200, 8000);
-    auto const demand = [](char const* what, double value, double low, double high) {
-        if (!(value >= low && value <= high)) {
-            throw BadParameter(fmt::format("draw.wireframe: {} is {}, must lie in [{}, {}]", what, value, low, high));
-        }
-    };
-    demand("azimuth_deg", params.azimuth_deg, -36000.0, 36000.0);
-    demand("elevation_deg", params.elevation_deg, 5.0, 85.0);
-    demand("exaggeration", params.exaggeration, 0.0, 1e6);
-    demand("lines", params.lines, 2, 200);
+    require_in("draw.wireframe", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    constexpr char const* stage = "draw.wireframe";
+    require_in(stage, "azimuth_deg", params.azimuth_deg, Range::between(-36000.0, 36000.0));
+    require_in(stage, "elevation_deg", params.elevation_deg, Range::between(5.0, 85.0));
+    require_in(stage, "exaggeration", params.exaggeration, Range::between(0.0, 1e6));
+    require_in(stage, "lines", params.lines, Range::between(2, 200));
     Grid const& grid = scene.dem.grid();
     if (grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0) || !std::isfinite(grid.cell_m)) {
         throw BadInput(fmt::format("draw.wireframe: a DEM of {} x {} cells of {} m; draw one that has some", grid.width,
@@ -327,9 +324,9 @@ void draw_north(Cairo* sheet, Vec2 at, View const& view, double unit) {
     Vec2 const along{tip.x * 26.0 * unit, -tip.y * 26.0 * unit};
     Vec2 const side = view.at({1.0, 0.0}, 0.0);
     Vec2 const across{side.x * 6.0 * unit, -side.y * 6.0 * unit};
-    Vec2 const head{at.x + along.x, at.y + along.y};
+    Vec2 const head = at + along;
     Vec2 const neck{at.x + 0.35 * along.x, at.y + 0.35 * along.y};
-    draw_line(sheet, {at.x - along.x, at.y - along.y}, neck, 0.9 * unit, faint_ink);
+    draw_line(sheet, at - along, neck, 0.9 * unit, faint_ink);
     cairo_move_to(sheet, head.x, head.y);
     cairo_line_to(sheet, neck.x + across.x, neck.y + across.y);
     cairo_line_to(sheet, neck.x - across.x, neck.y - across.y);

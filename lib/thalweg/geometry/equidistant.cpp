@@ -16,22 +16,6 @@ using Site = Diagram::Site;
 
 constexpr int most_steps = 40;
 
-Vec2 operator+(Vec2 a, Vec2 b) {
-    return {a.x + b.x, a.y + b.y};
-}
-Vec2 operator-(Vec2 a, Vec2 b) {
-    return {a.x - b.x, a.y - b.y};
-}
-Vec2 operator*(double s, Vec2 a) {
-    return {s * a.x, s * a.y};
-}
-double dot(Vec2 a, Vec2 b) {
-    return a.x * b.x + a.y * b.y;
-}
-double length(Vec2 a) {
-    return std::sqrt(dot(a, a));
-}
-
 bool is_point(Site const& s) {
     return s.a == s.b;
 }
@@ -42,7 +26,7 @@ bool is_end_of(Site const& point, Site const& segment) {
 
 Vec2 normal_of(Site const& segment) {
     Vec2 const d = segment.b - segment.a;
-    double const l = length(d);
+    double const l = norm(d);
     return {-d.y / l, d.x / l};
 }
 
@@ -55,7 +39,7 @@ struct Slope {
 Slope slope_at(Site const& s, double side, Vec2 p) {
     Vec2 const from = p - s.a;
     if (is_point(s)) {
-        double const d = length(from);
+        double const d = norm(from);
         return {d, d > 0.0 ? (1.0 / d) * from : Vec2{}};
     }
     Vec2 const up = side * normal_of(s);

@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/internal/equidistant.hpp>
 #include <thalweg/geometry/internal/finish_diagram.hpp>
@@ -55,8 +56,8 @@ double origin_of(double low, double high) {
 
 struct Origin {
     Vec2 at;
-    Vec2 to_local(Vec2 p) const { return {p.x - at.x, p.y - at.y}; }
-    Vec2 to_ground(Vec2 p) const { return {p.x + at.x, p.y + at.y}; }
+    Vec2 to_local(Vec2 p) const { return p - at; }
+    Vec2 to_ground(Vec2 p) const { return p + at; }
     Diagram::Site to_local(Diagram::Site site) const {
         site.a = to_local(site.a);
         site.b = to_local(site.b);
@@ -169,10 +170,7 @@ RawDiagram raw_of(Built const& built, LabelledSites const& sites, Origin const& 
 
 Diagram medial_lines(std::vector<LabelledLine> const& lines, Bounds const& bounds, MedialLinesParams const& params,
                      Run const& run) {
-    if (!(params.tolerance_m > 0.0)) {
-        throw BadParameter(
-            fmt::format("geometry.medial_lines: tolerance_m is {}, must be greater than 0", params.tolerance_m));
-    }
+    require_in("geometry.medial_lines", "tolerance_m", params.tolerance_m, Range::above(0.0).or_infinite());
     LabelledSites const sites = sites_of(lines, bounds, Parts::segments, "geometry.medial_lines");
     if (sites.points < 2) {
         return {};

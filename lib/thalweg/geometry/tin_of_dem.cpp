@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/geometry/triangle_order.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 
@@ -417,9 +418,7 @@ private:
 };
 
 void require_sound(Raster<float> const& dem, TinOfDemParams const& params) {
-    if (!(params.error_m > 0.0)) {
-        throw BadParameter(fmt::format("geometry.tin_of_dem: an error of {} m: it must be above 0", params.error_m));
-    }
+    require_in("geometry.tin_of_dem", "error", params.error_m, Range::above(0.0).or_infinite(), "m");
     if (dem.width() > most_cells_a_side || dem.height() > most_cells_a_side) {
         throw BadInput(fmt::format("geometry.tin_of_dem: {} x {} cells: at most {} a side; cut the DEM", dem.width(),
                                    dem.height(), most_cells_a_side));

@@ -10,6 +10,7 @@
 #include <thalweg/core/cells/cells_around.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::skeleton {
 
@@ -19,12 +20,8 @@ Raster<float> attract(Raster<float> dem, Attraction const& attraction) {
         throw BadParameter(fmt::format("skeleton.attract: column {}, row {} is off the grid of {} x {} cells",
                                        centre.col, centre.row, dem.width(), dem.height()));
     }
-    if (!(attraction.radius_cells > 0.0) || !std::isfinite(attraction.z)) {
-        throw BadParameter(
-            fmt::format("skeleton.attract: a radius of {} cells about a height of {} m; the radius must be "
-                        "greater than 0 and the height a number",
-                        attraction.radius_cells, attraction.z));
-    }
+    require_in("skeleton.attract", "radius", attraction.radius_cells, Range::above(0.0).or_infinite(), "cells");
+    require_in("skeleton.attract", "height", attraction.z, Range::finite(), "m");
     double const square = attraction.radius_cells * attraction.radius_cells;
     double const at_radius = attraction.falloff == Falloff::literal ? 0.0 : exact::exp(-1.0);
     auto const reach = static_cast<std::int64_t>(std::min(attraction.radius_cells, 1e9));

@@ -4,24 +4,15 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::skeleton {
 
 void check(FieldParams const& params, char const* stage) {
-    if (!std::isfinite(params.mean)) {
-        throw BadParameter(fmt::format("{}: a mean height of {} m; it must be a number", stage, params.mean));
-    }
-    if (!(params.std >= 0.0 && std::isfinite(params.std))) {
-        throw BadParameter(fmt::format("{}: a deviation of {} m; it must be at least 0", stage, params.std));
-    }
+    require_in(stage, "mean height", params.mean, Range::finite(), "m");
+    require_in(stage, "deviation", params.std, Range::at_least(0.0), "m");
     for (double const length : {params.lx_cells, params.ly_cells}) {
-        if (!(length > 0.0 && std::isfinite(length))) {
-            throw BadParameter(
-                fmt::format("{}: a correlation length of {} cells; it must be greater than 0", stage, length));
-        }
+        require_in(stage, "correlation length", length, Range::above(0.0), "cells");
     }
 }
 

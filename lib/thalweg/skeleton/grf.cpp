@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/skeleton/field_params.hpp>
 #include <thalweg/solver/spectral/circulant.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
@@ -47,9 +48,7 @@ solver::Circulant embed(Grid const& grid, GrfParams const& params, Run const& ru
 RandomField grf(Grid const& grid, GrfParams const& params, Run const& run) {
     check(FieldParams{.mean = params.mean, .std = params.std}, "skeleton.grf");
     check(params.covariance, "skeleton.grf");
-    if (params.embedding < 1 || params.embedding > 64) {
-        throw BadParameter(fmt::format("skeleton.grf: an embedding of {}; it lies between 1 and 64", params.embedding));
-    }
+    require_in("skeleton.grf", "embedding", params.embedding, Range::between(1, 64));
     RandomField result{Raster<float>(grid)};
     if (grid.cells() == 0) {
         return result;

@@ -12,6 +12,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::skeleton {
 
@@ -20,10 +21,7 @@ namespace {
 constexpr std::int64_t cells_a_range = 65536;
 
 void demand(Skeleton const& skeleton, MidpointInverseParams const& params) {
-    if (!(params.longest_cells >= 0.0)) {
-        throw BadParameter(
-            fmt::format("skeleton.midpoint_inverse: longest_cells is {}, must be 0 or more", params.longest_cells));
-    }
+    require_in("skeleton.midpoint_inverse", "longest_cells", params.longest_cells, Range::at_least(0.0).or_infinite());
     for (std::int64_t i = 0; i < skeleton.z.cells(); ++i) {
         if (std::isinf(skeleton.z[i])) {
             Cell const c = skeleton.z.grid().at(i);

@@ -9,6 +9,7 @@
 
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/skeleton/internal/perlin.hpp>
 
 namespace thalweg::skeleton {
@@ -20,14 +21,8 @@ constexpr double sum_of_gains = 1.875;                    // of four octaves
 constexpr double widest_shift = 256.0;                    // [wavelengths] after which libnoise repeats itself
 
 void demand(NoiseAlongParams const& params) {
-    if (!(params.amplitude_m >= 0.0) || !std::isfinite(params.amplitude_m)) {
-        throw BadParameter(
-            fmt::format("skeleton.noise_along: amplitude_m is {}, must be 0 or more", params.amplitude_m));
-    }
-    if (!(params.wavelength_m > 0.0) || !std::isfinite(params.wavelength_m)) {
-        throw BadParameter(
-            fmt::format("skeleton.noise_along: wavelength_m is {}, must be greater than 0", params.wavelength_m));
-    }
+    require_in("skeleton.noise_along", "amplitude_m", params.amplitude_m, Range::at_least(0.0));
+    require_in("skeleton.noise_along", "wavelength_m", params.wavelength_m, Range::above(0.0));
 }
 
 /// A place in wavelengths from the origin.

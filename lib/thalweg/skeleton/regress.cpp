@@ -5,6 +5,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/solver/linear/least_squares.hpp>
 
 #include <fmt/format.h>
@@ -131,9 +132,8 @@ void demand(FeaturePoints const& points, Grid const& grid, RegressParams const& 
     if (grid.cells() <= 0 || !(grid.cell_m > 0.0)) {
         refuse("the grid has no cells");
     }
-    if (!(p.length_x > 0.0) || !(p.length_y > 0.0) || !std::isfinite(p.length_x + p.length_y)) {
-        refuse(fmt::format("correlation lengths {} and {} cells: give more than 0", p.length_x, p.length_y));
-    }
+    require_in("skeleton.regress", "correlation length lx", p.length_x, Range::above(0.0), "cells");
+    require_in("skeleton.regress", "correlation length ly", p.length_y, Range::above(0.0), "cells");
     if (!(p.frequency_x >= 0.0) || !(p.frequency_y >= 0.0) || !(p.frequency_x + p.frequency_y < 1e4)) {
         refuse(fmt::format("frequencies {} and {}: give 0 to 10 000 cycles", p.frequency_x, p.frequency_y));
     }

@@ -17,17 +17,13 @@ namespace {
 
 using geometry::Diagram;
 
-double dot(Vec2 a, Vec2 b) {
-    return a.x * b.x + a.y * b.y;
-}
-
 /// The part of pq nearer than clear_m to both sites of the edge it belongs to, as shares of it.
 std::optional<std::pair<double, double>> too_near(Diagram::Site const& left, Diagram::Site const& right, Vec2 p, Vec2 q,
                                                   double clear_m) {
     if (left.a == left.b || right.a == right.b) {
         Vec2 const centre = left.a == left.b ? left.a : right.a;
-        Vec2 const from{p.x - centre.x, p.y - centre.y};
-        Vec2 const step{q.x - p.x, q.y - p.y};
+        Vec2 const from = p - centre;
+        Vec2 const step = q - p;
         double const square = dot(step, step);
         double const half = dot(from, step);
         double const root = half * half - square * (dot(from, from) - clear_m * clear_m);

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/medial_lines.hpp>
 #include <thalweg/geometry/voronoi.hpp>
@@ -26,9 +27,7 @@ void demand(RidgesParams const& params, Grid const& grid) {
                                       {"spacing_m", params.spacing_m},
                                       {"tolerance_m", params.tolerance_m},
                                       {"clear_m", params.clear_m}}) {
-        if (!(value >= 0.0) || !std::isfinite(value)) {
-            throw BadParameter(fmt::format("skeleton.ridges: {} is {}, must be 0 or more", name, value));
-        }
+        require_in("skeleton.ridges", name, value, Range::at_least(0.0));
     }
     if (grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0)) {
         throw BadParameter(fmt::format("skeleton.ridges: a grid of {} x {} cells of {} m has no ground", grid.width,

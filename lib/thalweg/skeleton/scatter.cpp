@@ -5,6 +5,7 @@
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/skeleton/internal/place_points.hpp>
 
 #include <fmt/format.h>
@@ -77,11 +78,10 @@ void demand(Grid const& grid, ScatterParams const& p, double spacing_m) {
     if (p.count < std::max<std::int64_t>(1, extremes)) {
         refuse(fmt::format("{} points with {} extremes: give 1 or more, the extremes included", p.count, extremes));
     }
-    if (!(p.spacing_cells >= 0.0) || !(p.reach_cells >= 0.0) || !(p.std_m >= 0.0) ||
-        !std::isfinite(p.spacing_cells + p.reach_cells + p.std_m + p.mean_m)) {
-        refuse(fmt::format("spacing {} cells, reach {} cells, deviation {} m: give finite numbers of 0 or more",
-                           p.spacing_cells, p.reach_cells, p.std_m));
-    }
+    require_in("skeleton.scatter", "spacing", p.spacing_cells, Range::at_least(0.0), "cells");
+    require_in("skeleton.scatter", "reach", p.reach_cells, Range::at_least(0.0), "cells");
+    require_in("skeleton.scatter", "deviation", p.std_m, Range::at_least(0.0), "m");
+    require_in("skeleton.scatter", "mean", p.mean_m, Range::finite(), "m");
     for (auto const& extreme : {p.highest, p.lowest}) {
         if (extreme && !(inside(grid, {extreme->x, extreme->y}) && std::isfinite(extreme->z))) {
             refuse(fmt::format("the extreme at ({}, {}) with {} m does not lie on the grid", extreme->x, extreme->y,

@@ -6,9 +6,8 @@
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/normal.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/skeleton/internal/place_points.hpp>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +23,11 @@ constexpr std::uint64_t share_stage = 0x7363617474657235; // "scatter5"
 constexpr double nearest_allowed_cells = 2.0;
 
 void demand(Valley const& valley, Mask const& inside, ScatterBetweenParams const& p) {
-    if (p.count < 0 || !(p.spacing_cells >= 0.0) || !(p.gain >= 0.0) || !(p.farthest_m >= 0.0) ||
-        !std::isfinite(p.spacing_cells + p.gain + p.farthest_m)) {
-        throw BadParameter(
-            fmt::format("skeleton.scatter_between: {} points, spacing {} cells, gain {}, farthest {} m: give "
-                        "finite numbers of 0 or more",
-                        p.count, p.spacing_cells, p.gain, p.farthest_m));
-    }
+    constexpr char const* stage = "skeleton.scatter_between";
+    require_in(stage, "count", p.count, Range::at_least(0));
+    require_in(stage, "spacing", p.spacing_cells, Range::at_least(0.0), "cells");
+    require_in(stage, "gain", p.gain, Range::at_least(0.0));
+    require_in(stage, "farthest", p.farthest_m, Range::at_least(0.0), "m");
     if (inside.cells() > 0 && inside.grid() != valley.z.grid()) {
         throw BadInput("skeleton.scatter_between: the mask has another grid than the valley");
     }

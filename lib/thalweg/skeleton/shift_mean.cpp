@@ -4,16 +4,12 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::skeleton {
 
 Raster<float> shift_mean(Raster<float> dem, double mean) {
-    if (!std::isfinite(mean)) {
-        throw BadParameter(fmt::format("skeleton.shift_mean: a mean height of {} m; it must be a number", mean));
-    }
+    require_in("skeleton.shift_mean", "mean height", mean, Range::finite(), "m");
     double above = 0.0;
     std::int64_t cells = 0;
     for (float const z : dem.values()) {

@@ -294,7 +294,7 @@ TEST(Poisson, SameBytesForAnyThreadsAndLanes) {
         EXPECT_TRUE(same_bytes(solve_poisson(problem, {1e-8, 100}, on(threads)).value, one.value));
     }
     std::vector<Raster<double>> values;
-    for (GridLanes const lanes : {GridLanes::plain, widest_grid_lanes()}) {
+    for (Lanes const lanes : {Lanes::plain, widest_lanes()}) {
         ColouredProblem iterate = coloured(problem, look_through(problem, "test", {}), {});
         auto levels = coarse_levels(problem.kind, {});
         double const zero = residual_norm(iterate, grid_rows(lanes), {});

@@ -25,7 +25,7 @@ bool same(Expansion const& a, Expansion const& b) {
     return valleys::same_bytes(a.level, b.level) && valleys::same_bytes(a.base, b.base);
 }
 
-template <class Level> Expansion by_lanes(Valley const& valley, separable::Lanes lanes, int threads) {
+template <class Level> Expansion by_lanes(Valley const& valley, Lanes lanes, int threads) {
     Run run;
     run.threads = threads;
     Expansion expansion{Raster<std::int32_t>(valley.z.grid()), Raster<float>(valley.z.grid())};
@@ -111,11 +111,10 @@ TEST(Expand, ClosedFormIsTheFrontierBitForBit) {
 }
 
 TEST(Expand, TheSameBytesFromEveryWayToRunIt) {
-    using separable::Lanes;
     ASSERT_TRUE(rc::check("lanes, widths of level and threads change no byte", [] {
         Valley const valley = valleys::any(70);
         Expansion const reference = frontier(valley);
-        Lanes const widest = separable::widest_lanes();
+        Lanes const widest = widest_lanes();
         for (int const threads : {1, 2, 5}) {
             RC_ASSERT(same(reference, by_lanes<std::uint16_t>(valley, Lanes::plain, threads)));
             RC_ASSERT(same(reference, by_lanes<std::int32_t>(valley, Lanes::plain, threads)));
@@ -129,8 +128,8 @@ TEST(Expand, StripsAndBandsOfALargeGrid) {
     Valley const valley = valleys::by_chance(1111, 1203, 0.0004, 5);
     Expansion const reference = frontier(valley);
     for (int const threads : {1, 2, 7}) {
-        EXPECT_TRUE(same(reference, by_lanes<std::uint16_t>(valley, separable::Lanes::plain, threads)));
-        EXPECT_TRUE(same(reference, by_lanes<std::uint16_t>(valley, separable::widest_lanes(), threads)));
+        EXPECT_TRUE(same(reference, by_lanes<std::uint16_t>(valley, Lanes::plain, threads)));
+        EXPECT_TRUE(same(reference, by_lanes<std::uint16_t>(valley, widest_lanes(), threads)));
     }
 }
 

@@ -257,9 +257,9 @@ TEST(Blend, BadInputIsRefused) {
     refused(place, "target.tif source.tif -o a.tif --at nan,1", "finite coordinates");
     refused(place, "target.tif source.tif -o a.tif --window 1,2,3", "--window has 3 numbers");
     refused(place, "target.tif source.tif -o a.tif --window 10,0,11,4", "of a source of 20 x 16 cells");
-    refused(place, "target.tif source.tif -o a.tif --scale 0", "a scale of 0");
-    refused(place, "target.tif source.tif -o a.tif --scale nan", "a scale of nan");
-    refused(place, "target.tif source.tif -o a.tif --gain inf", "a gain of inf");
+    refused(place, "target.tif source.tif -o a.tif --scale 0", "scale is 0");
+    refused(place, "target.tif source.tif -o a.tif --scale nan", "scale is nan");
+    refused(place, "target.tif source.tif -o a.tif --gain inf", "gain is inf");
     refused(place, "target.tif source.tif -o a.tif --rotate 400", "--rotate");
     refused(place, "target.tif source.tif -o a.tif --feather -1", "--feather");
     refused(place, "target.tif source.tif -o a.tif --mask none.gpkg", "none.gpkg does not exist");

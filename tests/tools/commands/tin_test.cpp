@@ -132,8 +132,8 @@ TEST(Tin, BadInputIsRefused) {
     refused(place, "two.csv -o a.2dm", "2 points in 2 different places");
     refused(place, "nan.csv -o a.2dm", "nan.csv, line 2: z is 'nan'");
     refused(place, "word.csv -o a.2dm", "word.csv, line 2: z is 'low'");
-    refused(place, "dem.asc -o a.2dm --error 0", "an error of 0 m");
-    refused(place, "dem.asc -o a.2dm --error -2", "an error of -2 m");
+    refused(place, "dem.asc -o a.2dm --error 0", "error is 0 m");
+    refused(place, "dem.asc -o a.2dm --error -2", "error is -2 m");
     refused(place, "dem.asc -o a.2dm --error nan", "above 0");
     refused(place, "dem.asc -o a.2dm --error much", "--error");
     refused(place, "dem.asc -o a.2dm --breaklines flat.geojson", "not to a DEM");

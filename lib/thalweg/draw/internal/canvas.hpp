@@ -44,9 +44,6 @@ struct Box {
 /// Throws: IoError when Cairo reports a failure.
 Picture paint(double width, double height, Format format, std::function<void(Cairo*)> const& fill);
 
-/// Throws BadParameter unless low <= pixels <= high. what: "draw.map: width_px".
-void demand_pixels(std::string_view what, int pixels, int low, int high);
-
 void set_colour(Cairo* sheet, Colour colour);
 void fill_box(Cairo* sheet, Box box, Colour colour);
 void frame_box(Cairo* sheet, Box box, double line_width, Colour colour);

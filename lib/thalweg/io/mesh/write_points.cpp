@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/io/files/internal/format_of.hpp>
 #include <thalweg/io/files/internal/new_file.hpp>
 #include <thalweg/io/mesh/internal/las.hpp>
@@ -129,9 +130,7 @@ std::uint64_t write(Source const& source, std::string const& path, PointFormat f
 }
 
 void require(WritePointsParams const& params) {
-    if (params.every < 1) {
-        throw BadParameter(fmt::format("io.write_points: every is {}; it must be 1 or more", params.every));
-    }
+    require_in("io.write_points", "every", params.every, Range::at_least(1));
 }
 
 } // namespace

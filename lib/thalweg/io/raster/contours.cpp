@@ -10,6 +10,7 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/gdal/internal/watch.hpp>
@@ -21,9 +22,7 @@ namespace {
 
 void require_few_levels(Raster<float> const& dem, double interval_m) {
     constexpr double most_levels = 10000.0;
-    if (!(interval_m > 0.0)) {
-        throw BadParameter(fmt::format("io.contours: an interval of {} m: give more than 0", interval_m));
-    }
+    require_in("io.contours", "interval", interval_m, Range::above(0.0).or_infinite(), "m");
     double low = 0.0;
     double high = 0.0;
     bool first = true;

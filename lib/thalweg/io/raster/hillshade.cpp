@@ -9,6 +9,7 @@
 #include <gdal_utils.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 
@@ -16,9 +17,7 @@ namespace thalweg::io {
 
 Raster<std::uint8_t> hillshade(Raster<float> const& dem, double z_factor, Light light) {
     std::string const what = "io.hillshade";
-    if (!(z_factor > 0.0)) {
-        throw BadParameter(fmt::format("{}: z_factor = {}: give more than 0", what, z_factor));
-    }
+    require_in(what, "z_factor", z_factor, Range::above(0.0).or_infinite());
     Driver const driver;
     Dataset const source = in_memory(dem, what);
     CPLStringList arguments;

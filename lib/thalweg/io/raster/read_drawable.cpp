@@ -16,6 +16,7 @@
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/io/frame/internal/spatial_reference.hpp>
 #include <thalweg/io/frame/internal/units.hpp>
 #include <thalweg/io/frame/projection.hpp>
@@ -221,9 +222,7 @@ Raster<float> read_means(GDALDataset& dataset, Grid const& grid, std::int64_t k,
 
 Drawable read_drawable(std::string const& path, std::int64_t most_side, Run const& run) {
     std::string const what = "io.read_drawable: " + path;
-    if (most_side < 16 || most_side > 30000) {
-        throw BadParameter(fmt::format("io.read_drawable: most_side is {}, must lie in [16, 30000]", most_side));
-    }
+    require_in("io.read_drawable", "most_side", most_side, Range::between(16, 30000));
     Driver const driver;
     Dataset source = open_file(path, GDAL_OF_RASTER, what);
     if (source->GetRasterCount() < 1) {

@@ -31,10 +31,6 @@ double smooth_step(double t) {
     return u * u * (3.0 - 2.0 * u);
 }
 
-Vec2 plus(Vec2 a, Vec2 b) {
-    return {a.x + b.x, a.y + b.y};
-}
-
 /// A wave that moves places along its crests: it shears, and leaves areas as they are.
 struct Wave {
     Vec2 across; ///< unit vector
@@ -228,9 +224,9 @@ std::vector<Vec2> bend_plain(std::vector<Vec2> at, Raster<std::uint8_t> const& t
         for (Wave const& wave : waves) {
             double const along = (p.x - grid.west) * wave.across.x + (grid.north - p.y) * wave.across.y;
             double const by = fades * wave.amplitude * exact::sin(wave.number * along + wave.phase);
-            shift = plus(shift, {by * wave.across.y, by * wave.across.x}); // y grows to the north
+            shift = shift + Vec2{by * wave.across.y, by * wave.across.x}; // y grows to the north
         }
-        p = plus(p, shift);
+        p = p + shift;
     }
     return at;
 }

@@ -2,28 +2,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid/poisson.hpp>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/solver/grid/internal/coloured_problem.hpp>
 #include <thalweg/solver/grid/internal/conjugate_gradients.hpp>
 #include <thalweg/solver/opencl/internal/poisson_opencl.hpp>
 
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace thalweg::solver {
 namespace {
 
 void demand(PoissonParams const& params) {
-    if (!(params.tolerance > 0.0 && params.tolerance < 1.0)) {
-        throw BadParameter(fmt::format("solver.solve_poisson: a tolerance of {}; it must be greater than 0 and less "
-                                       "than 1",
-                                       params.tolerance));
-    }
-    if (params.most_iterations < 0) {
-        throw BadParameter(fmt::format("solver.solve_poisson: {} iterations at most; it cannot be less than 0",
-                                       params.most_iterations));
-    }
+    require_in("solver.solve_poisson", "tolerance", params.tolerance, Range::inside(0.0, 1.0));
+    require_in("solver.solve_poisson", "most_iterations", params.most_iterations, Range::at_least(0));
 }
 
 } // namespace
@@ -36,7 +27,7 @@ GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run
     }
     GridSolution solution;
     if (contents.free > 0) {
-        GridRows const& rows = grid_rows(widest_grid_lanes());
+        GridRows const& rows = grid_rows(widest_lanes());
         ColouredProblem iterate = coloured(problem, contents, run);
         if (double const zero = residual_norm(iterate, rows, run); zero > 0.0) {
             set_guess(problem, contents, iterate, run);

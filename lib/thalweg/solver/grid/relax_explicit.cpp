@@ -4,6 +4,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/solver/grid/internal/coloured_problem.hpp>
 #include <thalweg/solver/opencl/internal/relax_opencl.hpp>
 
@@ -25,9 +26,7 @@ void demand(GridProblem const& problem, ExplicitParams const& params) {
                                        "for beyond it sweeps make the differences between cells grow",
                                        params.alpha));
     }
-    if (params.sweeps < 0) {
-        throw BadParameter(fmt::format("solver.relax_explicit: {} sweeps; there cannot be less than 0", params.sweeps));
-    }
+    require_in("solver.relax_explicit", "sweeps", params.sweeps, Range::at_least(0));
     if (problem.source.cells() > 0) {
         throw BadInput("solver.relax_explicit: the problem has a source; solve_poisson takes one");
     }
@@ -107,7 +106,7 @@ GridSolution relax_explicit(GridProblem problem, ExplicitParams const& params, R
     }
     GridSolution solution;
     if (contents.free > 0) {
-        GridRows const& rows = grid_rows(widest_grid_lanes());
+        GridRows const& rows = grid_rows(widest_lanes());
         ColouredProblem iterate = coloured(problem, contents, run);
         double const zero = residual_norm(iterate, rows, run);
         if (run.device == Device::opencl) {

@@ -13,6 +13,7 @@
 #include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
 
 namespace thalweg::solver {
@@ -61,10 +62,7 @@ std::int64_t around(std::int64_t cells, double reach_cells) {
 }
 
 void check(std::int64_t width, std::int64_t height, double hurst) {
-    if (!(hurst > 0.0 && hurst < 1.0)) {
-        throw BadParameter(
-            fmt::format("solver.fractional_surface: H is {}; it must lie between 0 and 1, both excluded", hurst));
-    }
+    require_in("solver.fractional_surface", "H", hurst, Range::inside(0.0, 1.0));
     if (width < 1 || height < 1) {
         throw BadParameter(fmt::format("solver.fractional_surface: a lattice of {} x {} cells; give one cell at least",
                                        width, height));

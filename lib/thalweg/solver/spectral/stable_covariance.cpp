@@ -4,10 +4,8 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::solver {
 
@@ -30,19 +28,10 @@ double StableCovariance::operator()(double dx_cells, double dy_cells) const {
 
 void check(StableCovariance const& covariance, char const* stage) {
     for (double const length : {covariance.lx_cells, covariance.ly_cells, covariance.fine_cells}) {
-        if (!(length > 0.0 && std::isfinite(length))) {
-            throw BadParameter(
-                fmt::format("{}: a correlation length of {} cells; it must be greater than 0", stage, length));
-        }
+        require_in(stage, "correlation length", length, Range::above(0.0), "cells");
     }
-    if (!(covariance.dimension > 2.0 && covariance.dimension < 3.0)) {
-        throw BadParameter(fmt::format("{}: a fractal dimension of {}; that of a surface lies between 2 and 3", stage,
-                                       covariance.dimension));
-    }
-    if (!(covariance.fine_share >= 0.0 && covariance.fine_share < 1.0)) {
-        throw BadParameter(fmt::format("{}: a share of {} of fine forms; it must be at least 0 and less than 1", stage,
-                                       covariance.fine_share));
-    }
+    require_in(stage, "fractal dimension", covariance.dimension, Range::inside(2.0, 3.0));
+    require_in(stage, "share of fine forms", covariance.fine_share, {0.0, 1.0, true, false});
 }
 
 } // namespace thalweg::solver

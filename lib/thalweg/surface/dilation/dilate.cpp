@@ -101,7 +101,7 @@ void report_flats(Dilated& dilated, Valley const& valley, std::vector<double> co
 }
 
 template <class Level> Dilated dilate_closed(Valley const& valley, DilateParams const& params, Run const& run) {
-    separable::Lanes const lanes = separable::widest_lanes();
+    Lanes const lanes = widest_lanes();
     Dilated dilated;
     dilated.dem = Raster<float>(valley.z.grid());
     auto const swept = separable::sweep_down<Level>(valley, dilated.dem, lanes, run);

@@ -13,7 +13,7 @@ namespace thalweg::surface {
 namespace {
 
 template <class Level> Expansion expand_as(Valley const& valley, Run const& run) {
-    separable::Lanes const lanes = separable::widest_lanes();
+    Lanes const lanes = widest_lanes();
     Expansion expansion{Raster<std::int32_t>(valley.z.grid()), Raster<float>(valley.z.grid())};
     auto const swept = separable::sweep_down<Level>(valley, expansion.base, lanes, run);
     if (!separable::usable(swept)) {

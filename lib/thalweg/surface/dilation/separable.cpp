@@ -32,32 +32,8 @@ struct Carry {
     std::int32_t* key = nullptr;
 };
 
-#ifdef __clang__ // unrolls what is constant unasked, and warns of the rest
-#define THALWEG_UNROLL
-#else
-#define THALWEG_UNROLL _Pragma("GCC unroll 8")
-#endif
-
-namespace plain {
-#define THALWEG_TARGET
-#define THALWEG_LANES 4
-#include <thalweg/surface/dilation/internal/separable_lanes.inc>
-#undef THALWEG_TARGET
-#undef THALWEG_LANES
-} // namespace plain
-
-#ifdef __x86_64__
-namespace avx2 {
-#define THALWEG_TARGET __attribute__((target("avx2")))
-#define THALWEG_LANES 8
-#include <thalweg/surface/dilation/internal/separable_lanes.inc>
-#undef THALWEG_TARGET
-#undef THALWEG_LANES
-} // namespace avx2
-#else
-namespace avx2 = plain;
-#endif
-#undef THALWEG_UNROLL
+#define THALWEG_KERNELS <thalweg/surface/dilation/internal/separable_lanes.inc>
+#include <thalweg/core/run/lanes.inc>
 
 constexpr std::int64_t rows_between_checks = 512;
 
@@ -140,14 +116,6 @@ template <class Level> Field<Level> field_of(Swept<Level> const& swept, Raster<f
 }
 
 } // namespace
-
-Lanes widest_lanes() {
-#ifdef __x86_64__
-    return __builtin_cpu_supports("avx2") ? Lanes::avx2 : Lanes::plain;
-#else
-    return Lanes::plain;
-#endif
-}
 
 template <class Level> Swept<Level> sweep_down(Valley const& valley, Raster<float>& base, Lanes lanes, Run const& run) {
     Swept<Level> swept;

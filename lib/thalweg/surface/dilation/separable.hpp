@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/lanes.hpp>
 #include <thalweg/core/run/large_pages.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/valley.hpp>
@@ -16,13 +17,6 @@
 /// Inside of expand and dilate: the lexicographic (level, base) transform as one sweep down and one up, without
 /// barriers. A row is scanned both ways, then the columns: the smallest pair (|c - v|, e_v) over all valley cells v.
 namespace thalweg::surface::separable {
-
-/// Instructions the sweeps are compiled for: the same bytes from each.
-enum class Lanes : std::uint8_t {
-    plain, ///< what every processor of the architecture has
-    avx2
-};
-Lanes widest_lanes(); ///< of this processor
 
 /// An integer in the order of the float: total, -0 below +0, so that no minimum depends on the order of comparison.
 inline std::int32_t ordered(float height) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/geometry/point_grid.hpp>
 
 namespace thalweg::network {
 
@@ -16,21 +17,6 @@ constexpr std::uint64_t spread_stage = 0x737072656164; // "spread"
 constexpr std::size_t no_link = std::numeric_limits<std::size_t>::max();
 constexpr double sharpest_fork = 0.9396926; // cosine of 20 degrees
 
-Vec2 operator+(Vec2 a, Vec2 b) {
-    return {a.x + b.x, a.y + b.y};
-}
-Vec2 operator-(Vec2 a, Vec2 b) {
-    return {a.x - b.x, a.y - b.y};
-}
-Vec2 operator*(double f, Vec2 a) {
-    return {f * a.x, f * a.y};
-}
-double dot(Vec2 a, Vec2 b) {
-    return a.x * b.x + a.y * b.y;
-}
-double norm(Vec2 a) {
-    return std::sqrt(dot(a, a));
-}
 Vec2 unit_of(Vec2 a) {
     double const length = norm(a);
     return length > 0.0 ? Vec2{a.x / length, a.y / length} : Vec2{0.0, 1.0};
@@ -39,86 +25,6 @@ Vec2 unit_of(Vec2 a) {
 Vec2 turned(Vec2 a, double cosine, double sine) {
     return {cosine * a.x - sine * a.y, sine * a.x + cosine * a.y};
 }
-
-/// Points by the cells of a grid, to find the nearest.
-class SiteGrid {
-public:
-    SiteGrid(std::vector<Vec2> const& sites, double cell_m) : sites_(sites) {
-        low_ = sites.front();
-        Vec2 high = low_;
-        for (Vec2 const s : sites) {
-            low_ = {std::min(low_.x, s.x), std::min(low_.y, s.y)};
-            high = {std::max(high.x, s.x), std::max(high.y, s.y)};
-        }
-        cell_m_ = std::max(cell_m, std::max(high.x - low_.x, high.y - low_.y) / 2000.0);
-        width_ = static_cast<std::int64_t>(std::floor((high.x - low_.x) / cell_m_)) + 1;
-        height_ = static_cast<std::int64_t>(std::floor((high.y - low_.y) / cell_m_)) + 1;
-        first_.assign(static_cast<std::size_t>(width_ * height_) + 1, 0);
-        for (Vec2 const s : sites) {
-            ++first_[cell(s) + 1];
-        }
-        for (std::size_t i = 1; i < first_.size(); ++i) {
-            first_[i] += first_[i - 1];
-        }
-        in_.resize(sites.size());
-        std::vector<std::size_t> next = first_;
-        for (std::size_t i = 0; i < sites.size(); ++i) {
-            in_[next[cell(sites[i])]++] = i;
-        }
-    }
-
-    std::size_t nearest(Vec2 p) const {
-        auto const col = slot(p.x - low_.x, width_);
-        auto const row = slot(p.y - low_.y, height_);
-        // A point outside is brought to the border: what lies beyond the rings is farther still.
-        double const off_x = std::max({low_.x - p.x, p.x - low_.x - static_cast<double>(width_) * cell_m_, 0.0});
-        double const off_y = std::max({low_.y - p.y, p.y - low_.y - static_cast<double>(height_) * cell_m_, 0.0});
-        double const off = std::max(off_x, off_y);
-        std::size_t best = 0;
-        double least = std::numeric_limits<double>::infinity();
-        for (std::int64_t ring = 0; ring <= std::max(width_, height_); ++ring) {
-            double const reached = static_cast<double>(ring - 1) * cell_m_;
-            if (ring > 0 && least < std::numeric_limits<double>::infinity() && reached > 0.0 &&
-                reached * reached + off * off >= least) {
-                break;
-            }
-            for (std::int64_t r = std::max<std::int64_t>(row - ring, 0); r <= std::min(row + ring, height_ - 1); ++r) {
-                bool const edge = r == row - ring || r == row + ring;
-                for (std::int64_t c = col - ring; c <= col + ring; c += edge || ring == 0 ? 1 : 2 * ring) {
-                    if (c < 0 || c >= width_) {
-                        continue;
-                    }
-                    auto const at = static_cast<std::size_t>(r * width_ + c);
-                    for (std::size_t k = first_[at]; k < first_[at + 1]; ++k) {
-                        Vec2 const d = sites_[in_[k]] - p;
-                        double const squared = dot(d, d);
-                        if (squared < least || (squared == least && in_[k] < best)) {
-                            least = squared;
-                            best = in_[k];
-                        }
-                    }
-                }
-            }
-        }
-        return best;
-    }
-
-private:
-    std::int64_t slot(double along, std::int64_t count) const {
-        return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(along / cell_m_)), 0, count - 1);
-    }
-    std::size_t cell(Vec2 s) const {
-        return static_cast<std::size_t>(slot(s.y - low_.y, height_) * width_ + slot(s.x - low_.x, width_));
-    }
-
-    std::vector<Vec2> const& sites_;
-    Vec2 low_;
-    double cell_m_ = 1.0;
-    std::int64_t width_ = 1;
-    std::int64_t height_ = 1;
-    std::vector<std::size_t> first_;
-    std::vector<std::size_t> in_;
-};
 
 class Spread {
 public:
@@ -517,7 +423,7 @@ private:
         if (sites_.empty() || samples_[tree].empty()) {
             return;
         }
-        SiteGrid const grid(sites_, 0.7 * spacing_[tree]);
+        geometry::PointGrid const grid(sites_, 0.7 * spacing_[tree]);
         std::vector<Vec2> sum(sites_.size());
         std::vector<double> count(sites_.size(), 0.0);
         for (Vec2 const p : samples_[tree]) {

@@ -4,18 +4,12 @@
 
 #include <cstdint>
 
+#include <thalweg/core/run/lanes.hpp>
 #include <thalweg/solver/grid/internal/two_colours.hpp>
 
 /// The inner loops of v_cycle, conjugate_gradients and relax_explicit: one colour of one row. n: cells of that colour
 /// in the row; of floats those up to the next multiple of Board::lanes are written too, as 0.
 namespace thalweg::solver {
-
-/// Instructions the loops are compiled for: the same bytes from each.
-enum class GridLanes : std::uint8_t {
-    plain, ///< what every processor of the architecture has
-    avx2
-};
-GridLanes widest_grid_lanes(); ///< of this processor
 
 /// Equations of a row of the finest level: weights 1.
 struct TopRow {
@@ -63,6 +57,6 @@ struct GridRows {
                     std::int64_t n);
 };
 
-GridRows const& grid_rows(GridLanes lanes);
+GridRows const& grid_rows(Lanes lanes);
 
 } // namespace thalweg::solver

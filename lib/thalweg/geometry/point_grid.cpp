@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/geometry/point_grid.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace thalweg::geometry {
+
+PointGrid::PointGrid(std::vector<Vec2> points, double cell_m) : points_(std::move(points)) {
+    low_ = points_.front();
+    Vec2 high = low_;
+    for (Vec2 const s : points_) {
+        low_ = {std::min(low_.x, s.x), std::min(low_.y, s.y)};
+        high = {std::max(high.x, s.x), std::max(high.y, s.y)};
+    }
+    cell_m_ = std::max(cell_m, std::max(high.x - low_.x, high.y - low_.y) / 2000.0);
+    width_ = static_cast<std::int64_t>(std::floor((high.x - low_.x) / cell_m_)) + 1;
+    height_ = static_cast<std::int64_t>(std::floor((high.y - low_.y) / cell_m_)) + 1;
+    first_.assign(static_cast<std::size_t>(width_ * height_) + 1, 0);
+    for (Vec2 const s : points_) {
+        ++first_[cell(s) + 1];
+    }
+    for (std::size_t i = 1; i < first_.size(); ++i) {
+        first_[i] += first_[i - 1];
+    }
+    in_.resize(points_.size());
+    std::vector<std::size_t> next = first_;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        in_[next[cell(points_[i])]++] = i;
+    }
+}
+
+std::size_t PointGrid::nearest(Vec2 p) const {
+    auto const col = slot(p.x - low_.x, width_);
+    auto const row = slot(p.y - low_.y, height_);
+    // A point outside is brought to the border: what lies beyond the rings is farther still.
+    double const off_x = std::max({low_.x - p.x, p.x - low_.x - static_cast<double>(width_) * cell_m_, 0.0});
+    double const off_y = std::max({low_.y - p.y, p.y - low_.y - static_cast<double>(height_) * cell_m_, 0.0});
+    double const off = std::max(off_x, off_y);
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::int64_t ring = 0; ring <= std::max(width_, height_); ++ring) {
+        double const reached = static_cast<double>(ring - 1) * cell_m_;
+        if (ring > 0 && least < std::numeric_limits<double>::infinity() && reached > 0.0 &&
+            reached * reached + off * off >= least) {
+            break;
+        }
+        for (std::int64_t r = std::max<std::int64_t>(row - ring, 0); r <= std::min(row + ring, height_ - 1); ++r) {
+            bool const edge = r == row - ring || r == row + ring;
+            for (std::int64_t c = col - ring; c <= col + ring; c += edge || ring == 0 ? 1 : 2 * ring) {
+                if (c < 0 || c >= width_) {
+                    continue;
+                }
+                auto const at = static_cast<std::size_t>(r * width_ + c);
+                for (std::size_t k = first_[at]; k < first_[at + 1]; ++k) {
+                    Vec2 const d = points_[in_[k]] - p;
+                    double const squared = dot(d, d);
+                    if (squared < least || (squared == least && in_[k] < best)) {
+                        least = squared;
+                        best = in_[k];
+                    }
+                }
+            }
+        }
+    }
+    return best;
+}
+
+std::int64_t PointGrid::slot(double along, std::int64_t count) const {
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(along / cell_m_)), 0, count - 1);
+}
+
+std::size_t PointGrid::cell(Vec2 p) const {
+    return static_cast<std::size_t>(slot(p.y - low_.y, height_) * width_ + slot(p.x - low_.x, width_));
+}
+
+} // namespace thalweg::geometry
