@@ -141,7 +141,7 @@ std::vector<flow::Reach> streams(flow::FlowField const& drainage, std::int64_t a
 /// The whole certificate: the DEM's drainage and what the network's say of it.
 void BM_certify(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
-    std::vector<measure::Reach> const reaches = streams(measure::drain(dem), 1000);
+    std::vector<flow::Reach> const reaches = streams(flow::route(dem), 1000);
     for (auto _ : state) {
         flow::FlowField const drainage = flow::route(dem);
         benchmark::DoNotOptimize(measure::certify(dem, drainage, reaches));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/surface/drainage/internal/flood.hpp>
+#include <thalweg/flow/conditioning/internal/flood.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -10,21 +10,20 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <thalweg/core/cells/framed.hpp>
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/run/error.hpp>
 
+#include "conditioning/scenes.hpp"
 #include "plain_drainage.hpp"
 
 using namespace thalweg;
-using surface::check_drainable;
-using surface::flood;
-using surface::Lakes;
+using flow::check_drainable;
+using flow::flood;
+using flow::Lakes;
+using scenes::frame;
 
 namespace {
-
-Grid flood_frame(std::int64_t width, std::int64_t height) {
-    return {width, height, 1.0, 0.0, static_cast<double>(height), ""};
-}
 
 Raster<float> flooded(Raster<float> const& dem, Raster<float> const& rivers, Lakes lakes) {
     Raster<float> level = framed(dem);
@@ -64,7 +63,7 @@ FloodScene any_flood_scene() {
     auto const height = *rc::gen::inRange<std::int64_t>(1, 12).as("height");
     auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
     auto const steps = *rc::gen::element<std::uint64_t>(1, 4, 1000).as("steps");
-    Grid const grid = flood_frame(width, height);
+    Grid const grid = frame(width, height);
     FloodScene scene{Raster<float>(grid), Raster<float>(grid, plain::no_data)};
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         auto const at = static_cast<std::uint64_t>(i);
@@ -89,7 +88,7 @@ std::string refused(Raster<float> const& dem, Valley const& valley) {
 
 TEST(Flood, LeavesAloneWhatHasNoInside) {
     for (auto const& [width, height] : {std::pair<std::int64_t, std::int64_t>{1, 1}, {1, 5}, {2, 2}, {5, 2}}) {
-        Raster<float> dem(flood_frame(width, height));
+        Raster<float> dem(frame(width, height));
         for (std::int64_t i = 0; i < dem.cells(); ++i) {
             dem[i] = static_cast<float>((7 * i) % 5);
         }
@@ -104,7 +103,7 @@ TEST(Flood, LeavesAloneWhatHasNoInside) {
 }
 
 TEST(Flood, KeepsNoData) {
-    Raster<float> const nothing(flood_frame(3, 3), plain::no_data);
+    Raster<float> const nothing(frame(3, 3), plain::no_data);
     Raster<float> const level = flooded(nothing, nothing, Lakes::slope);
     for (std::int64_t i = 0; i < level.cells(); ++i) {
         EXPECT_TRUE(std::isnan(level[i]));
@@ -134,11 +133,11 @@ TEST(Flood, SlopingLakesFallToTheirOutlets) {
 }
 
 TEST(Flood, RefusesWhatCannotBeDrained) {
-    Raster<float> dem(flood_frame(3, 2), 1.0F);
+    Raster<float> dem(frame(3, 2), 1.0F);
     Valley valley{Raster<float>(dem.grid(), plain::no_data)};
     EXPECT_EQ(refused(dem, valley), "");
     EXPECT_NE(refused(Raster<float>(), valley).find("no cells"), std::string::npos);
-    EXPECT_NE(refused(Raster<float>(flood_frame(2, 3), 1.0F), valley).find("3 x 2"), std::string::npos);
+    EXPECT_NE(refused(Raster<float>(frame(2, 3), 1.0F), valley).find("3 x 2"), std::string::npos);
     dem[Cell{2, 1}] = std::numeric_limits<float>::infinity();
     EXPECT_NE(refused(dem, valley).find("column 2, row 1 is infinite"), std::string::npos);
     dem[Cell{2, 1}] = plain::no_data;
