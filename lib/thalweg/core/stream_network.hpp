@@ -75,6 +75,9 @@ public:
     NodeId from(ArcId a) const { return from_[a]; }
     NodeId to(ArcId a) const { return to_[a]; }
     double length_m(ArcId a) const { return length_m_[a]; } ///< length of its line
+    std::vector<NodeId> const& from() const { return from_; } ///< by arc
+    std::vector<NodeId> const& to() const { return to_; }     ///< by arc
+    std::vector<double> const& length_m() const { return length_m_; }
 
     /// Numbers of the arcs that end in a node, ascending.
     std::span<ArcId const> in(NodeId n) const { return in_.of(n); }
@@ -89,6 +92,7 @@ public:
     std::vector<NodeId> const& upstream_order() const { return upstream_order_; }
     /// 1, 2, ... as in outlets(); 0 where a node reaches none.
     std::int64_t basin(NodeId n) const { return basin_[n]; }
+    std::vector<std::int64_t> const& basin() const { return basin_; } ///< by node
 
 private:
     /// The arcs at each node, one node after the other.

@@ -137,7 +137,7 @@ void draw_rivers(Cairo* canvas, MapSheet const& sheet, Window const& window, dou
         std::size_t number_of_arc = 0;
         for (auto const& arc : boost::make_iterator_range(boost::edges(sheet.network->plan))) {
             if (sheet.orders->strahler[number_of_arc++] == order) {
-                trace_line(canvas, on_sheet(sheet.network->plan[arc].line, window), corner_px);
+                trace_line(canvas, on_sheet(sheet.network->plan.arc(arc).line, window), corner_px);
                 set_colour(canvas, style.colour);
                 cairo_set_line_width(canvas, style.width_px);
                 cairo_stroke(canvas);

@@ -229,9 +229,9 @@ Picture sections(Raster<float> const& dem, RaisedNetwork const* network, Network
     if (params.count < 1 || params.count > 9) {
         throw BadParameter(fmt::format("draw.sections: count is {}, must lie in [1, 9]", params.count));
     }
-    if (network != nullptr && (orders == nullptr || orders->strahler.size() != boost::num_edges(network->plan))) {
+    if (network != nullptr && (orders == nullptr || orders->strahler.size() != network->plan.arc_count())) {
         throw BadInput(fmt::format("draw.sections: a network of {} arcs comes with {} orders; order this network",
-                                   boost::num_edges(network->plan), orders == nullptr ? 0 : orders->strahler.size()));
+                                   network->plan.arc_count(), orders == nullptr ? 0 : orders->strahler.size()));
     }
     std::vector<Section> const cuts = cut_sections(dem, network, orders, params.count);
     bool const across = cuts.front().kind == Section::Kind::river;

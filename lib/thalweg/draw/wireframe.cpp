@@ -40,7 +40,7 @@ void demand_scene(WireframeScene const& scene, WireframeParams const& params) {
                                    grid.height, grid.cell_m));
     }
     if (scene.network != nullptr) {
-        std::size_t const arcs = boost::num_edges(scene.network->plan);
+        std::size_t const arcs = scene.network->plan.arc_count();
         if (scene.orders == nullptr || scene.orders->strahler.size() != arcs) {
             throw BadInput(fmt::format("draw.wireframe: a network of {} arcs comes with {} orders; order this network",
                                        arcs, scene.orders == nullptr ? 0 : scene.orders->strahler.size()));
@@ -284,7 +284,7 @@ Rivers rivers_on(WireframeScene const& scene, Fishnet const& knots) {
             continue;
         }
         Thread thread;
-        for (Vec2 const p : scene.network->plan[arc].line) {
+        for (Vec2 const p : scene.network->plan.arc(arc).line) {
             Vec2 const at{index_of(knots.col_at, (p.x - grid.west) / grid.cell_m - 0.5),
                           index_of(knots.row_at, (grid.north - p.y) / grid.cell_m - 0.5)};
             // What lies far off the net is not drawn, but would be cut at every line between.

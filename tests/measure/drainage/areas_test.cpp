@@ -34,17 +34,16 @@ StreamNetwork small_rivers() {
     auto const west = add_node(net, {0.5, 2.5});
     auto const joint = add_node(net, {2.5, 2.5});
     auto const mouth = add_node(net, {2.5, 0.5});
-    add_arc(net, north, joint, {});
-    add_arc(net, west, joint, {});
-    add_arc(net, joint, mouth, {});
+    net.add_arc(north, joint, {});
+    net.add_arc(west, joint, {});
+    net.add_arc(joint, mouth, {});
     return net;
 }
 
 /// Areas by walking: which arc each cell of the grid belongs to, and whether an arc's water passes another.
 ContributingAreas nearest_slowly(StreamNetwork const& network, Grid const& grid) {
-    NetworkIndex const index(network);
-    std::size_t const arcs = index.arcs.size();
-    auto const next = [&](std::size_t a) { return index.out[index.to[a]]; };
+    std::size_t const arcs = network.arc_count();
+    auto const next = [&](std::size_t a) { return network.out(network.to(a)); };
     auto const passes = [&](std::size_t a, std::size_t b) {
         std::int64_t at = static_cast<std::int64_t>(a);
         while (at >= 0 && at != static_cast<std::int64_t>(b)) {
@@ -58,13 +57,13 @@ ContributingAreas nearest_slowly(StreamNetwork const& network, Grid const& grid)
         for (std::int64_t at = static_cast<std::int64_t>(a); at >= 0; at = next(static_cast<std::size_t>(at))) {
             ++depth;
         }
-        for (Cell const c : cells_along(network[index.arcs[a]].line, grid)) {
+        for (Cell const c : cells_along(network.arc(a).line, grid)) {
             auto const [it, added] = owner.try_emplace(grid.index(c), depth, a);
             it->second = std::min(it->second, std::pair{depth, a});
         }
     }
     double const cell_m2 = grid.cell_m * grid.cell_m;
-    ContributingAreas areas{Numbers(arcs, 0.0), Numbers(arcs, 0.0), Numbers(boost::num_vertices(network), 0.0)};
+    ContributingAreas areas{Numbers(arcs, 0.0), Numbers(arcs, 0.0), Numbers(network.node_count(), 0.0)};
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         std::tuple<std::int64_t, std::int64_t> best{grid.cells() * 4, 0};
         for (auto const& [v, whose] : owner) {
@@ -74,7 +73,7 @@ ContributingAreas nearest_slowly(StreamNetwork const& network, Grid const& grid)
         }
         std::int64_t const cell = std::get<1>(best);
         std::size_t const a = owner.at(cell).second;
-        bool const at_start = cell == grid.index(grid.cell_of(network[index.from[a]].at));
+        bool const at_start = cell == grid.index(grid.cell_of(network.node(network.from(a)).at));
         for (std::size_t b = 0; b < arcs; ++b) {
             if (passes(a, b)) {
                 areas.ds_area_m2[b] += cell_m2;
@@ -83,8 +82,8 @@ ContributingAreas nearest_slowly(StreamNetwork const& network, Grid const& grid)
         }
     }
     for (std::size_t b = 0; b < arcs; ++b) {
-        areas.node_m2[index.from[b]] = areas.us_area_m2[b];
-        areas.node_m2[index.to[b]] += next(b) < 0 ? areas.ds_area_m2[b] : 0.0;
+        areas.node_m2[network.from(b)] = areas.us_area_m2[b];
+        areas.node_m2[network.to(b)] += next(b) < 0 ? areas.ds_area_m2[b] : 0.0;
     }
     return areas;
 }
@@ -124,14 +123,14 @@ TEST(AreasNearest, RefusesWhatIsNoTreeOrOutside) {
     } catch (BadInput const& e) {
         EXPECT_NE(std::string(e.what()).find("arc 1"), std::string::npos) << e.what();
     }
-    add_arc(net, 2, 1, {});
+    net.add_arc(2, 1, {});
     EXPECT_THROW(areas_nearest(net, frame(5, 5)), BadInput);
     StreamNetwork circle;
     for (double const x : {0.5, 1.5}) {
         add_node(circle, {x, 0.5});
     }
-    add_arc(circle, 0, 1, {});
-    add_arc(circle, 1, 0, {});
+    circle.add_arc(0, 1, {});
+    circle.add_arc(1, 0, {});
     EXPECT_THROW(areas_nearest(circle, frame(5, 5)), BadInput);
 }
 
@@ -150,8 +149,8 @@ TEST(AreasNearest, SmallRivers) {
     for (NodeId n = 0; n < 4; ++n) {
         wide[n].at = {wide[n].at.x * 10.0, wide[n].at.y * 10.0};
     }
-    for (ArcId const a : NetworkIndex(wide).arcs) {
-        wide[a].line = {wide[boost::source(a, wide)].at, wide[boost::target(a, wide)].at};
+    for (ArcId a = 0; a < wide.arc_count(); ++a) {
+        wide[a].line = {wide[wide.from(a)].at, wide[wide.to(a)].at};
     }
     EXPECT_EQ(areas_nearest(wide, grid).ds_area_m2, (Numbers{900, 600, 2500}));
 }
@@ -165,16 +164,15 @@ TEST(AreasNearest, FollowTheDefinitionAndItsLaws) {
         RC_ASSERT(fast.ds_area_m2 == slow.ds_area_m2);
         RC_ASSERT(fast.node_m2 == slow.node_m2);
 
-        NetworkIndex const index(network);
         double at_outlets = 0.0;
-        for (NodeId const n : index.outlets) {
+        for (NodeId const n : network.outlets()) {
             at_outlets += fast.node_m2[n];
         }
         RC_ASSERT(at_outlets == static_cast<double>(grid.cells()));
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        for (std::size_t a = 0; a < network.arc_count(); ++a) {
             RC_ASSERT(fast.us_area_m2[a] <= fast.ds_area_m2[a]);
             double arriving = 0.0;
-            for (auto const b : index.in[index.from[a]]) {
+            for (auto const b : network.in(network.from(a))) {
                 arriving += fast.ds_area_m2[static_cast<std::size_t>(b)];
             }
             RC_ASSERT(arriving <= fast.us_area_m2[a]);
@@ -207,13 +205,13 @@ TEST(AreasD8, ArcInsideOneCellAndNodesOffTheGrid) {
     for (double const y : {0.9, 0.5, 0.1}) {
         add_node(net, {0.5, y});
     }
-    add_arc(net, 0, 1, {});
-    add_arc(net, 1, 2, {});
+    net.add_arc(0, 1, {});
+    net.add_arc(1, 2, {});
     auto const drainage = measure::drain(dem_of(2, {1, 2}));
     EXPECT_EQ(areas_d8(net, drainage).us_area_m2, (Numbers{0, 2}));
     EXPECT_EQ(areas_d8(net, drainage).ds_area_m2, (Numbers{0, 2}));
     add_node(net, {0.5, 7.0});
-    add_arc(net, 3, 0, {});
+    net.add_arc(3, 0, {});
     EXPECT_THROW(areas_d8(net, drainage), BadInput);
 }
 
@@ -227,7 +225,7 @@ TEST(AreasD8, WaterOfARiverStaysInItWhereTheDemLeavesIt) {
     StreamNetwork net;
     add_node(net, {2.5, 4.5});
     add_node(net, {2.5, 0.5});
-    add_arc(net, 0, 1, {});
+    net.add_arc(0, 1, {});
     auto const drainage = measure::drain(dem);
     ContributingAreas const areas = areas_d8(net, drainage);
     EXPECT_LT((drainage.area_cells[Cell{2, 4}]), 15) << "the upper river is lost to the accumulation of the DEM";
@@ -246,15 +244,14 @@ TEST(AreasD8, FollowTheDefinitionAndItsLaws) {
         ContributingAreas const areas = areas_d8(net, drainage);
 
         std::set<std::int64_t> river;
-        NetworkIndex const index(net);
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-            for (Cell const c : cells_along(net[index.arcs[a]].line, grid)) {
+        for (std::size_t a = 0; a < net.arc_count(); ++a) {
+            for (Cell const c : cells_along(net.arc(a).line, grid)) {
                 river.insert(grid.index(c));
             }
             RC_ASSERT(areas.us_area_m2[a] <= areas.ds_area_m2[a]);
             double arriving = 0.0;
-            for (std::int64_t const up : index.in[index.from[a]]) {
-                arriving += areas.ds_area_m2[static_cast<std::size_t>(up)];
+            for (ArcId const up : net.in(net.from(a))) {
+                arriving += areas.ds_area_m2[up];
             }
             RC_ASSERT(arriving <= areas.us_area_m2[a]);
         }
@@ -268,7 +265,7 @@ TEST(AreasD8, FollowTheDefinitionAndItsLaws) {
             reaching += river.count(at) != 0 ? 1 : 0;
         }
         double outlets = 0.0;
-        for (NodeId const n : index.outlets) {
+        for (NodeId const n : net.outlets()) {
             outlets += areas.node_m2[n];
         }
         RC_ASSERT(outlets == static_cast<double>(reaching) * grid.cell_m * grid.cell_m);

@@ -47,21 +47,21 @@ struct MadeToOrder {
 };
 
 /// By node, the longest way along rivers above it, found by walking down from every source.
-Numbers longest_slowly(NetworkIndex const& index, Numbers const& head) {
-    Numbers longest(index.out.size(), 0.0);
-    for (NodeId n = 0; n < index.out.size(); ++n) {
-        if (!index.in[n].empty()) {
+Numbers longest_slowly(StreamNetwork const& network, Numbers const& head) {
+    Numbers longest(network.node_count(), 0.0);
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        if (!network.in(n).empty()) {
             continue;
         }
         double length = head.empty() ? 0.0 : head[n];
         for (NodeId at = n;;) {
             longest[at] = std::max(longest[at], length);
-            if (index.out[at] < 0) {
+            if (network.out(at) == no_arc) {
                 break;
             }
-            auto const a = static_cast<std::size_t>(index.out[at]);
-            length += index.length_m[a];
-            at = index.to[a];
+            auto const a = network.out(at);
+            length += network.length_m(a);
+            at = network.to(a);
         }
     }
     return longest;
@@ -75,9 +75,9 @@ StreamNetwork fork(double degrees, double one, double other) {
     NodeId const meet = add_node(net, {0.0, 0.0});
     NodeId const left = add_node(net, {one * std::cos(half), one * std::sin(half)});
     NodeId const right = add_node(net, {other * std::cos(half), -other * std::sin(half)});
-    add_arc(net, left, meet, {});
-    add_arc(net, right, meet, {});
-    add_arc(net, meet, outlet, {});
+    net.add_arc(left, meet, {});
+    net.add_arc(right, meet, {});
+    net.add_arc(meet, outlet, {});
     return net;
 }
 
@@ -261,7 +261,7 @@ TEST(LinkLengths, ArcsThatMeetOneToOneAreOneLink) {
     StreamNetwork net = fork(60.0, 30.0, 50.0);
     NodeId const outlet = 0;
     NodeId const sea = add_node(net, {-150.0, 0.0});
-    add_arc(net, outlet, sea, {});
+    net.add_arc(outlet, sea, {});
     LinkLengths const lengths = link_lengths(net);
     EXPECT_EQ(lengths.exterior.links, 2);
     EXPECT_NEAR(lengths.exterior.mean_m, 40.0, 1e-12);
@@ -306,9 +306,9 @@ TEST(JunctionAngles, StairsOfCellsHaveTheDirectionOfTheirChord) {
             steps.line.push_back({3.0 * i - 2.0, 1.0 * i - 1.0});
         }
     }
-    add_arc(net, stairs, meet, steps);
-    add_arc(net, east, meet, {});
-    add_arc(net, meet, outlet, {});
+    net.add_arc(stairs, meet, steps);
+    net.add_arc(east, meet, {});
+    net.add_arc(meet, outlet, {});
     double const expected = std::atan2(1.0, 3.0) * 180.0 / 3.14159265358979323846;
     EXPECT_NEAR(junction_angles(net, 30.0).mean_deg, expected, 2.0);
     EXPECT_NEAR(junction_angles(net, 1.0).mean_deg, 0.0, 1e-9);

@@ -207,7 +207,7 @@ TEST(CheckTopology, CleanNetworksHaveNoFinding) {
 
 TEST(CheckTopology, OnlyWhatTheFileSaysIsChecked) {
     NetworkFile file = clean(3);
-    for (auto& arc : file.arcs) {
+    for (ArcId arc = 0; arc < file.arc_count(); ++arc) {
         arc.ds_arc = arc.strahler = arc.shreve = arc.basin = -1;
         for (Vec3& p : arc.line) {
             p.z = no_number;
@@ -225,7 +225,7 @@ TEST(CheckTopology, OnlyWhatTheFileSaysIsChecked) {
 TEST(CheckTopology, NearIsWhatOneSays) {
     NetworkFile file = clean(3);
     Vec3 const joint = faults::between(file.arcs[0].line[0], file.arcs[0].line[1], 0.5);
-    faults::add_arc(file, {faults::moved(joint, 0.2, 0.0), faults::moved(joint, 0.01, 0.0)});
+    faults::file.add_arc({faults::moved(joint, 0.2, 0.0), faults::moved(joint, 0.01, 0.0)});
     EXPECT_EQ(kinds_of(check_topology(file)), std::multiset<std::string>{});
     TopologyReport const report = check_topology(file, {.near_m = 0.02});
     ASSERT_EQ(kinds_of(report), std::multiset<std::string>{"dangling_end"});
@@ -297,8 +297,8 @@ TEST(AsFile, NumbersFromOne) {
         add_node(net.plan, at);
     }
     net.node_z = {2, 1, 0};
-    add_arc(net.plan, 1, 2, {});
-    add_arc(net.plan, 0, 1, {});
+    net.plan.add_arc(1, 2, {});
+    net.plan.add_arc(0, 1, {});
     net.arc_z = {{1, 0}, {2, 1}};
     NetworkOrders const orders = orders_of(net.plan);
     NetworkFile const file = as_file(net, orders);

@@ -31,7 +31,7 @@ std::vector<std::string> kinds_of(MendedNetwork const& mended) {
 /// Lines with their heights, sorted: what a network is but for its numbers.
 std::vector<std::vector<std::tuple<double, double, double>>> lines_of(NetworkFile const& file) {
     std::vector<std::vector<std::tuple<double, double, double>>> lines;
-    for (auto const& arc : file.arcs) {
+    for (ArcId arc = 0; arc < file.arc_count(); ++arc) {
         auto& line = lines.emplace_back();
         for (Vec3 const p : arc.line) {
             line.emplace_back(p.x, p.y, p.z);
@@ -102,10 +102,9 @@ TEST(MendNetwork, AreasStayWhereTheEndDoes) {
     MendedNetwork const mended = mend(file);
     ASSERT_TRUE(mended.done);
     EXPECT_EQ(kinds_of(mended), (std::vector<std::string>{"turned", "mended"}));
-    NetworkIndex const index(mended.network.plan);
-    ASSERT_EQ(index.arcs.size(), file.arcs.size());
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        auto const was = static_cast<std::size_t>(mended.network.plan[index.arcs[a]].feature - 1000);
+    ASSERT_EQ(mended.network.plan.arc_count(), file.arcs.size());
+    for (std::size_t a = 0; a < mended.network.plan.arc_count(); ++a) {
+        auto const was = static_cast<std::size_t>(mended.network.plan.arc(a).feature - 1000);
         EXPECT_EQ(mended.us_area_m2[a], file.arcs[was].us_area_m2);
         EXPECT_EQ(mended.ds_area_m2[a], file.arcs[was].ds_area_m2);
         EXPECT_EQ(mended.braided[a], was == 7 ? 1 : 0);
@@ -114,7 +113,7 @@ TEST(MendNetwork, AreasStayWhereTheEndDoes) {
 
 TEST(MendNetwork, WithoutHeightsAllAreZero) {
     NetworkFile file = faults::clean(5);
-    for (auto& arc : file.arcs) {
+    for (ArcId arc = 0; arc < file.arc_count(); ++arc) {
         for (Vec3& p : arc.line) {
             p.z = faults::no_number;
         }

@@ -74,8 +74,8 @@ FeaturePoints scattered(Terrain& terrain, Mask const& inside, Diary& diary, Run 
 void make_skeleton_tin(Terrain& terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
     std::vector<std::vector<Vec3>> breaklines;
     std::size_t number = 0;
-    for (auto const& arc : boost::make_iterator_range(boost::edges(terrain.network.plan))) {
-        breaklines.push_back(in_space(terrain.network.plan[arc].line, terrain.network.arc_z[number++]));
+    for (ArcId arc = 0; arc < terrain.network.plan.arc_count(); ++arc) {
+        breaklines.push_back(in_space(terrain.network.plan.arc(arc).line, terrain.network.arc_z[number++]));
     }
     for (RidgeLine const& ridge : terrain.ridges.lines) {
         breaklines.push_back(ridge.line);

@@ -334,16 +334,16 @@ void add_side_valleys(Terrain& terrain, measure::Drainage const& drainage, Diary
     terrain.equilibrium->side_valleys_left_out = made.left_out;
     diary.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown,
                           terrain.recipe.network->support_cells,
-                          static_cast<std::int64_t>(boost::num_edges(made.network.plan)) - made.grown));
+                          static_cast<std::int64_t>(made.network.plan.arc_count()) - made.grown));
     terrain.network = std::move(made.network);
     terrain.network.plan =
         network::prune(terrain.network.plan, {0.0, terrain.grid.cell_m}, run).network; // lengths at which each is kept
     assign_types(terrain.network.plan, terrain, run);
     terrain.orders = network::order(terrain.network.plan);
     terrain.streams = network::count_streams(terrain.network.plan);
-    for (ArcId const arc : NetworkIndex(terrain.network.plan).arcs) {
-        Arc const& of = terrain.network.plan[arc];
-        bool const leaves = boost::out_degree(boost::target(arc, terrain.network.plan), terrain.network.plan) == 0;
+    for (ArcId arc = 0; arc < terrain.network.plan.arc_count(); ++arc) {
+        Arc const& of = terrain.network.plan.arc(arc);
+        bool const leaves = terrain.network.plan.out_arcs(terrain.network.plan.to(arc)).size() == 0;
         for (std::size_t v = 0; !of.given && v + (leaves ? 0 : 1) < of.line.size(); ++v) { // the last may join a line
             std::int64_t const cell = terrain.grid.index(terrain.grid.cell_of(of.line[v]));
             terrain.valley.z[cell] = terrain.surface->dem[cell];

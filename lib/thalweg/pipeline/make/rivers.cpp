@@ -94,8 +94,8 @@ void warn_of_long_ways(std::vector<Finding> const& notes, StreamNetwork const& p
         }
     }
     double length_m = 0.0;
-    for (auto const arc : boost::make_iterator_range(boost::edges(plan))) {
-        length_m += length_of(plan[arc].line);
+    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
+        length_m += length_of(plan.arc(arc).line);
     }
     if (outlets >= many && carried_m > much * length_m) {
         run.say(fmt::format("warning: {} rivers end inside the grid and were extended by {:.3g} km in all, by the "
@@ -139,8 +139,8 @@ void carry_outlets(StreamNetwork& plan, bool join, Terrain& terrain, Run const& 
 
 std::size_t vertices_of(StreamNetwork const& plan) {
     std::size_t count = 0;
-    for (auto const arc : boost::make_iterator_range(boost::edges(plan))) {
-        count += plan[arc].line.size();
+    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
+        count += plan.arc(arc).line.size();
     }
     return count;
 }
@@ -183,10 +183,11 @@ void assign_types(StreamNetwork& plan, Terrain& terrain, Run const& run) {
     params.one = wanted.rosgen.value_or(params.one);
     params.coast_m = wanted.coast_m;
     terrain.types = network::assign_types(plan, network::order(plan), params, run);
-    NetworkIndex const index(plan);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        plan[index.arcs[a]].type = network::name_of(terrain.types.type[a]);
+    NetworkDraft typed = plan.draft();
+    for (ArcId a = 0; a < typed.arcs.size(); ++a) {
+        typed.arcs[a].arc.type = network::name_of(terrain.types.type[a]);
     }
+    plan = std::move(typed);
 }
 
 void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
@@ -207,7 +208,7 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     network::Pruned pruned =
         diary.stage("prune", [&] { return prune(planned.plan, rivers, *rivers.prune_cells, grid.cell_m, run); });
     terrain.story.arcs_traced = pruned.arcs_before;
-    terrain.story.arcs_kept = static_cast<std::int64_t>(boost::num_edges(pruned.network));
+    terrain.story.arcs_kept = static_cast<std::int64_t>(pruned.network.arc_count());
     diary.say(
         fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, terrain.story.arcs_kept, pruned.arcs_before));
     std::vector<Finding>& repairs = terrain.story.repairs;

@@ -12,8 +12,8 @@ std::optional<io::UserData> user_data(Terrain const& t, StreamNetwork const& pla
         return std::nullopt;
     }
     io::UserData user{t.attributes, {}, t.sources.of(plan)};
-    for (ArcId const arc : NetworkIndex(plan).arcs) {
-        user.record.push_back(plan[arc].feature);
+    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
+        user.record.push_back(plan.arc(arc).feature);
     }
     return user;
 }
