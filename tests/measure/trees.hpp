@@ -10,13 +10,6 @@
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/stream_network.hpp>
 
-/// Boost's add_vertex with properties makes GCC's sanitizer builds warn.
-inline thalweg::NodeId add_node(thalweg::StreamNetwork& network, thalweg::Vec2 at) {
-    auto const node = network.add_node({});
-    network.node(node).at = at;
-    return node;
-}
-
 /// Scheidegger's random rivers (1967): every point of a lattice drains to the one south or south-east of it, so that no
 /// two reaches cross. Row 0 holds the outlets; points are spacing_m apart, the first half of it from the axes; heights
 /// are the rows' numbers. Its arcs run from sources and confluences; about half as many as points.
@@ -41,11 +34,12 @@ inline thalweg::RaisedNetwork random_rivers(std::uint64_t seed, std::int64_t col
         ++arriving[below(p)];
     }
     RaisedNetwork rivers;
+    NetworkDraft plan;
     std::vector<NodeId> node(points);
     auto const is_node = [&](std::size_t p) { return p < first_row ? arriving[p] > 0 : arriving[p] != 1; };
     for (std::size_t p = 0; p < points; ++p) {
         if (is_node(p)) {
-            node[p] = add_node(rivers.plan, place(p));
+            node[p] = plan.add_node(place(p));
             rivers.node_z.push_back(row_of(p));
         }
     }
@@ -60,9 +54,10 @@ inline thalweg::RaisedNetwork random_rivers(std::uint64_t seed, std::int64_t col
                 arc.line.push_back(place(at));
                 rivers.arc_z.back().push_back(row_of(at));
             } while (!is_node(at));
-            rivers.plan.add_arc(node[p], node[at], std::move(arc));
+            plan.add_arc(node[p], node[at], std::move(arc));
         }
     }
+    rivers.plan = std::move(plan);
     return rivers;
 }
 

@@ -24,7 +24,7 @@ struct Reach {
 };
 
 inline StreamNetwork network_of(std::vector<Vec2> const& nodes, std::vector<Reach> const& reaches) {
-    StreamNetwork net;
+    NetworkDraft net;
     for (Vec2 const at : nodes) {
         net.add_node(at);
     }
@@ -74,11 +74,11 @@ inline StreamNetwork random_forest(std::uint64_t seed, std::size_t nodes, std::s
 
 /// One chain of arcs a metre long, the outlet at node 0.
 inline StreamNetwork chain(std::size_t arcs) {
-    StreamNetwork net;
+    NetworkDraft net;
     net.add_node({0.0, 0.0});
     for (std::size_t n = 1; n <= arcs; ++n) {
         net.add_node({static_cast<double>(n), 0.0});
-        net.add_arc(n, n - 1, {});
+        net.add_arc(n, n - 1);
     }
     return net;
 }

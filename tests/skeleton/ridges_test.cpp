@@ -183,7 +183,7 @@ double distance_to(std::vector<std::vector<Vec2>> const& lines, Vec2 p) {
 Grid const square{10, 10, 1.0, 0.0, 10.0, ""};
 
 RaisedNetwork straight(std::vector<std::vector<Vec2>> const& lines) {
-    StreamNetwork plan;
+    NetworkDraft plan;
     for (auto const& line : lines) {
         NodeId const from = plan.add_node(line.front());
         NodeId const to = plan.add_node(line.back());

@@ -277,14 +277,13 @@ Rivers rivers_on(WireframeScene const& scene, Fishnet const& knots) {
     for (int const order : scene.orders->strahler) {
         rivers.highest = std::max(rivers.highest, order);
     }
-    std::size_t number_of_arc = 0;
-    for (auto const& arc : boost::make_iterator_range(boost::edges(scene.network->plan))) {
-        int const order = scene.orders->strahler[number_of_arc++];
+    for (ArcId a = 0; a < scene.network->plan.arc_count(); ++a) {
+        int const order = scene.orders->strahler[a];
         if (order <= rivers.highest - orders_shown) {
             continue;
         }
         Thread thread;
-        for (Vec2 const p : scene.network->plan.arc(arc).line) {
+        for (Vec2 const p : scene.network->plan.arc(a).line) {
             Vec2 const at{index_of(knots.col_at, (p.x - grid.west) / grid.cell_m - 0.5),
                           index_of(knots.row_at, (grid.north - p.y) / grid.cell_m - 0.5)};
             // What lies far off the net is not drawn, but would be cut at every line between.

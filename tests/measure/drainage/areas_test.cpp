@@ -29,14 +29,14 @@ using Numbers = std::vector<double>;
 
 /// A river down the middle column of five rows, joined from the west in its middle cell.
 StreamNetwork small_rivers() {
-    StreamNetwork net;
-    auto const north = add_node(net, {2.5, 4.5});
-    auto const west = add_node(net, {0.5, 2.5});
-    auto const joint = add_node(net, {2.5, 2.5});
-    auto const mouth = add_node(net, {2.5, 0.5});
-    net.add_arc(north, joint, {});
-    net.add_arc(west, joint, {});
-    net.add_arc(joint, mouth, {});
+    NetworkDraft net;
+    auto const north = net.add_node({2.5, 4.5});
+    auto const west = net.add_node({0.5, 2.5});
+    auto const joint = net.add_node({2.5, 2.5});
+    auto const mouth = net.add_node({2.5, 0.5});
+    net.add_arc(north, joint);
+    net.add_arc(west, joint);
+    net.add_arc(joint, mouth);
     return net;
 }
 
@@ -110,8 +110,8 @@ TEST(AreasNearest, NoRiversNoAreas) {
     ContributingAreas const areas = areas_nearest({}, frame(3, 3));
     EXPECT_TRUE(areas.us_area_m2.empty());
     EXPECT_TRUE(areas.node_m2.empty());
-    StreamNetwork lonely;
-    add_node(lonely, {0.5, 0.5});
+    NetworkDraft lonely;
+    lonely.add_node({0.5, 0.5});
     EXPECT_EQ(areas_nearest(lonely, frame(3, 3)).node_m2, Numbers{0.0});
 }
 
@@ -123,14 +123,14 @@ TEST(AreasNearest, RefusesWhatIsNoTreeOrOutside) {
     } catch (BadInput const& e) {
         EXPECT_NE(std::string(e.what()).find("arc 1"), std::string::npos) << e.what();
     }
-    net.add_arc(2, 1, {});
+    net.add_arc(2, 1);
     EXPECT_THROW(areas_nearest(net, frame(5, 5)), BadInput);
-    StreamNetwork circle;
+    NetworkDraft circle;
     for (double const x : {0.5, 1.5}) {
-        add_node(circle, {x, 0.5});
+        circle.add_node({x, 0.5});
     }
-    circle.add_arc(0, 1, {});
-    circle.add_arc(1, 0, {});
+    circle.add_arc(0, 1);
+    circle.add_arc(1, 0);
     EXPECT_THROW(areas_nearest(circle, frame(5, 5)), BadInput);
 }
 
@@ -201,17 +201,17 @@ TEST(AreasD8, SmallRiversInTheirValley) {
 }
 
 TEST(AreasD8, ArcInsideOneCellAndNodesOffTheGrid) {
-    StreamNetwork net;
+    NetworkDraft net;
     for (double const y : {0.9, 0.5, 0.1}) {
-        add_node(net, {0.5, y});
+        net.add_node({0.5, y});
     }
-    net.add_arc(0, 1, {});
-    net.add_arc(1, 2, {});
+    net.add_arc(0, 1);
+    net.add_arc(1, 2);
     auto const drainage = measure::drain(dem_of(2, {1, 2}));
     EXPECT_EQ(areas_d8(net, drainage).us_area_m2, (Numbers{0, 2}));
     EXPECT_EQ(areas_d8(net, drainage).ds_area_m2, (Numbers{0, 2}));
-    add_node(net, {0.5, 7.0});
-    net.add_arc(3, 0, {});
+    net.add_node({0.5, 7.0});
+    net.add_arc(3, 0);
     EXPECT_THROW(areas_d8(net, drainage), BadInput);
 }
 
@@ -222,10 +222,10 @@ TEST(AreasD8, WaterOfARiverStaysInItWhereTheDemLeavesIt) {
                                          30, 29, 16, 29, 30, //
                                          30, 29, 14, 29, 30, //
                                          30, 29, 12, 29, 30});
-    StreamNetwork net;
-    add_node(net, {2.5, 4.5});
-    add_node(net, {2.5, 0.5});
-    net.add_arc(0, 1, {});
+    NetworkDraft net;
+    net.add_node({2.5, 4.5});
+    net.add_node({2.5, 0.5});
+    net.add_arc(0, 1);
     auto const drainage = measure::drain(dem);
     ContributingAreas const areas = areas_d8(net, drainage);
     EXPECT_LT((drainage.area_cells[Cell{2, 4}]), 15) << "the upper river is lost to the accumulation of the DEM";

@@ -26,15 +26,15 @@ using Numbers = std::vector<double>;
 /// A tree in which two streams of each order meet to one of the next; the stream of order k is 3^k m long and drains
 /// 5^k m2.
 struct PerfectTree {
-    StreamNetwork net;
+    NetworkDraft net;
     Numbers areas;
 
-    explicit PerfectTree(int highest) { grow(add_node(net, {0.0, 0.0}), highest); }
+    explicit PerfectTree(int highest) { grow(net.add_node({0.0, 0.0}), highest); }
 
 private:
     void grow(NodeId below, int order) {
-        NodeId const above = add_node(net, {0.0, net.node(below).at.y + std::pow(3.0, order)});
-        net.add_arc(above, below, {});
+        NodeId const above = net.add_node({0.0, net.node(below).at.y + std::pow(3.0, order)});
+        net.add_arc(above, below);
         areas.push_back(std::pow(5.0, order));
         for (int k = 0; order > 1 && k < 2; ++k) {
             grow(above, order - 1);

@@ -69,15 +69,15 @@ Numbers longest_slowly(StreamNetwork const& network, Numbers const& head) {
 
 /// Two straight rivers of these lengths meet at an angle and go on to the west.
 StreamNetwork fork(double degrees, double one, double other) {
-    StreamNetwork net;
+    NetworkDraft net;
     double const half = degrees / 360.0 * 3.14159265358979323846;
-    NodeId const outlet = add_node(net, {-100.0, 0.0});
-    NodeId const meet = add_node(net, {0.0, 0.0});
-    NodeId const left = add_node(net, {one * std::cos(half), one * std::sin(half)});
-    NodeId const right = add_node(net, {other * std::cos(half), -other * std::sin(half)});
-    net.add_arc(left, meet, {});
-    net.add_arc(right, meet, {});
-    net.add_arc(meet, outlet, {});
+    NodeId const outlet = net.add_node({-100.0, 0.0});
+    NodeId const meet = net.add_node({0.0, 0.0});
+    NodeId const left = net.add_node({one * std::cos(half), one * std::sin(half)});
+    NodeId const right = net.add_node({other * std::cos(half), -other * std::sin(half)});
+    net.add_arc(left, meet);
+    net.add_arc(right, meet);
+    net.add_arc(meet, outlet);
     return net;
 }
 
@@ -260,8 +260,8 @@ TEST(LinkLengths, NoneAndOne) {
 TEST(LinkLengths, ArcsThatMeetOneToOneAreOneLink) {
     StreamNetwork net = fork(60.0, 30.0, 50.0);
     NodeId const outlet = 0;
-    NodeId const sea = add_node(net, {-150.0, 0.0});
-    net.add_arc(outlet, sea, {});
+    NodeId const sea = net.add_node({-150.0, 0.0});
+    net.add_arc(outlet, sea);
     LinkLengths const lengths = link_lengths(net);
     EXPECT_EQ(lengths.exterior.links, 2);
     EXPECT_NEAR(lengths.exterior.mean_m, 40.0, 1e-12);
@@ -294,11 +294,11 @@ TEST(JunctionAngles, AreThoseDrawn) {
 TEST(JunctionAngles, StairsOfCellsHaveTheDirectionOfTheirChord) {
     // One river comes from the east, the other down stairs of three cells east and one north: atan(1/3) on the whole,
     // where its last step alone says 0 degrees.
-    StreamNetwork net;
-    NodeId const outlet = add_node(net, {-5.0, 0.0});
-    NodeId const meet = add_node(net, {0.0, 0.0});
-    NodeId const east = add_node(net, {40.0, 0.0});
-    NodeId const stairs = add_node(net, {60.0, 20.0});
+    NetworkDraft net;
+    NodeId const outlet = net.add_node({-5.0, 0.0});
+    NodeId const meet = net.add_node({0.0, 0.0});
+    NodeId const east = net.add_node({40.0, 0.0});
+    NodeId const stairs = net.add_node({60.0, 20.0});
     Arc steps;
     for (int i = 20; i >= 0; --i) {
         steps.line.push_back({3.0 * i, 1.0 * i});
@@ -307,8 +307,8 @@ TEST(JunctionAngles, StairsOfCellsHaveTheDirectionOfTheirChord) {
         }
     }
     net.add_arc(stairs, meet, steps);
-    net.add_arc(east, meet, {});
-    net.add_arc(meet, outlet, {});
+    net.add_arc(east, meet);
+    net.add_arc(meet, outlet);
     double const expected = std::atan2(1.0, 3.0) * 180.0 / 3.14159265358979323846;
     EXPECT_NEAR(junction_angles(net, 30.0).mean_deg, expected, 2.0);
     EXPECT_NEAR(junction_angles(net, 1.0).mean_deg, 0.0, 1e-9);

@@ -11,7 +11,7 @@ using namespace thalweg;
 
 /// Two sources that meet, and an outlet.
 StreamNetwork two_rivers() {
-    StreamNetwork net;
+    NetworkDraft net;
     NodeId const a = net.add_node({0, 4});
     NodeId const b = net.add_node({4, 4});
     NodeId const c = net.add_node({2, 2});

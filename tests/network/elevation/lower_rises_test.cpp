@@ -19,10 +19,10 @@ using network::Lowered;
 namespace {
 
 StreamNetwork chain(std::vector<Vec2> const& places) {
-    StreamNetwork net;
-    NodeId above = add_node(net, places.front());
+    NetworkDraft net;
+    NodeId above = net.add_node(places.front());
     for (std::size_t i = 1; i < places.size(); ++i) {
-        NodeId const below = add_node(net, places[i]);
+        NodeId const below = net.add_node(places[i]);
         Arc arc;
         arc.line = {places[i - 1], places[i]};
         net.add_arc(above, below, std::move(arc));

@@ -70,7 +70,7 @@ StreamNetwork lattice_rivers(std::uint64_t seed, Grid const& grid) {
             ++donors[static_cast<std::size_t>(way[i + 1])];
         }
     }
-    StreamNetwork net;
+    NetworkDraft net;
     std::vector<NodeId> node(down.size(), 0);
     auto const is_node = [&](std::size_t i) { return down[i] == -1 || (down[i] >= 0 && donors[i] != 1); };
     for (std::size_t i = 0; i < down.size(); ++i) {
@@ -148,7 +148,7 @@ TEST(Meander, AStraightRiverIsStraightNoLonger) {
     StreamNetwork const net = test::network_of({mouth, {grid.west + 1500.0, grid.north - 300.0}}, {{1, 0}});
     for (std::uint64_t seed = 1; seed < 20; ++seed) {
         Meandered const out = meander(net, grid, {9e6}, {.seed = seed});
-        auto const& line = out.network.arc(*boost::edges(out.network).first).line;
+        auto const& line = out.network.arc(0).line;
         double const sinuosity = length_of(line) / distance(line.front(), line.back());
         EXPECT_GT(sinuosity, 1.02) << seed;
         EXPECT_LT(sinuosity, 1.6) << seed;
@@ -165,7 +165,7 @@ TEST(Meander, RoundedStepsStayWithinHalfACell) {
     StreamNetwork const net =
         test::network_of({steps.front(), steps.back()}, {{0, 1, {steps.begin() + 1, steps.end() - 1}}});
     Meandered const out = meander(net, grid, {9e6}, {.gain = 0.0});
-    auto const& line = out.network.arc(*boost::edges(out.network).first).line;
+    auto const& line = out.network.arc(0).line;
     EXPECT_LE(out.max_shift_m, 15.0 + 1e-6);
     EXPECT_LT(length_of(line), 1.1 * distance(line.front(), line.back()));
     EXPECT_GT(length_of(steps), 1.4 * distance(line.front(), line.back()));
@@ -231,8 +231,8 @@ TEST(Meander, RiversStayOnLandAndEndWhereTheyEnded) {
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             land[i] = grid.at(i).row < 92 ? 1 : 0;
         }
-        for (auto [e, end] = boost::edges(net); e != end; ++e) {
-            for (Cell const c : cells_along(net.arc(*e).line, grid)) {
+        for (ArcId e = 0; e < net.arc_count(); ++e) {
+            for (Cell const c : cells_along(net.arc(e).line, grid)) {
                 land[c] = 1;
             }
         }
@@ -241,8 +241,8 @@ TEST(Meander, RiversStayOnLandAndEndWhereTheyEnded) {
         for (NodeId const n : net.outlets()) {
             RC_ASSERT(out.network.node(n).at == net.node(n).at);
         }
-        for (auto [e, end] = boost::edges(out.network); e != end; ++e) {
-            for (Vec2 const p : out.network.arc(*e).line) {
+        for (ArcId e = 0; e < out.network.arc_count(); ++e) {
+            for (Vec2 const p : out.network.arc(e).line) {
                 Cell const c = grid.cell_of(p);
                 RC_ASSERT((!grid.contains(c) || land[c] == 1));
             }
@@ -263,8 +263,8 @@ TEST(Meander, ChanceIsTheSeeds) {
     auto const lines = [&](std::uint64_t seed) {
         StreamNetwork const out = meander(net, grid, some_areas(net, grid), {.seed = seed}).network;
         std::vector<std::vector<Vec2>> all;
-        for (auto [e, end] = boost::edges(out); e != end; ++e) {
-            all.push_back(out[*e].line);
+        for (ArcId e = 0; e < out.arc_count(); ++e) {
+            all.push_back(out[e].line);
         }
         return all;
     };

@@ -67,11 +67,11 @@ TEST(Rotate, ABranchCutToTheTurnedBoxFits) {
     for (double const turn : {-33.0, -12.0, 20.0}) {
         auto const branch = network::pick_branch(cluster, {network::BranchChoice::all, 60, 40, turn});
         EXPECT_TRUE(branch.cut);
-        StreamNetwork net;
+        NetworkDraft net;
         for (Cell const c : branch.cells) {
             net.add_node({static_cast<double>(c.col), -static_cast<double>(c.row)});
         }
-        net.add_arc(0, 1, {});
+        net.add_arc(0, 1);
         EXPECT_NO_THROW(rotate(net, test::grid_of(60, 40), {turn}));
         EXPECT_THROW(rotate(net, test::grid_of(60, 30), {turn}), BadInput);
     }

@@ -26,11 +26,11 @@ RaisedNetwork star(int rivers, bool outlet_in_the_middle, double reach_m = 100.0
     RaisedNetwork made;
     auto const node = [&](Vec2 at, double z) {
         made.node_z.push_back(z);
-        return add_node(made.plan, at);
+        return made.plan.add_node(at);
     };
     auto const arc = [&](NodeId from, NodeId to) {
         made.arc_z.push_back({made.node_z[from], made.node_z[to]});
-        made.plan.add_arc(from, to, {});
+        made.plan.add_arc(from, to);
     };
     Vec2 const middle{4000000.1, 500000.7};
     NodeId const centre = node(middle, 10.0);
@@ -69,7 +69,7 @@ RaisedNetwork merged_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t 
     std::vector<NodeId> number(goes_to.size());
     for (NodeId n = 0; n < goes_to.size(); ++n) {
         if (goes_to[n] == n) {
-            number[n] = add_node(made.plan, rivers.plan.node(n).at);
+            number[n] = made.plan.add_node(rivers.plan.node(n).at);
             made.node_z.push_back(rivers.node_z[n]);
         }
     }
@@ -180,17 +180,17 @@ TEST(SplitConfluences, RiversOnOneSideAreLedAroundTheOthers) {
     RaisedNetwork network;
     auto const node = [&](Vec2 at, double z) {
         network.node_z.push_back(z);
-        return add_node(network.plan, at);
+        return network.plan.add_node(at);
     };
     NodeId const centre = node({0.0, 0.0}, 1.0);
     for (double const y : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
         NodeId const source = node({100.0, y}, 5.0);
         network.arc_z.push_back({5.0, 1.0});
-        network.plan.add_arc(source, centre, {});
+        network.plan.add_arc(source, centre);
     }
     NodeId const outlet = node({-100.0, 0.0}, 0.0);
     network.arc_z.push_back({1.0, 0.0});
-    network.plan.add_arc(centre, outlet, {});
+    network.plan.add_arc(centre, outlet);
     network::Split const split = split_confluences(network, {.distance_m = 2.0});
     EXPECT_EQ(most_upstream(split.network.plan), 2U);
     EXPECT_EQ(words(faults(split.network)), "");

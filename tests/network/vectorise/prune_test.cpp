@@ -153,7 +153,7 @@ Lines plain_prune(StreamNetwork const& net, double length_cells) {
 
 /// Keeps the arcs that survive L and merges where two are left: what a reader of the thresholds does.
 Lines filtered(StreamNetwork const& net, double length_cells) {
-    StreamNetwork kept;
+    NetworkDraft kept;
     for (NodeId n = 0; n < net.node_count(); ++n) {
         kept.add_node(net.node(n).at);
     }
@@ -237,7 +237,7 @@ TEST(Prune, AMergedArcTakesTheNameOfItsLongestPiece) {
                                                {{2, 1, {}, 7, "A"}, {3, 1, {}, 8, "B"}, {1, 0, {}, 9, "C"}});
     StreamNetwork const pruned = prune(net, {4.0, 1.0}).network;
     ASSERT_EQ(pruned.arc_count(), 1U);
-    Arc const& arc = pruned[*boost::edges(pruned).first];
+    Arc const& arc = pruned[0];
     EXPECT_EQ(arc.line, (std::vector<Vec2>{{9, 0}, {5, 0}, {0, 0}}));
     EXPECT_EQ(arc.feature, 9);
     EXPECT_EQ(arc.type, "C");
@@ -350,14 +350,14 @@ TEST(Prune, TheSameArcsWhateverTheCell) {
 TEST(Prune, ACombOfManyTeeth) {
     // Teeth that grow upstream along a spine: each removal merges the spine anew, a quadratic rule would not end.
     std::size_t const teeth = 100000;
-    StreamNetwork net;
+    NetworkDraft net;
     net.add_node({0.0, 0.0});
     for (std::size_t t = 1; t <= teeth; ++t) {
         auto const x = static_cast<double>(t);
         NodeId const spine = net.add_node({x, 0.0});
         NodeId const tip = net.add_node({x, 1.0 + x / 1024.0});
-        net.add_arc(spine, t == 1 ? 0 : spine - 2, {});
-        net.add_arc(tip, spine, {});
+        net.add_arc(spine, t == 1 ? 0 : spine - 2);
+        net.add_arc(tip, spine);
     }
     StreamNetwork const pruned = prune(net, {50.0, 1.0}).network;
     std::size_t const left = teeth - 49 * 1024 + 1;

@@ -27,7 +27,7 @@ Star star(int rivers, bool outlet) {
     };
     auto const arc = [&](NodeId from, NodeId to, double us, double ds) {
         made.network.arc_z.push_back({made.network.node_z[from], made.network.node_z[to]});
-        made.network.plan.add_arc(from, to, {});
+        made.network.plan.add_arc(from, to);
         made.us_area_m2.push_back(us);
         made.ds_area_m2.push_back(ds);
     };

@@ -179,7 +179,7 @@ TEST(Page, TheProfileRunsFromTheSourceOfTheLargestBasinToItsOutlet) {
         auto const outlet = two.network.plan.add_node({});
         two.network.plan.node(source).at = {two.grid.west + length, two.grid.north};
         two.network.plan.node(outlet).at = {two.grid.west, two.grid.north};
-        two.network.plan.add_arc(source, outlet, {});
+        two.network.plan.add_arc(source, outlet);
         two.network.arc_z.push_back({length, 1.0});
         two.orders.node_dist_out_m.insert(two.orders.node_dist_out_m.end(), {length, 0.0});
     }

@@ -26,7 +26,7 @@ using Value = Column::Value;
 /// What the quantities of an arc are, by its number; links to arcs are numbers too, -1 for none.
 class Arcs {
 public:
-    Arcs(NetworkTables const& tables) : tables_(tables), tables_.network.plan(tables.network.plan) {
+    explicit Arcs(NetworkTables const& tables) : tables_(tables), plan_(tables.network.plan) {
         std::size_t const arcs = tables.network.plan.arc_count();
         key_.assign(arcs, 0);
         mouth_.assign(arcs, 0);
@@ -90,8 +90,8 @@ public:
         using enum Quantity;
         NetworkOrders const& orders = tables_.orders;
         switch (quantity) {
-        case from_node: return static_cast<std::int64_t>(tables_.network.plan.from(as_index(a))) + 1;
-        case to_node: return static_cast<std::int64_t>(tables_.network.plan.to(as_index(a))) + 1;
+        case from_node: return static_cast<std::int64_t>(plan_.from(as_index(a))) + 1;
+        case to_node: return static_cast<std::int64_t>(plan_.to(as_index(a))) + 1;
         case n_up: return static_cast<std::int64_t>(above(a).size());
         case basin_id: return orders.arc_basin[as_index(a)];
         case topo_ord: return orders.topological[as_index(a)];
@@ -120,7 +120,7 @@ public:
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         double const drop_m = z(a).front() - z(a).back();
         double const straight_m = distance(arc(a).line.front(), arc(a).line.back());
-        double const dist_out_m = orders.node_dist_out_m[tables_.network.plan.to(as_index(a))];
+        double const dist_out_m = orders.node_dist_out_m[plan_.to(as_index(a))];
         double const us_m2 = tables_.us_area_m2[as_index(a)];
         double const ds_m2 = tables_.ds_area_m2[as_index(a)];
         auto const known = [&](bool is_known, double value) { return is_known ? value : unknown; };
@@ -149,13 +149,16 @@ public:
     std::string const& type(std::int64_t a) const { return arc(a).type; }
 
 private:
-    Arc const& arc(std::int64_t a) const { return tables_.network.plan.arc(as_index(a)); }
+    Arc const& arc(std::int64_t a) const { return plan_.arc(as_index(a)); }
     std::vector<double> const& z(std::int64_t a) const { return tables_.network.arc_z[as_index(a)]; }
-    double length(std::int64_t a) const { return tables_.network.plan.length_m(as_index(a)); }
+    double length(std::int64_t a) const { return plan_.length_m(as_index(a)); }
     int hack(std::int64_t a) const { return tables_.orders.hack[as_index(a)]; }
-    std::int64_t down(std::int64_t a) const { return tables_.network.plan.out(tables_.network.plan.to(as_index(a))); }
-    std::vector<std::int64_t> const& above(std::int64_t a) const { return tables_.network.plan.in(tables_.network.plan.from(as_index(a))); }
-    std::int64_t up(std::int64_t a, std::size_t k) const { return k < above(a).size() ? above(a)[k] : -1; }
+    std::int64_t down(std::int64_t a) const {
+        ArcId const below = plan_.out(plan_.to(as_index(a)));
+        return below == no_arc ? -1 : static_cast<std::int64_t>(below);
+    }
+    std::span<ArcId const> above(std::int64_t a) const { return plan_.in(plan_.from(as_index(a))); }
+    std::int64_t up(std::int64_t a, std::size_t k) const { return k < above(a).size() ? static_cast<std::int64_t>(above(a)[k]) : -1; }
     /// The arc upstream on the same main stem.
     std::int64_t main_up(std::int64_t a) const {
         auto const found = std::ranges::find_if(above(a), [&](std::int64_t b) { return hack(b) == hack(a); });
@@ -163,6 +166,7 @@ private:
     }
 
     NetworkTables const& tables_;
+    StreamNetwork const& plan_;
     std::vector<std::int64_t> key_;    ///< 1, 2, ... from the outlets upstream
     std::vector<std::int64_t> mouth_;  ///< last arc downstream of the same main stem
     std::vector<std::int64_t> outlet_; ///< the arc at the outlet

@@ -22,7 +22,10 @@ std::vector<Reach> reaches_of(StreamNetwork const& network) {
     std::vector<Reach> reaches;
     reaches.reserve(network.arc_count());
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
-        reaches.push_back({{network.arc(a).line}, network.out(network.to(a)), static_cast<std::int64_t>(a) + 1});
+        ArcId const below = network.out(network.to(a));
+        reaches.push_back({{network.arc(a).line},
+                           below == no_arc ? -1 : static_cast<std::int64_t>(below),
+                           static_cast<std::int64_t>(a) + 1});
     }
     return reaches;
 }

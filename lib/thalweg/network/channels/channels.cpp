@@ -152,7 +152,7 @@ std::vector<std::size_t> downstream_first(StreamNetwork const& network) {
 class Drawer {
 public:
     Drawer(StreamNetwork const& network, Grid const& grid)
-        : drawing(grid), way(network.arc_count()), network_(network), network_(network), grid_(grid) {}
+        : drawing(grid), way(network.arc_count()), network_(network), grid_(grid) {}
 
     Drawing drawing;
     std::vector<std::vector<Cell>> way; ///< by arc: its cells, downstream
@@ -188,9 +188,8 @@ public:
 
 private:
     bool is_downstream(std::size_t of, std::size_t a) const {
-        for (std::int64_t below = static_cast<std::int64_t>(of); below >= 0;
-             below = network_.out(network_.to(as_index(below)))) {
-            if (as_index(below) == a) {
+        for (ArcId below = of; below != no_arc; below = network_.out(network_.to(below))) {
+            if (below == a) {
                 return true;
             }
         }

@@ -45,7 +45,7 @@ struct Place {
 class DrawnLines {
 public:
     DrawnLines(StreamNetwork const& plan, Grid const& grid)
-        : plan_(plan), plan_(plan), cell_m_(grid.cell_m),
+        : plan_(plan), cell_m_(grid.cell_m),
           segments_({grid.west, grid.south()}, {grid.east(), grid.north}, 4.0 * grid.cell_m, count(plan)) {
         for (std::size_t a = 0; a < plan.arc_count(); ++a) {
             std::vector<Vec2> const& line = plan.arc(a).line;

@@ -26,11 +26,10 @@ Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double
     auto& node_z = lowered.network.node_z;
     node_z.assign(network.node_count(), std::numeric_limits<double>::infinity());
     for (auto node = network.upstream_order().rbegin(); node != network.upstream_order().rend(); ++node) {
-        auto const out = network.out(*node);
-        if (out < 0) {
+        ArcId const a = network.out(*node);
+        if (a == no_arc) {
             continue;
         }
-        auto const a = static_cast<std::size_t>(out);
         auto& z = lowered.network.arc_z[a];
         double low = std::min(node_z[*node], z.front());
         node_z[*node] = low;

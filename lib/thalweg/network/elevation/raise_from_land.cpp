@@ -46,7 +46,7 @@ class Heights {
 public:
     Heights(StreamNetwork const& network, Channels const& channels,
             Raster<float> const& land)
-        : network_(network), network_(network), land_(land), z_(network.arc_count()), up_(network.arc_count()) {
+        : network_(network), land_(land), z_(network.arc_count()), up_(network.arc_count()) {
         Mask is_channel(channels.grid, 0);
         for (std::int64_t const cell : channels.cell) {
             is_channel[cell] = 1;

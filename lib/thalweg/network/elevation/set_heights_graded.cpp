@@ -135,7 +135,7 @@ Graded set_heights_graded(StreamNetwork const& network, std::vector<double> cons
     }
 
     Graded graded{{network, std::vector<double>(network.node_count(), 0.0), {}}, 0.0};
-    if (network.arcs.empty()) {
+    if (network.arcs().empty()) {
         return graded;
     }
     std::vector<double> const way = sum_upstream(network, network.length_m());

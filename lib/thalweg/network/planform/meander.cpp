@@ -112,7 +112,7 @@ class Meandering {
 public:
     Meandering(StreamNetwork const& network, Grid const& grid, Mask const& land,
                std::vector<double> const& area_m2, MeanderParams const& params, Run const& run)
-        : network_(network), network_(network), grid_(grid), land_(land), params_(params), run_(run),
+        : network_(network), grid_(grid), land_(land), params_(params), run_(run),
           to_fixed_(distance_to_fixed(network, grid, land)),
           stems_(stems_of(network, area_m2, grid.cell_m)) {}
 

@@ -9,13 +9,12 @@ namespace thalweg::network {
 
 namespace {
 
-/// By node the arc whose river goes on below it, -1 at sources.
-std::vector<std::int64_t> main_arcs(StreamNetwork const& network, std::vector<double> const& area_m2) {
-    std::vector<std::int64_t> out(network.node_count(), -1);
+/// By node the arc whose river goes on below it, no_arc at sources.
+std::vector<ArcId> main_arcs(StreamNetwork const& network, std::vector<double> const& area_m2) {
+    std::vector<ArcId> out(network.node_count(), no_arc);
     for (NodeId n = 0; n < out.size(); ++n) {
         for (ArcId const a : network.in(n)) {
-            auto const best = static_cast<std::size_t>(std::max<std::int64_t>(out[n], 0));
-            if (out[n] < 0 || area_m2[a] > area_m2[best]) {
+            if (out[n] == no_arc || area_m2[a] > area_m2[out[n]]) {
                 out[n] = a;
             }
         }
@@ -60,18 +59,18 @@ Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2,
     out.first_point.resize(network.arc_count());
     out.last_point.resize(network.arc_count());
     out.node_point.resize(network.node_count());
-    std::vector<std::int64_t> const main = main_arcs(network, area_m2);
+    std::vector<ArcId> const main = main_arcs(network, area_m2);
     for (NodeId const mouth : network.upstream_order()) { // every stem after what it joins
         bool const is_outlet = network.out(mouth) == no_arc;
-        std::vector<std::int64_t> arriving = network.in(mouth);
-        std::stable_partition(arriving.begin(), arriving.end(), [&](std::int64_t a) { return a == main[mouth]; });
-        for (std::int64_t const last : arriving) {
+        std::vector<ArcId> arriving(network.in(mouth).begin(), network.in(mouth).end());
+        std::stable_partition(arriving.begin(), arriving.end(), [&](ArcId a) { return a == main[mouth]; });
+        for (ArcId const last : arriving) {
             if (!is_outlet && last == main[mouth]) {
                 continue; // it is the middle of a stem
             }
-            std::vector<std::size_t> arcs;
-            for (std::int64_t a = last; a >= 0; a = main[network.from(a)]) {
-                arcs.push_back(static_cast<std::size_t>(a));
+            std::vector<ArcId> arcs;
+            for (ArcId a = last; a != no_arc; a = main[network.from(a)]) {
+                arcs.push_back(a);
             }
             std::reverse(arcs.begin(), arcs.end());
             bool const owns_mouth = is_outlet && last == main[mouth];

@@ -25,7 +25,7 @@ double diagonal_of(NetworkFile const& file) {
     constexpr double greatest_coordinate = 1e18; // beyond, measure::check_topology takes it for none
     Vec2 low{greatest_coordinate, greatest_coordinate};
     Vec2 high{-greatest_coordinate, -greatest_coordinate};
-    for (ArcId arc = 0; arc < file.arc_count(); ++arc) {
+    for (auto const& arc : file.arcs) {
         for (Vec3 const p : arc.line) {
             if (std::fabs(p.x) < greatest_coordinate && std::fabs(p.y) < greatest_coordinate) {
                 low = {std::min(low.x, p.x), std::min(low.y, p.y)};

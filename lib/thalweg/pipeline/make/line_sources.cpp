@@ -80,7 +80,7 @@ std::vector<std::vector<Stretch>> LineSources::of(StreamNetwork const& network) 
                 features.push_back(known->second);
             } else { // an arc may begin farther down, but not one that is the terrain's own
                 bool const is_cut = i == 1 && network.arc(arc).feature > 0 && arriving_.contains(line[i]);
-                features.push_back(is_cut ? replaced(network[arc], i) : 0);
+                features.push_back(is_cut ? replaced(network.arc(arc), i) : 0);
             }
         }
         result.push_back(stretches_of(line, features));
@@ -100,7 +100,7 @@ std::vector<std::vector<Stretch>> LineSources::redrawn(StreamNetwork const& netw
                 known != segments_.end() || arriving_.contains(line[i]) || leaving_.contains(line[i - 1]);
             unknown += !is_known && unknown + 1 == i ? 1U : 0U;
             features.push_back(known != segments_.end() ? known->second
-                               : is_known               ? replaced(network[arc], i)
+                               : is_known               ? replaced(network.arc(arc), i)
                                : features.empty()       ? network.arc(arc).feature
                                                         : features.back());
         }

@@ -294,7 +294,7 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
     if (t.statistics) {
         add_land(t, figures);
     }
-    if (t.recipe.network || !t.network.plan.arcs.empty()) {
+    if (t.recipe.network || !t.network.plan.arcs().empty()) {
         add_rivers(t, stem, figures);
     }
     ordered_json const data{{"version", version()},
