@@ -197,12 +197,11 @@ Fnv hash_of(Tin const& tin) {
 /// Breaklines of a network.
 std::vector<std::vector<Vec3>> lines_of(RaisedNetwork const& network) {
     std::vector<std::vector<Vec3>> lines;
-    for (std::size_t i = 0; ArcId const arc : boost::make_iterator_range(boost::edges(network.plan))) {
+    for (ArcId a = 0; a < network.plan.arc_count(); ++a) {
         auto& line = lines.emplace_back();
-        for (std::size_t k = 0; Vec2 const& p : network.plan.arc(arc).line) {
-            line.push_back({p.x, p.y, network.arc_z[i][k++]});
+        for (std::size_t k = 0; Vec2 const& p : network.plan.arc(a).line) {
+            line.push_back({p.x, p.y, network.arc_z[a][k++]});
         }
-        ++i;
     }
     return lines;
 }

@@ -14,6 +14,7 @@
 
 /// A small network with everything its tables hold, numbers that do not end in binary among them.
 struct SampleNetwork {
+    thalweg::NetworkDraft draft; ///< settle() makes the network's plan from it
     thalweg::RaisedNetwork network;
     thalweg::NetworkOrders orders;
     std::vector<double> us_area_m2;
@@ -26,7 +27,7 @@ struct SampleNetwork {
 
     thalweg::NodeId node(double x, double y, double z) {
         network.node_z.push_back(z);
-        return network.plan.add_node({x, y});
+        return draft.add_node({x, y});
     }
 
     /// An arc that falls evenly by vertex, through some positions.
@@ -43,11 +44,14 @@ struct SampleNetwork {
         z.front() = network.node_z[from];
         z.back() = network.node_z[to];
         network.arc_z.push_back(z);
-        network.plan.add_arc(from, to, std::move(arc));
+        draft.add_arc(from, to, std::move(arc));
     }
 
     /// Fills orders and areas by their definitions, arc by arc from the sources down.
     void settle() {
+        using thalweg::ArcId;
+        using thalweg::no_arc;
+        network.plan = draft;
         std::size_t const arcs = network.plan.arc_count();
         std::size_t const nodes = network.plan.node_count();
         orders = {};
@@ -90,18 +94,18 @@ struct SampleNetwork {
             }
         }
         for (thalweg::NodeId const n : network.plan.upstream_order()) {
-            std::int64_t main = -1;
+            ArcId main = no_arc;
             for (ArcId const above : network.plan.in(n)) {
                 auto const a = above;
                 auto const path = [&](std::size_t k) { return longest[network.plan.from(k)] + network.plan.length_m(k); };
-                if (main < 0 || path(a) > path(static_cast<std::size_t>(main))) {
+                if (main == no_arc || path(a) > path(main)) {
                     main = above;
                 }
             }
             for (ArcId const above : network.plan.in(n)) {
                 auto const a = above;
-                auto const below = static_cast<std::size_t>(std::max<std::int64_t>(network.plan.out(n), 0));
-                bool const outlet = network.plan.out(n) == no_arc;
+                ArcId const below = network.plan.out(n);
+                bool const outlet = below == no_arc;
                 orders.topological[a] = outlet ? 1 : orders.topological[below] + 1;
                 orders.hack[a] = (outlet ? 1 : orders.hack[below]) + (above == main ? 0 : 1);
                 orders.node_dist_out_m[network.plan.from(a)] = orders.node_dist_out_m[n] + network.plan.length_m(a);
@@ -150,7 +154,7 @@ inline SampleNetwork two_basins() {
     sample.arc(three, pseudo);
     sample.arc(pseudo, mouth);
     sample.arc(other_source, other_mouth);
-    auto& arc = sample.network.plan[sample.network.plan.arcs.back()];
+    auto& arc = sample.draft.arcs.back().arc;
     arc.type = "Bärenbach";
     arc.feature = 123456789012345;
     arc.survives = 20.5;

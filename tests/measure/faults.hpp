@@ -290,14 +290,14 @@ inline std::vector<Fault> const& all() {
          [](NetworkFile& f, std::size_t k) {
              auto const& line = f.arcs[k].line;
              Vec3 const joint = between(line[0], line[1], 0.5);
-             return Features{f.add_arc({moved(joint, 0.05, 0.0), moved(joint, 0.5 * near_of(f), 0.0)})};
+             return Features{add_arc(f, {moved(joint, 0.05, 0.0), moved(joint, 0.5 * near_of(f), 0.0)})};
          }},
         {"several_outflows", "a second way out",
          [](NetworkFile& f, std::size_t k) {
              FileArc const& arc = f.arcs[k];
              Vec3 const start = arc.line[0];
              std::int64_t const from = arc.from_node;
-             f.add_arc({start, moved(start, 0.03, 0.1)});
+             add_arc(f, {start, moved(start, 0.03, 0.1)});
              std::erase_if(f.nodes, [](auto const& n) { return n.id == new_id; });
              f.arcs.back().from_node = from;
              return Features{from};
@@ -423,7 +423,7 @@ inline std::vector<Fault> const& all() {
          [](NetworkFile& f, std::size_t k) {
              auto const& line = f.arcs[k].line;
              Vec3 const joint = between(line[0], line[1], 0.5); // exactly: coordinates are quarters
-             return Features{f.add_arc({moved(joint, 0.0625, 0.0), joint})};
+             return Features{add_arc(f, {moved(joint, 0.0625, 0.0), joint})};
          }},
         {"touches", "a node beside the node",
          [](NetworkFile& f, std::size_t k) {
@@ -442,7 +442,7 @@ inline std::vector<Fault> const& all() {
                  return Features{};
              }
              Vec3 const at = f.arcs[*a].line.back();
-             return Features{f.add_arc({moved(at, 0.05, 0.01), at, moved(at, 0.05, -0.01)})};
+             return Features{add_arc(f, {moved(at, 0.05, 0.01), at, moved(at, 0.05, -0.01)})};
          }},
         {"overlap", "along a river for a while",
          [](NetworkFile& f, std::size_t k) {
@@ -450,7 +450,7 @@ inline std::vector<Fault> const& all() {
              Vec3 const from = between(line[0], line[1], 0.25);
              Vec3 const to = between(line[0], line[1], 0.75);
              std::int64_t const other = f.arcs[k].id;
-             return Features{f.add_arc({moved(from, 0.0625, 0.03125), from, to, moved(to, 0.0625, 0.0)}), other};
+             return Features{add_arc(f, {moved(from, 0.0625, 0.03125), from, to, moved(to, 0.0625, 0.0)}), other};
          }},
         {"column_mismatch", "length",
          [](NetworkFile& f, std::size_t k) {
@@ -514,7 +514,7 @@ inline std::vector<Fault> const& all() {
              auto const& line = f.arcs[k].line;
              Vec3 const middle = between(line[0], line[1], 0.4);
              std::int64_t const other = f.arcs[k].id;
-             return Features{f.add_arc({moved(middle, -0.05, 0.0), moved(middle, 0.05, 0.0)}), other};
+             return Features{add_arc(f, {moved(middle, -0.05, 0.0), moved(middle, 0.05, 0.0)}), other};
          }},
         {"crossing", "a vertex beyond a neighbour",
          [](NetworkFile& f, std::size_t k) {

@@ -431,7 +431,7 @@ TEST(Ridges, BothMethodsAgree) {
         };
         auto const rivers = plan_of(land.rivers.plan);
         std::vector<Vec2> shared; // places of several streams, which nothing keeps apart
-        for (NodeId const n : boost::make_iterator_range(boost::vertices(land.rivers.plan))) {
+        for (NodeId n = 0; n < land.rivers.plan.node_count(); ++n) {
             if (land.rivers.plan.in(n).size() > 1) {
                 shared.push_back(land.rivers.plan.node(n).at);
             }

@@ -131,7 +131,7 @@ using Flow = std::set<std::pair<std::int64_t, std::int64_t>>;
 
 Flow flow_of(NetworkFile const& file) {
     Flow flow;
-    for (ArcId arc = 0; arc < file.arc_count(); ++arc) {
+    for (auto const& arc : file.arcs) {
         flow.insert({arc.id, arc.ds_arc});
     }
     return flow;
@@ -139,7 +139,7 @@ Flow flow_of(NetworkFile const& file) {
 
 // Arcs join at nodes that lie where the arcs end, and follow one another.
 testing::AssertionResult hangs_together(NetworkFile const& file) {
-    for (ArcId arc = 0; arc < file.arc_count(); ++arc) {
+    for (auto const& arc : file.arcs) {
         auto const at = [&](std::int64_t id) {
             auto const node = std::ranges::find(file.nodes, id, &NetworkFile::FileNode::id);
             return node == file.nodes.end() ? Vec2{NAN, NAN} : Vec2{node->at.x, node->at.y};

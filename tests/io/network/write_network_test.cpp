@@ -476,12 +476,14 @@ TEST(WriteNetwork, NetworkWithoutCrs) {
 TEST(WriteNetwork, LongTypeFitsOrIsNamed) {
     ScratchFolder const folder;
     SampleNetwork sample = y_shape();
-    sample.network.plan.arc(2).type = std::string(254, 'A');
+    sample.draft.arcs[2].arc.type = std::string(254, 'A');
+    sample.settle();
     io::write_shapefiles(sample.tables(), folder / "net");
     auto const dataset = open(folder / "net_arcs.shp");
     auto const feature = std::unique_ptr<OGRFeature>(dataset->GetLayer(0)->GetFeature(2));
     EXPECT_EQ(feature->GetFieldAsString("type"), std::string(254, 'A'));
-    sample.network.plan.arc(2).type = std::string(255, 'A');
+    sample.draft.arcs[2].arc.type = std::string(255, 'A');
+    sample.settle();
     EXPECT_NE(message_of([&] { io::write_shapefiles(sample.tables(), folder / "more"); }).find("arcs 3 has type"),
               std::string::npos);
 }

@@ -348,7 +348,8 @@ TEST(WriteSchemas, MaskHasTheCellsOfRivers) {
 
 TEST(WriteSchemas, GraphsHaveNodesEdgesAndTheirText) {
     SampleNetwork sample = y_shape();
-    sample.network.plan.arc(0).type = "a <b> & \"c\", 'd' # \x01";
+    sample.draft.arcs[0].arc.type = "a <b> & \"c\", 'd' # \x01";
+    sample.settle();
     ScratchFolder const folder;
     io::write_network(sample.tables(), folder / "net.graphml", {NetworkFormat::graphml});
     std::string const graphml = bytes_of(folder / "net.graphml");
@@ -385,10 +386,12 @@ TEST(WriteSchemas, RoundTripsLoseNothingTheSchemaCanHold) {
             random_rivers(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::int64_t>(2, 12),
                           *rc::gen::inRange<std::int64_t>(2, 12), 1000.0 / 7.0);
         std::int64_t feature = 0;
-        for (ArcId arc = 0; arc < rivers.plan.arc_count(); ++arc) {
+        NetworkDraft named = rivers.plan.draft();
+        for (DraftArc& drawn : named.arcs) {
             feature = (7 * feature + 3) % 1000003;
-            rivers.plan.arc(arc).feature = feature;
+            drawn.arc.feature = feature;
         }
+        rivers.plan = std::move(named);
         Drawn const drawn = draw(std::move(rivers));
         ScratchFolder const folder;
         std::string const name = "net" + name_of_format(format);
@@ -423,7 +426,7 @@ TEST(WriteSchemas, RoundTripsLoseNothingTheSchemaCanHold) {
             std::int64_t const own = drawn.network.plan.arc(a).feature;
             RC_ASSERT(numbers[a] == (schema == Schema::native ? own : static_cast<std::int64_t>(a) + 1));
         }
-        for (ArcId arc = 0; arc < file.arc_count(); ++arc) {
+        for (auto const& arc : file.arcs) {
             auto const a = static_cast<std::size_t>(std::lower_bound(made.arc_ids.begin(), made.arc_ids.end(), arc.id) -
                                                     made.arc_ids.begin());
             RC_ASSERT(!file.says.strahler || arc.strahler == drawn.orders.strahler[a]);

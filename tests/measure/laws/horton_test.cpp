@@ -33,7 +33,7 @@ struct PerfectTree {
 
 private:
     void grow(NodeId below, int order) {
-        NodeId const above = net.add_node({0.0, net.node(below).at.y + std::pow(3.0, order)});
+        NodeId const above = net.add_node({0.0, net.nodes[below].at.y + std::pow(3.0, order)});
         net.add_arc(above, below);
         areas.push_back(std::pow(5.0, order));
         for (int k = 0; order > 1 && k < 2; ++k) {

@@ -34,15 +34,14 @@ struct MadeToOrder {
     RaisedNetwork rivers;
     ContributingAreas areas;
     NetworkOrders orders;
-    NetworkIndex index;
 
     explicit MadeToOrder(std::uint64_t seed, std::int64_t cols = 24, std::int64_t rows = 60)
-        : rivers(random_rivers(seed, cols, rows, 30.0)), orders(orders_of(rivers.plan)), index(rivers.plan) {
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        : rivers(random_rivers(seed, cols, rows, 30.0)), orders(orders_of(rivers.plan)) {
+        for (std::size_t a = 0; a < rivers.plan.arc_count(); ++a) {
             areas.us_area_m2.push_back(1e5 * static_cast<double>(orders.shreve[a]));
-            areas.ds_area_m2.push_back(areas.us_area_m2.back() + 40.0 * index.length_m[a]);
+            areas.ds_area_m2.push_back(areas.us_area_m2.back() + 40.0 * rivers.plan.length_m(a));
         }
-        areas.node_m2.assign(index.out.size(), 0.0);
+        areas.node_m2.assign(rivers.plan.node_count(), 0.0);
     }
 };
 
@@ -171,7 +170,7 @@ TEST(PowerLaw, EveryBinCountsOnce) {
 
 TEST(Concavity, OneArcHasNone) {
     MadeToOrder one(1, 1, 2);
-    ASSERT_EQ(one.index.arcs.size(), 1U);
+    ASSERT_EQ(one.rivers.plan.arc_count(), 1U);
     EXPECT_FALSE(concavity(one.rivers, one.areas));
     EXPECT_FALSE(hack(one.rivers.plan, one.areas.ds_area_m2));
     EXPECT_THROW(concavity(one.rivers, {}), BadInput);
@@ -182,9 +181,9 @@ TEST(Concavity, IsRecoveredFromRiversThatHaveIt) {
     ASSERT_TRUE(rc::check("S = k A^-theta by construction gives theta to 1e-6; arcs that do not fall are left out", [] {
         MadeToOrder made(*rc::gen::arbitrary<std::uint64_t>());
         double const theta = static_cast<double>(*evenly(-20, 120)) / 100.0;
-        for (std::size_t a = 0; a < made.index.arcs.size(); ++a) {
+        for (std::size_t a = 0; a < made.rivers.plan.arc_count(); ++a) {
             double const area = 0.5 * (made.areas.us_area_m2[a] + made.areas.ds_area_m2[a]);
-            made.rivers.arc_z[a] = {1.7 * std::pow(area, -theta) * made.index.length_m[a], 0.0};
+            made.rivers.arc_z[a] = {1.7 * std::pow(area, -theta) * made.rivers.plan.length_m(a), 0.0};
         }
         auto const law = concavity(made.rivers, made.areas);
         RC_ASSERT(law.has_value());
@@ -211,14 +210,14 @@ TEST(Hack, IsRecoveredFromRiversThatHaveIt) {
         double const h = static_cast<double>(*evenly(40, 110)) / 100.0;
         Numbers head;
         if (*rc::gen::arbitrary<bool>()) {
-            for (NodeId n = 0; n < made.index.out.size(); ++n) {
+            for (NodeId n = 0; n < made.rivers.plan.node_count(); ++n) {
                 head.push_back(500.0 * unit(chance(9, n)));
             }
         }
-        Numbers const longest = longest_slowly(made.index, head);
-        for (std::size_t a = 0; a < made.index.arcs.size(); ++a) {
-            NodeId const from = made.index.from[a];
-            made.areas.ds_area_m2[a] = std::pow((longest[from] + made.index.length_m[a]) / 1.4, 1.0 / h);
+        Numbers const longest = longest_slowly(made.rivers.plan, head);
+        for (std::size_t a = 0; a < made.rivers.plan.arc_count(); ++a) {
+            NodeId const from = made.rivers.plan.from(a);
+            made.areas.ds_area_m2[a] = std::pow((longest[from] + made.rivers.plan.length_m(a)) / 1.4, 1.0 / h);
         }
         auto const law = hack(made.rivers.plan, made.areas.ds_area_m2, head);
         RC_ASSERT(law.has_value());
@@ -258,7 +257,7 @@ TEST(LinkLengths, NoneAndOne) {
 }
 
 TEST(LinkLengths, ArcsThatMeetOneToOneAreOneLink) {
-    StreamNetwork net = fork(60.0, 30.0, 50.0);
+    NetworkDraft net = fork(60.0, 30.0, 50.0).draft();
     NodeId const outlet = 0;
     NodeId const sea = net.add_node({-150.0, 0.0});
     net.add_arc(outlet, sea);
@@ -345,7 +344,7 @@ TEST(NetworkLaws, AreThoseOfTheirVerbs) {
     NetworkLaws const laws =
         network_laws(made.rivers, made.orders, made.areas,
                      {.land_m2 = 2e6, .junction_reach_m = 60.0, .head_m = {}, .side_branches = {1.0, 2.0, 4.0}});
-    double const length = std::accumulate(made.index.length_m.begin(), made.index.length_m.end(), 0.0);
+    double const length = std::accumulate(made.rivers.plan.length_m().begin(), made.rivers.plan.length_m().end(), 0.0);
     EXPECT_NEAR(laws.drainage_density_m, length / 2e6, 1e-15);
     EXPECT_NEAR(laws.tokunaga.value().c, 2.0, 1e-12);
     EXPECT_EQ(laws.hack.value().exponent, hack(made.rivers.plan, made.areas.ds_area_m2)->exponent);

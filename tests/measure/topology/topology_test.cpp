@@ -225,7 +225,7 @@ TEST(CheckTopology, OnlyWhatTheFileSaysIsChecked) {
 TEST(CheckTopology, NearIsWhatOneSays) {
     NetworkFile file = clean(3);
     Vec3 const joint = faults::between(file.arcs[0].line[0], file.arcs[0].line[1], 0.5);
-    faults::file.add_arc({faults::moved(joint, 0.2, 0.0), faults::moved(joint, 0.01, 0.0)});
+    faults::add_arc(file, {faults::moved(joint, 0.2, 0.0), faults::moved(joint, 0.01, 0.0)});
     EXPECT_EQ(kinds_of(check_topology(file)), std::multiset<std::string>{});
     TopologyReport const report = check_topology(file, {.near_m = 0.02});
     ASSERT_EQ(kinds_of(report), std::multiset<std::string>{"dangling_end"});
@@ -293,12 +293,14 @@ TEST(CheckTopology, StopsWhenAsked) {
 
 TEST(AsFile, NumbersFromOne) {
     RaisedNetwork net;
+    NetworkDraft plan;
     for (Vec2 const at : {Vec2{0, 1}, Vec2{0, 0}, Vec2{3, 0}}) {
-        net.plan.add_node(at);
+        plan.add_node(at);
     }
     net.node_z = {2, 1, 0};
-    net.plan.add_arc(1, 2);
-    net.plan.add_arc(0, 1);
+    plan.add_arc(1, 2);
+    plan.add_arc(0, 1);
+    net.plan = std::move(plan);
     net.arc_z = {{1, 0}, {2, 1}};
     NetworkOrders const orders = orders_of(net.plan);
     NetworkFile const file = as_file(net, orders);

@@ -63,11 +63,7 @@ Scene plain_scene() {
 }
 
 std::vector<Arc> arcs_of(StreamNetwork const& plan) {
-    std::vector<Arc> arcs;
-    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
-        arcs.push_back(plan[arc]);
-    }
-    return arcs;
+    return plan.arcs();
 }
 
 /// The vertices of given arcs, each once, by place.

@@ -119,11 +119,12 @@ TEST(AssignTypes, ByOrderFromSteepToFlat) {
 
 TEST(AssignTypes, Laws) {
     ASSERT_TRUE(rc::check("one type an arc; one order, one type; higher orders come later in the table", [] {
-        StreamNetwork net =
-            test::random_forest(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::size_t>(0, 40), 2);
-        for (ArcId arc = 0; arc < net.arc_count(); ++arc) {
-            net.arc(arc).type.clear();
+        NetworkDraft untyped =
+            test::random_forest(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::size_t>(0, 40), 2).draft();
+        for (DraftArc& drawn : untyped.arcs) {
+            drawn.arc.type.clear();
         }
+        StreamNetwork const net(std::move(untyped));
         auto const orders = network::order(net);
         AssignTypesParams params;
         params.by_order = {Rosgen::aa_plus, Rosgen::a, Rosgen::b, Rosgen::c, Rosgen::d, Rosgen::da, Rosgen::e};

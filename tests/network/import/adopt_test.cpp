@@ -55,11 +55,7 @@ RiverLines with_heights(std::vector<std::vector<Vec3>> const& all) {
 }
 
 std::vector<Arc> arcs_of(Adopted const& adopted) {
-    std::vector<Arc> arcs;
-    for (ArcId a = 0; a < adopted.network.arc_count(); ++a) {
-        arcs.push_back(adopted.network[a]);
-    }
-    return arcs;
+    return adopted.network.arcs();
 }
 
 std::int64_t count(Adopted const& adopted, std::string const& kind) {

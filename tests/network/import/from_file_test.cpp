@@ -115,7 +115,7 @@ TEST(FromFile, RecordsAndSourcesGoWithTheArcs) {
 TEST(FromFile, WithoutHeightsAllAreNaN) {
     NetworkFile file = y_shape();
     file.says.heights = false;
-    for (ArcId arc = 0; arc < file.arc_count(); ++arc) {
+    for (auto& arc : file.arcs) {
         for (Vec3& p : arc.line) {
             p.z = not_a_number;
         }
@@ -138,7 +138,7 @@ TEST(FromFile, NodesThatNobodyNamesAreNumberedAlongTheArcs) {
     NetworkFile shuffled = file; // as another format might order its features
     std::ranges::reverse(shuffled.arcs);
     std::ranges::reverse(shuffled.nodes);
-    for (ArcId arc = 0; arc < shuffled.arc_count(); ++arc) {
+    for (auto& arc : shuffled.arcs) {
         arc.from_node = 100 - arc.from_node;
         arc.to_node = 100 - arc.to_node;
     }

@@ -32,8 +32,8 @@ struct Plain {
     std::vector<ArcId> arcs;
 
     explicit Plain(StreamNetwork const& network) : net(network) {
-        auto const [first, last] = boost::edges(net);
-        arcs.assign(first, last);
+        arcs.resize(net.arc_count());
+        std::iota(arcs.begin(), arcs.end(), ArcId{0});
     }
     std::vector<std::size_t> above(NodeId node) const {
         std::vector<std::size_t> out;
@@ -91,7 +91,7 @@ struct Plain {
     double dist_out(NodeId node) const {
         double sum = 0.0;
         while (net.out_arcs(node).size() == 1) {
-            ArcId const arc = *boost::out_edges(node, net).first;
+            ArcId const arc = net.out_arcs(node).front();
             sum += length_of(net.arc(arc).line);
             node = net.to(arc);
         }

@@ -246,9 +246,9 @@ TEST(CarryOutlets, OneArcIsDrawnOn) {
 
 TEST(CarryOutlets, SeveralArcsGetATrunk) {
     Grid const grid = test::grid_of(15, 7);
-    StreamNetwork net = test::network_of({{7.5, 2.5}, {5.5, 4.5}, {9.5, 4.5}}, {{1, 0}, {2, 0}});
-    for (ArcId e = 0; e < net.arc_count(); ++e) {
-        net.arc(e).survives = net.from(e) == 1 ? 3.0 : 4.0;
+    NetworkDraft net = test::network_of({{7.5, 2.5}, {5.5, 4.5}, {9.5, 4.5}}, {{1, 0}, {2, 0}}).draft();
+    for (DraftArc& drawn : net.arcs) {
+        drawn.arc.survives = drawn.from == 1 ? 3.0 : 4.0;
     }
     auto const carried = carry_outlets(net, grid);
     ASSERT_EQ(carried.network.arc_count(), 3U);

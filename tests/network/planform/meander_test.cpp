@@ -254,7 +254,7 @@ TEST(Meander, AnOutletInsideTheGridStays) {
     Grid const grid = hundred_cells();
     Vec2 const sink{grid.west + 1511.0, grid.south() + 1503.0};
     StreamNetwork const net = test::network_of({sink, {grid.west + 1500.0, grid.north - 300.0}}, {{1, 0}});
-    EXPECT_EQ(meander(net, grid, {9e6}).network[0].at, sink);
+    EXPECT_EQ(meander(net, grid, {9e6}).network.node(0).at, sink);
 }
 
 TEST(Meander, ChanceIsTheSeeds) {
@@ -264,7 +264,7 @@ TEST(Meander, ChanceIsTheSeeds) {
         StreamNetwork const out = meander(net, grid, some_areas(net, grid), {.seed = seed}).network;
         std::vector<std::vector<Vec2>> all;
         for (ArcId e = 0; e < out.arc_count(); ++e) {
-            all.push_back(out[e].line);
+            all.push_back(out.arc(e).line);
         }
         return all;
     };

@@ -24,13 +24,14 @@ namespace {
 /// Rivers that meet in one point, evenly around it, and leave it to the south; or none leaves.
 RaisedNetwork star(int rivers, bool outlet_in_the_middle, double reach_m = 100.0, double leaving_m = 100.0) {
     RaisedNetwork made;
+    NetworkDraft plan;
     auto const node = [&](Vec2 at, double z) {
         made.node_z.push_back(z);
-        return made.plan.add_node(at);
+        return plan.add_node(at);
     };
     auto const arc = [&](NodeId from, NodeId to) {
         made.arc_z.push_back({made.node_z[from], made.node_z[to]});
-        made.plan.add_arc(from, to);
+        plan.add_arc(from, to);
     };
     Vec2 const middle{4000000.1, 500000.7};
     NodeId const centre = node(middle, 10.0);
@@ -41,6 +42,7 @@ RaisedNetwork star(int rivers, bool outlet_in_the_middle, double reach_m = 100.0
     if (!outlet_in_the_middle) {
         arc(centre, node({middle.x, middle.y - leaving_m}, 0.0));
     }
+    made.plan = std::move(plan);
     return made;
 }
 
@@ -66,10 +68,11 @@ RaisedNetwork merged_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t 
         }
     }
     RaisedNetwork made;
+    NetworkDraft plan;
     std::vector<NodeId> number(goes_to.size());
     for (NodeId n = 0; n < goes_to.size(); ++n) {
         if (goes_to[n] == n) {
-            number[n] = made.plan.add_node(rivers.plan.node(n).at);
+            number[n] = plan.add_node(rivers.plan.node(n).at);
             made.node_z.push_back(rivers.node_z[n]);
         }
     }
@@ -81,17 +84,18 @@ RaisedNetwork merged_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t 
             arc.feature = static_cast<std::int64_t>(a) + 1;
             std::vector<double> z = rivers.arc_z[a];
             z.back() = rivers.node_z[to];
-            made.plan.add_arc(number[from], number[to], std::move(arc));
+            plan.add_arc(number[from], number[to], std::move(arc));
             made.arc_z.push_back(std::move(z));
         }
     }
+    made.plan = std::move(plan);
     return made;
 }
 
 std::size_t most_upstream(StreamNetwork const& network) {
     std::size_t most = 0;
-    for (auto const& in : network.in@@) {
-        most = std::max(most, in.size());
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        most = std::max(most, network.in(n).size());
     }
     return most;
 }
@@ -178,19 +182,21 @@ TEST(SplitConfluences, OutletIsSplitUpstream) {
 TEST(SplitConfluences, RiversOnOneSideAreLedAroundTheOthers) {
     // All come from the east within a fan; the river leaves to the west: straight ways would cut across the fan.
     RaisedNetwork network;
+    NetworkDraft plan;
     auto const node = [&](Vec2 at, double z) {
         network.node_z.push_back(z);
-        return network.plan.add_node(at);
+        return plan.add_node(at);
     };
     NodeId const centre = node({0.0, 0.0}, 1.0);
     for (double const y : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
         NodeId const source = node({100.0, y}, 5.0);
         network.arc_z.push_back({5.0, 1.0});
-        network.plan.add_arc(source, centre);
+        plan.add_arc(source, centre);
     }
     NodeId const outlet = node({-100.0, 0.0}, 0.0);
     network.arc_z.push_back({1.0, 0.0});
-    network.plan.add_arc(centre, outlet);
+    plan.add_arc(centre, outlet);
+    network.plan = std::move(plan);
     network::Split const split = split_confluences(network, {.distance_m = 2.0});
     EXPECT_EQ(most_upstream(split.network.plan), 2U);
     EXPECT_EQ(words(faults(split.network)), "");

@@ -19,7 +19,7 @@ using namespace thalweg;
 using network::cut_corners;
 
 std::vector<Vec2> first_line(StreamNetwork const& net) {
-    return net.arc(net.arcs.front()).line;
+    return net.arcs().front().line;
 }
 
 } // namespace

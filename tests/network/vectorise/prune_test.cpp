@@ -49,7 +49,7 @@ bool same_lines(Lines const& a, Lines const& b) {
 bool equal(StreamNetwork const& a, StreamNetwork const& b) {
     bool same = a.from() == b.from() && a.to() == b.to() && a.node_count() == b.node_count();
     for (NodeId n = 0; same && n < a.node_count(); ++n) {
-        same = a[n].at == b[n].at;
+        same = a.node(n).at == b.node(n).at;
     }
     for (std::size_t k = 0; same && k < a.arc_count(); ++k) {
         Arc const& p = a.arc(k);
@@ -237,7 +237,7 @@ TEST(Prune, AMergedArcTakesTheNameOfItsLongestPiece) {
                                                {{2, 1, {}, 7, "A"}, {3, 1, {}, 8, "B"}, {1, 0, {}, 9, "C"}});
     StreamNetwork const pruned = prune(net, {4.0, 1.0}).network;
     ASSERT_EQ(pruned.arc_count(), 1U);
-    Arc const& arc = pruned[0];
+    Arc const& arc = pruned.arc(0);
     EXPECT_EQ(arc.line, (std::vector<Vec2>{{9, 0}, {5, 0}, {0, 0}}));
     EXPECT_EQ(arc.feature, 9);
     EXPECT_EQ(arc.type, "C");
@@ -310,7 +310,7 @@ TEST(Prune, ThresholdsAgreeWithPruningAnew) {
         }
         double sum_of_steps = 0.0;
         for (ArcId arc = 0; arc < at_high.arc_count(); ++arc) {
-            std::vector<Vec2> const& line = at_high[arc].line;
+            std::vector<Vec2> const& line = at_high.arc(arc).line;
             sum += length_of(line);
             for (std::size_t i = 1; i < line.size(); ++i) {
                 sum_of_steps += distance(line[i - 1], line[i]);

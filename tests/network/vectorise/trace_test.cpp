@@ -142,7 +142,7 @@ TEST(Trace, ArcsOfASmallTree) {
 
 TEST(Trace, TheMouthChoosesTheOutletAndTiesGoToTheLowerCell) {
     Mask const line = test::mask_of({"#####"});
-    EXPECT_EQ(trace(line, {{4.5, 0.5}})[1].at, (Vec2{4.5, 0.5}));
+    EXPECT_EQ(trace(line, {{4.5, 0.5}}).node(1).at, (Vec2{4.5, 0.5}));
     // Cells 1 and 2 are equally near to x = 2: the outlet is cell 1, in the middle of the river.
     StreamNetwork const net = trace(line, {{2.0, 0.5}});
     ASSERT_EQ(net.outlets().size(), 1U);

@@ -31,7 +31,7 @@ std::vector<std::string> kinds_of(MendedNetwork const& mended) {
 /// Lines with their heights, sorted: what a network is but for its numbers.
 std::vector<std::vector<std::tuple<double, double, double>>> lines_of(NetworkFile const& file) {
     std::vector<std::vector<std::tuple<double, double, double>>> lines;
-    for (ArcId arc = 0; arc < file.arc_count(); ++arc) {
+    for (auto const& arc : file.arcs) {
         auto& line = lines.emplace_back();
         for (Vec3 const p : arc.line) {
             line.emplace_back(p.x, p.y, p.z);
@@ -113,7 +113,7 @@ TEST(MendNetwork, AreasStayWhereTheEndDoes) {
 
 TEST(MendNetwork, WithoutHeightsAllAreZero) {
     NetworkFile file = faults::clean(5);
-    for (ArcId arc = 0; arc < file.arc_count(); ++arc) {
+    for (auto& arc : file.arcs) {
         for (Vec3& p : arc.line) {
             p.z = faults::no_number;
         }

@@ -28,9 +28,10 @@ Stretches stretches_in(StreamNetwork& network, std::uint64_t seed) {
     Stretches result;
     std::int64_t feature = 0;
     std::uint64_t place = 0;
-    for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
-        auto const& line = network.arc(arc).line;
-        network.arc(arc).feature = feature + 1;
+    NetworkDraft named = network.draft();
+    for (DraftArc& drawn : named.arcs) {
+        auto const& line = drawn.arc.line;
+        drawn.arc.feature = feature + 1;
         std::vector<Stretch> own;
         double along_m = 0.0;
         for (std::size_t i = 1; i < line.size(); ++i) {
@@ -42,6 +43,7 @@ Stretches stretches_in(StreamNetwork& network, std::uint64_t seed) {
         }
         result.push_back(own);
     }
+    network = std::move(named);
     return result;
 }
 
@@ -77,15 +79,16 @@ void expect_same(Stretches const& is, Stretches const& was) {
 /// A river from north to south, 1000 m between its nodes, into each of which several tributaries of many vertices run.
 RaisedNetwork fans(std::uint64_t seed, std::size_t nodes, std::size_t most) {
     RaisedNetwork rivers;
+    NetworkDraft plan;
     auto const node = [&](Vec2 at, double z) {
         rivers.node_z.push_back(z);
-        return rivers.plan.add_node(at);
+        return plan.add_node(at);
     };
     auto const reach = [&](NodeId from, NodeId to, std::size_t segments) {
         Arc arc;
         std::vector<double> z;
-        Vec2 const a = rivers.plan.node(from).at;
-        Vec2 const b = rivers.plan.node(to).at;
+        Vec2 const a = plan.nodes[from].at;
+        Vec2 const b = plan.nodes[to].at;
         for (std::size_t i = 0; i <= segments; ++i) {
             double const share = static_cast<double>(i) / static_cast<double>(segments);
             arc.line.push_back({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)});
@@ -94,7 +97,7 @@ RaisedNetwork fans(std::uint64_t seed, std::size_t nodes, std::size_t most) {
         arc.line.back() = b;
         z.back() = rivers.node_z[to];
         rivers.arc_z.push_back(z);
-        rivers.plan.add_arc(from, to, std::move(arc));
+        plan.add_arc(from, to, std::move(arc));
     };
     ChanceStream words(seed, 7, 0);
     NodeId above = node({0.0, 1000.0 * static_cast<double>(nodes)}, 10.0 * static_cast<double>(nodes));
@@ -109,6 +112,7 @@ RaisedNetwork fans(std::uint64_t seed, std::size_t nodes, std::size_t most) {
         }
         above = at;
     }
+    rivers.plan = std::move(plan);
     return rivers;
 }
 

@@ -21,13 +21,14 @@ struct Star {
 
 Star star(int rivers, bool outlet) {
     Star made;
+    NetworkDraft plan;
     auto const node = [&](Vec2 at, double z) {
         made.network.node_z.push_back(z);
-        return made.network.plan.add_node(at);
+        return plan.add_node(at);
     };
     auto const arc = [&](NodeId from, NodeId to, double us, double ds) {
         made.network.arc_z.push_back({made.network.node_z[from], made.network.node_z[to]});
-        made.network.plan.add_arc(from, to);
+        plan.add_arc(from, to);
         made.us_area_m2.push_back(us);
         made.ds_area_m2.push_back(ds);
     };
@@ -41,6 +42,7 @@ Star star(int rivers, bool outlet) {
     if (!outlet) {
         arc(centre, node({0.0, -100.0}, 0.0), sum, sum + 7.0);
     }
+    made.network.plan = std::move(plan);
     return made;
 }
 

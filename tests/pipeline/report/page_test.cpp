@@ -174,15 +174,15 @@ TEST(Page, TheProfileRunsFromTheSourceOfTheLargestBasinToItsOutlet) {
     Terrain two = terrain;
     two.network = {};
     two.orders = {};
+    NetworkDraft plan;
     for (double const length : {100.0, 50.0, 70.0}) {
-        auto const source = two.network.plan.add_node({});
-        auto const outlet = two.network.plan.add_node({});
-        two.network.plan.node(source).at = {two.grid.west + length, two.grid.north};
-        two.network.plan.node(outlet).at = {two.grid.west, two.grid.north};
-        two.network.plan.add_arc(source, outlet);
+        auto const source = plan.add_node({two.grid.west + length, two.grid.north});
+        auto const outlet = plan.add_node({two.grid.west, two.grid.north});
+        plan.add_arc(source, outlet);
         two.network.arc_z.push_back({length, 1.0});
         two.orders.node_dist_out_m.insert(two.orders.node_dist_out_m.end(), {length, 0.0});
     }
+    two.network.plan = std::move(plan);
     two.orders.strahler = {1, 1, 1};
     two.orders.hack = {1, 1, 1};
     two.orders.shreve = {1, 1, 1};
