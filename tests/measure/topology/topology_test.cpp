@@ -207,7 +207,7 @@ TEST(CheckTopology, CleanNetworksHaveNoFinding) {
 
 TEST(CheckTopology, OnlyWhatTheFileSaysIsChecked) {
     NetworkFile file = clean(3);
-    for (ArcId arc = 0; arc < file.arc_count(); ++arc) {
+    for (auto& arc : file.arcs) {
         arc.ds_arc = arc.strahler = arc.shreve = arc.basin = -1;
         for (Vec3& p : arc.line) {
             p.z = no_number;
