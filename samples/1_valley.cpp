@@ -29,7 +29,7 @@ int main() {
     // otherwise.
     pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});
 
-    // The skeleton is one cell wide; traced, it is a Boost graph of arcs that run downstream.
+    // The skeleton is one cell wide; traced, it is a graph of arcs that run downstream.
     Mask const skeleton = network::thin(framed.mask);
     StreamNetwork const traced = network::trace(skeleton, {framed.mouth});
 

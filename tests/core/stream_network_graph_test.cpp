@@ -30,14 +30,14 @@ namespace {
 
 using namespace thalweg;
 
-BOOST_CONCEPT_ASSERT((boost::IncidenceGraphConcept<StreamNetwork>) );
-BOOST_CONCEPT_ASSERT((boost::BidirectionalGraphConcept<StreamNetwork>) );
-BOOST_CONCEPT_ASSERT((boost::VertexListGraphConcept<StreamNetwork>) );
-BOOST_CONCEPT_ASSERT((boost::EdgeListGraphConcept<StreamNetwork>) );
-BOOST_CONCEPT_ASSERT((boost::VertexAndEdgeListGraphConcept<StreamNetwork>) );
-BOOST_CONCEPT_ASSERT((boost::ReadablePropertyGraphConcept<StreamNetwork, NodeId, boost::vertex_index_t>) );
-BOOST_CONCEPT_ASSERT((boost::ReadablePropertyGraphConcept<StreamNetwork, ArcId, boost::edge_index_t>) );
-BOOST_CONCEPT_ASSERT((boost::ReadablePropertyGraphConcept<StreamNetwork, ArcId, boost::edge_weight_t>) );
+BOOST_CONCEPT_ASSERT((boost::IncidenceGraphConcept<StreamNetwork>));
+BOOST_CONCEPT_ASSERT((boost::BidirectionalGraphConcept<StreamNetwork>));
+BOOST_CONCEPT_ASSERT((boost::VertexListGraphConcept<StreamNetwork>));
+BOOST_CONCEPT_ASSERT((boost::EdgeListGraphConcept<StreamNetwork>));
+BOOST_CONCEPT_ASSERT((boost::VertexAndEdgeListGraphConcept<StreamNetwork>));
+BOOST_CONCEPT_ASSERT((boost::ReadablePropertyGraphConcept<StreamNetwork, NodeId, boost::vertex_index_t>));
+BOOST_CONCEPT_ASSERT((boost::ReadablePropertyGraphConcept<StreamNetwork, ArcId, boost::edge_index_t>));
+BOOST_CONCEPT_ASSERT((boost::ReadablePropertyGraphConcept<StreamNetwork, ArcId, boost::edge_weight_t>));
 
 /// A tree: every node but node 0, the outlet, runs to one before it.
 StreamNetwork random_tree(std::uint64_t seed, std::size_t nodes) {
@@ -176,8 +176,7 @@ TEST_P(StreamNetworkGraph, KruskalKeepsEveryArcOfATree) {
 
 TEST_P(StreamNetworkGraph, CopyGraphCopiesNodesAndArcs) {
     boost::adjacency_list<boost::vecS, boost::vecS, boost::bidirectionalS> copy;
-    boost::copy_graph(net, copy,
-                      boost::vertex_copy([](NodeId, auto const&) {}).edge_copy([](ArcId, auto const&) {}));
+    boost::copy_graph(net, copy, boost::vertex_copy([](NodeId, auto const&) {}).edge_copy([](ArcId, auto const&) {}));
     ASSERT_EQ(boost::num_vertices(copy), nodes);
     ASSERT_EQ(boost::num_edges(copy), net.arc_count());
     for (NodeId n = 0; n < nodes; ++n) {

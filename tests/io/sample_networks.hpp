@@ -97,7 +97,9 @@ struct SampleNetwork {
             ArcId main = no_arc;
             for (ArcId const above : network.plan.in(n)) {
                 auto const a = above;
-                auto const path = [&](std::size_t k) { return longest[network.plan.from(k)] + network.plan.length_m(k); };
+                auto const path = [&](std::size_t k) {
+                    return longest[network.plan.from(k)] + network.plan.length_m(k);
+                };
                 if (main == no_arc || path(a) > path(main)) {
                     main = above;
                 }

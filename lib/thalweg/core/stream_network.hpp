@@ -52,8 +52,8 @@ struct NetworkDraft {
 /// change; stages that change networks make new ones from drafts. Boost.Graph's algorithms take it where
 /// core/stream_network_graph.hpp is included.
 /// Law: the ends of every line equal the positions of the arc's nodes bit for bit.
-/// What a stage gives is a forest besides (network::require_trees): at most one arc leaves a node, each component (basin)
-/// is a tree that ends in one outlet, arcs meet only in shared nodes.
+/// What a stage gives is a forest besides (network::require_trees): at most one arc leaves a node, each component
+/// (basin) is a tree that ends in one outlet, arcs meet only in shared nodes.
 class StreamNetwork {
 public:
     StreamNetwork() = default;
@@ -74,7 +74,7 @@ public:
 
     NodeId from(ArcId a) const { return from_[a]; }
     NodeId to(ArcId a) const { return to_[a]; }
-    double length_m(ArcId a) const { return length_m_[a]; } ///< length of its line
+    double length_m(ArcId a) const { return length_m_[a]; }   ///< length of its line
     std::vector<NodeId> const& from() const { return from_; } ///< by arc
     std::vector<NodeId> const& to() const { return to_; }     ///< by arc
     std::vector<double> const& length_m() const { return length_m_; }

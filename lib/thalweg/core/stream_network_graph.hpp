@@ -40,6 +40,8 @@ template <> struct graph_traits<thalweg::StreamNetwork> {
     static vertex_descriptor null_vertex() { return std::numeric_limits<vertex_descriptor>::max(); }
 };
 
+template <> struct graph_traits<thalweg::StreamNetwork const> : graph_traits<thalweg::StreamNetwork> {};
+
 template <> struct property_map<thalweg::StreamNetwork, vertex_index_t> {
     using type = typed_identity_property_map<thalweg::NodeId>;
     using const_type = type;
@@ -51,7 +53,8 @@ template <> struct property_map<thalweg::StreamNetwork, edge_index_t> {
 };
 
 template <> struct property_map<thalweg::StreamNetwork, edge_weight_t> {
-    using type = iterator_property_map<double const*, typed_identity_property_map<thalweg::ArcId>, double, double const&>;
+    using type =
+        iterator_property_map<double const*, typed_identity_property_map<thalweg::ArcId>, double, double const&>;
     using const_type = type;
 };
 

@@ -260,7 +260,8 @@ TEST(WriteNetwork, ValuesAreTheNetworksInBothFormats) {
                 EXPECT_EQ(whole("braided"), 0);
                 EXPECT_EQ(feature->GetFieldAsString("type"), arc.type.empty() ? "none" : arc.type);
                 EXPECT_NEAR(real("length"), sample.network.plan.length_m(a), 1e-9);
-                EXPECT_NEAR(real("straight"), distance(sample.network.plan.node(from).at, sample.network.plan.node(to).at), 1e-9);
+                EXPECT_NEAR(real("straight"),
+                            distance(sample.network.plan.node(from).at, sample.network.plan.node(to).at), 1e-9);
                 EXPECT_NEAR(real("z_up"), sample.network.node_z[from], 1e-9);
                 EXPECT_NEAR(real("z_down"), sample.network.node_z[to], 1e-9);
                 EXPECT_NEAR(real("slope"), (z.front() - z.back()) / sample.network.plan.length_m(a), 1e-15);
@@ -292,7 +293,8 @@ TEST(WriteNetwork, ValuesAreTheNetworksInBothFormats) {
             for (auto const& feature : Written::layer(*dataset, "nodes")) {
                 EXPECT_EQ(feature->GetFieldAsInteger64("node_id"), static_cast<std::int64_t>(n) + 1);
                 EXPECT_STREQ(feature->GetFieldAsString("kind"), name_of(kind_of(sample.network.plan, n)));
-                EXPECT_EQ(feature->GetFieldAsInteger64("deg_in"), static_cast<std::int64_t>(sample.network.plan.in(n).size()));
+                EXPECT_EQ(feature->GetFieldAsInteger64("deg_in"),
+                          static_cast<std::int64_t>(sample.network.plan.in(n).size()));
                 EXPECT_EQ(feature->GetFieldAsInteger64("deg_out"), sample.network.plan.out(n) == no_arc ? 0 : 1);
                 EXPECT_EQ(feature->GetFieldAsInteger64("basin_id"), sample.orders.node_basin[n]);
                 EXPECT_EQ(feature->GetFieldAsInteger64("strahler"), sample.orders.node_strahler[n]);

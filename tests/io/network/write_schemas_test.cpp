@@ -412,7 +412,8 @@ TEST(WriteSchemas, RoundTripsLoseNothingTheSchemaCanHold) {
         std::vector<std::int64_t> numbers;
         for (std::size_t a = 0; a < drawn.network.plan.arc_count(); ++a) {
             RC_ASSERT(made.network.plan.arc(a).line == drawn.network.plan.arc(a).line);
-            RC_ASSERT(made.network.plan.out(made.network.plan.to(a)) == drawn.network.plan.out(drawn.network.plan.to(a)));
+            RC_ASSERT(made.network.plan.out(made.network.plan.to(a)) ==
+                      drawn.network.plan.out(drawn.network.plan.to(a)));
             if (schema != Schema::grass) {
                 RC_ASSERT(std::fabs(made.us_area_m2[a] - drawn.us_area_m2[a]) < 2e-6);
                 RC_ASSERT(std::fabs(made.ds_area_m2[a] - drawn.ds_area_m2[a]) < 2e-6);

@@ -83,7 +83,7 @@ ContributingAreas nearest_slowly(StreamNetwork const& network, Grid const& grid)
     }
     for (std::size_t b = 0; b < arcs; ++b) {
         areas.node_m2[network.from(b)] = areas.us_area_m2[b];
-        areas.node_m2[network.to(b)] += next(b) < 0 ? areas.ds_area_m2[b] : 0.0;
+        areas.node_m2[network.to(b)] += next(b) == no_arc ? areas.ds_area_m2[b] : 0.0;
     }
     return areas;
 }

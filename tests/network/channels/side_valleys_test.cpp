@@ -176,7 +176,8 @@ TEST(SideValleys, TheyReachTheGivenRivers) {
     }
     std::int64_t joined = 0;
     for (std::size_t a = 0; a < made.network.plan.arc_count(); ++a) {
-        joined += !made.network.plan.arc(a).given && made.network.plan.basin(made.network.plan.to(a)) == given_basin ? 1 : 0;
+        joined +=
+            !made.network.plan.arc(a).given && made.network.plan.basin(made.network.plan.to(a)) == given_basin ? 1 : 0;
     }
     EXPECT_GT(joined, 10);
 }

@@ -115,8 +115,7 @@ TEST(SetHeights, Laws) {
                     double so_far = 0.0;
                     for (std::size_t i = 1; i < arc_z.size(); ++i) {
                         so_far += distance(net.arc(a).line[i - 1], net.arc(a).line[i]);
-                        double const linear =
-                            arc_z.front() + (arc_z.back() - arc_z.front()) * so_far / net.length_m(a);
+                        double const linear = arc_z.front() + (arc_z.back() - arc_z.front()) * so_far / net.length_m(a);
                         RC_ASSERT(std::fabs(arc_z[i] - linear) <= 1e-9);
                         if (falls) {
                             RC_ASSERT(arc_z[i] <= arc_z[i - 1]);

@@ -390,7 +390,9 @@ TEST(AdoptOrients, ByTopologyToTheEndNearestTheBorder) {
         {{{50, 1}, {50, 30}}, {{50, 30}, {40, 50}}, {{50, 30}, {60, 50}}, {{0, 0}, {0, 100}}, {{100, 0}, {100, 100}}});
     auto const adopted = adopt(lines, {.orientation = Orientation::topology});
     ASSERT_EQ(adopted.network.outlets().size(), 3U);
-    EXPECT_TRUE(std::ranges::any_of(adopted.network.outlets(), [&](NodeId n) { return adopted.network.node(n).at == Vec2{50, 1}; }));
+    EXPECT_TRUE(std::ranges::any_of(adopted.network.outlets(), [&](NodeId n) {
+        return adopted.network.node(n).at == Vec2{50, 1};
+    }));
     expect_trees(adopted.network);
 }
 

@@ -257,7 +257,7 @@ TEST(CarryOutlets, SeveralArcsGetATrunk) {
     EXPECT_TRUE((carried.network.node(0).at == Vec2{7.5, 2.5}));
     EXPECT_EQ(carried.network.node(carried.network.to(2)).at.y, 0.5);
     EXPECT_EQ(carried.network.arc(2).survives, 4.0); // as long as one of the rivers it carries
-    EXPECT_EQ(carried.notes[0].feature, 1);                  // the arc, where no file named a line
+    EXPECT_EQ(carried.notes[0].feature, 1);          // the arc, where no file named a line
 }
 
 TEST(CarryOutlets, AClosedBasinStays) {

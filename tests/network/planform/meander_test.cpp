@@ -212,8 +212,7 @@ TEST(Meander, TheSameTreeOfRiversThatDoNotMeet) {
             for (std::size_t b = 0; b < out.network.arc_count(); ++b) {
                 if (a != b && least_distance(net.arc(a).line, net.arc(b).line) >= 45.0 &&
                     least_distance(net.arc(b).line, net.arc(a).line) >= 45.0) {
-                    RC_ASSERT(least_distance(out.network.arc(a).line, out.network.arc(b).line) >=
-                              45.0 - 1e-5);
+                    RC_ASSERT(least_distance(out.network.arc(a).line, out.network.arc(b).line) >= 45.0 - 1e-5);
                 }
             }
         }

@@ -237,8 +237,7 @@ TEST(SplitConfluences, LawsHoldOnRandomRivers) {
         }
         for (std::size_t i = 0; i < split.pieces.size(); ++i) {
             std::size_t const arc = network.plan.arc_count() + i;
-            RC_ASSERT(split.network.plan.arc(arc).feature ==
-                      split.network.plan.arc(split.pieces[i].of).feature);
+            RC_ASSERT(split.network.plan.arc(arc).feature == split.network.plan.arc(split.pieces[i].of).feature);
             RC_ASSERT(split.network.plan.to(split.pieces[i].moved) == network.plan.node_count() + i);
         }
     }));

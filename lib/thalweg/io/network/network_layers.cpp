@@ -15,14 +15,14 @@ namespace thalweg::io {
 
 namespace {
 
-void require_nameable(StreamNetwork const& plan, SchemaTable const& schema,
-                      std::string const& what) {
+void require_nameable(StreamNetwork const& plan, SchemaTable const& schema, std::string const& what) {
     auto const most = static_cast<std::size_t>(schema.most_upstream);
     for (NodeId n = 0; most > 0 && n < plan.node_count(); ++n) {
         if (plan.out(n) != no_arc && plan.in(n).size() > most) {
             throw BadInput(fmt::format("{}: {} rivers meet at ({}, {}), but {} names no more than {} upstream of one: "
                                        "split confluences (--max-upstream {})",
-                                       what, plan.in(n).size(), plan.node(n).at.x, plan.node(n).at.y, schema.name, most, most));
+                                       what, plan.in(n).size(), plan.node(n).at.x, plan.node(n).at.y, schema.name, most,
+                                       most));
         }
     }
 }
@@ -67,14 +67,14 @@ void require_whole(NetworkTables const& tables, std::string const& what) {
     }
     for (NodeId n = 0; n < nodes; ++n) {
         if (tables.network.plan.basin(n) == 0) {
-            throw BadInput(
-                fmt::format("{}: node {} at ({}, {}) reaches no outlet", what, n + 1, plan.node(n).at.x, plan.node(n).at.y));
+            throw BadInput(fmt::format("{}: node {} at ({}, {}) reaches no outlet", what, n + 1, plan.node(n).at.x,
+                                       plan.node(n).at.y));
         }
     }
 }
 
-std::vector<Table> network_layers(NetworkTables const& tables, Schema schema,
-                                  bool short_names, std::string const& what) {
+std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names,
+                                  std::string const& what) {
     require_whole(tables, what);
     if (schema == Schema::native) {
         return {arcs_table(tables, short_names), nodes_table(tables)};

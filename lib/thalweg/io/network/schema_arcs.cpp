@@ -42,7 +42,8 @@ public:
                 mouth_[as_index(a)] = below >= 0 && hack(below) == hack(a) ? mouth_[as_index(below)] : a;
             }
         }
-        for (auto n = tables.network.plan.upstream_order().rbegin(); n != tables.network.plan.upstream_order().rend(); ++n) { // sources first
+        for (auto n = tables.network.plan.upstream_order().rbegin(); n != tables.network.plan.upstream_order().rend();
+             ++n) { // sources first
             if (std::int64_t const a = tables.network.plan.out(*n); a >= 0) {
                 for (ArcId const above : tables.network.plan.in(*n)) {
                     length_up_m_[as_index(a)] += length_up_m_[above];
@@ -158,7 +159,9 @@ private:
         return below == no_arc ? -1 : static_cast<std::int64_t>(below);
     }
     std::span<ArcId const> above(std::int64_t a) const { return plan_.in(plan_.from(as_index(a))); }
-    std::int64_t up(std::int64_t a, std::size_t k) const { return k < above(a).size() ? static_cast<std::int64_t>(above(a)[k]) : -1; }
+    std::int64_t up(std::int64_t a, std::size_t k) const {
+        return k < above(a).size() ? static_cast<std::int64_t>(above(a)[k]) : -1;
+    }
     /// The arc upstream on the same main stem.
     std::int64_t main_up(std::int64_t a) const {
         auto const found = std::ranges::find_if(above(a), [&](std::int64_t b) { return hack(b) == hack(a); });
@@ -233,7 +236,11 @@ std::string short_name(SchemaField const& field) {
 
 Table schema_arcs(SchemaTable const& schema, NetworkTables const& tables, bool short_names) {
     auto const arcs = std::make_shared<Arcs const>(tables);
-    Table table{std::string(schema.layer), Table::Shape::line, static_cast<std::int64_t>(tables.network.plan.arc_count()), {}, {}};
+    Table table{std::string(schema.layer),
+                Table::Shape::line,
+                static_cast<std::int64_t>(tables.network.plan.arc_count()),
+                {},
+                {}};
     table.shape_at = [arcs, upstream = schema.drawn_upstream](std::int64_t row) {
         std::vector<Vec3> line = arcs->line(row);
         if (upstream) {

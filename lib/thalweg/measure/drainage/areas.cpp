@@ -73,9 +73,8 @@ std::vector<std::int64_t> count_draining(std::vector<RiverCell> const& cells, Dr
 }
 
 /// Adds up along the rivers what each of their cells gathers.
-ContributingAreas accumulate(StreamNetwork const& network,
-                             std::vector<RiverCell> const& cells, std::vector<std::int64_t> const& count,
-                             Grid const& grid, char const* source) {
+ContributingAreas accumulate(StreamNetwork const& network, std::vector<RiverCell> const& cells,
+                             std::vector<std::int64_t> const& count, Grid const& grid, char const* source) {
     std::vector<double> const arcs(network.arc_count(), 0.0);
     ContributingAreas areas{arcs, arcs, std::vector<double>(network.node_count(), 0.0), source};
     std::vector<std::int64_t> at_start(network.arc_count(), 0); // the share of the arc's first cell

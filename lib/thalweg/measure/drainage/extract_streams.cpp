@@ -76,10 +76,8 @@ struct Steps {
 /// What outlets drain beside the arcs that end in them goes to the first of these, as areas_d8 has it.
 void give_outlets(StreamNetwork const& plan, ContributingAreas& areas) {
     for (NodeId const outlet : plan.outlets()) {
-        double const brought =
-            std::accumulate(plan.in(outlet).begin(), plan.in(outlet).end(), 0.0, [&](double sum, ArcId a) {
-                return sum + areas.ds_area_m2[a];
-            });
+        double const brought = std::accumulate(plan.in(outlet).begin(), plan.in(outlet).end(), 0.0,
+                                               [&](double sum, ArcId a) { return sum + areas.ds_area_m2[a]; });
         areas.ds_area_m2[plan.in(outlet).front()] += areas.node_m2[outlet] - brought;
     }
 }

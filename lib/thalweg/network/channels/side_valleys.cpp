@@ -200,8 +200,7 @@ private:
 /// Puts given arcs and grown valleys together.
 class Grafting {
 public:
-    Grafting(RaisedNetwork const& given, LandWater const& water)
-        : given_(given), water_(water) {}
+    Grafting(RaisedNetwork const& given, LandWater const& water) : given_(given), water_(water) {}
 
     RaisedNetwork join(std::vector<Grown> const& grown) {
         out_ = {};

@@ -56,8 +56,7 @@ void require_heights(StreamNetwork const& network, std::vector<double> const& no
     }
 }
 
-RaisedNetwork raise_linearly(StreamNetwork const& network, std::vector<double> node_z,
-                             std::string_view who) {
+RaisedNetwork raise_linearly(StreamNetwork const& network, std::vector<double> node_z, std::string_view who) {
     require_heights(network, node_z, who);
     RaisedNetwork raised{network, std::move(node_z), {}};
     for (std::size_t a = 0; a < network.arc_count(); ++a) {

@@ -44,8 +44,7 @@ double between(Known up, Known down) {
 
 class Heights {
 public:
-    Heights(StreamNetwork const& network, Channels const& channels,
-            Raster<float> const& land)
+    Heights(StreamNetwork const& network, Channels const& channels, Raster<float> const& land)
         : network_(network), land_(land), z_(network.arc_count()), up_(network.arc_count()) {
         Mask is_channel(channels.grid, 0);
         for (std::int64_t const cell : channels.cell) {

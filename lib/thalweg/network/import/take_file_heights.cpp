@@ -55,8 +55,7 @@ RaisedNetwork take_file_heights(Adopted const& adopted, RiverLines const& file) 
         throw BadInput("network.take_file_heights: the rivers of " + file.name +
                        " carry no heights; leave heights to [network] heights");
     }
-    RaisedNetwork raised{adopted.network, std::vector<double>(adopted.network.node_count(), 0.0),
-                         adopted.arc_z};
+    RaisedNetwork raised{adopted.network, std::vector<double>(adopted.network.node_count(), 0.0), adopted.arc_z};
     for (std::size_t i = 0; i < adopted.network.arc_count(); ++i) {
         auto const& line = adopted.network.arc(i).line;
         auto const& z = adopted.arc_z[i];

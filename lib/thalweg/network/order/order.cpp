@@ -42,8 +42,8 @@ NetworkOrders order(StreamNetwork const& network) {
     orders.node_strahler.assign(nodes, 0);
     orders.node_dist_out_m.assign(nodes, 0.0);
 
-    std::vector<double> longest_above(nodes, 0.0);  // [m] flow path from a source to the node
-    std::vector<ArcId> main_stem(nodes, no_arc);    // the arc by which that path arrives
+    std::vector<double> longest_above(nodes, 0.0); // [m] flow path from a source to the node
+    std::vector<ArcId> main_stem(nodes, no_arc);   // the arc by which that path arrives
     for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) {
         std::int64_t shreve = 0;
         for (ArcId const a : network.in(*n)) {

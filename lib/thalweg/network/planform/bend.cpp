@@ -176,8 +176,7 @@ Vec2 across(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2
 
 } // namespace
 
-Raster<std::uint8_t> distance_to_fixed(StreamNetwork const& network, Grid const& grid,
-                                       Mask const& land) {
+Raster<std::uint8_t> distance_to_fixed(StreamNetwork const& network, Grid const& grid, Mask const& land) {
     auto const far = static_cast<std::uint8_t>(margin);
     Raster<std::uint8_t> out(grid, far);
     std::vector<std::int64_t> front;

@@ -25,8 +25,8 @@ constexpr double eased_reach = 6.0;   // [cells] along a river on either side of
 constexpr double smoothed_near = 8.0; // [cells] along a river within which smoothing may bring it nearer to itself
 constexpr int rounds_of_halving = 48;
 
-void check(StreamNetwork const& network, Grid const& grid,
-           std::vector<double> const& area_m2, MeanderParams const& params) {
+void check(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
+           MeanderParams const& params) {
     if (!(params.gain >= 0.0 && params.gain <= 2.0)) {
         throw BadParameter(fmt::format("network.meander: gain is {}, it must lie in [0, 2]", params.gain));
     }
@@ -110,11 +110,10 @@ std::vector<std::size_t> with_mouths(Stems const& stems, std::vector<std::size_t
 
 class Meandering {
 public:
-    Meandering(StreamNetwork const& network, Grid const& grid, Mask const& land,
-               std::vector<double> const& area_m2, MeanderParams const& params, Run const& run)
+    Meandering(StreamNetwork const& network, Grid const& grid, Mask const& land, std::vector<double> const& area_m2,
+               MeanderParams const& params, Run const& run)
         : network_(network), grid_(grid), land_(land), params_(params), run_(run),
-          to_fixed_(distance_to_fixed(network, grid, land)),
-          stems_(stems_of(network, area_m2, grid.cell_m)) {}
+          to_fixed_(distance_to_fixed(network, grid, land)), stems_(stems_of(network, area_m2, grid.cell_m)) {}
 
     Meandered made() {
         out_.vertices = static_cast<std::int64_t>(stems_.at.size());

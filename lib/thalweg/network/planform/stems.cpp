@@ -53,8 +53,7 @@ void add_arc_points(Stems& out, std::vector<Vec2> const& line, double area_m2, d
 
 } // namespace
 
-Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2,
-               double step_m) {
+Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2, double step_m) {
     Stems out;
     out.first_point.resize(network.arc_count());
     out.last_point.resize(network.arc_count());

@@ -12,9 +12,7 @@ KeptArcs keep_arcs(StreamNetwork const& network, std::vector<std::int64_t> const
     for (std::size_t a = 0; a < kept.size(); ++a) {
         arriving[network.to(a)] += kept[a];
     }
-    auto const leaves = [&](NodeId n) {
-        return network.out(n) != no_arc && kept[network.out(n)] != 0;
-    };
+    auto const leaves = [&](NodeId n) { return network.out(n) != no_arc && kept[network.out(n)] != 0; };
 
     auto const is_merged = [&](NodeId n) {
         return arriving[n] == 1 && leaves(n) && (merge == Merge::all || network.in(n).size() > 1);

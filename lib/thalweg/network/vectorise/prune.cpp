@@ -54,8 +54,8 @@ class Remains {
 public:
     Remains(StreamNetwork const& network, std::vector<std::int64_t> units)
         : units_(std::move(units)), source_(network.from()), mouth_(network.to()), arriving_(network.node_count(), 0),
-          arriving_xor_(network.node_count(), 0), gone_(units_.size(), 0),
-          next_piece_(units_.size(), -1), last_piece_(units_.size()) {
+          arriving_xor_(network.node_count(), 0), gone_(units_.size(), 0), next_piece_(units_.size(), -1),
+          last_piece_(units_.size()) {
         for (Number a = 0; a < static_cast<Number>(units_.size()); ++a) {
             last_piece_[as_index(a)] = a;
             ++arriving_[mouth_[as_index(a)]];
@@ -198,8 +198,8 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
                                        params.length_cells, most, most));
     }
     // L = 0 leaves a network as it is drawn, with the nodes between its features.
-    pruned.network =
-        params.length_cells > 0.0 ? keep_arcs(std::move(with_thresholds), units, kept).network : std::move(with_thresholds);
+    pruned.network = params.length_cells > 0.0 ? keep_arcs(std::move(with_thresholds), units, kept).network
+                                               : std::move(with_thresholds);
     return pruned;
 }
 

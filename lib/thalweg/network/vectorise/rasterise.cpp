@@ -68,8 +68,7 @@ Rasterised rasterise(RaisedNetwork const& network, Grid const& grid) {
     Raster<float>& z = out.valley.z;
     std::vector<Step> steps;
     for (std::size_t a = 0; a < network.plan.arc_count(); ++a) {
-        std::vector<Cell> const at =
-            cells_of_vertices(network.plan.arc(a).line, grid, fmt::format("arc {}", a + 1));
+        std::vector<Cell> const at = cells_of_vertices(network.plan.arc(a).line, grid, fmt::format("arc {}", a + 1));
         std::vector<double> const& height = network.arc_z[a];
         if (height.size() != at.size()) {
             throw BadInput(

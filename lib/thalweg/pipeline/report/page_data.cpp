@@ -105,9 +105,9 @@ std::vector<ProfilePoint> main_stem(Terrain const& t) {
     if (t.network.plan.outlets().empty()) {
         return upstream;
     }
-    NodeId const outlet = *std::max_element(t.network.plan.outlets().begin(), t.network.plan.outlets().end(), [&](NodeId a, NodeId b) {
-        return t.areas.node_m2[a] < t.areas.node_m2[b];
-    });
+    NodeId const outlet =
+        *std::max_element(t.network.plan.outlets().begin(), t.network.plan.outlets().end(),
+                          [&](NodeId a, NodeId b) { return t.areas.node_m2[a] < t.areas.node_m2[b]; });
     auto const stem_above = [&](NodeId node) {
         auto const& in = t.network.plan.in(node);
         auto const at = std::find_if(in.begin(), in.end(),

@@ -69,8 +69,8 @@ void refused(RiverLines const& strokes, std::string const& words, StrokesParams 
 bool same(StreamNetwork const& a, StreamNetwork const& b) {
     bool equal = a.arc_count() == b.arc_count() && a.from() == b.from() && a.to() == b.to();
     for (std::size_t k = 0; equal && k < a.arc_count(); ++k) {
-        equal = a.arc(k).line == b.arc(k).line && a.arc(k).feature == b.arc(k).feature &&
-                a.arc(k).type == b.arc(k).type;
+        equal =
+            a.arc(k).line == b.arc(k).line && a.arc(k).feature == b.arc(k).feature && a.arc(k).type == b.arc(k).type;
     }
     return equal;
 }
@@ -148,15 +148,14 @@ std::string broken(RiverLines const& strokes, GrownStrokes const& grown) {
 /// Whether the arcs of a stroke that begins on another flow into others' where it does.
 bool joins(RiverLines const& strokes, std::size_t k, GrownStrokes const& grown, double within_m) {
     for (NodeId n = 0; n < grown.network.node_count(); ++n) {
-        if (distance(grown.network.node(n).at, start_of(strokes.lines[k])) > within_m || grown.network.out(n) == no_arc) {
+        if (distance(grown.network.node(n).at, start_of(strokes.lines[k])) > within_m ||
+            grown.network.out(n) == no_arc) {
             continue;
         }
-        auto const feature = [&](std::int64_t arc) {
-            return grown.network.arc(arc).feature;
-        };
+        auto const feature = [&](std::int64_t arc) { return grown.network.arc(arc).feature; };
         std::int64_t const own = strokes.lines[k].feature;
-        bool const arrives =
-            std::any_of(grown.network.in(n).begin(), grown.network.in(n).end(), [&](std::int64_t arc) { return feature(arc) == own; });
+        bool const arrives = std::any_of(grown.network.in(n).begin(), grown.network.in(n).end(),
+                                         [&](std::int64_t arc) { return feature(arc) == own; });
         if (arrives && grown.network.in(n).size() > 1 && feature(grown.network.out(n)) != own) {
             return true;
         }
