@@ -137,10 +137,10 @@ std::vector<std::size_t> downstream_first(StreamNetwork const& network) {
     std::vector<std::int64_t> steps(network.arc_count(), 0);
     std::vector<std::size_t> order;
     for (NodeId const n : network.upstream_order()) {
-        if (std::int64_t const out = network.out(n); out >= 0) {
-            std::int64_t const below = network.out(network.to(as_index(out)));
-            steps[as_index(out)] = below < 0 ? 0 : steps[as_index(below)] + 1;
-            order.push_back(as_index(out));
+        if (ArcId const out = network.out(n); out != no_arc) {
+            ArcId const below = network.out(network.to(out));
+            steps[out] = below == no_arc ? 0 : steps[below] + 1;
+            order.push_back(out);
         }
     }
     std::sort(order.begin(), order.end(),

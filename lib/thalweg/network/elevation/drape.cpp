@@ -37,11 +37,10 @@ RaisedNetwork drape(StreamNetwork const& network, Raster<float> const& dem) {
         raised.node_z.push_back(height_at(dem, network.node(n).at));
     }
     for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) { // sources first
-        std::int64_t const out = network.out(*n);
-        if (out < 0) {
+        ArcId const a = network.out(*n);
+        if (a == no_arc) {
             continue;
         }
-        auto const a = static_cast<std::size_t>(out);
         double z = raised.node_z[*n];
         for (Vec2 const p : network.arc(a).line) {
             z = std::min(z, height_at(dem, p));

@@ -18,11 +18,9 @@ std::vector<std::int64_t> streams(StreamNetwork const& network, NetworkOrders co
     }
     std::vector<std::size_t> mouth(arcs); // the last arc of the stream
     for (NodeId const n : network.upstream_order()) {
-        if (std::int64_t const out = network.out(n); out >= 0) {
-            auto const a = static_cast<std::size_t>(out);
-            std::int64_t const below = network.out(network.to(a));
-            auto const b = static_cast<std::size_t>(below);
-            mouth[a] = below >= 0 && orders.strahler[b] == orders.strahler[a] ? mouth[b] : a;
+        if (ArcId const a = network.out(n); a != no_arc) {
+            ArcId const below = network.out(network.to(a));
+            mouth[a] = below != no_arc && orders.strahler[below] == orders.strahler[a] ? mouth[below] : a;
         }
     }
     std::vector<std::int64_t> number(arcs, 0);
