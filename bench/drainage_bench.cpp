@@ -154,15 +154,14 @@ BENCHMARK(BM_certify)->Arg(2048)->Unit(benchmark::kMillisecond);
 /// A hundred parallel rivers from north to south.
 void BM_areas_nearest(benchmark::State& state) {
     Grid const grid{state.range(0), state.range(0), 1.0, 0.0, static_cast<double>(state.range(0)), ""};
-    StreamNetwork rivers;
+    NetworkDraft drawn;
     for (std::int64_t k = 0; k < 100; ++k) {
         std::int64_t const col = k * grid.width / 100;
-        auto const north = boost::add_vertex(rivers);
-        rivers[north].at = grid.centre({col, 0});
-        auto const south = boost::add_vertex(rivers);
-        rivers[south].at = grid.centre({col, grid.height - 1});
-        add_arc(rivers, north, south, {});
+        auto const north = drawn.add_node(grid.centre({col, 0}));
+        auto const south = drawn.add_node(grid.centre({col, grid.height - 1}));
+        drawn.add_arc(north, south);
     }
+    StreamNetwork const rivers(std::move(drawn));
     for (auto _ : state) {
         benchmark::DoNotOptimize(flow::areas_nearest(rivers, grid));
     }

@@ -51,7 +51,7 @@ void BM_trace(benchmark::State& state) {
     Mask const skeleton = skeleton_of_burrs(state.range(0));
     std::size_t arcs = 0;
     for (auto _ : state) {
-        arcs = boost::num_edges(network::trace(skeleton));
+        arcs = network::trace(skeleton).arc_count();
     }
     std::int64_t cells = 0;
     for (auto const v : skeleton.values()) {
@@ -68,7 +68,7 @@ template <class Stage> void after_tracing(benchmark::State& state, Stage stage) 
     for (auto _ : state) {
         benchmark::DoNotOptimize(stage(network));
     }
-    state.counters["arcs"] = static_cast<double>(boost::num_edges(network));
+    state.counters["arcs"] = static_cast<double>(network.arc_count());
 }
 
 void BM_prune(benchmark::State& state) {

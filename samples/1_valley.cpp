@@ -29,7 +29,7 @@ int main() {
     // otherwise.
     pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});
 
-    // The skeleton is one cell wide; traced, it is a Boost graph of arcs that run downstream.
+    // The skeleton is one cell wide; traced, it is a graph of arcs that run downstream.
     Mask const skeleton = network::thin(framed.mask);
     StreamNetwork const traced = network::trace(skeleton, {framed.mouth});
 
@@ -38,18 +38,17 @@ int main() {
     NetworkOrders const orders = network::order(pruned.network);
 
     // A stream begins where no arc of its own order flows in.
-    NetworkIndex const index(pruned.network);
     std::map<int, int> streams;
-    for (std::size_t arc = 0; arc < index.arcs.size(); ++arc) {
+    for (std::size_t arc = 0; arc < pruned.network.arc_count(); ++arc) {
         bool begins = true;
-        for (std::int64_t const above : index.in[index.from[arc]]) {
-            begins = begins && orders.strahler[static_cast<std::size_t>(above)] != orders.strahler[arc];
+        for (ArcId const above : pruned.network.in(pruned.network.from(arc))) {
+            begins = begins && orders.strahler[above] != orders.strahler[arc];
         }
         streams[orders.strahler[arc]] += begins ? 1 : 0;
     }
 
     std::printf("%lld particles, %lld arcs traced, %zu kept\n", static_cast<long long>(cluster.cells.size()),
-                static_cast<long long>(pruned.arcs_before), index.arcs.size());
+                static_cast<long long>(pruned.arcs_before), pruned.network.arc_count());
     for (auto const& [order, count] : streams) {
         std::printf("order %d: %d %s\n", order, count, count == 1 ? "stream" : "streams");
     }

@@ -91,7 +91,7 @@ int make(MakeOptions const& options, Session const& session) {
     if (terrain.passed()) {
         std::string words = fmt::format("{} checks", terrain.checks.size());
         if (terrain.recipe.network) {
-            std::size_t const outlets = NetworkIndex(terrain.network.plan).outlets.size();
+            std::size_t const outlets = terrain.network.plan.outlets().size();
             words += fmt::format(", {} outlet{}", outlets, outlets == 1 ? "" : "s");
         }
         if (terrain.surface) {

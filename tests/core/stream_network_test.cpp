@@ -6,14 +6,16 @@
 
 #include <gtest/gtest.h>
 
+#include <thalweg/core/run/error.hpp>
+
 namespace {
 
 using namespace thalweg;
 
-StreamNetwork nodes(std::vector<Vec2> const& at) {
-    StreamNetwork net;
+NetworkDraft nodes(std::vector<Vec2> const& at) {
+    NetworkDraft net;
     for (Vec2 const p : at) {
-        boost::add_vertex(Node{p}, net);
+        net.add_node(p);
     }
     return net;
 }
@@ -21,20 +23,20 @@ StreamNetwork nodes(std::vector<Vec2> const& at) {
 } // namespace
 
 TEST(StreamNetwork, EmptyIndex) {
-    NetworkIndex const index{StreamNetwork()};
-    EXPECT_TRUE(index.arcs.empty());
-    EXPECT_TRUE(index.outlets.empty());
-    EXPECT_TRUE(index.upstream_order.empty());
+    EXPECT_TRUE(StreamNetwork().arcs().empty());
+    EXPECT_TRUE(StreamNetwork().outlets().empty());
+    EXPECT_TRUE(StreamNetwork().upstream_order().empty());
 }
 
 TEST(StreamNetwork, AnArcTakesTheEndsOfItsNodes) {
-    StreamNetwork net = nodes({{0, 0}, {3, 4}});
-    ArcId const straight = add_arc(net, 1, 0, {});
-    EXPECT_EQ(net[straight].line, (std::vector<Vec2>{{3, 4}, {0, 0}}));
+    NetworkDraft draft = nodes({{0, 0}, {3, 4}});
     Arc bent;
     bent.line = {{9, 9}, {1, 1}, {8, 8}};
-    ArcId const second = add_arc(net, 1, 0, bent);
-    EXPECT_EQ(net[second].line, (std::vector<Vec2>{{3, 4}, {1, 1}, {0, 0}}));
+    ArcId const straight = draft.add_arc(1, 0);
+    ArcId const second = draft.add_arc(1, 0, bent);
+    StreamNetwork const net(draft);
+    EXPECT_EQ(net.arc(straight).line, (std::vector<Vec2>{{3, 4}, {0, 0}}));
+    EXPECT_EQ(net.arc(second).line, (std::vector<Vec2>{{3, 4}, {1, 1}, {0, 0}}));
 }
 
 TEST(StreamNetwork, Length) {
@@ -47,56 +49,97 @@ TEST(StreamNetwork, IndexOfTwoBasins) {
     //  1   2        4 - 3    5 alone
     //   \ /
     //    6 - 0
-    StreamNetwork net = nodes({{0, 0}, {2, 2}, {4, 2}, {9, 0}, {8, 0}, {7, 7}, {3, 1}});
-    add_arc(net, 6, 0, {});
-    add_arc(net, 4, 3, {});
-    add_arc(net, 2, 6, {});
-    add_arc(net, 1, 6, {});
-    NetworkIndex const index(net);
-    EXPECT_EQ(index.from, (std::vector<NodeId>{6, 4, 2, 1})); // numbered as they were added
-    EXPECT_EQ(index.to, (std::vector<NodeId>{0, 3, 6, 6}));
-    EXPECT_EQ(index.out, (std::vector<std::int64_t>{-1, 3, 2, -1, 1, -1, 0}));
-    EXPECT_EQ(index.in[6], (std::vector<std::int64_t>{2, 3}));
-    EXPECT_EQ(index.outlets, (std::vector<NodeId>{0, 3})); // a node without arcs is no outlet
-    EXPECT_EQ(index.basin, (std::vector<std::int64_t>{1, 1, 1, 2, 2, 0, 1}));
-    EXPECT_EQ(index.length_m[1], 1.0);
+    NetworkDraft draft = nodes({{0, 0}, {2, 2}, {4, 2}, {9, 0}, {8, 0}, {7, 7}, {3, 1}});
+    draft.add_arc(6, 0);
+    draft.add_arc(4, 3);
+    draft.add_arc(2, 6);
+    draft.add_arc(1, 6);
+    StreamNetwork const net(draft);
+    EXPECT_EQ(net.from(), (std::vector<NodeId>{6, 4, 2, 1})); // numbered as they were added
+    EXPECT_EQ(net.to(), (std::vector<NodeId>{0, 3, 6, 6}));
+    std::vector<ArcId> const out{no_arc, 3, 2, no_arc, 1, no_arc, 0};
+    for (NodeId n = 0; n < net.node_count(); ++n) {
+        EXPECT_EQ(net.out(n), out[n]) << n;
+        EXPECT_EQ(net.out_arcs(n).size(), out[n] == no_arc ? 0U : 1U) << n;
+    }
+    EXPECT_EQ(std::vector<ArcId>(net.in(6).begin(), net.in(6).end()), (std::vector<ArcId>{2, 3}));
+    EXPECT_EQ(net.outlets(), (std::vector<NodeId>{0, 3})); // a node without arcs is no outlet
+    EXPECT_EQ(net.basin(), (std::vector<std::int64_t>{1, 1, 1, 2, 2, 0, 1}));
+    EXPECT_EQ(net.length_m(1), 1.0);
     std::vector<bool> seen(7, false);
-    for (NodeId const n : index.upstream_order) {
-        if (index.out[n] >= 0) {
-            EXPECT_TRUE(seen[index.to[static_cast<std::size_t>(index.out[n])]]) << n;
+    for (NodeId const n : net.upstream_order()) {
+        if (net.out(n) != no_arc) {
+            EXPECT_TRUE(seen[net.to(net.out(n))]) << n;
         }
         seen[n] = true;
     }
-    EXPECT_EQ(index.upstream_order.size(), 6U);
+    EXPECT_EQ(net.upstream_order().size(), 6U);
 }
 
 TEST(StreamNetwork, NoOutletIsReachedFromACycle) {
-    StreamNetwork net = nodes({{0, 0}, {1, 0}, {2, 0}});
-    add_arc(net, 0, 1, {});
-    add_arc(net, 1, 0, {});
-    add_arc(net, 2, 0, {});
-    NetworkIndex const index(net);
-    EXPECT_TRUE(index.outlets.empty());
-    EXPECT_EQ(index.basin, (std::vector<std::int64_t>{0, 0, 0}));
+    NetworkDraft draft = nodes({{0, 0}, {1, 0}, {2, 0}});
+    draft.add_arc(0, 1);
+    draft.add_arc(1, 0);
+    draft.add_arc(2, 0);
+    StreamNetwork const net(draft);
+    EXPECT_TRUE(net.outlets().empty());
+    EXPECT_EQ(net.basin(), (std::vector<std::int64_t>{0, 0, 0}));
 }
 
 TEST(StreamNetwork, ACopyKeepsTheNumbering) {
-    StreamNetwork net = nodes({{0, 0}, {1, 0}, {2, 0}, {3, 0}});
-    add_arc(net, 3, 2, {});
-    add_arc(net, 1, 0, {});
-    add_arc(net, 2, 1, {});
+    NetworkDraft draft = nodes({{0, 0}, {1, 0}, {2, 0}, {3, 0}});
+    draft.add_arc(3, 2);
+    draft.add_arc(1, 0);
+    draft.add_arc(2, 1);
+    StreamNetwork const net(draft);
     StreamNetwork const copy = net;
-    EXPECT_EQ(NetworkIndex(copy).from, (std::vector<NodeId>{3, 1, 2}));
+    EXPECT_EQ(copy.from(), (std::vector<NodeId>{3, 1, 2}));
 }
 
 TEST(StreamNetwork, KindsOfNodes) {
-    StreamNetwork net = nodes({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {2, 1}});
-    add_arc(net, 1, 0, {});
-    add_arc(net, 2, 1, {});
-    add_arc(net, 3, 2, {});
-    add_arc(net, 4, 2, {});
+    NetworkDraft draft = nodes({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {2, 1}});
+    draft.add_arc(1, 0);
+    draft.add_arc(2, 1);
+    draft.add_arc(3, 2);
+    draft.add_arc(4, 2);
+    StreamNetwork const net(draft);
     EXPECT_EQ(std::string(name_of(kind_of(net, 0))), "outlet");
     EXPECT_EQ(std::string(name_of(kind_of(net, 1))), "pseudo");
     EXPECT_EQ(std::string(name_of(kind_of(net, 2))), "confluence");
     EXPECT_EQ(std::string(name_of(kind_of(net, 3))), "source");
+}
+
+TEST(StreamNetwork, OfSeveralArcsThatLeaveTheLastGoesOn) {
+    NetworkDraft draft = nodes({{0, 0}, {1, 0}, {2, 0}});
+    draft.add_arc(2, 0);
+    draft.add_arc(2, 1);
+    StreamNetwork const net(draft);
+    EXPECT_EQ(net.out_arcs(2).size(), 2U);
+    EXPECT_EQ(net.out(2), 1U);
+}
+
+TEST(StreamNetwork, RefusesArcsOfNodesThatAreNotThere) {
+    NetworkDraft draft = nodes({{0, 0}, {1, 0}});
+    draft.add_arc(0, 1);
+    draft.add_arc(1, 2);
+    try {
+        StreamNetwork const net(draft);
+        FAIL() << "an arc without a node passed";
+    } catch (BadInput const& e) {
+        EXPECT_STREQ(e.what(), "arc 2 ends at node 3 of 2; add the node first");
+    }
+}
+
+TEST(StreamNetwork, ItsDraftMakesItAgain) {
+    NetworkDraft draft = nodes({{0, 0}, {1, 0}, {2, 0}});
+    draft.add_arc(2, 1);
+    draft.add_arc(1, 0);
+    StreamNetwork const net(draft);
+    NetworkDraft changed = net.draft();
+    changed.nodes[0].at = {0, 7};
+    StreamNetwork const moved(changed);
+    EXPECT_EQ(moved.from(), net.from());
+    EXPECT_EQ(moved.to(), net.to());
+    EXPECT_EQ(moved.arc(1).line, (std::vector<Vec2>{{1, 0}, {0, 7}})); // ends follow their nodes
+    EXPECT_EQ(net.arc(1).line, (std::vector<Vec2>{{1, 0}, {0, 0}}));
 }

@@ -43,16 +43,17 @@ inline SmallLand small_land() {
     SmallLand land;
     land.dem = slopes({48, 48, 10.0, 500000.0, 4500000.0, "EPSG:32631"});
     land.hillshade = shade(land.dem);
-    StreamNetwork& net = land.network.plan;
+    NetworkDraft net;
     for (Vec2 const at : {Vec2{500065, 4499935}, Vec2{500415, 4499925}, Vec2{500235, 4499765}, Vec2{500235, 4499525}}) {
-        net[boost::add_vertex(net)].at = at;
+        net.add_node(at);
     }
-    add_arc(net, 0, 2, {});
-    add_arc(net, 1, 2, {});
-    add_arc(net, 2, 3, {});
+    net.add_arc(0, 2);
+    net.add_arc(1, 2);
+    net.add_arc(2, 3);
+    land.network.plan = std::move(net);
     land.network.node_z = {160, 150, 100, 4};
     land.network.arc_z = {{160, 100}, {150, 100}, {100, 4}};
-    land.orders = network::order(net);
+    land.orders = network::order(land.network.plan);
     return land;
 }
 

@@ -133,11 +133,11 @@ Fnv hash_of(std::vector<Cell> const& cells) {
 
 Fnv hash_of(StreamNetwork const& network) {
     Fnv fnv;
-    for (ArcId const arc : boost::make_iterator_range(boost::edges(network))) {
-        fnv.add(static_cast<std::uint64_t>(boost::source(arc, network)));
-        fnv.add(static_cast<std::uint64_t>(boost::target(arc, network)));
-        fnv.add(network[arc].survives);
-        for (Vec2 const& p : network[arc].line) {
+    for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
+        fnv.add(static_cast<std::uint64_t>(network.from(arc)));
+        fnv.add(static_cast<std::uint64_t>(network.to(arc)));
+        fnv.add(network.arc(arc).survives);
+        for (Vec2 const& p : network.arc(arc).line) {
             fnv.add(p.x);
             fnv.add(p.y);
         }
@@ -199,12 +199,11 @@ Fnv hash_of(Tin const& tin) {
 /// Breaklines of a network.
 std::vector<std::vector<Vec3>> lines_of(RaisedNetwork const& network) {
     std::vector<std::vector<Vec3>> lines;
-    for (std::size_t i = 0; ArcId const arc : boost::make_iterator_range(boost::edges(network.plan))) {
+    for (ArcId a = 0; a < network.plan.arc_count(); ++a) {
         auto& line = lines.emplace_back();
-        for (std::size_t k = 0; Vec2 const& p : network.plan[arc].line) {
-            line.push_back({p.x, p.y, network.arc_z[i][k++]});
+        for (std::size_t k = 0; Vec2 const& p : network.plan.arc(a).line) {
+            line.push_back({p.x, p.y, network.arc_z[a][k++]});
         }
-        ++i;
     }
     return lines;
 }

@@ -14,6 +14,7 @@
 
 /// A small network with everything its tables hold, numbers that do not end in binary among them.
 struct SampleNetwork {
+    thalweg::NetworkDraft draft; ///< settle() makes the network's plan from it
     thalweg::RaisedNetwork network;
     thalweg::NetworkOrders orders;
     std::vector<double> us_area_m2;
@@ -26,7 +27,7 @@ struct SampleNetwork {
 
     thalweg::NodeId node(double x, double y, double z) {
         network.node_z.push_back(z);
-        return boost::add_vertex(thalweg::Node{{x, y}}, network.plan);
+        return draft.add_node({x, y});
     }
 
     /// An arc that falls evenly by vertex, through some positions.
@@ -43,69 +44,73 @@ struct SampleNetwork {
         z.front() = network.node_z[from];
         z.back() = network.node_z[to];
         network.arc_z.push_back(z);
-        add_arc(network.plan, from, to, std::move(arc));
+        draft.add_arc(from, to, std::move(arc));
     }
 
     /// Fills orders and areas by their definitions, arc by arc from the sources down.
     void settle() {
-        thalweg::NetworkIndex const index(network.plan);
-        std::size_t const arcs = index.arcs.size();
-        std::size_t const nodes = boost::num_vertices(network.plan);
+        using thalweg::ArcId;
+        using thalweg::no_arc;
+        network.plan = draft;
+        std::size_t const arcs = network.plan.arc_count();
+        std::size_t const nodes = network.plan.node_count();
         orders = {};
         orders.strahler.assign(arcs, 1);
         orders.shreve.assign(arcs, 1);
         orders.hack.assign(arcs, 1);
         orders.topological.assign(arcs, 1);
         orders.arc_basin.assign(arcs, 0);
-        orders.node_basin.assign(index.basin.begin(), index.basin.end());
+        orders.node_basin.assign(network.plan.basin().begin(), network.plan.basin().end());
         orders.node_strahler.assign(nodes, 0);
         orders.node_dist_out_m.assign(nodes, 0.0);
         us_area_m2.assign(arcs, 0.1);
         ds_area_m2.assign(arcs, 0.0);
         node_area_m2.assign(nodes, 0.1);
         std::vector<double> longest(nodes, 0.0); // flow path from the farthest source to the node
-        for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) {
+        for (auto n = network.plan.upstream_order().rbegin(); n != network.plan.upstream_order().rend(); ++n) {
             int greatest = 0;
             int how_often = 0;
             std::int64_t sources = 0;
-            if (index.out[*n] < 0 && !index.in[*n].empty()) {
+            if (network.plan.out(*n) == no_arc && !network.plan.in(*n).empty()) {
                 node_area_m2[*n] = 0.0; // its cell belongs to an arc that enters it
             }
-            for (std::int64_t const above : index.in[*n]) {
-                auto const a = static_cast<std::size_t>(above);
+            for (ArcId const above : network.plan.in(*n)) {
+                auto const a = above;
                 how_often = orders.strahler[a] > greatest ? 1 : how_often + (orders.strahler[a] == greatest ? 1 : 0);
                 greatest = std::max(greatest, orders.strahler[a]);
                 sources += orders.shreve[a];
-                longest[*n] = std::max(longest[*n], longest[index.from[a]] + index.length_m[a]);
+                longest[*n] = std::max(longest[*n], longest[network.plan.from(a)] + network.plan.length_m(a));
                 node_area_m2[*n] += ds_area_m2[a];
             }
-            int const order = index.in[*n].empty() ? 1 : greatest + (how_often > 1 ? 1 : 0);
-            orders.node_strahler[*n] = index.out[*n] < 0 ? greatest : order;
-            if (index.out[*n] >= 0) {
-                auto const a = static_cast<std::size_t>(index.out[*n]);
+            int const order = network.plan.in(*n).empty() ? 1 : greatest + (how_often > 1 ? 1 : 0);
+            orders.node_strahler[*n] = network.plan.out(*n) == no_arc ? greatest : order;
+            if (network.plan.out(*n) != no_arc) {
+                auto const a = network.plan.out(*n);
                 orders.strahler[a] = order;
-                orders.shreve[a] = index.in[*n].empty() ? 1 : sources;
-                orders.arc_basin[a] = index.basin[*n];
+                orders.shreve[a] = network.plan.in(*n).empty() ? 1 : sources;
+                orders.arc_basin[a] = network.plan.basin(*n);
                 us_area_m2[a] = node_area_m2[*n];
-                ds_area_m2[a] = us_area_m2[a] + index.length_m[a];
+                ds_area_m2[a] = us_area_m2[a] + network.plan.length_m(a);
             }
         }
-        for (thalweg::NodeId const n : index.upstream_order) {
-            std::int64_t main = -1;
-            for (std::int64_t const above : index.in[n]) {
-                auto const a = static_cast<std::size_t>(above);
-                auto const path = [&](std::size_t k) { return longest[index.from[k]] + index.length_m[k]; };
-                if (main < 0 || path(a) > path(static_cast<std::size_t>(main))) {
+        for (thalweg::NodeId const n : network.plan.upstream_order()) {
+            ArcId main = no_arc;
+            for (ArcId const above : network.plan.in(n)) {
+                auto const a = above;
+                auto const path = [&](std::size_t k) {
+                    return longest[network.plan.from(k)] + network.plan.length_m(k);
+                };
+                if (main == no_arc || path(a) > path(main)) {
                     main = above;
                 }
             }
-            for (std::int64_t const above : index.in[n]) {
-                auto const a = static_cast<std::size_t>(above);
-                auto const below = static_cast<std::size_t>(std::max<std::int64_t>(index.out[n], 0));
-                bool const outlet = index.out[n] < 0;
+            for (ArcId const above : network.plan.in(n)) {
+                auto const a = above;
+                ArcId const below = network.plan.out(n);
+                bool const outlet = below == no_arc;
                 orders.topological[a] = outlet ? 1 : orders.topological[below] + 1;
                 orders.hack[a] = (outlet ? 1 : orders.hack[below]) + (above == main ? 0 : 1);
-                orders.node_dist_out_m[index.from[a]] = orders.node_dist_out_m[n] + index.length_m[a];
+                orders.node_dist_out_m[network.plan.from(a)] = orders.node_dist_out_m[n] + network.plan.length_m(a);
             }
         }
     }
@@ -151,8 +156,7 @@ inline SampleNetwork two_basins() {
     sample.arc(three, pseudo);
     sample.arc(pseudo, mouth);
     sample.arc(other_source, other_mouth);
-    thalweg::NetworkIndex const index(sample.network.plan);
-    auto& arc = sample.network.plan[index.arcs.back()];
+    auto& arc = sample.draft.arcs.back().arc;
     arc.type = "Bärenbach";
     arc.feature = 123456789012345;
     arc.survives = 20.5;

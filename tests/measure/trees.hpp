@@ -10,13 +10,6 @@
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/stream_network.hpp>
 
-/// Boost's add_vertex with properties makes GCC's sanitizer builds warn.
-inline thalweg::NodeId add_node(thalweg::StreamNetwork& network, thalweg::Vec2 at) {
-    auto const node = boost::add_vertex(network);
-    network[node].at = at;
-    return node;
-}
-
 /// Scheidegger's random rivers (1967): every point of a lattice drains to the one south or south-east of it, so that no
 /// two reaches cross. Row 0 holds the outlets; points are spacing_m apart, the first half of it from the axes; heights
 /// are the rows' numbers. Its arcs run from sources and confluences; about half as many as points.
@@ -41,11 +34,12 @@ inline thalweg::RaisedNetwork random_rivers(std::uint64_t seed, std::int64_t col
         ++arriving[below(p)];
     }
     RaisedNetwork rivers;
+    NetworkDraft plan;
     std::vector<NodeId> node(points);
     auto const is_node = [&](std::size_t p) { return p < first_row ? arriving[p] > 0 : arriving[p] != 1; };
     for (std::size_t p = 0; p < points; ++p) {
         if (is_node(p)) {
-            node[p] = add_node(rivers.plan, place(p));
+            node[p] = plan.add_node(place(p));
             rivers.node_z.push_back(row_of(p));
         }
     }
@@ -60,34 +54,34 @@ inline thalweg::RaisedNetwork random_rivers(std::uint64_t seed, std::int64_t col
                 arc.line.push_back(place(at));
                 rivers.arc_z.back().push_back(row_of(at));
             } while (!is_node(at));
-            add_arc(rivers.plan, node[p], node[at], std::move(arc));
+            plan.add_arc(node[p], node[at], std::move(arc));
         }
     }
+    rivers.plan = std::move(plan);
     return rivers;
 }
 
 /// The orders that a network's file holds.
 inline thalweg::NetworkOrders orders_of(thalweg::StreamNetwork const& network) {
     using namespace thalweg;
-    NetworkIndex const index(network);
     NetworkOrders orders;
-    orders.strahler.assign(index.arcs.size(), 1);
-    orders.shreve.assign(index.arcs.size(), 1);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        orders.arc_basin.push_back(index.basin[index.to[a]]);
+    orders.strahler.assign(network.arc_count(), 1);
+    orders.shreve.assign(network.arc_count(), 1);
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        orders.arc_basin.push_back(network.basin(network.to(a)));
     }
-    for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) {
-        if (index.out[*n] < 0 || index.in[*n].empty()) {
+    for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) {
+        if (network.out(*n) == no_arc || network.in(*n).empty()) {
             continue;
         }
         std::vector<int> arriving;
         std::int64_t sources = 0;
-        for (auto const a : index.in[*n]) {
+        for (auto const a : network.in(*n)) {
             arriving.push_back(orders.strahler[static_cast<std::size_t>(a)]);
             sources += orders.shreve[static_cast<std::size_t>(a)];
         }
         int const highest = *std::max_element(arriving.begin(), arriving.end());
-        auto const leaving = static_cast<std::size_t>(index.out[*n]);
+        auto const leaving = network.out(*n);
         orders.strahler[leaving] = highest + (std::count(arriving.begin(), arriving.end(), highest) > 1 ? 1 : 0);
         orders.shreve[leaving] = sources;
     }

@@ -24,9 +24,9 @@ struct Reach {
 };
 
 inline StreamNetwork network_of(std::vector<Vec2> const& nodes, std::vector<Reach> const& reaches) {
-    StreamNetwork net;
+    NetworkDraft net;
     for (Vec2 const at : nodes) {
-        boost::add_vertex(Node{at}, net);
+        net.add_node(at);
     }
     for (Reach const& r : reaches) {
         Arc arc;
@@ -35,7 +35,7 @@ inline StreamNetwork network_of(std::vector<Vec2> const& nodes, std::vector<Reac
         arc.line.push_back(nodes[r.to]);
         arc.feature = r.feature;
         arc.type = r.type;
-        add_arc(net, r.from, r.to, std::move(arc));
+        net.add_arc(r.from, r.to, std::move(arc));
     }
     return net;
 }
@@ -74,11 +74,11 @@ inline StreamNetwork random_forest(std::uint64_t seed, std::size_t nodes, std::s
 
 /// One chain of arcs a metre long, the outlet at node 0.
 inline StreamNetwork chain(std::size_t arcs) {
-    StreamNetwork net;
-    boost::add_vertex(Node{{0.0, 0.0}}, net);
+    NetworkDraft net;
+    net.add_node({0.0, 0.0});
     for (std::size_t n = 1; n <= arcs; ++n) {
-        boost::add_vertex(Node{{static_cast<double>(n), 0.0}}, net);
-        add_arc(net, n, n - 1, {});
+        net.add_node({static_cast<double>(n), 0.0});
+        net.add_arc(n, n - 1);
     }
     return net;
 }

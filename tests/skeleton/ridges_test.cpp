@@ -95,9 +95,8 @@ struct Near {
 class Rivers {
 public:
     Rivers(Land const& land, Method method) {
-        NetworkIndex const index(land.rivers.plan);
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-            auto const& line = land.rivers.plan[index.arcs[a]].line;
+        for (std::size_t a = 0; a < land.rivers.plan.arc_count(); ++a) {
+            auto const& line = land.rivers.plan.arc(a).line;
             auto const& z = land.rivers.arc_z[a];
             for (std::size_t i = 0; i + 1 < line.size(); ++i) {
                 double const length = distance(line[i], line[i + 1]);
@@ -156,8 +155,8 @@ std::vector<std::vector<Vec2>> plan_of(RidgeLines const& made) {
 
 std::vector<std::vector<Vec2>> plan_of(StreamNetwork const& network) {
     std::vector<std::vector<Vec2>> lines;
-    for (ArcId const arc : boost::make_iterator_range(boost::edges(network))) {
-        lines.push_back(network[arc].line);
+    for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
+        lines.push_back(network.arc(arc).line);
     }
     return lines;
 }
@@ -184,13 +183,13 @@ double distance_to(std::vector<std::vector<Vec2>> const& lines, Vec2 p) {
 Grid const square{10, 10, 1.0, 0.0, 10.0, ""};
 
 RaisedNetwork straight(std::vector<std::vector<Vec2>> const& lines) {
-    StreamNetwork plan;
+    NetworkDraft plan;
     for (auto const& line : lines) {
-        NodeId const from = boost::add_vertex(Node{line.front()}, plan);
-        NodeId const to = boost::add_vertex(Node{line.back()}, plan);
+        NodeId const from = plan.add_node(line.front());
+        NodeId const to = plan.add_node(line.back());
         Arc arc;
         arc.line = line;
-        add_arc(plan, from, to, std::move(arc));
+        plan.add_arc(from, to, std::move(arc));
     }
     return network::set_heights(plan).network;
 }
@@ -431,11 +430,10 @@ TEST(Ridges, BothMethodsAgree) {
             return plan_of(ridges(land.rivers, land.stream, grid, params));
         };
         auto const rivers = plan_of(land.rivers.plan);
-        NetworkIndex const index(land.rivers.plan);
         std::vector<Vec2> shared; // places of several streams, which nothing keeps apart
-        for (NodeId const n : boost::make_iterator_range(boost::vertices(land.rivers.plan))) {
-            if (index.in[n].size() > 1) {
-                shared.push_back(land.rivers.plan[n].at);
+        for (NodeId n = 0; n < land.rivers.plan.node_count(); ++n) {
+            if (land.rivers.plan.in(n).size() > 1) {
+                shared.push_back(land.rivers.plan.node(n).at);
             }
         }
         int looked_at = 0;

@@ -3,16 +3,43 @@
 #include <thalweg/core/stream_network.hpp>
 
 #include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace thalweg {
+namespace {
 
-ArcId add_arc(StreamNetwork& net, NodeId from, NodeId to, Arc arc) {
-    if (arc.line.size() < 2) {
-        arc.line = {net[from].at, net[to].at};
+void require_nodes(NetworkDraft const& draft) {
+    for (std::size_t a = 0; a < draft.arcs.size(); ++a) {
+        NodeId const last = std::max(draft.arcs[a].from, draft.arcs[a].to);
+        if (last >= draft.nodes.size()) {
+            throw BadInput(fmt::format("core.StreamNetwork: arc {} ends at node {} of {}; add the node first", a + 1,
+                                       last + 1, draft.nodes.size()));
+        }
     }
-    arc.line.front() = net[from].at;
-    arc.line.back() = net[to].at;
-    return boost::add_edge(from, to, std::move(arc), net).first;
+}
+
+void set_ends(std::vector<Vec2>& line, Vec2 from, Vec2 to) {
+    if (line.size() < 2) {
+        line = {from, to};
+    }
+    line.front() = from;
+    line.back() = to;
+}
+
+} // namespace
+
+NodeId NetworkDraft::add_node(Vec2 at) {
+    nodes.push_back({at});
+    return nodes.size() - 1;
+}
+
+ArcId NetworkDraft::add_arc(NodeId from, NodeId to, Arc arc) {
+    arcs.push_back({from, to, std::move(arc)});
+    return arcs.size() - 1;
 }
 
 double length_of(std::vector<Vec2> const& line) {
@@ -23,42 +50,66 @@ double length_of(std::vector<Vec2> const& line) {
     return sum;
 }
 
-NetworkIndex::NetworkIndex(StreamNetwork const& net) {
-    std::size_t const nodes = boost::num_vertices(net);
-    out.assign(nodes, -1);
-    in.resize(nodes);
-    basin.assign(nodes, 0);
-    auto const [first, last] = boost::edges(net);
-    arcs.assign(first, last);
-    for (std::size_t i = 0; i < arcs.size(); ++i) {
-        from.push_back(boost::source(arcs[i], net));
-        to.push_back(boost::target(arcs[i], net));
-        length_m.push_back(length_of(net[arcs[i]].line));
-        out[from[i]] = static_cast<std::int64_t>(i);
-        in[to[i]].push_back(static_cast<std::int64_t>(i));
+StreamNetwork::ArcsAt::ArcsAt(std::vector<NodeId> const& node_of_arc, std::size_t nodes)
+    : begin(nodes + 1, 0), arcs(node_of_arc.size()) {
+    for (NodeId const n : node_of_arc) {
+        ++begin[n + 1];
     }
     for (NodeId n = 0; n < nodes; ++n) {
-        if (out[n] < 0 && !in[n].empty()) {
-            outlets.push_back(n);
-            basin[n] = static_cast<std::int64_t>(outlets.size());
-            upstream_order.push_back(n);
+        begin[n + 1] += begin[n];
+    }
+    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+    for (ArcId a = 0; a < arcs.size(); ++a) {
+        arcs[next[node_of_arc[a]]++] = a;
+    }
+}
+
+StreamNetwork::StreamNetwork(NetworkDraft draft) {
+    require_nodes(draft);
+    nodes_ = std::move(draft.nodes);
+    for (DraftArc& drawn : draft.arcs) {
+        set_ends(drawn.arc.line, nodes_[drawn.from].at, nodes_[drawn.to].at);
+        from_.push_back(drawn.from);
+        to_.push_back(drawn.to);
+        length_m_.push_back(length_of(drawn.arc.line));
+        arcs_.push_back(std::move(drawn.arc));
+    }
+    in_ = ArcsAt(to_, nodes_.size());
+    out_ = ArcsAt(from_, nodes_.size());
+    find_basins();
+}
+
+void StreamNetwork::find_basins() {
+    basin_.assign(nodes_.size(), 0);
+    for (NodeId n = 0; n < nodes_.size(); ++n) {
+        if (out_arcs(n).empty() && !in(n).empty()) {
+            outlets_.push_back(n);
+            basin_[n] = static_cast<std::int64_t>(outlets_.size());
         }
     }
-    for (std::size_t k = 0; k < upstream_order.size(); ++k) {
-        NodeId const n = upstream_order[k];
-        for (std::int64_t const a : in[n]) {
-            NodeId const up = from[static_cast<std::size_t>(a)];
-            if (basin[up] == 0) {
-                basin[up] = basin[n];
-                upstream_order.push_back(up);
+    upstream_order_ = outlets_;
+    for (std::size_t k = 0; k < upstream_order_.size(); ++k) {
+        NodeId const n = upstream_order_[k];
+        for (ArcId const a : in(n)) {
+            if (basin_[from_[a]] == 0) {
+                basin_[from_[a]] = basin_[n];
+                upstream_order_.push_back(from_[a]);
             }
         }
     }
 }
 
+NetworkDraft StreamNetwork::draft() const {
+    NetworkDraft copy{nodes_, {}};
+    for (ArcId a = 0; a < arcs_.size(); ++a) {
+        copy.arcs.push_back({from_[a], to_[a], arcs_[a]});
+    }
+    return copy;
+}
+
 NodeKind kind_of(StreamNetwork const& net, NodeId node) {
-    auto const arriving = boost::in_degree(node, net);
-    if (boost::out_degree(node, net) == 0) {
+    std::size_t const arriving = net.in(node).size();
+    if (net.out_arcs(node).empty()) {
         return NodeKind::outlet;
     }
     return arriving == 0 ? NodeKind::source : arriving == 1 ? NodeKind::pseudo : NodeKind::confluence;

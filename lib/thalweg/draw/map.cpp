@@ -57,14 +57,13 @@ void demand_sheet(MapSheet const& sheet, MapParams const& params) {
     if (sheet.network == nullptr) {
         return;
     }
-    std::size_t const arcs = boost::num_edges(sheet.network->plan);
+    std::size_t const arcs = sheet.network->plan.arc_count();
     if (sheet.orders == nullptr || sheet.orders->strahler.size() != arcs) {
         throw BadInput(fmt::format("draw.map: a network of {} arcs comes with {} orders; order this network", arcs,
                                    sheet.orders == nullptr ? 0 : sheet.orders->strahler.size()));
     }
-    std::size_t number_of_arc = 0;
-    for (auto const& arc : boost::make_iterator_range(boost::edges(sheet.network->plan))) {
-        demand_finite(sheet.network->plan[arc].line, "arc", ++number_of_arc);
+    for (ArcId a = 0; a < arcs; ++a) {
+        demand_finite(sheet.network->plan.arc(a).line, "arc", a + 1);
     }
 }
 

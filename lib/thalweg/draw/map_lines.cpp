@@ -134,10 +134,9 @@ void draw_rivers(Cairo* canvas, MapSheet const& sheet, Window const& window, dou
     cairo_set_line_cap(canvas, CAIRO_LINE_CAP_ROUND);
     for (int order = 1; order <= highest; ++order) {
         LineStyle const style = river_style(order, highest, unit);
-        std::size_t number_of_arc = 0;
-        for (auto const& arc : boost::make_iterator_range(boost::edges(sheet.network->plan))) {
-            if (sheet.orders->strahler[number_of_arc++] == order) {
-                trace_line(canvas, on_sheet(sheet.network->plan[arc].line, window), corner_px);
+        for (ArcId a = 0; a < sheet.network->plan.arc_count(); ++a) {
+            if (sheet.orders->strahler[a] == order) {
+                trace_line(canvas, on_sheet(sheet.network->plan.arc(a).line, window), corner_px);
                 set_colour(canvas, style.colour);
                 cairo_set_line_width(canvas, style.width_px);
                 cairo_stroke(canvas);

@@ -26,18 +26,18 @@ struct Reach {
 };
 
 std::vector<Reach> reaches_of(RaisedNetwork const& network, NetworkOrders const& orders) {
-    std::size_t const arcs = boost::num_edges(network.plan);
+    std::size_t const arcs = network.plan.arc_count();
     if (network.arc_z.size() != arcs || orders.hack.size() != arcs || orders.arc_basin.size() != arcs ||
-        orders.node_dist_out_m.size() != boost::num_vertices(network.plan)) {
+        orders.node_dist_out_m.size() != network.plan.node_count()) {
         throw BadInput(fmt::format(
             "draw.profile: heights or orders are not those of the network of {} arcs; set heights and orders again",
             arcs));
     }
     std::vector<Reach> reaches;
     std::size_t number_of_arc = 0;
-    for (auto const& arc : boost::make_iterator_range(boost::edges(network.plan))) {
+    for (ArcId arc = 0; arc < network.plan.arc_count(); ++arc) {
         std::size_t const k = number_of_arc++;
-        std::vector<Vec2> const& line = network.plan[arc].line;
+        std::vector<Vec2> const& line = network.plan.arc(arc).line;
         std::vector<double> const& z = network.arc_z[k];
         if (z.size() != line.size()) {
             throw BadInput(fmt::format("draw.profile: arc {} has {} vertices and {} heights; set heights again", k + 1,
@@ -47,7 +47,7 @@ std::vector<Reach> reaches_of(RaisedNetwork const& network, NetworkOrders const&
             continue;
         }
         Reach reach{std::vector<Vec2>(line.size()), orders.hack[k]};
-        double to_outlet = orders.node_dist_out_m[boost::target(arc, network.plan)];
+        double to_outlet = orders.node_dist_out_m[network.plan.to(arc)];
         for (std::size_t i = line.size(); i-- > 0;) {
             to_outlet += i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0;
             if (!std::isfinite(to_outlet) || !std::isfinite(z[i])) {

@@ -37,7 +37,7 @@ void demand_scene(WireframeScene const& scene, WireframeParams const& params) {
                                    grid.height, grid.cell_m));
     }
     if (scene.network != nullptr) {
-        std::size_t const arcs = boost::num_edges(scene.network->plan);
+        std::size_t const arcs = scene.network->plan.arc_count();
         if (scene.orders == nullptr || scene.orders->strahler.size() != arcs) {
             throw BadInput(fmt::format("draw.wireframe: a network of {} arcs comes with {} orders; order this network",
                                        arcs, scene.orders == nullptr ? 0 : scene.orders->strahler.size()));
@@ -274,14 +274,13 @@ Rivers rivers_on(WireframeScene const& scene, Fishnet const& knots) {
     for (int const order : scene.orders->strahler) {
         rivers.highest = std::max(rivers.highest, order);
     }
-    std::size_t number_of_arc = 0;
-    for (auto const& arc : boost::make_iterator_range(boost::edges(scene.network->plan))) {
-        int const order = scene.orders->strahler[number_of_arc++];
+    for (ArcId a = 0; a < scene.network->plan.arc_count(); ++a) {
+        int const order = scene.orders->strahler[a];
         if (order <= rivers.highest - orders_shown) {
             continue;
         }
         Thread thread;
-        for (Vec2 const p : scene.network->plan[arc].line) {
+        for (Vec2 const p : scene.network->plan.arc(a).line) {
             Vec2 const at{index_of(knots.col_at, (p.x - grid.west) / grid.cell_m - 0.5),
                           index_of(knots.row_at, (grid.north - p.y) / grid.cell_m - 0.5)};
             // What lies far off the net is not drawn, but would be cut at every line between.

@@ -35,8 +35,8 @@ void demand(RidgesParams const& params, Grid const& grid) {
     }
 }
 
-void demand(RaisedNetwork const& network, NetworkIndex const& index, std::vector<std::int64_t> const& labels) {
-    std::size_t const arcs = index.arcs.size();
+void demand(RaisedNetwork const& network, std::vector<std::int64_t> const& labels) {
+    std::size_t const arcs = network.plan.arc_count();
     if (labels.size() != arcs || network.arc_z.size() != arcs) {
         throw BadInput(
             fmt::format("skeleton.ridges: {} labels and heights of {} arcs for a network of {}; give one for "
@@ -44,7 +44,7 @@ void demand(RaisedNetwork const& network, NetworkIndex const& index, std::vector
                         labels.size(), network.arc_z.size(), arcs));
     }
     for (std::size_t a = 0; a < arcs; ++a) {
-        auto const& line = network.plan[index.arcs[a]].line;
+        auto const& line = network.plan.arc(a).line;
         auto const& z = network.arc_z[a];
         auto const bad = std::ranges::find_if_not(z, [](double h) { return std::isfinite(h); });
         if (z.size() != line.size() || bad != z.end()) {
@@ -56,11 +56,11 @@ void demand(RaisedNetwork const& network, NetworkIndex const& index, std::vector
 }
 
 /// The arcs in an order that begins downstream: of all labels at a confluence the first is that of the arc leaving it.
-std::vector<std::size_t> downstream_first(NetworkIndex const& index) {
+std::vector<std::size_t> downstream_first(StreamNetwork const& network) {
     std::vector<std::size_t> order;
-    for (NodeId const n : index.upstream_order) {
-        if (index.out[n] >= 0) {
-            order.push_back(static_cast<std::size_t>(index.out[n]));
+    for (NodeId const n : network.upstream_order()) {
+        if (network.out(n) != no_arc) {
+            order.push_back(network.out(n));
         }
     }
     return order;
@@ -131,11 +131,10 @@ double or_else(double asked, double chosen) {
 RidgeLines ridges(RaisedNetwork const& network, std::vector<std::int64_t> const& stream_of_arc, Grid const& grid,
                   RidgesParams const& params, Run const& run) {
     demand(params, grid);
-    NetworkIndex const index(network.plan);
-    demand(network, index, stream_of_arc);
+    demand(network, stream_of_arc);
     LabelledRivers rivers;
-    for (std::size_t const a : downstream_first(index)) {
-        rivers.lines.push_back({network.plan[index.arcs[a]].line, stream_of_arc[a]});
+    for (std::size_t const a : downstream_first(network.plan)) {
+        rivers.lines.push_back({network.plan.arc(a).line, stream_of_arc[a]});
         rivers.z.push_back(network.arc_z[a]);
     }
     geometry::Bounds const bounds{grid.west, grid.south(), grid.east(), grid.north};

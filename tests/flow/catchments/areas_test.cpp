@@ -30,42 +30,41 @@ using Numbers = std::vector<double>;
 
 /// A river down the middle column of five rows, joined from the west in its middle cell.
 StreamNetwork small_rivers() {
-    StreamNetwork net;
-    auto const north = add_node(net, {2.5, 4.5});
-    auto const west = add_node(net, {0.5, 2.5});
-    auto const joint = add_node(net, {2.5, 2.5});
-    auto const mouth = add_node(net, {2.5, 0.5});
-    add_arc(net, north, joint, {});
-    add_arc(net, west, joint, {});
-    add_arc(net, joint, mouth, {});
+    NetworkDraft net;
+    auto const north = net.add_node({2.5, 4.5});
+    auto const west = net.add_node({0.5, 2.5});
+    auto const joint = net.add_node({2.5, 2.5});
+    auto const mouth = net.add_node({2.5, 0.5});
+    net.add_arc(north, joint);
+    net.add_arc(west, joint);
+    net.add_arc(joint, mouth);
     return net;
 }
 
 /// Areas by walking: which arc each cell of the grid belongs to, and whether an arc's water passes another.
 ContributingAreas nearest_slowly(StreamNetwork const& network, Grid const& grid) {
-    NetworkIndex const index(network);
-    std::size_t const arcs = index.arcs.size();
-    auto const next = [&](std::size_t a) { return index.out[index.to[a]]; };
+    std::size_t const arcs = network.arc_count();
+    auto const next = [&](std::size_t a) { return network.out(network.to(a)); };
     auto const passes = [&](std::size_t a, std::size_t b) {
-        std::int64_t at = static_cast<std::int64_t>(a);
-        while (at >= 0 && at != static_cast<std::int64_t>(b)) {
-            at = next(static_cast<std::size_t>(at));
+        ArcId at = a;
+        while (at != no_arc && at != b) {
+            at = next(at);
         }
-        return at >= 0;
+        return at != no_arc;
     };
     std::map<std::int64_t, std::pair<std::int64_t, std::size_t>> owner; // cell -> arcs to the outlet, arc
     for (std::size_t a = 0; a < arcs; ++a) {
         std::int64_t depth = 0;
-        for (std::int64_t at = static_cast<std::int64_t>(a); at >= 0; at = next(static_cast<std::size_t>(at))) {
+        for (ArcId at = a; at != no_arc; at = next(at)) {
             ++depth;
         }
-        for (Cell const c : cells_along(network[index.arcs[a]].line, grid)) {
+        for (Cell const c : cells_along(network.arc(a).line, grid)) {
             auto const [it, added] = owner.try_emplace(grid.index(c), depth, a);
             it->second = std::min(it->second, std::pair{depth, a});
         }
     }
     double const cell_m2 = grid.cell_m * grid.cell_m;
-    ContributingAreas areas{Numbers(arcs, 0.0), Numbers(arcs, 0.0), Numbers(boost::num_vertices(network), 0.0)};
+    ContributingAreas areas{Numbers(arcs, 0.0), Numbers(arcs, 0.0), Numbers(network.node_count(), 0.0)};
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         std::tuple<std::int64_t, std::int64_t> best{grid.cells() * 4, 0};
         for (auto const& [v, whose] : owner) {
@@ -75,7 +74,7 @@ ContributingAreas nearest_slowly(StreamNetwork const& network, Grid const& grid)
         }
         std::int64_t const cell = std::get<1>(best);
         std::size_t const a = owner.at(cell).second;
-        bool const at_start = cell == grid.index(grid.cell_of(network[index.from[a]].at));
+        bool const at_start = cell == grid.index(grid.cell_of(network.node(network.from(a)).at));
         for (std::size_t b = 0; b < arcs; ++b) {
             if (passes(a, b)) {
                 areas.ds_area_m2[b] += cell_m2;
@@ -84,8 +83,8 @@ ContributingAreas nearest_slowly(StreamNetwork const& network, Grid const& grid)
         }
     }
     for (std::size_t b = 0; b < arcs; ++b) {
-        areas.node_m2[index.from[b]] = areas.us_area_m2[b];
-        areas.node_m2[index.to[b]] += next(b) < 0 ? areas.ds_area_m2[b] : 0.0;
+        areas.node_m2[network.from(b)] = areas.us_area_m2[b];
+        areas.node_m2[network.to(b)] += next(b) == no_arc ? areas.ds_area_m2[b] : 0.0;
     }
     return areas;
 }
@@ -112,8 +111,8 @@ TEST(AreasNearest, NoRiversNoAreas) {
     ContributingAreas const areas = areas_nearest({}, frame(3, 3));
     EXPECT_TRUE(areas.us_area_m2.empty());
     EXPECT_TRUE(areas.node_m2.empty());
-    StreamNetwork lonely;
-    add_node(lonely, {0.5, 0.5});
+    NetworkDraft lonely;
+    lonely.add_node({0.5, 0.5});
     EXPECT_EQ(areas_nearest(lonely, frame(3, 3)).node_m2, Numbers{0.0});
 }
 
@@ -125,14 +124,15 @@ TEST(AreasNearest, RefusesWhatIsNoTreeOrOutside) {
     } catch (BadInput const& e) {
         EXPECT_NE(std::string(e.what()).find("arc 1"), std::string::npos) << e.what();
     }
-    add_arc(net, 2, 1, {});
-    EXPECT_THROW(areas_nearest(net, frame(5, 5)), BadInput);
-    StreamNetwork circle;
+    NetworkDraft divided = net.draft();
+    divided.add_arc(2, 1);
+    EXPECT_THROW(areas_nearest(divided, frame(5, 5)), BadInput);
+    NetworkDraft circle;
     for (double const x : {0.5, 1.5}) {
-        add_node(circle, {x, 0.5});
+        circle.add_node({x, 0.5});
     }
-    add_arc(circle, 0, 1, {});
-    add_arc(circle, 1, 0, {});
+    circle.add_arc(0, 1);
+    circle.add_arc(1, 0);
     EXPECT_THROW(areas_nearest(circle, frame(5, 5)), BadInput);
 }
 
@@ -147,12 +147,9 @@ TEST(AreasNearest, SmallRivers) {
     EXPECT_STREQ(areas.source, "nearest");
     grid.cell_m = 10.0;
     grid.north = 50.0;
-    StreamNetwork wide = small_rivers();
-    for (NodeId n = 0; n < 4; ++n) {
-        wide[n].at = {wide[n].at.x * 10.0, wide[n].at.y * 10.0};
-    }
-    for (ArcId const a : NetworkIndex(wide).arcs) {
-        wide[a].line = {wide[boost::source(a, wide)].at, wide[boost::target(a, wide)].at};
+    NetworkDraft wide = small_rivers().draft();
+    for (Node& node : wide.nodes) {
+        node.at = {node.at.x * 10.0, node.at.y * 10.0};
     }
     EXPECT_EQ(areas_nearest(wide, grid).ds_area_m2, (Numbers{900, 600, 2500}));
 }
@@ -166,16 +163,15 @@ TEST(AreasNearest, FollowTheDefinitionAndItsLaws) {
         RC_ASSERT(fast.ds_area_m2 == slow.ds_area_m2);
         RC_ASSERT(fast.node_m2 == slow.node_m2);
 
-        NetworkIndex const index(network);
         double at_outlets = 0.0;
-        for (NodeId const n : index.outlets) {
+        for (NodeId const n : network.outlets()) {
             at_outlets += fast.node_m2[n];
         }
         RC_ASSERT(at_outlets == static_cast<double>(grid.cells()));
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        for (std::size_t a = 0; a < network.arc_count(); ++a) {
             RC_ASSERT(fast.us_area_m2[a] <= fast.ds_area_m2[a]);
             double arriving = 0.0;
-            for (auto const b : index.in[index.from[a]]) {
+            for (auto const b : network.in(network.from(a))) {
                 arriving += fast.ds_area_m2[static_cast<std::size_t>(b)];
             }
             RC_ASSERT(arriving <= fast.us_area_m2[a]);
@@ -204,17 +200,17 @@ TEST(AreasD8, SmallRiversInTheirValley) {
 }
 
 TEST(AreasD8, ArcInsideOneCellAndNodesOffTheGrid) {
-    StreamNetwork net;
+    NetworkDraft net;
     for (double const y : {0.9, 0.5, 0.1}) {
-        add_node(net, {0.5, y});
+        net.add_node({0.5, y});
     }
-    add_arc(net, 0, 1, {});
-    add_arc(net, 1, 2, {});
-    auto const drainage = flow::route(dem_of(2, {1, 2}));
+    net.add_arc(0, 1);
+    net.add_arc(1, 2);
+    auto const drainage = measure::drain(dem_of(2, {1, 2}));
     EXPECT_EQ(areas_d8(net, drainage).us_area_m2, (Numbers{0, 2}));
     EXPECT_EQ(areas_d8(net, drainage).ds_area_m2, (Numbers{0, 2}));
-    add_node(net, {0.5, 7.0});
-    add_arc(net, 3, 0, {});
+    net.add_node({0.5, 7.0});
+    net.add_arc(3, 0);
     EXPECT_THROW(areas_d8(net, drainage), BadInput);
 }
 
@@ -225,11 +221,11 @@ TEST(AreasD8, WaterOfARiverStaysInItWhereTheDemLeavesIt) {
                                          30, 29, 16, 29, 30, //
                                          30, 29, 14, 29, 30, //
                                          30, 29, 12, 29, 30});
-    StreamNetwork net;
-    add_node(net, {2.5, 4.5});
-    add_node(net, {2.5, 0.5});
-    add_arc(net, 0, 1, {});
-    auto const drainage = flow::route(dem);
+    NetworkDraft net;
+    net.add_node({2.5, 4.5});
+    net.add_node({2.5, 0.5});
+    net.add_arc(0, 1);
+    auto const drainage = measure::drain(dem);
     ContributingAreas const areas = areas_d8(net, drainage);
     EXPECT_LT((drainage.area_cells[Cell{2, 4}]), 15) << "the upper river is lost to the accumulation of the DEM";
     EXPECT_GE(areas.ds_area_m2[0], 15.0);
@@ -247,15 +243,14 @@ TEST(AreasD8, FollowTheDefinitionAndItsLaws) {
         ContributingAreas const areas = areas_d8(net, drainage);
 
         std::set<std::int64_t> river;
-        NetworkIndex const index(net);
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-            for (Cell const c : cells_along(net[index.arcs[a]].line, grid)) {
+        for (std::size_t a = 0; a < net.arc_count(); ++a) {
+            for (Cell const c : cells_along(net.arc(a).line, grid)) {
                 river.insert(grid.index(c));
             }
             RC_ASSERT(areas.us_area_m2[a] <= areas.ds_area_m2[a]);
             double arriving = 0.0;
-            for (std::int64_t const up : index.in[index.from[a]]) {
-                arriving += areas.ds_area_m2[static_cast<std::size_t>(up)];
+            for (ArcId const up : net.in(net.from(a))) {
+                arriving += areas.ds_area_m2[up];
             }
             RC_ASSERT(arriving <= areas.us_area_m2[a]);
         }
@@ -269,7 +264,7 @@ TEST(AreasD8, FollowTheDefinitionAndItsLaws) {
             reaching += river.count(at) != 0 ? 1 : 0;
         }
         double outlets = 0.0;
-        for (NodeId const n : index.outlets) {
+        for (NodeId const n : net.outlets()) {
             outlets += areas.node_m2[n];
         }
         RC_ASSERT(outlets == static_cast<double>(reaching) * grid.cell_m * grid.cell_m);

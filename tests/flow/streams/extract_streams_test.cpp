@@ -61,7 +61,7 @@ TEST(ExtractStreams, NoDataAndLoneCellsHaveNoRivers) {
     for (Raster<float> const& dem : {Raster<float>(frame(3, 2), hole), dem_of(1, {4})}) {
         FlowField const drainage = flow::route(dem);
         ExtractedStreams const streams = extract_streams(drainage, dem, {.support_cells = 1});
-        EXPECT_EQ(boost::num_vertices(streams.network.plan), 0U);
+        EXPECT_EQ(streams.network.plan.node_count(), 0U);
         EXPECT_EQ(support_for_length(drainage, 1.0), 1);
     }
 }
@@ -77,11 +77,10 @@ TEST(ExtractStreams, AFork) {
                                         });
     FlowField const drainage = flow::route(dem);
     ExtractedStreams const streams = extract_streams(drainage, dem, {.support_cells = 4});
-    ASSERT_EQ(boost::num_vertices(streams.network.plan), 4U);
-    ASSERT_EQ(boost::num_edges(streams.network.plan), 3U);
-    NetworkIndex const index(streams.network.plan);
-    EXPECT_EQ(index.outlets, std::vector<NodeId>{3});
-    EXPECT_EQ(streams.network.plan[index.arcs[2]].line.size(), 3U);
+    ASSERT_EQ(streams.network.plan.node_count(), 4U);
+    ASSERT_EQ(streams.network.plan.arc_count(), 3U);
+    EXPECT_EQ(streams.network.plan.outlets(), std::vector<NodeId>{3});
+    EXPECT_EQ(streams.network.plan.arc(2).line.size(), 3U);
     EXPECT_EQ(streams.network.arc_z[2], (std::vector<double>{4, 3, 1}));
     EXPECT_EQ(streams.network.node_z, (std::vector<double>{6, 6, 4, 1}));
 }
@@ -93,11 +92,10 @@ TEST(ExtractStreams, IsWhatDrainsThroughEnoughCells) {
         FlowField const drainage = flow::route(dem);
         ExtractedStreams const streams = extract_streams(drainage, dem, {.support_cells = support});
         StreamNetwork const& plan = streams.network.plan;
-        NetworkIndex const index(plan);
         std::set<std::pair<std::int64_t, std::int64_t>> walked;
         double length = 0.0;
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-            auto const& line = plan[index.arcs[a]].line;
+        for (std::size_t a = 0; a < plan.arc_count(); ++a) {
+            auto const& line = plan.arc(a).line;
             RC_ASSERT(line.size() == streams.network.arc_z[a].size());
             for (std::size_t i = 0; i < line.size(); ++i) {
                 RC_ASSERT(static_cast<double>(dem[dem.grid().cell_of(line[i])]) == streams.network.arc_z[a][i]);
@@ -109,13 +107,13 @@ TEST(ExtractStreams, IsWhatDrainsThroughEnoughCells) {
                     RC_ASSERT(first);
                 }
             }
-            length += index.length_m[a];
+            length += plan.length_m(a);
         }
         auto const steps = steps_of(drainage, support);
         RC_ASSERT(walked == steps);
-        for (NodeId n = 0; n < boost::num_vertices(plan); ++n) {
-            RC_ASSERT(index.in[n].size() != 1U || index.out[n] < 0); // no node in mid-river
-            RC_ASSERT(index.basin[n] > 0);
+        for (NodeId n = 0; n < plan.node_count(); ++n) {
+            RC_ASSERT(plan.in(n).size() != 1U || plan.out(n) == no_arc); // no node in mid-river
+            RC_ASSERT(plan.basin(n) > 0);
         }
         auto const areas = flow::areas_d8(plan, drainage);
         RC_ASSERT(areas.us_area_m2 == streams.areas.us_area_m2);

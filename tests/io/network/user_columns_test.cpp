@@ -221,7 +221,7 @@ TEST(UserColumns, EveryFormatGivesBackWhatAFileSaid) {
     NetworkFile const file = io::read_network(path, {.any_lines = true});
     network::FileNetwork const made = network::from_file(file);
     NetworkOrders const orders = network::order(made.network.plan);
-    std::vector<double> const node_area_m2(boost::num_vertices(made.network.plan), -1.0);
+    std::vector<double> const node_area_m2(made.network.plan.node_count(), -1.0);
     io::UserData const user{file.attributes, made.records, made.stretches};
     std::vector<double> const area_m2(file.arcs.size(), -1.0);
     io::NetworkTables tables{made.network, orders, area_m2, area_m2, node_area_m2, "EPSG:32631", {}};

@@ -237,21 +237,20 @@ TEST(WriteNetwork, FieldsAreTheSchemasInBothFormats) {
 TEST(WriteNetwork, ValuesAreTheNetworksInBothFormats) {
     for (SampleNetwork const& sample : samples()) {
         Written const written(sample);
-        NetworkIndex const index(sample.network.plan);
         for (auto const& dataset : written.both("arcs")) {
             std::size_t a = 0;
             for (auto const& feature : Written::layer(*dataset, "arcs")) {
                 auto const whole = [&](char const* name) { return feature->GetFieldAsInteger64(name); };
                 auto const real = [&](char const* name) { return feature->GetFieldAsDouble(name); };
-                Arc const& arc = sample.network.plan[index.arcs[a]];
+                Arc const& arc = sample.network.plan.arc(a);
                 auto const& z = sample.network.arc_z[a];
-                NodeId const from = index.from[a];
-                NodeId const to = index.to[a];
+                NodeId const from = sample.network.plan.from(a);
+                NodeId const to = sample.network.plan.to(a);
                 EXPECT_EQ(whole("arc_id"), static_cast<std::int64_t>(a) + 1);
                 EXPECT_EQ(whole("from_node"), static_cast<std::int64_t>(from) + 1);
                 EXPECT_EQ(whole("to_node"), static_cast<std::int64_t>(to) + 1);
-                EXPECT_EQ(whole("ds_arc"), index.out[to] + 1);
-                EXPECT_EQ(whole("n_up"), static_cast<std::int64_t>(index.in[from].size()));
+                EXPECT_EQ(whole("ds_arc"), sample.network.plan.out(to) + 1);
+                EXPECT_EQ(whole("n_up"), static_cast<std::int64_t>(sample.network.plan.in(from).size()));
                 EXPECT_EQ(whole("basin_id"), sample.orders.arc_basin[a]);
                 EXPECT_EQ(whole("topo_ord"), sample.orders.topological[a]);
                 EXPECT_EQ(whole("strahler"), sample.orders.strahler[a]);
@@ -260,11 +259,12 @@ TEST(WriteNetwork, ValuesAreTheNetworksInBothFormats) {
                 EXPECT_EQ(whole("feature"), arc.feature);
                 EXPECT_EQ(whole("braided"), 0);
                 EXPECT_EQ(feature->GetFieldAsString("type"), arc.type.empty() ? "none" : arc.type);
-                EXPECT_NEAR(real("length"), index.length_m[a], 1e-9);
-                EXPECT_NEAR(real("straight"), distance(sample.network.plan[from].at, sample.network.plan[to].at), 1e-9);
+                EXPECT_NEAR(real("length"), sample.network.plan.length_m(a), 1e-9);
+                EXPECT_NEAR(real("straight"),
+                            distance(sample.network.plan.node(from).at, sample.network.plan.node(to).at), 1e-9);
                 EXPECT_NEAR(real("z_up"), sample.network.node_z[from], 1e-9);
                 EXPECT_NEAR(real("z_down"), sample.network.node_z[to], 1e-9);
-                EXPECT_NEAR(real("slope"), (z.front() - z.back()) / index.length_m[a], 1e-15);
+                EXPECT_NEAR(real("slope"), (z.front() - z.back()) / sample.network.plan.length_m(a), 1e-15);
                 EXPECT_NEAR(real("dist_out"), sample.orders.node_dist_out_m[to], 1e-9);
                 EXPECT_NEAR(real("us_area"), sample.us_area_m2[a], 1e-6);
                 EXPECT_NEAR(real("ds_area"), sample.ds_area_m2[a], 1e-6);
@@ -286,27 +286,28 @@ TEST(WriteNetwork, ValuesAreTheNetworksInBothFormats) {
                 EXPECT_NEAR(real("length_3d"), along, 1e-9);
                 ++a;
             }
-            EXPECT_EQ(a, index.arcs.size());
+            EXPECT_EQ(a, sample.network.plan.arc_count());
         }
         for (auto const& dataset : written.both("nodes")) {
             NodeId n = 0;
             for (auto const& feature : Written::layer(*dataset, "nodes")) {
                 EXPECT_EQ(feature->GetFieldAsInteger64("node_id"), static_cast<std::int64_t>(n) + 1);
                 EXPECT_STREQ(feature->GetFieldAsString("kind"), name_of(kind_of(sample.network.plan, n)));
-                EXPECT_EQ(feature->GetFieldAsInteger64("deg_in"), static_cast<std::int64_t>(index.in[n].size()));
-                EXPECT_EQ(feature->GetFieldAsInteger64("deg_out"), index.out[n] < 0 ? 0 : 1);
+                EXPECT_EQ(feature->GetFieldAsInteger64("deg_in"),
+                          static_cast<std::int64_t>(sample.network.plan.in(n).size()));
+                EXPECT_EQ(feature->GetFieldAsInteger64("deg_out"), sample.network.plan.out(n) == no_arc ? 0 : 1);
                 EXPECT_EQ(feature->GetFieldAsInteger64("basin_id"), sample.orders.node_basin[n]);
                 EXPECT_EQ(feature->GetFieldAsInteger64("strahler"), sample.orders.node_strahler[n]);
                 EXPECT_NEAR(feature->GetFieldAsDouble("z"), sample.network.node_z[n], 1e-9);
                 EXPECT_NEAR(feature->GetFieldAsDouble("area"), sample.node_area_m2[n], 1e-6);
                 EXPECT_NEAR(feature->GetFieldAsDouble("dist_out"), sample.orders.node_dist_out_m[n], 1e-9);
                 auto const& point = *feature->GetGeometryRef()->toPoint();
-                EXPECT_EQ(point.getX(), sample.network.plan[n].at.x);
-                EXPECT_EQ(point.getY(), sample.network.plan[n].at.y);
+                EXPECT_EQ(point.getX(), sample.network.plan.node(n).at.x);
+                EXPECT_EQ(point.getY(), sample.network.plan.node(n).at.y);
                 EXPECT_EQ(point.getZ(), sample.network.node_z[n]);
                 ++n;
             }
-            EXPECT_EQ(n, boost::num_vertices(sample.network.plan));
+            EXPECT_EQ(n, sample.network.plan.node_count());
         }
     }
 }
@@ -477,13 +478,14 @@ TEST(WriteNetwork, NetworkWithoutCrs) {
 TEST(WriteNetwork, LongTypeFitsOrIsNamed) {
     ScratchFolder const folder;
     SampleNetwork sample = y_shape();
-    NetworkIndex const index(sample.network.plan);
-    sample.network.plan[index.arcs[2]].type = std::string(254, 'A');
+    sample.draft.arcs[2].arc.type = std::string(254, 'A');
+    sample.settle();
     io::write_shapefiles(sample.tables(), folder / "net");
     auto const dataset = open(folder / "net_arcs.shp");
     auto const feature = std::unique_ptr<OGRFeature>(dataset->GetLayer(0)->GetFeature(2));
     EXPECT_EQ(feature->GetFieldAsString("type"), std::string(254, 'A'));
-    sample.network.plan[index.arcs[2]].type = std::string(255, 'A');
+    sample.draft.arcs[2].arc.type = std::string(255, 'A');
+    sample.settle();
     EXPECT_NE(message_of([&] { io::write_shapefiles(sample.tables(), folder / "more"); }).find("arcs 3 has type"),
               std::string::npos);
 }
@@ -509,7 +511,7 @@ TEST(WriteNetwork, RoundTripIsExact) {
             RC_ASSERT(file.nodes.size() == 3U);
             RC_ASSERT(file.arcs.size() == 2U);
             for (std::size_t n = 0; n < 3; ++n) {
-                Vec2 const at = sample.network.plan[n].at;
+                Vec2 const at = sample.network.plan.node(n).at;
                 RC_ASSERT(file.nodes[n].id == static_cast<std::int64_t>(n) + 1);
                 RC_ASSERT(file.nodes[n].at == (Vec3{at.x, at.y, sample.network.node_z[n]}));
             }

@@ -116,13 +116,12 @@ struct Drawn {
 
 Drawn draw(RaisedNetwork network) {
     Drawn drawn{std::move(network), {}, {}, {}, {}};
-    NetworkIndex const index(drawn.network.plan);
     drawn.orders = network::order(drawn.network.plan);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (std::size_t a = 0; a < drawn.network.plan.arc_count(); ++a) {
         drawn.us_area_m2.push_back(static_cast<double>(drawn.orders.shreve[a]) * 1234.5678);
-        drawn.ds_area_m2.push_back(drawn.us_area_m2.back() + 100.0 * index.length_m[a]);
+        drawn.ds_area_m2.push_back(drawn.us_area_m2.back() + 100.0 * drawn.network.plan.length_m(a));
     }
-    drawn.node_area_m2.assign(index.out.size(), 1.0);
+    drawn.node_area_m2.assign(drawn.network.plan.node_count(), 1.0);
     return drawn;
 }
 
@@ -340,7 +339,7 @@ TEST(WriteSchemas, MaskHasTheCellsOfRivers) {
     }
     EXPECT_GT(rivers, 20);
     for (NodeId n = 0; n < 4; ++n) {
-        EXPECT_EQ(mask[grid.cell_of(sample.network.plan[n].at)], 1.0F);
+        EXPECT_EQ(mask[grid.cell_of(sample.network.plan.node(n).at)], 1.0F);
     }
     Grid const small{4, 4, 10.0, -150.0, 250.0, "EPSG:32631"};
     EXPECT_THROW(io::write_network(sample.tables(), folder / "out.tif", {NetworkFormat::mask, Schema::native, small}),
@@ -349,8 +348,8 @@ TEST(WriteSchemas, MaskHasTheCellsOfRivers) {
 
 TEST(WriteSchemas, GraphsHaveNodesEdgesAndTheirText) {
     SampleNetwork sample = y_shape();
-    NetworkIndex const index(sample.network.plan);
-    sample.network.plan[index.arcs[0]].type = "a <b> & \"c\", 'd' # \x01";
+    sample.draft.arcs[0].arc.type = "a <b> & \"c\", 'd' # \x01";
+    sample.settle();
     ScratchFolder const folder;
     io::write_network(sample.tables(), folder / "net.graphml", {NetworkFormat::graphml});
     std::string const graphml = bytes_of(folder / "net.graphml");
@@ -387,10 +386,12 @@ TEST(WriteSchemas, RoundTripsLoseNothingTheSchemaCanHold) {
             random_rivers(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::int64_t>(2, 12),
                           *rc::gen::inRange<std::int64_t>(2, 12), 1000.0 / 7.0);
         std::int64_t feature = 0;
-        for (ArcId const arc : NetworkIndex(rivers.plan).arcs) {
+        NetworkDraft named = rivers.plan.draft();
+        for (DraftArc& drawn : named.arcs) {
             feature = (7 * feature + 3) % 1000003;
-            rivers.plan[arc].feature = feature;
+            drawn.arc.feature = feature;
         }
+        rivers.plan = std::move(named);
         Drawn const drawn = draw(std::move(rivers));
         ScratchFolder const folder;
         std::string const name = "net" + name_of_format(format);
@@ -403,28 +404,27 @@ TEST(WriteSchemas, RoundTripsLoseNothingTheSchemaCanHold) {
         RC_ASSERT(file.crs == "EPSG:32631");
         RC_ASSERT(file.arcs.size() == drawn.us_area_m2.size());
         network::FileNetwork const made = network::from_file(file);
-        NetworkIndex const was(drawn.network.plan);
-        NetworkIndex const is(made.network.plan);
         NetworkOrders const orders = network::order(made.network.plan);
         RC_ASSERT(orders.strahler == drawn.orders.strahler);
         RC_ASSERT(orders.shreve == drawn.orders.shreve);
         RC_ASSERT(orders.hack == drawn.orders.hack);
         RC_ASSERT(made.network.arc_z == drawn.network.arc_z);
         std::vector<std::int64_t> numbers;
-        for (std::size_t a = 0; a < was.arcs.size(); ++a) {
-            RC_ASSERT(made.network.plan[is.arcs[a]].line == drawn.network.plan[was.arcs[a]].line);
-            RC_ASSERT(is.out[is.to[a]] == was.out[was.to[a]]);
+        for (std::size_t a = 0; a < drawn.network.plan.arc_count(); ++a) {
+            RC_ASSERT(made.network.plan.arc(a).line == drawn.network.plan.arc(a).line);
+            RC_ASSERT(made.network.plan.out(made.network.plan.to(a)) ==
+                      drawn.network.plan.out(drawn.network.plan.to(a)));
             if (schema != Schema::grass) {
                 RC_ASSERT(std::fabs(made.us_area_m2[a] - drawn.us_area_m2[a]) < 2e-6);
                 RC_ASSERT(std::fabs(made.ds_area_m2[a] - drawn.ds_area_m2[a]) < 2e-6);
             }
-            numbers.push_back(made.network.plan[is.arcs[a]].feature);
+            numbers.push_back(made.network.plan.arc(a).feature);
         }
         if (schema != Schema::native && format == NetworkFormat::flatgeobuf) { // which orders its features anew
             std::sort(numbers.begin(), numbers.end());
         }
         for (std::size_t a = 0; a < numbers.size(); ++a) {
-            std::int64_t const own = drawn.network.plan[was.arcs[a]].feature;
+            std::int64_t const own = drawn.network.plan.arc(a).feature;
             RC_ASSERT(numbers[a] == (schema == Schema::native ? own : static_cast<std::int64_t>(a) + 1));
         }
         for (auto const& arc : file.arcs) {

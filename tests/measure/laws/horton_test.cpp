@@ -26,15 +26,15 @@ using Numbers = std::vector<double>;
 /// A tree in which two streams of each order meet to one of the next; the stream of order k is 3^k m long and drains
 /// 5^k m2.
 struct PerfectTree {
-    StreamNetwork net;
+    NetworkDraft net;
     Numbers areas;
 
-    explicit PerfectTree(int highest) { grow(add_node(net, {0.0, 0.0}), highest); }
+    explicit PerfectTree(int highest) { grow(net.add_node({0.0, 0.0}), highest); }
 
 private:
     void grow(NodeId below, int order) {
-        NodeId const above = add_node(net, {0.0, net[below].at.y + std::pow(3.0, order)});
-        add_arc(net, above, below, {});
+        NodeId const above = net.add_node({0.0, net.nodes[below].at.y + std::pow(3.0, order)});
+        net.add_arc(above, below);
         areas.push_back(std::pow(5.0, order));
         for (int k = 0; order > 1 && k < 2; ++k) {
             grow(above, order - 1);
@@ -125,9 +125,8 @@ TEST(Horton, StreamsAreChainsOfEqualOrder) {
         auto const cols = *evenly<std::int64_t>(1, 16);
         auto const rows = *evenly<std::int64_t>(2, 24);
         StreamNetwork const net = random_rivers(seed, cols, rows, 2.0).plan;
-        NetworkIndex const index(net);
         NetworkOrders const orders = orders_of(net);
-        std::size_t const arcs = index.arcs.size();
+        std::size_t const arcs = net.arc_count();
         Numbers areas(arcs);
         for (std::size_t a = 0; a < arcs; ++a) {
             areas[a] = static_cast<double>(orders.shreve[a]) * 100.0; // greatest at the end of a chain
@@ -136,7 +135,7 @@ TEST(Horton, StreamsAreChainsOfEqualOrder) {
         std::iota(chain.begin(), chain.end(), std::size_t{0});
         for (std::size_t a = 0; a < arcs; ++a) {
             for (std::size_t b = 0; b < arcs; ++b) {
-                if (index.to[a] == index.from[b] && orders.strahler[a] == orders.strahler[b]) {
+                if (net.to(a) == net.from(b) && orders.strahler[a] == orders.strahler[b]) {
                     std::size_t const old = chain[a];
                     std::replace(chain.begin(), chain.end(), old, chain[b]);
                 }
@@ -149,7 +148,7 @@ TEST(Horton, StreamsAreChainsOfEqualOrder) {
         std::map<int, std::map<std::size_t, Stream>> streams;
         for (std::size_t a = 0; a < arcs; ++a) {
             Stream& s = streams[orders.strahler[a]][chain[a]];
-            s.length += index.length_m[a];
+            s.length += net.length_m(a);
             s.area = std::max(s.area, areas[a]);
         }
         HortonLaws const laws = horton(net, orders, areas);

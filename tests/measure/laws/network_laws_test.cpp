@@ -34,34 +34,33 @@ struct MadeToOrder {
     RaisedNetwork rivers;
     flow::ContributingAreas areas;
     NetworkOrders orders;
-    NetworkIndex index;
 
     explicit MadeToOrder(std::uint64_t seed, std::int64_t cols = 24, std::int64_t rows = 60)
-        : rivers(random_rivers(seed, cols, rows, 30.0)), orders(orders_of(rivers.plan)), index(rivers.plan) {
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        : rivers(random_rivers(seed, cols, rows, 30.0)), orders(orders_of(rivers.plan)) {
+        for (std::size_t a = 0; a < rivers.plan.arc_count(); ++a) {
             areas.us_area_m2.push_back(1e5 * static_cast<double>(orders.shreve[a]));
-            areas.ds_area_m2.push_back(areas.us_area_m2.back() + 40.0 * index.length_m[a]);
+            areas.ds_area_m2.push_back(areas.us_area_m2.back() + 40.0 * rivers.plan.length_m(a));
         }
-        areas.node_m2.assign(index.out.size(), 0.0);
+        areas.node_m2.assign(rivers.plan.node_count(), 0.0);
     }
 };
 
 /// By node, the longest way along rivers above it, found by walking down from every source.
-Numbers longest_slowly(NetworkIndex const& index, Numbers const& head) {
-    Numbers longest(index.out.size(), 0.0);
-    for (NodeId n = 0; n < index.out.size(); ++n) {
-        if (!index.in[n].empty()) {
+Numbers longest_slowly(StreamNetwork const& network, Numbers const& head) {
+    Numbers longest(network.node_count(), 0.0);
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        if (!network.in(n).empty()) {
             continue;
         }
         double length = head.empty() ? 0.0 : head[n];
         for (NodeId at = n;;) {
             longest[at] = std::max(longest[at], length);
-            if (index.out[at] < 0) {
+            if (network.out(at) == no_arc) {
                 break;
             }
-            auto const a = static_cast<std::size_t>(index.out[at]);
-            length += index.length_m[a];
-            at = index.to[a];
+            auto const a = network.out(at);
+            length += network.length_m(a);
+            at = network.to(a);
         }
     }
     return longest;
@@ -69,15 +68,15 @@ Numbers longest_slowly(NetworkIndex const& index, Numbers const& head) {
 
 /// Two straight rivers of these lengths meet at an angle and go on to the west.
 StreamNetwork fork(double degrees, double one, double other) {
-    StreamNetwork net;
+    NetworkDraft net;
     double const half = degrees / 360.0 * 3.14159265358979323846;
-    NodeId const outlet = add_node(net, {-100.0, 0.0});
-    NodeId const meet = add_node(net, {0.0, 0.0});
-    NodeId const left = add_node(net, {one * std::cos(half), one * std::sin(half)});
-    NodeId const right = add_node(net, {other * std::cos(half), -other * std::sin(half)});
-    add_arc(net, left, meet, {});
-    add_arc(net, right, meet, {});
-    add_arc(net, meet, outlet, {});
+    NodeId const outlet = net.add_node({-100.0, 0.0});
+    NodeId const meet = net.add_node({0.0, 0.0});
+    NodeId const left = net.add_node({one * std::cos(half), one * std::sin(half)});
+    NodeId const right = net.add_node({other * std::cos(half), -other * std::sin(half)});
+    net.add_arc(left, meet);
+    net.add_arc(right, meet);
+    net.add_arc(meet, outlet);
     return net;
 }
 
@@ -171,7 +170,7 @@ TEST(PowerLaw, EveryBinCountsOnce) {
 
 TEST(Concavity, OneArcHasNone) {
     MadeToOrder one(1, 1, 2);
-    ASSERT_EQ(one.index.arcs.size(), 1U);
+    ASSERT_EQ(one.rivers.plan.arc_count(), 1U);
     EXPECT_FALSE(concavity(one.rivers, one.areas));
     EXPECT_FALSE(hack(one.rivers.plan, one.areas.ds_area_m2));
     EXPECT_THROW(concavity(one.rivers, {}), BadInput);
@@ -182,9 +181,9 @@ TEST(Concavity, IsRecoveredFromRiversThatHaveIt) {
     ASSERT_TRUE(rc::check("S = k A^-theta by construction gives theta to 1e-6; arcs that do not fall are left out", [] {
         MadeToOrder made(*rc::gen::arbitrary<std::uint64_t>());
         double const theta = static_cast<double>(*evenly(-20, 120)) / 100.0;
-        for (std::size_t a = 0; a < made.index.arcs.size(); ++a) {
+        for (std::size_t a = 0; a < made.rivers.plan.arc_count(); ++a) {
             double const area = 0.5 * (made.areas.us_area_m2[a] + made.areas.ds_area_m2[a]);
-            made.rivers.arc_z[a] = {1.7 * std::pow(area, -theta) * made.index.length_m[a], 0.0};
+            made.rivers.arc_z[a] = {1.7 * std::pow(area, -theta) * made.rivers.plan.length_m(a), 0.0};
         }
         auto const law = concavity(made.rivers, made.areas);
         RC_ASSERT(law.has_value());
@@ -211,14 +210,14 @@ TEST(Hack, IsRecoveredFromRiversThatHaveIt) {
         double const h = static_cast<double>(*evenly(40, 110)) / 100.0;
         Numbers head;
         if (*rc::gen::arbitrary<bool>()) {
-            for (NodeId n = 0; n < made.index.out.size(); ++n) {
+            for (NodeId n = 0; n < made.rivers.plan.node_count(); ++n) {
                 head.push_back(500.0 * unit(chance(9, n)));
             }
         }
-        Numbers const longest = longest_slowly(made.index, head);
-        for (std::size_t a = 0; a < made.index.arcs.size(); ++a) {
-            NodeId const from = made.index.from[a];
-            made.areas.ds_area_m2[a] = std::pow((longest[from] + made.index.length_m[a]) / 1.4, 1.0 / h);
+        Numbers const longest = longest_slowly(made.rivers.plan, head);
+        for (std::size_t a = 0; a < made.rivers.plan.arc_count(); ++a) {
+            NodeId const from = made.rivers.plan.from(a);
+            made.areas.ds_area_m2[a] = std::pow((longest[from] + made.rivers.plan.length_m(a)) / 1.4, 1.0 / h);
         }
         auto const law = hack(made.rivers.plan, made.areas.ds_area_m2, head);
         RC_ASSERT(law.has_value());
@@ -258,10 +257,10 @@ TEST(LinkLengths, NoneAndOne) {
 }
 
 TEST(LinkLengths, ArcsThatMeetOneToOneAreOneLink) {
-    StreamNetwork net = fork(60.0, 30.0, 50.0);
+    NetworkDraft net = fork(60.0, 30.0, 50.0).draft();
     NodeId const outlet = 0;
-    NodeId const sea = add_node(net, {-150.0, 0.0});
-    add_arc(net, outlet, sea, {});
+    NodeId const sea = net.add_node({-150.0, 0.0});
+    net.add_arc(outlet, sea);
     LinkLengths const lengths = link_lengths(net);
     EXPECT_EQ(lengths.exterior.links, 2);
     EXPECT_NEAR(lengths.exterior.mean_m, 40.0, 1e-12);
@@ -294,11 +293,11 @@ TEST(JunctionAngles, AreThoseDrawn) {
 TEST(JunctionAngles, StairsOfCellsHaveTheDirectionOfTheirChord) {
     // One river comes from the east, the other down stairs of three cells east and one north: atan(1/3) on the whole,
     // where its last step alone says 0 degrees.
-    StreamNetwork net;
-    NodeId const outlet = add_node(net, {-5.0, 0.0});
-    NodeId const meet = add_node(net, {0.0, 0.0});
-    NodeId const east = add_node(net, {40.0, 0.0});
-    NodeId const stairs = add_node(net, {60.0, 20.0});
+    NetworkDraft net;
+    NodeId const outlet = net.add_node({-5.0, 0.0});
+    NodeId const meet = net.add_node({0.0, 0.0});
+    NodeId const east = net.add_node({40.0, 0.0});
+    NodeId const stairs = net.add_node({60.0, 20.0});
     Arc steps;
     for (int i = 20; i >= 0; --i) {
         steps.line.push_back({3.0 * i, 1.0 * i});
@@ -306,9 +305,9 @@ TEST(JunctionAngles, StairsOfCellsHaveTheDirectionOfTheirChord) {
             steps.line.push_back({3.0 * i - 2.0, 1.0 * i - 1.0});
         }
     }
-    add_arc(net, stairs, meet, steps);
-    add_arc(net, east, meet, {});
-    add_arc(net, meet, outlet, {});
+    net.add_arc(stairs, meet, steps);
+    net.add_arc(east, meet);
+    net.add_arc(meet, outlet);
     double const expected = std::atan2(1.0, 3.0) * 180.0 / 3.14159265358979323846;
     EXPECT_NEAR(junction_angles(net, 30.0).mean_deg, expected, 2.0);
     EXPECT_NEAR(junction_angles(net, 1.0).mean_deg, 0.0, 1e-9);
@@ -321,7 +320,7 @@ TEST(NetworkLaws, AreThoseOfTheirVerbs) {
     NetworkLaws const laws =
         network_laws(made.rivers, made.orders, made.areas,
                      {.land_m2 = 2e6, .junction_reach_m = 60.0, .head_m = {}, .side_branches = {1.0, 2.0, 4.0}});
-    double const length = std::accumulate(made.index.length_m.begin(), made.index.length_m.end(), 0.0);
+    double const length = std::accumulate(made.rivers.plan.length_m().begin(), made.rivers.plan.length_m().end(), 0.0);
     EXPECT_NEAR(laws.drainage_density_m, length / 2e6, 1e-15);
     EXPECT_NEAR(laws.tokunaga.value().c, 2.0, 1e-12);
     EXPECT_EQ(laws.hack.value().exponent, hack(made.rivers.plan, made.areas.ds_area_m2)->exponent);

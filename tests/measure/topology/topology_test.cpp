@@ -293,12 +293,14 @@ TEST(CheckTopology, StopsWhenAsked) {
 
 TEST(AsFile, NumbersFromOne) {
     RaisedNetwork net;
+    NetworkDraft plan;
     for (Vec2 const at : {Vec2{0, 1}, Vec2{0, 0}, Vec2{3, 0}}) {
-        add_node(net.plan, at);
+        plan.add_node(at);
     }
     net.node_z = {2, 1, 0};
-    add_arc(net.plan, 1, 2, {});
-    add_arc(net.plan, 0, 1, {});
+    plan.add_arc(1, 2);
+    plan.add_arc(0, 1);
+    net.plan = std::move(plan);
     net.arc_z = {{1, 0}, {2, 1}};
     NetworkOrders const orders = orders_of(net.plan);
     NetworkFile const file = as_file(net, orders);

@@ -165,13 +165,12 @@ TEST(Channels, KeepTheirLawWhateverIsDrawn) {
         ChannelsOfArcs const out = channels(net, grid, params);
         test::require_law(out.channels);
         test::require_short(out.channels, params.look_cells);
-        RC_ASSERT(out.of_arc.size() == boost::num_edges(net));
-        NetworkIndex const index(net);
+        RC_ASSERT(out.of_arc.size() == net.arc_count());
         std::set<std::int64_t> drawn_cells;
         std::set<std::int64_t> listed;
         for (std::size_t a = 0; a < out.of_arc.size(); ++a) {
             std::set<std::int64_t> own;
-            for (Cell const c : cells_along(net[index.arcs[a]].line, grid)) {
+            for (Cell const c : cells_along(net.arc(a).line, grid)) {
                 own.insert(grid.index(c));
             }
             drawn_cells.insert(own.begin(), own.end());
@@ -197,12 +196,11 @@ TEST(Channels, RiversOnALatticeKeepTheirWay) {
         ChannelsOfArcs const out = channels(net, grid);
         test::require_law(out.channels);
         test::require_short(out.channels, 8);
-        NetworkIndex const index(net);
         RC_ASSERT(std::count(out.channels.receiver.begin(), out.channels.receiver.end(), -1) ==
-                  static_cast<std::int64_t>(index.outlets.size()));
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-            if (index.in[index.from[a]].empty()) {
-                std::int64_t const source = grid.index(grid.cell_of(net[index.from[a]].at));
+                  static_cast<std::int64_t>(net.outlets().size()));
+        for (std::size_t a = 0; a < net.arc_count(); ++a) {
+            if (net.in(net.from(a)).empty()) {
+                std::int64_t const source = grid.index(grid.cell_of(net.node(net.from(a)).at));
                 RC_ASSERT(out.channels.cell[static_cast<std::size_t>(out.of_arc[a].front())] == source);
             }
             RC_ASSERT(std::is_sorted(out.of_arc[a].rbegin(), out.of_arc[a].rend()));

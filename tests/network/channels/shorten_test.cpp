@@ -48,7 +48,7 @@ TEST(Shorten, NothingGoneChangesNothing) {
     EXPECT_TRUE(out.notes.empty());
     EXPECT_EQ(out.drawn.channels.cell, drawn.channels.cell);
     EXPECT_EQ(out.drawn.of_arc, drawn.of_arc);
-    EXPECT_EQ(boost::num_vertices(out.network), 4U);
+    EXPECT_EQ(out.network.node_count(), 4U);
 }
 
 TEST(Shorten, RefusesWhatIsNoTip) {
@@ -63,8 +63,7 @@ TEST(Shorten, ATipBeginsFartherDown) {
     ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
     std::vector<std::int64_t> const left(drawn.of_arc[1].begin(), drawn.of_arc[1].begin() + 2);
     Shortened const out = shorten(fork(), drawn, left);
-    NetworkIndex const index(out.network);
-    EXPECT_EQ(out.network[index.arcs[1]].line, (std::vector<Vec2>{{2.5, 7.5}, {5.5, 4.5}}));
+    EXPECT_EQ(out.network.arc(1).line, (std::vector<Vec2>{{2.5, 7.5}, {5.5, 4.5}}));
     ASSERT_EQ(out.notes.size(), 1U);
     EXPECT_EQ(out.notes[0].kind, "shortened");
     EXPECT_EQ(out.notes[0].feature, 8);
@@ -77,10 +76,9 @@ TEST(Shorten, AnArmThatGoesLeavesOneRiver) {
     ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
     std::vector<std::int64_t> const left(drawn.of_arc[1].begin(), drawn.of_arc[1].end() - 1);
     Shortened const out = shorten(fork(), drawn, left);
-    NetworkIndex const index(out.network);
-    ASSERT_EQ(index.arcs.size(), 1U);
-    EXPECT_EQ(out.network[index.arcs[0]].line, (std::vector<Vec2>{{10.5, 9.5}, {5.5, 4.5}, {5.5, 0.5}}));
-    EXPECT_EQ(out.network[index.arcs[0]].feature, 9);
+    ASSERT_EQ(out.network.arc_count(), 1U);
+    EXPECT_EQ(out.network.arc(0).line, (std::vector<Vec2>{{10.5, 9.5}, {5.5, 4.5}, {5.5, 0.5}}));
+    EXPECT_EQ(out.network.arc(0).feature, 9);
     EXPECT_EQ(out.drawn.of_arc[0].size(), 10U);
     EXPECT_EQ(out.notes.size(), 1U);
 }
@@ -88,7 +86,7 @@ TEST(Shorten, AnArmThatGoesLeavesOneRiver) {
 TEST(Shorten, AllMayGo) {
     ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
     Shortened const out = shorten(fork(), drawn, some_tips(drawn.channels, 1, 1.0));
-    EXPECT_EQ(boost::num_edges(out.network), 0U);
+    EXPECT_EQ(out.network.arc_count(), 0U);
     EXPECT_TRUE(out.drawn.channels.cell.empty());
 }
 
@@ -99,24 +97,22 @@ TEST(Shorten, WhatIsLeftIsWhatWasDrawn) {
         std::vector<std::int64_t> const gone = some_tips(drawn.channels, seed, *rc::gen::element(0.0, 0.01, 0.1));
         Shortened const out = shorten(net, drawn, gone);
         test::require_law(out.drawn.channels);
-        NetworkIndex const index(out.network);
-        RC_ASSERT(out.drawn.of_arc.size() == index.arcs.size());
+        RC_ASSERT(out.drawn.of_arc.size() == out.network.arc_count());
         RC_ASSERT(out.drawn.channels.cell.size() + gone.size() == drawn.channels.cell.size());
         std::set<std::pair<double, double>> vertices;
         double before_m = 0.0;
-        NetworkIndex const old(net);
-        for (std::size_t a = 0; a < old.arcs.size(); ++a) {
-            before_m += old.length_m[a];
-            for (Vec2 const p : net[old.arcs[a]].line) {
+        for (std::size_t a = 0; a < net.arc_count(); ++a) {
+            before_m += net.length_m(a);
+            for (Vec2 const p : net.arc(a).line) {
                 vertices.emplace(p.x, p.y);
             }
         }
         double after_m = 0.0;
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-            after_m += index.length_m[a];
-            auto const& line = out.network[index.arcs[a]].line;
+        for (std::size_t a = 0; a < out.network.arc_count(); ++a) {
+            after_m += out.network.length_m(a);
+            auto const& line = out.network.arc(a).line;
             RC_ASSERT(line.size() >= 2U);
-            RC_ASSERT(line.front() == out.network[index.from[a]].at);
+            RC_ASSERT(line.front() == out.network.node(out.network.from(a)).at);
             for (std::size_t i = 1; i < line.size(); ++i) {
                 RC_ASSERT(vertices.contains({line[i].x, line[i].y}));
             }
@@ -129,7 +125,7 @@ TEST(Shorten, WhatIsLeftIsWhatWasDrawn) {
                 for (std::int64_t const i : out.drawn.of_arc[a]) {
                     RC_ASSERT(cells.contains(out.drawn.channels.cell[static_cast<std::size_t>(i)]));
                 }
-                if (index.in[index.from[a]].empty() && !out.drawn.of_arc[a].empty()) {
+                if (out.network.in(out.network.from(a)).empty() && !out.drawn.of_arc[a].empty()) {
                     RC_ASSERT(out.drawn.channels.cell[static_cast<std::size_t>(out.drawn.of_arc[a].front())] ==
                               grid.index(grid.cell_of(line.front())));
                 }

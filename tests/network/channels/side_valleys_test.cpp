@@ -61,11 +61,7 @@ Scene plain_scene() {
 }
 
 std::vector<Arc> arcs_of(StreamNetwork const& plan) {
-    std::vector<Arc> arcs;
-    for (ArcId const arc : NetworkIndex(plan).arcs) {
-        arcs.push_back(plan[arc]);
-    }
-    return arcs;
+    return plan.arcs();
 }
 
 /// The vertices of given arcs, each once, by place.
@@ -81,24 +77,23 @@ std::set<std::pair<double, double>> vertices_of(StreamNetwork const& plan) {
 
 void expect_lawful(Scene const& scene, SideValleys const& made, std::int64_t support) {
     StreamNetwork const& plan = made.network.plan;
-    NetworkIndex const index(plan);
     std::vector<std::vector<Vec2>> lines;
     std::vector<geometry::EndNodes> ends;
     std::int64_t grown = 0;
     double given_m = 0.0;
     std::set<std::int64_t> covered;
     Grid const& grid = scene.dem.grid();
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        Arc const& arc = plan[index.arcs[a]];
+    for (std::size_t a = 0; a < plan.arc_count(); ++a) {
+        Arc const& arc = plan.arc(a);
         lines.push_back(arc.line);
-        ends.push_back({index.from[a], index.to[a]});
-        RC_ASSERT(arc.given == (a < index.arcs.size() - static_cast<std::size_t>(made.grown))); // given arcs first
+        ends.push_back({plan.from(a), plan.to(a)});
+        RC_ASSERT(arc.given == (a < plan.arc_count() - static_cast<std::size_t>(made.grown))); // given arcs first
         grown += arc.given ? 0 : 1;
-        given_m += arc.given ? index.length_m[a] : 0.0;
+        given_m += arc.given ? plan.length_m(a) : 0.0;
         std::vector<double> const& z = made.network.arc_z[a];
         RC_ASSERT(z.size() == arc.line.size());
-        RC_ASSERT(z.front() == made.network.node_z[index.from[a]]);
-        RC_ASSERT(z.back() == made.network.node_z[index.to[a]]);
+        RC_ASSERT(z.front() == made.network.node_z[plan.from(a)]);
+        RC_ASSERT(z.back() == made.network.node_z[plan.to(a)]);
         for (std::size_t i = 0; i + 1 < z.size(); ++i) {
             RC_ASSERT((arc.given ? z[i] >= z[i + 1] : z[i] > z[i + 1]));
         }
@@ -108,9 +103,9 @@ void expect_lawful(Scene const& scene, SideValleys const& made, std::int64_t sup
     }
     RC_ASSERT(grown == made.grown);
     RC_ASSERT(geometry::meetings(lines, ends).empty());
-    for (NodeId n = 0; n < index.out.size(); ++n) {
-        RC_ASSERT((index.out[n] >= 0 || !index.in[n].empty()));
-        RC_ASSERT(index.basin[n] > 0);
+    for (NodeId n = 0; n < plan.node_count(); ++n) {
+        RC_ASSERT((plan.out(n) != no_arc || !plan.in(n).empty()));
+        RC_ASSERT(plan.basin(n) > 0);
     }
 
     // Given rivers are what they were, vertex for vertex, whatever joins them.
@@ -118,7 +113,7 @@ void expect_lawful(Scene const& scene, SideValleys const& made, std::int64_t sup
     auto const after = vertices_of(plan);
     RC_ASSERT(std::includes(after.begin(), after.end(), before.begin(), before.end()));
     double length_m = 0.0;
-    for (double const one : NetworkIndex(scene.rivers.plan).length_m) {
+    for (double const one : scene.rivers.plan.length_m()) {
         length_m += one;
     }
     RC_ASSERT(std::fabs(length_m - given_m) < 1e-6 * length_m);
@@ -155,7 +150,7 @@ TEST(SideValleys, WithoutEnoughWaterNothingIsAdded) {
     Scene const scene = plain_scene();
     SideValleys const made = side_valleys(scene.rivers, scene.channels, scene.dem, scene.drainage, {1'000'000});
     EXPECT_EQ(made.grown, 0);
-    ASSERT_EQ(boost::num_edges(made.network.plan), boost::num_edges(scene.rivers.plan));
+    ASSERT_EQ(made.network.plan.arc_count(), scene.rivers.plan.arc_count());
     EXPECT_EQ(made.network.arc_z, scene.rivers.arc_z);
     EXPECT_EQ(made.network.node_z, scene.rivers.node_z);
 }
@@ -174,14 +169,14 @@ TEST(SideValleys, TheyReachTheGivenRivers) {
     EXPECT_GT(made.grown, 20);
     expect_lawful(scene, made, 40);
     // By far the most of the land drains to the given outlet: so do most valleys.
-    NetworkIndex const index(made.network.plan);
     std::int64_t given_basin = 0;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        given_basin = made.network.plan[index.arcs[a]].given ? index.basin[index.to[a]] : given_basin;
+    for (std::size_t a = 0; a < made.network.plan.arc_count(); ++a) {
+        given_basin = made.network.plan.arc(a).given ? made.network.plan.basin(made.network.plan.to(a)) : given_basin;
     }
     std::int64_t joined = 0;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        joined += !made.network.plan[index.arcs[a]].given && index.basin[index.to[a]] == given_basin ? 1 : 0;
+    for (std::size_t a = 0; a < made.network.plan.arc_count(); ++a) {
+        joined +=
+            !made.network.plan.arc(a).given && made.network.plan.basin(made.network.plan.to(a)) == given_basin ? 1 : 0;
     }
     EXPECT_GT(joined, 10);
 }
@@ -192,7 +187,7 @@ TEST(SideValleys, LawsOfRandomNetworks) {
         auto const side = *rc::gen::inRange<std::int64_t>(24, 70);
         auto const support = *rc::gen::inRange<std::int64_t>(1, 120);
         StreamNetwork const plan = test::random_skeleton(seed, side);
-        RC_PRE(boost::num_edges(plan) > 0);
+        RC_PRE(plan.arc_count() > 0);
         Scene const scene = scene_of(plan, square(side), seed);
         expect_lawful(scene, side_valleys(scene.rivers, scene.channels, scene.dem, scene.drainage, {support}), support);
     }));

@@ -119,27 +119,27 @@ TEST(AssignTypes, ByOrderFromSteepToFlat) {
 
 TEST(AssignTypes, Laws) {
     ASSERT_TRUE(rc::check("one type an arc; one order, one type; higher orders come later in the table", [] {
-        StreamNetwork net =
-            test::random_forest(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::size_t>(0, 40), 2);
-        for (ArcId const arc : boost::make_iterator_range(boost::edges(net))) {
-            net[arc].type.clear();
+        NetworkDraft untyped =
+            test::random_forest(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::size_t>(0, 40), 2).draft();
+        for (DraftArc& drawn : untyped.arcs) {
+            drawn.arc.type.clear();
         }
+        StreamNetwork const net(std::move(untyped));
         auto const orders = network::order(net);
         AssignTypesParams params;
         params.by_order = {Rosgen::aa_plus, Rosgen::a, Rosgen::b, Rosgen::c, Rosgen::d, Rosgen::da, Rosgen::e};
         params.by_order.resize(*rc::gen::inRange<std::size_t>(1, 8));
         params.coast_m = *rc::gen::element(0.0, 500.0, 2000.0);
         auto const types = assign_types(net, orders, params);
-        NetworkIndex const index(net);
-        RC_ASSERT(types.type.size() == index.arcs.size());
-        RC_ASSERT(types.braided.size() == index.arcs.size());
+        RC_ASSERT(types.type.size() == net.arc_count());
+        RC_ASSERT(types.braided.size() == net.arc_count());
         int const highest = *std::ranges::max_element(orders.strahler);
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-            for (std::size_t b = 0; b < index.arcs.size(); ++b) {
+        for (std::size_t a = 0; a < net.arc_count(); ++a) {
+            for (std::size_t b = 0; b < net.arc_count(); ++b) {
                 RC_ASSERT((orders.strahler[a] > orders.strahler[b]) || (types.type[a] <= types.type[b]));
             }
             RC_ASSERT((orders.strahler[a] < highest) || (types.type[a] == params.by_order.back()));
-            double const middle = 0.5 * (orders.node_dist_out_m[index.from[a]] + orders.node_dist_out_m[index.to[a]]);
+            double const middle = 0.5 * (orders.node_dist_out_m[net.from(a)] + orders.node_dist_out_m[net.to(a)]);
             if (std::fabs(middle - params.coast_m) > 1e-6) {
                 bool const braided = middle < params.coast_m || is_braided(types.type[a]);
                 RC_ASSERT(types.braided[a] == (braided ? 1 : 0));

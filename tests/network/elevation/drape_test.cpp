@@ -44,31 +44,30 @@ TEST(Drape, LeastHeightOfAllUpstream) {
         RaisedNetwork const rivers = random_rivers(seed, cols, rows);
         Raster<float> const dem = land(seed, cols, rows);
         RaisedNetwork const raised = network::drape(rivers.plan, dem);
-        NetworkIndex const index(rivers.plan);
         auto const at = [&](Vec2 p) { return static_cast<double>(dem[dem.grid().cell_of(p)]); };
         std::function<double(NodeId)> const least = [&](NodeId n) {
-            double z = at(rivers.plan[n].at);
-            for (std::int64_t const in : index.in[n]) {
-                auto const a = static_cast<std::size_t>(in);
-                for (Vec2 const p : rivers.plan[index.arcs[a]].line) {
+            double z = at(rivers.plan.node(n).at);
+            for (ArcId const in : rivers.plan.in(n)) {
+                auto const a = in;
+                for (Vec2 const p : rivers.plan.arc(a).line) {
                     z = std::min(z, at(p));
                 }
-                z = std::min(z, least(index.from[a]));
+                z = std::min(z, least(rivers.plan.from(a)));
             }
             return z;
         };
-        for (NodeId n = 0; n < index.out.size(); ++n) {
+        for (NodeId n = 0; n < rivers.plan.node_count(); ++n) {
             RC_ASSERT(raised.node_z[n] == least(n));
         }
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-            double z = raised.node_z[index.from[a]];
-            auto const& line = rivers.plan[index.arcs[a]].line;
+        for (std::size_t a = 0; a < rivers.plan.arc_count(); ++a) {
+            double z = raised.node_z[rivers.plan.from(a)];
+            auto const& line = rivers.plan.arc(a).line;
             RC_ASSERT(raised.arc_z[a].size() == line.size());
             for (std::size_t i = 0; i + 1 < line.size(); ++i) {
                 z = std::min(z, at(line[i]));
                 RC_ASSERT(raised.arc_z[a][i] == z);
             }
-            RC_ASSERT(raised.arc_z[a].back() == raised.node_z[index.to[a]]);
+            RC_ASSERT(raised.arc_z[a].back() == raised.node_z[rivers.plan.to(a)]);
         }
     }));
 }

@@ -11,14 +11,14 @@ using namespace thalweg;
 
 /// Two sources that meet, and an outlet.
 StreamNetwork two_rivers() {
-    StreamNetwork net;
-    NodeId const a = boost::add_vertex(Node{{0, 4}}, net);
-    NodeId const b = boost::add_vertex(Node{{4, 4}}, net);
-    NodeId const c = boost::add_vertex(Node{{2, 2}}, net);
-    NodeId const d = boost::add_vertex(Node{{2, 0}}, net);
-    add_arc(net, a, c, {{{0, 4}, {1, 3}, {2, 2}}, 1, 0, ""});
-    add_arc(net, b, c, {{{4, 4}, {2, 2}}, 1, 0, ""});
-    add_arc(net, c, d, {{{2, 2}, {2, 0}}, 1, 0, ""});
+    NetworkDraft net;
+    NodeId const a = net.add_node({0, 4});
+    NodeId const b = net.add_node({4, 4});
+    NodeId const c = net.add_node({2, 2});
+    NodeId const d = net.add_node({2, 0});
+    net.add_arc(a, c, {{{0, 4}, {1, 3}, {2, 2}}, 1, 0, ""});
+    net.add_arc(b, c, {{{4, 4}, {2, 2}}, 1, 0, ""});
+    net.add_arc(c, d, {{{2, 2}, {2, 0}}, 1, 0, ""});
     return net;
 }
 
@@ -41,10 +41,10 @@ TEST(KeepHeights, SameNetworkKeepsItsHeights) {
 
 TEST(KeepHeights, OutletCarriedOnFallsWithTheSlope) {
     RaisedNetwork const known{two_rivers(), {9, 8, 5, 1}, {{9, 7, 5}, {8, 5}, {5, 1}}};
-    StreamNetwork longer = known.plan;
-    ArcId const last = NetworkIndex(longer).arcs[2];
-    longer[boost::target(last, longer)].at = {2, -10};
-    longer[last].line = {{2, 2}, {2, 0}, {2, -10}};
+    NetworkDraft longer = known.plan.draft();
+    ArcId const last = 2;
+    longer.nodes[longer.arcs[last].to].at = {2, -10};
+    longer.arcs[last].arc.line = {{2, 2}, {2, 0}, {2, -10}};
     RaisedNetwork const out = network::keep_heights(longer, known, 0.5);
     EXPECT_EQ(out.arc_z[2], (std::vector<double>{5, 1, -4}));
     EXPECT_EQ(out.node_z[3], -4);

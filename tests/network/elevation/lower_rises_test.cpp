@@ -19,13 +19,13 @@ using network::Lowered;
 namespace {
 
 StreamNetwork chain(std::vector<Vec2> const& places) {
-    StreamNetwork net;
-    NodeId above = add_node(net, places.front());
+    NetworkDraft net;
+    NodeId above = net.add_node(places.front());
     for (std::size_t i = 1; i < places.size(); ++i) {
-        NodeId const below = add_node(net, places[i]);
+        NodeId const below = net.add_node(places[i]);
         Arc arc;
         arc.line = {places[i - 1], places[i]};
-        add_arc(net, above, below, std::move(arc));
+        net.add_arc(above, below, std::move(arc));
         above = below;
     }
     return net;
@@ -61,24 +61,23 @@ TEST(LowerRises, IsTheHighestThatFalls) {
             }
         }
         Lowered const lowered = lower_rises(rivers.plan, rivers.arc_z);
-        NetworkIndex const index(rivers.plan);
         // Slow: the least of an arc up to a vertex, and of all arcs from which its water comes.
         auto const least = [&](auto const& self, std::size_t a, std::size_t vertices) -> double {
             auto const& z = rivers.arc_z[a];
             double low = *std::min_element(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(vertices));
-            for (auto const up : index.in[index.from[a]]) {
+            for (auto const up : rivers.plan.in(rivers.plan.from(a))) {
                 auto const b = static_cast<std::size_t>(up);
                 low = std::min(low, self(self, b, rivers.arc_z[b].size()));
             }
             return low;
         };
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        for (std::size_t a = 0; a < rivers.plan.arc_count(); ++a) {
             auto const& z = lowered.network.arc_z[a];
             for (std::size_t v = 0; v + 1 < z.size(); ++v) {
                 RC_ASSERT(z[v] == least(least, a, v + 1));
             }
-            RC_ASSERT(z.front() == lowered.network.node_z[index.from[a]]);
-            RC_ASSERT(z.back() == lowered.network.node_z[index.to[a]]);
+            RC_ASSERT(z.front() == lowered.network.node_z[rivers.plan.from(a)]);
+            RC_ASSERT(z.back() == lowered.network.node_z[rivers.plan.to(a)]);
             RC_ASSERT(z.back() <= z[z.size() - 2]);
         }
     }));

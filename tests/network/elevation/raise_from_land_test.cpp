@@ -34,13 +34,11 @@ Raster<float> land_around(Channels const& rivers, std::uint64_t seed, double sha
 }
 
 void require_consistent(RaisedNetwork const& raised, StreamNetwork const& net) {
-    NetworkIndex const index(net);
-    NetworkIndex const now(raised.plan);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        RC_ASSERT(raised.plan[now.arcs[a]].line == net[index.arcs[a]].line);
-        RC_ASSERT(raised.arc_z[a].size() == net[index.arcs[a]].line.size());
-        RC_ASSERT(raised.arc_z[a].front() == raised.node_z[index.from[a]]);
-        RC_ASSERT(raised.arc_z[a].back() == raised.node_z[index.to[a]]);
+    for (std::size_t a = 0; a < net.arc_count(); ++a) {
+        RC_ASSERT(raised.plan.arc(a).line == net.arc(a).line);
+        RC_ASSERT(raised.arc_z[a].size() == net.arc(a).line.size());
+        RC_ASSERT(raised.arc_z[a].front() == raised.node_z[net.from(a)]);
+        RC_ASSERT(raised.arc_z[a].back() == raised.node_z[net.to(a)]);
         RC_ASSERT(std::is_sorted(raised.arc_z[a].rbegin(), raised.arc_z[a].rend()));
     }
 }

@@ -22,7 +22,7 @@ using network::set_heights_by_type;
 using network::SlopeDraw;
 
 RiverTypes all_of(StreamNetwork const& net, Rosgen type) {
-    std::size_t const arcs = boost::num_edges(net);
+    std::size_t const arcs = net.arc_count();
     return {std::vector<Rosgen>(arcs, type), std::vector<std::uint8_t>(arcs, 0)};
 }
 
@@ -65,26 +65,25 @@ TEST(SetHeightsByType, Laws) {
         StreamNetwork const net =
             test::random_forest(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::size_t>(0, 30),
                                 *rc::gen::inRange<std::size_t>(1, 4));
-        NetworkIndex const index(net);
         RiverTypes const types = mixed(net);
         for (SlopeDraw const draw : {SlopeDraw::middle, SlopeDraw::uniform}) {
             auto const raised =
                 set_heights_by_type(net, types, {.draw = draw, .seed = *rc::gen::arbitrary<std::uint64_t>()});
-            for (NodeId const outlet : index.outlets) {
+            for (NodeId const outlet : net.outlets()) {
                 RC_ASSERT(raised.node_z[outlet] == 0.0);
             }
-            for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-                double const fall = raised.node_z[index.from[a]] - raised.node_z[index.to[a]];
-                double const slope = fall / index.length_m[a];
+            for (std::size_t a = 0; a < net.arc_count(); ++a) {
+                double const fall = raised.node_z[net.from(a)] - raised.node_z[net.to(a)];
+                double const slope = fall / net.length_m(a);
                 auto const range = network::slope_range(types.type[a]);
                 RC_ASSERT(fall > 0.0);
                 RC_ASSERT((slope >= range.low - 1e-12) && (slope <= range.high + 1e-12));
                 RC_ASSERT((draw == SlopeDraw::uniform) || (std::fabs(slope - range.usual) < 1e-12));
                 auto const& z = raised.arc_z[a];
-                auto const& line = net[index.arcs[a]].line;
+                auto const& line = net.arc(a).line;
                 RC_ASSERT(z.size() == line.size());
-                RC_ASSERT(z.front() == raised.node_z[index.from[a]]);
-                RC_ASSERT(z.back() == raised.node_z[index.to[a]]);
+                RC_ASSERT(z.front() == raised.node_z[net.from(a)]);
+                RC_ASSERT(z.back() == raised.node_z[net.to(a)]);
                 for (std::size_t i = 1; i < z.size(); ++i) {
                     RC_ASSERT(z[i] <= z[i - 1]);
                     RC_ASSERT(std::fabs(z[i - 1] - z[i] - slope * distance(line[i - 1], line[i])) < 1e-9);

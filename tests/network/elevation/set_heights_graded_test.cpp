@@ -27,15 +27,14 @@ struct Areas {
 
 /// 10 m2 at every source, and per metre of river.
 Areas areas_of(StreamNetwork const& net) {
-    NetworkIndex const index(net);
-    std::vector<double> node(index.out.size(), 10.0);
-    Areas areas{std::vector<double>(index.arcs.size()), std::vector<double>(index.arcs.size())};
-    for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) {
-        if (index.out[*n] >= 0) {
-            auto const a = static_cast<std::size_t>(index.out[*n]);
+    std::vector<double> node(net.node_count(), 10.0);
+    Areas areas{std::vector<double>(net.arc_count()), std::vector<double>(net.arc_count())};
+    for (auto n = net.upstream_order().rbegin(); n != net.upstream_order().rend(); ++n) {
+        if (net.out(*n) != no_arc) {
+            auto const a = net.out(*n);
             areas.us[a] = node[*n];
-            areas.ds[a] = node[*n] + 10.0 * index.length_m[a];
-            node[index.to[a]] += areas.ds[a];
+            areas.ds[a] = node[*n] + 10.0 * net.length_m(a);
+            node[net.to(a)] += areas.ds[a];
         }
     }
     return areas;
@@ -147,32 +146,31 @@ TEST(SetHeightsGraded, WithoutConcavityItIsTheSlopeAlongTheStream) {
 TEST(SetHeightsGraded, Laws) {
     ASSERT_TRUE(rc::check("outlets at 0, arcs fall strictly, the main stem's mean slope, flatter with more area", [] {
         StreamNetwork const net = any_network();
-        NetworkIndex const index(net);
         Areas const areas = areas_of(net);
         GradedParams const params{.slope = *rc::gen::element(1e-6, 0.087, 3.0),
                                   .theta = *rc::gen::element(0.0, 0.2, 0.45, 1.0),
                                   .least_area_m2 = *rc::gen::element(1e-3, 100.0, 1e9)};
         auto const graded = set_heights_graded(net, areas.us, areas.ds, params);
         auto const& z = graded.network.node_z;
-        for (NodeId const outlet : index.outlets) {
+        for (NodeId const outlet : net.outlets()) {
             RC_ASSERT(z[outlet] == 0.0);
         }
         std::vector<double> way(z.size(), 0.0);
-        for (NodeId const n : index.upstream_order) {
-            if (index.out[n] >= 0) {
-                auto const a = static_cast<std::size_t>(index.out[n]);
-                way[n] = way[index.to[a]] + index.length_m[a];
+        for (NodeId const n : net.upstream_order()) {
+            if (net.out(n) != no_arc) {
+                auto const a = net.out(n);
+                way[n] = way[net.to(a)] + net.length_m(a);
             }
         }
         auto const source = static_cast<std::size_t>(std::ranges::max_element(way) - way.begin());
         RC_ASSERT(std::fabs(z[source] / way[source] / params.slope - 1.0) <= 1e-12);
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        for (std::size_t a = 0; a < net.arc_count(); ++a) {
             auto const& arc_z = graded.network.arc_z[a];
-            auto const& line = net[index.arcs[a]].line;
-            RC_ASSERT(z[index.from[a]] > z[index.to[a]]);
+            auto const& line = net.arc(a).line;
+            RC_ASSERT(z[net.from(a)] > z[net.to(a)]);
             RC_ASSERT(arc_z.size() == line.size());
-            RC_ASSERT(arc_z.front() == z[index.from[a]]);
-            RC_ASSERT(arc_z.back() == z[index.to[a]]);
+            RC_ASSERT(arc_z.front() == z[net.from(a)]);
+            RC_ASSERT(arc_z.back() == z[net.to(a)]);
             double const greatest = std::pow(std::max(areas.us[a], params.least_area_m2), -params.theta);
             double const least = std::pow(std::max(areas.ds[a], params.least_area_m2), -params.theta);
             for (std::size_t i = 1; i < arc_z.size(); ++i) {
@@ -190,18 +188,17 @@ TEST(SetHeightsGraded, Laws) {
 TEST(SetHeightsGraded, SlopeAndAreaGiveThetaBack) {
     for (double const theta : {0.1, 0.45, 0.9}) {
         StreamNetwork const net = test::random_forest(3, 60, 2);
-        NetworkIndex const index(net);
         Areas const areas = areas_of(net);
         auto const graded = set_heights_graded(net, areas.us, areas.us, {.theta = theta});
         double sum_x = 0.0;
         double sum_y = 0.0;
         double sum_xx = 0.0;
         double sum_xy = 0.0;
-        auto const count = static_cast<double>(index.arcs.size());
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-            double const fall = graded.network.node_z[index.from[a]] - graded.network.node_z[index.to[a]];
+        auto const count = static_cast<double>(net.arc_count());
+        for (std::size_t a = 0; a < net.arc_count(); ++a) {
+            double const fall = graded.network.node_z[net.from(a)] - graded.network.node_z[net.to(a)];
             double const x = std::log(areas.us[a]);
-            double const y = std::log(fall / index.length_m[a]);
+            double const y = std::log(fall / net.length_m(a));
             sum_x += x;
             sum_y += y;
             sum_xx += x * x;

@@ -91,7 +91,6 @@ TEST(SetHeights, Laws) {
     ASSERT_TRUE(
         rc::check("every arc falls strictly, no node below straight, ends bit for bit, vertices never rise", [] {
             StreamNetwork const net = any_network();
-            NetworkIndex const index(net);
             double const slope = *rc::gen::element(1e-6, 0.087, 3.0);
             auto const straight = set_heights(net, {HeightMode::straight, slope});
             for (HeightMode const mode :
@@ -99,25 +98,24 @@ TEST(SetHeights, Laws) {
                 auto const raised = set_heights(net, {mode, slope});
                 auto const& z = raised.network.node_z;
                 RC_ASSERT(raised.report.uphill_arcs == straight.report.uphill_arcs);
-                for (NodeId const outlet : index.outlets) {
+                for (NodeId const outlet : net.outlets()) {
                     RC_ASSERT(z[outlet] == 0.0);
                 }
                 for (NodeId n = 0; n < z.size(); ++n) {
                     RC_ASSERT(z[n] >= straight.network.node_z[n]);
                 }
                 std::int64_t uphill = 0;
-                for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+                for (std::size_t a = 0; a < net.arc_count(); ++a) {
                     auto const& arc_z = raised.network.arc_z[a];
-                    bool const falls = z[index.from[a]] > z[index.to[a]];
+                    bool const falls = z[net.from(a)] > z[net.to(a)];
                     uphill += falls ? 0 : 1;
-                    RC_ASSERT(arc_z.size() == net[index.arcs[a]].line.size());
-                    RC_ASSERT(arc_z.front() == z[index.from[a]]);
-                    RC_ASSERT(arc_z.back() == z[index.to[a]]);
+                    RC_ASSERT(arc_z.size() == net.arc(a).line.size());
+                    RC_ASSERT(arc_z.front() == z[net.from(a)]);
+                    RC_ASSERT(arc_z.back() == z[net.to(a)]);
                     double so_far = 0.0;
                     for (std::size_t i = 1; i < arc_z.size(); ++i) {
-                        so_far += distance(net[index.arcs[a]].line[i - 1], net[index.arcs[a]].line[i]);
-                        double const linear =
-                            arc_z.front() + (arc_z.back() - arc_z.front()) * so_far / index.length_m[a];
+                        so_far += distance(net.arc(a).line[i - 1], net.arc(a).line[i]);
+                        double const linear = arc_z.front() + (arc_z.back() - arc_z.front()) * so_far / net.length_m(a);
                         RC_ASSERT(std::fabs(arc_z[i] - linear) <= 1e-9);
                         if (falls) {
                             RC_ASSERT(arc_z[i] <= arc_z[i - 1]);
@@ -133,7 +131,6 @@ TEST(SetHeights, Laws) {
 TEST(SetHeights, TheRepairIsTheLeastMajorant) {
     ASSERT_TRUE(rc::check("z(u) = max over v downstream of s|v| + 0.01 s length(u, v); along_stream = s length", [] {
         StreamNetwork const net = any_network();
-        NetworkIndex const index(net);
         double const slope = 0.087;
         auto const straight = set_heights(net, {HeightMode::straight, slope}).network.node_z;
         auto const repaired = set_heights(net, {HeightMode::straight_repaired, slope});
@@ -143,12 +140,12 @@ TEST(SetHeights, TheRepairIsTheLeastMajorant) {
             double best = straight[n];
             double way = 0.0;
             NodeId at = n;
-            while (index.out[at] >= 0) {
-                way += index.length_m[static_cast<std::size_t>(index.out[at])];
-                at = index.to[static_cast<std::size_t>(index.out[at])];
+            while (net.out(at) != no_arc) {
+                way += net.length_m(net.out(at));
+                at = net.to(net.out(at));
                 best = std::max(best, straight[at] + 0.01 * slope * way);
             }
-            RC_ASSERT(std::fabs(straight[n] - slope * distance(net[n].at, net[at].at)) <= 1e-12);
+            RC_ASSERT(std::fabs(straight[n] - slope * distance(net.node(n).at, net.node(at).at)) <= 1e-12);
             RC_ASSERT(std::fabs(repaired.network.node_z[n] - best) <= 1e-9);
             RC_ASSERT(std::fabs(stream[n] - slope * way) <= 1e-9 * (1.0 + way));
             lifted += repaired.network.node_z[n] > straight[n] ? 1 : 0;

@@ -58,7 +58,7 @@ using Features = std::set<std::int64_t>;
 
 double total_m(Adopted const& adopted) {
     double sum = 0.0;
-    for (double const m : NetworkIndex(adopted.network).length_m) {
+    for (double const m : adopted.network.length_m()) {
         sum += m;
     }
     for (SecondaryLine const& s : adopted.secondary) {
@@ -71,18 +71,17 @@ double total_m(Adopted const& adopted) {
 
 // Law: trees, and every secondary piece has a repair.
 void expect_forest(Adopted const& adopted) {
-    NetworkIndex const index(adopted.network);
-    EXPECT_EQ(boost::num_vertices(adopted.network), boost::num_edges(adopted.network) + index.outlets.size());
-    for (NodeId n = 0; n < boost::num_vertices(adopted.network); ++n) {
-        EXPECT_LE(boost::out_degree(n, adopted.network), 1U);
-        EXPECT_GT(index.basin[n], 0);
+    EXPECT_EQ(adopted.network.node_count(), adopted.network.arc_count() + adopted.network.outlets().size());
+    for (NodeId n = 0; n < adopted.network.node_count(); ++n) {
+        EXPECT_LE(adopted.network.out_arcs(n).size(), 1U);
+        EXPECT_GT(adopted.network.basin(n), 0);
     }
     EXPECT_EQ(std::ranges::count(adopted.repairs, "secondary", &Finding::kind),
               static_cast<std::ptrdiff_t>(adopted.secondary.size()));
-    ASSERT_EQ(adopted.stretches.size(), index.arcs.size());
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    ASSERT_EQ(adopted.stretches.size(), adopted.network.arc_count());
+    for (std::size_t a = 0; a < adopted.network.arc_count(); ++a) {
         EXPECT_EQ(adopted.stretches[a].front().from_m, 0.0);
-        EXPECT_NEAR(adopted.stretches[a].back().to_m, index.length_m[a], 1e-9 * index.length_m[a]);
+        EXPECT_NEAR(adopted.stretches[a].back().to_m, adopted.network.length_m(a), 1e-9 * adopted.network.length_m(a));
     }
 }
 
@@ -103,7 +102,7 @@ Adopted expect_beside(RiverLines const& lines, Features const& features, network
 
 TEST(AdoptDivides, TheStraightChannelOfABraidStays) {
     auto const adopted = expect_beside(flats(braid()), {4, 5});
-    EXPECT_EQ(boost::num_edges(adopted.network), 1U);
+    EXPECT_EQ(adopted.network.arc_count(), 1U);
     EXPECT_EQ(in_network(adopted), (Features{1, 2, 3}));
 }
 
@@ -189,9 +188,8 @@ TEST(AdoptDivides, LinksTellTheDirectionWhateverWasDrawn) {
     lines.lines[3].down = 5;
     lines.lines[4].down = 3;
     auto const adopted = adopt(lines);
-    NetworkIndex const index(adopted.network);
-    ASSERT_EQ(index.outlets.size(), 1U);
-    EXPECT_EQ(adopted.network[index.outlets[0]].at, (Vec2{0, 0}));
+    ASSERT_EQ(adopted.network.outlets().size(), 1U);
+    EXPECT_EQ(adopted.network.node(adopted.network.outlets()[0]).at, (Vec2{0, 0}));
     EXPECT_EQ(beside(adopted), (Features{4, 5}));
     expect_forest(adopted);
 }
@@ -199,7 +197,7 @@ TEST(AdoptDivides, LinksTellTheDirectionWhateverWasDrawn) {
 TEST(AdoptDivides, ADistributaryIsSecondaryWhereTheFileIsCertain) {
     auto lines = flats({{{0, 90}, {0, 50}}, {{0, 50}, {0, 0}}, {{0, 50}, {40, 0}}});
     lines.lines[0].down = 2;
-    EXPECT_EQ(boost::num_edges(adopt(lines).network), 1U);
+    EXPECT_EQ(adopt(lines).network.arc_count(), 1U);
     EXPECT_EQ(beside(adopt(lines)), (Features{3}));
     auto const drawn = adopt(flats({{{0, 90}, {0, 50}}, {{0, 50}, {0, 0}}, {{0, 50}, {40, 0}}}),
                              {.orientation = Orientation::as_drawn});
@@ -233,9 +231,8 @@ TEST(AdoptDivides, ARiverThroughAPondKeepsOneShore) {
     auto const adopted = adopt(flats({{{0, 100}, {0, 60}},
                                       {{0, 60}, {10, 50}, {0, 40}, {-20, 50}, {0, 60}}, // round the pond
                                       {{0, 40}, {0, 0}}}));
-    NetworkIndex const index(adopted.network);
-    ASSERT_EQ(index.outlets.size(), 1U);
-    EXPECT_EQ(adopted.network[index.outlets[0]].at, (Vec2{0, 0}));
+    ASSERT_EQ(adopted.network.outlets().size(), 1U);
+    EXPECT_EQ(adopted.network.node(adopted.network.outlets()[0]).at, (Vec2{0, 0}));
     EXPECT_EQ(in_network(adopted), (Features{1, 2, 3}));
     EXPECT_EQ(beside(adopted), (Features{2}));
     expect_forest(adopted);
@@ -298,9 +295,8 @@ TEST(AdoptDivides, LatticesBecomeForests) {
         } catch (BadInput const&) {
             RC_DISCARD("nothing is left");
         }
-        NetworkIndex const index(adopted.network);
-        RC_ASSERT(boost::num_vertices(adopted.network) == boost::num_edges(adopted.network) + index.outlets.size());
-        RC_ASSERT(index.upstream_order.size() == boost::num_vertices(adopted.network));
+        RC_ASSERT(adopted.network.node_count() == adopted.network.arc_count() + adopted.network.outlets().size());
+        RC_ASSERT(adopted.network.upstream_order().size() == adopted.network.node_count());
         double const kept_m = total_m(adopted);
         RC_ASSERT(kept_m > drawn_m * (1.0 - 1e-9));
         RC_ASSERT(kept_m < drawn_m * (1.0 + 1e-9));

@@ -55,11 +55,7 @@ RiverLines with_heights(std::vector<std::vector<Vec3>> const& all) {
 }
 
 std::vector<Arc> arcs_of(Adopted const& adopted) {
-    std::vector<Arc> arcs;
-    for (auto const a : NetworkIndex(adopted.network).arcs) {
-        arcs.push_back(adopted.network[a]);
-    }
-    return arcs;
+    return adopted.network.arcs();
 }
 
 std::int64_t count(Adopted const& adopted, std::string const& kind) {
@@ -89,8 +85,8 @@ using Step = std::pair<std::pair<double, double>, std::pair<double, double>>;
 // Every segment of the network, downstream.
 std::set<Step> steps(StreamNetwork const& net) {
     std::set<Step> result;
-    for (auto const a : NetworkIndex(net).arcs) {
-        auto const& line = net[a].line;
+    for (ArcId a = 0; a < net.arc_count(); ++a) {
+        auto const& line = net.arc(a).line;
         for (std::size_t i = 0; i + 1 < line.size(); ++i) {
             result.insert({{line[i].x, line[i].y}, {line[i + 1].x, line[i + 1].y}});
         }
@@ -100,24 +96,23 @@ std::set<Step> steps(StreamNetwork const& net) {
 
 // Law: trees; lines end bit for bit in their nodes; nothing repeats.
 void expect_trees(StreamNetwork const& net) {
-    NetworkIndex const index(net);
-    EXPECT_EQ(boost::num_vertices(net), boost::num_edges(net) + index.outlets.size());
-    EXPECT_EQ(index.upstream_order.size(), boost::num_vertices(net));
-    for (NodeId n = 0; n < boost::num_vertices(net); ++n) {
-        EXPECT_LE(boost::out_degree(n, net), 1U);
-        EXPECT_GT(index.basin[n], 0);
+    EXPECT_EQ(net.node_count(), net.arc_count() + net.outlets().size());
+    EXPECT_EQ(net.upstream_order().size(), net.node_count());
+    for (NodeId n = 0; n < net.node_count(); ++n) {
+        EXPECT_LE(net.out_arcs(n).size(), 1U);
+        EXPECT_GT(net.basin(n), 0);
     }
-    for (std::size_t i = 0; i < index.arcs.size(); ++i) {
-        auto const& line = net[index.arcs[i]].line;
-        EXPECT_EQ(line.front(), net[index.from[i]].at);
-        EXPECT_EQ(line.back(), net[index.to[i]].at);
-        EXPECT_GT(index.length_m[i], 0.0);
+    for (std::size_t i = 0; i < net.arc_count(); ++i) {
+        auto const& line = net.arc(i).line;
+        EXPECT_EQ(line.front(), net.node(net.from(i)).at);
+        EXPECT_EQ(line.back(), net.node(net.to(i)).at);
+        EXPECT_GT(net.length_m(i), 0.0);
         EXPECT_EQ(std::adjacent_find(line.begin(), line.end()), line.end());
     }
     EXPECT_EQ(steps(net).size(), [&] {
         std::size_t sum = 0;
-        for (auto const a : index.arcs) {
-            sum += net[a].line.size() - 1;
+        for (ArcId a = 0; a < net.arc_count(); ++a) {
+            sum += net.arc(a).line.size() - 1;
         }
         return sum;
     }());
@@ -253,8 +248,8 @@ TEST(Adopt, RepeatedVerticesAreDropped) {
 
 TEST(Adopt, SeveralBasins) {
     auto const adopted = adopt(flats({{{0, 0}, {1, 0}}, {{0, 5}, {1, 5}}, {{0, 4}, {1, 5}}}));
-    EXPECT_EQ(NetworkIndex(adopted.network).outlets.size(), 2U);
-    EXPECT_EQ(boost::num_edges(adopted.network), 3U);
+    EXPECT_EQ(adopted.network.outlets().size(), 2U);
+    EXPECT_EQ(adopted.network.arc_count(), 3U);
     expect_trees(adopted.network);
 }
 
@@ -267,23 +262,23 @@ TEST(AdoptSnaps, EndsThatAreApart) {
     EXPECT_EQ(first(adopted, "snapped").feature, 2);
     EXPECT_EQ(first(adopted, "snapped").amount, 0.25);
     EXPECT_EQ(first(adopted, "joined").feature, 1);
-    EXPECT_EQ(boost::num_edges(adopt(flats({{{0, 0}, {10, 0}}, {{10.25, 0}, {20, 0}}}), {.snap_m = 0.24}).network), 2U);
+    EXPECT_EQ(adopt(flats({{{0, 0}, {10, 0}}, {{10.25, 0}, {20, 0}}}), {.snap_m = 0.24}).network.arc_count(), 2U);
 }
 
 TEST(AdoptSnaps, AnEndShortOfALine) {
     auto const lines = flats({{{0, 0}, {10, 0}}, {{5, 9}, {5, 0.25}}});
     auto const adopted = adopt(lines, {.snap_m = 0.5});
-    EXPECT_EQ(boost::num_edges(adopted.network), 3U);
+    EXPECT_EQ(adopted.network.arc_count(), 3U);
     EXPECT_EQ(first(adopted, "snapped").where, (Vec2{5, 0}));
     EXPECT_EQ(first(adopted, "snapped").amount, 0.25);
     EXPECT_EQ(first(adopted, "split").feature, 1);
     expect_trees(adopted.network);
-    EXPECT_EQ(NetworkIndex(adopt(lines, {.snap_m = 0.2}).network).outlets.size(), 2U);
+    EXPECT_EQ(adopt(lines, {.snap_m = 0.2}).network.outlets().size(), 2U);
 }
 
 TEST(AdoptSnaps, AnEndBeyondALine) {
     auto const adopted = adopt(flats({{{0, 0}, {10, 0}}, {{5, 9}, {5, -0.25}}}), {.snap_m = 0.5});
-    EXPECT_EQ(boost::num_edges(adopted.network), 3U);
+    EXPECT_EQ(adopted.network.arc_count(), 3U);
     EXPECT_EQ(first(adopted, "snapped").where, (Vec2{5, 0}));
     expect_trees(adopted.network);
 }
@@ -291,28 +286,28 @@ TEST(AdoptSnaps, AnEndBeyondALine) {
 TEST(AdoptSnaps, AnEndNearAVertexTakesTheVertex) {
     auto const adopted = adopt(flats({{{0, 0}, {5, 0}, {10, 0}}, {{5, 9}, {5.2, 0.1}}}), {.snap_m = 0.5});
     EXPECT_EQ(first(adopted, "snapped").where, (Vec2{5, 0}));
-    EXPECT_EQ(boost::num_edges(adopted.network), 3U);
+    EXPECT_EQ(adopted.network.arc_count(), 3U);
 }
 
 TEST(AdoptSnaps, AnEndOnALineStaysWhereItIs) {
     // (1, 1/3) lies beside the line from (0, 0) to (3, 1) by less than a unit in the last place.
     auto const lines = flats({{{0, 0}, {3, 1}}, {{1, 5}, {1, 1.0 / 3.0}}});
     auto const adopted = adopt(lines);
-    EXPECT_EQ(boost::num_edges(adopted.network), 3U);
+    EXPECT_EQ(adopted.network.arc_count(), 3U);
     EXPECT_EQ(count(adopted, "snapped"), 0);
     expect_kept(adopted.network, lines.lines);
 }
 
 TEST(AdoptSnaps, ALineShorterThanTheDistanceIsRemoved) {
     auto const adopted = adopt(flats({{{0, 0}, {10, 0}}, {{10, 0}, {10, 0.1}}, {{10, 0.1}, {20, 0}}}), {.snap_m = 0.5});
-    EXPECT_EQ(boost::num_edges(adopted.network), 1U);
+    EXPECT_EQ(adopted.network.arc_count(), 1U);
     EXPECT_EQ(first(adopted, "removed").feature, 2);
 }
 
 TEST(AdoptSplits, AtACrossing) {
     auto const lines = flats({{{0, 1}, {3, 1}}, {{1, 0}, {2, 3}}}); // they cross at (4/3, 1)
     auto const adopted = adopt(lines);
-    EXPECT_EQ(boost::num_edges(adopted.network), 4U);
+    EXPECT_EQ(adopted.network.arc_count(), 4U);
     EXPECT_EQ(count(adopted, "split"), 2);
     EXPECT_EQ(first(adopted, "split").where, (Vec2{4.0 / 3.0, 1}));
     expect_trees(adopted.network);
@@ -321,7 +316,7 @@ TEST(AdoptSplits, AtACrossing) {
 
 TEST(AdoptSplits, WhereALineTouchesAVertex) {
     auto const adopted = adopt(flats({{{0, 0}, {5, 0}, {10, 0}}, {{5, 7}, {5, 0}}}));
-    EXPECT_EQ(boost::num_edges(adopted.network), 3U);
+    EXPECT_EQ(adopted.network.arc_count(), 3U);
     EXPECT_EQ(count(adopted, "split"), 1);
     expect_trees(adopted.network);
 }
@@ -329,7 +324,7 @@ TEST(AdoptSplits, WhereALineTouchesAVertex) {
 TEST(AdoptSplits, ThreeLinesThroughOnePoint) {
     auto const lines = flats({{{0, 0}, {1, 1}}, {{0, 1}, {0.5, 0}}, {{1, 0}, {0, 0.5}}});
     auto const adopted = adopt(lines);
-    EXPECT_EQ(boost::num_edges(adopted.network), 6U);
+    EXPECT_EQ(adopted.network.arc_count(), 6U);
     expect_trees(adopted.network);
     expect_kept(adopted.network, lines.lines);
 }
@@ -338,17 +333,17 @@ TEST(AdoptSplits, ThreeLinesNearlyThroughOnePoint) {
     // Exactly they form a triangle of 1e-9 m: that is one confluence, not a cycle.
     auto const lines = flats({{{-10, 0}, {10, 0}}, {{0, -10}, {0, 10}}, {{-10, -10 + 1e-9}, {10, 10 + 1e-9}}});
     auto const adopted = adopt(lines);
-    EXPECT_EQ(boost::num_edges(adopted.network), 6U);
+    EXPECT_EQ(adopted.network.arc_count(), 6U);
     expect_trees(adopted.network);
     expect_kept(adopted.network, lines.lines);
 }
 
 TEST(AdoptDropsDuplicates, IdenticalReversedAndNear) {
     auto const adopted = adopt(flats({{{0, 0}, {5, 1}, {9, 0}}, {{0, 0}, {5, 1}, {9, 0}}, {{9, 0}, {5, 1}, {0, 0}}}));
-    EXPECT_EQ(boost::num_edges(adopted.network), 1U);
+    EXPECT_EQ(adopted.network.arc_count(), 1U);
     EXPECT_EQ(count(adopted, "duplicate"), 2);
     auto const near = adopt(flats({{{0, 0}, {5, 1}, {9, 0}}, {{9, 0.1}, {5, 1.1}, {0, 0}}}), {.snap_m = 0.5});
-    EXPECT_EQ(boost::num_edges(near.network), 1U);
+    EXPECT_EQ(near.network.arc_count(), 1U);
     EXPECT_EQ(first(near, "duplicate").feature, 2);
 }
 
@@ -357,7 +352,7 @@ TEST(AdoptDropsDuplicates, APartThatOverlaps) {
     auto const adopted = adopt(lines);
     EXPECT_EQ(first(adopted, "duplicate").feature, 2);
     EXPECT_EQ(first(adopted, "duplicate").amount, 4.0);
-    EXPECT_EQ(boost::num_edges(adopted.network), 3U);
+    EXPECT_EQ(adopted.network.arc_count(), 3U);
     expect_trees(adopted.network);
     expect_kept(adopted.network, lines.lines);
 }
@@ -366,9 +361,8 @@ TEST(AdoptOrients, ByHeight) {
     auto const adopted = adopt(with_heights({{{0, 0, 1}, {5, 0, 4}}, {{5, 0, 4}, {9, 0, 7}}, {{5, 0, 4}, {5, 9, 8}}}));
     EXPECT_EQ(count(adopted, "reversed"), 3);
     EXPECT_EQ(first(adopted, "reversed").amount, 5.0);
-    NetworkIndex const index(adopted.network);
-    ASSERT_EQ(index.outlets.size(), 1U);
-    EXPECT_EQ(adopted.network[index.outlets[0]].at, (Vec2{0, 0}));
+    ASSERT_EQ(adopted.network.outlets().size(), 1U);
+    EXPECT_EQ(adopted.network.node(adopted.network.outlets()[0]).at, (Vec2{0, 0}));
     expect_trees(adopted.network);
 }
 
@@ -378,16 +372,14 @@ TEST(AdoptOrients, ByRankWhateverWasDrawn) {
     lines.lines[1].rank = 30;
     lines.lines[2].rank = 20;
     auto const adopted = adopt(lines);
-    NetworkIndex const index(adopted.network);
-    EXPECT_EQ(adopted.network[index.outlets.at(0)].at, (Vec2{0, 0}));
+    EXPECT_EQ(adopted.network.node(adopted.network.outlets().at(0)).at, (Vec2{0, 0}));
     EXPECT_EQ(count(adopted, "reversed"), 2);
 }
 
 TEST(AdoptOrients, TheOneReachDrawnTheWrongWay) {
     auto const lines = flats({{{0, 90}, {0, 60}}, {{0, 40}, {0, 60}}, {{0, 40}, {0, 0}}, {{50, 60}, {0, 40}}});
     auto const adopted = adopt(lines);
-    NetworkIndex const index(adopted.network);
-    EXPECT_EQ(adopted.network[index.outlets.at(0)].at, (Vec2{0, 0}));
+    EXPECT_EQ(adopted.network.node(adopted.network.outlets().at(0)).at, (Vec2{0, 0}));
     EXPECT_EQ(count(adopted, "reversed"), 1);
     EXPECT_EQ(first(adopted, "reversed").feature, 2);
 }
@@ -397,9 +389,10 @@ TEST(AdoptOrients, ByTopologyToTheEndNearestTheBorder) {
     auto const lines = flats(
         {{{50, 1}, {50, 30}}, {{50, 30}, {40, 50}}, {{50, 30}, {60, 50}}, {{0, 0}, {0, 100}}, {{100, 0}, {100, 100}}});
     auto const adopted = adopt(lines, {.orientation = Orientation::topology});
-    NetworkIndex const index(adopted.network);
-    ASSERT_EQ(index.outlets.size(), 3U);
-    EXPECT_TRUE(std::ranges::any_of(index.outlets, [&](NodeId n) { return adopted.network[n].at == Vec2{50, 1}; }));
+    ASSERT_EQ(adopted.network.outlets().size(), 3U);
+    EXPECT_TRUE(std::ranges::any_of(adopted.network.outlets(), [&](NodeId n) {
+        return adopted.network.node(n).at == Vec2{50, 1};
+    }));
     expect_trees(adopted.network);
 }
 
@@ -422,10 +415,9 @@ TEST(AdoptHeights, CrossingTakesTheLowerInterpolation) {
     auto const raised = network::take_file_heights(adopted, lines);
     EXPECT_EQ(first(adopted, "height").amount, 1.0);
     EXPECT_EQ(raised.arc_z, (std::vector<std::vector<double>>{{8, 5}, {5, 4}, {9, 5}}));
-    NetworkIndex const index(raised.plan);
-    for (std::size_t i = 0; i < index.arcs.size(); ++i) {
-        EXPECT_EQ(raised.arc_z[i].front(), raised.node_z[index.from[i]]);
-        EXPECT_EQ(raised.arc_z[i].back(), raised.node_z[index.to[i]]);
+    for (std::size_t i = 0; i < raised.plan.arc_count(); ++i) {
+        EXPECT_EQ(raised.arc_z[i].front(), raised.node_z[raised.plan.from(i)]);
+        EXPECT_EQ(raised.arc_z[i].back(), raised.node_z[raised.plan.to(i)]);
     }
 }
 
@@ -559,18 +551,17 @@ TEST(AdoptLaws, TheTreeIsFound) {
         spoil(file);
         auto const adopted = adopt(file);
         RC_ASSERT(steps(adopted.network) == steps(tree));
-        RC_ASSERT(boost::num_vertices(adopted.network) == boost::num_edges(adopted.network) + 1);
-        for (NodeId n = 0; n < boost::num_vertices(adopted.network); ++n) {
+        RC_ASSERT(adopted.network.node_count() == adopted.network.arc_count() + 1);
+        for (NodeId n = 0; n < adopted.network.node_count(); ++n) {
             RC_ASSERT(kind_of(adopted.network, n) != NodeKind::pseudo);
         }
         auto const raised = network::take_file_heights(adopted, file);
-        NetworkIndex const index(raised.plan);
         std::map<std::pair<double, double>, double> z;
         for (std::size_t v = 0; v < tree.at.size(); ++v) {
             z[{tree.at[v].x, tree.at[v].y}] = tree.z[v];
         }
-        for (std::size_t i = 0; i < index.arcs.size(); ++i) {
-            auto const& line = raised.plan[index.arcs[i]].line;
+        for (std::size_t i = 0; i < raised.plan.arc_count(); ++i) {
+            auto const& line = raised.plan.arc(i).line;
             for (std::size_t v = 0; v < line.size(); ++v) {
                 RC_ASSERT(raised.arc_z[i][v] == z.at({line[v].x, line[v].y}));
             }
@@ -642,7 +633,7 @@ TEST(AdoptLaws, CrossingsAreAllThatIsAdded) {
         expect_trees(adopted.network);
         expect_kept(adopted.network, file.lines);
         RC_ASSERT(!::testing::Test::HasFailure());
-        RC_ASSERT(boost::num_edges(adopted.network) == static_cast<std::size_t>(3 * rivers + 1));
+        RC_ASSERT(adopted.network.arc_count() == static_cast<std::size_t>(3 * rivers + 1));
         RC_ASSERT(steps(adopted.network).size() == static_cast<std::size_t>(rivers + 3 * rivers));
     });
     ASSERT_TRUE(ok);

@@ -87,10 +87,9 @@ TEST(FromFile, BifurcationsAndCirclesAreNamed) {
 TEST(FromFile, WhatTheFileSaysIsKeptInTheOrderOfIds) {
     network::FileNetwork const made = from_file(y_shape());
     EXPECT_EQ(made.arc_ids, (std::vector<std::int64_t>{10, 20, 30}));
-    NetworkIndex const index(made.network.plan);
-    EXPECT_EQ(index.outlets, (std::vector<NodeId>{3}));
+    EXPECT_EQ(made.network.plan.outlets(), (std::vector<NodeId>{3}));
     EXPECT_EQ(made.network.arc_z[1], (std::vector<double>{3, 2.5, 1}));
-    Arc const& arc = made.network.plan[index.arcs[1]];
+    Arc const& arc = made.network.plan.arc(1);
     EXPECT_EQ(arc.type, "C4");
     EXPECT_EQ(arc.feature, 123);
     EXPECT_EQ(arc.survives, 4.5);
@@ -104,12 +103,11 @@ TEST(FromFile, RecordsAndSourcesGoWithTheArcs) {
     file.arcs[1].record = 2;
     file.arcs[1].feature = 5;
     network::FileNetwork const made = from_file(file);
-    NetworkIndex const index(made.network.plan);
-    EXPECT_EQ(made.network.plan[index.arcs[1]].feature, 5);
+    EXPECT_EQ(made.network.plan.arc(1).feature, 5);
     EXPECT_EQ(made.records[1], 2);
     ASSERT_EQ(made.stretches[1].size(), 1U);
     EXPECT_EQ(made.stretches[1][0].feature, 5);
-    EXPECT_EQ(made.stretches[1][0].to_m, index.length_m[1]);
+    EXPECT_EQ(made.stretches[1][0].to_m, made.network.plan.length_m(1));
     file.arcs[1].sources = {{5, 0.0, 1.0}, {6, 1.0, 2.0}};
     EXPECT_EQ(from_file(file).stretches[1].size(), 2U);
 }
@@ -147,12 +145,10 @@ TEST(FromFile, NodesThatNobodyNamesAreNumberedAlongTheArcs) {
     for (auto& node : shuffled.nodes) {
         node.id = 100 - node.id;
     }
-    NetworkIndex const one(from_file(file).network.plan);
-    NetworkIndex const other(from_file(shuffled).network.plan);
-    EXPECT_EQ(one.from, (std::vector<NodeId>{0, 2, 1}));
-    EXPECT_EQ(one.to, (std::vector<NodeId>{1, 1, 3}));
-    EXPECT_EQ(other.from, one.from);
-    EXPECT_EQ(other.to, one.to);
+    EXPECT_EQ(from_file(file).network.plan.from(), (std::vector<NodeId>{0, 2, 1}));
+    EXPECT_EQ(from_file(file).network.plan.to(), (std::vector<NodeId>{1, 1, 3}));
+    EXPECT_EQ(from_file(shuffled).network.plan.from(), from_file(file).network.plan.from());
+    EXPECT_EQ(from_file(shuffled).network.plan.to(), from_file(file).network.plan.to());
 }
 
 TEST(FromFile, AFileThatSaysNothingOfDownstreamArcsIsBelieved) {
@@ -172,12 +168,10 @@ TEST(FromFile, UndoesAsFile) {
         network::FileNetwork const made = from_file(file);
         RC_ASSERT(made.network.node_z == rivers.node_z);
         RC_ASSERT(made.network.arc_z == rivers.arc_z);
-        NetworkIndex const was(rivers.plan);
-        NetworkIndex const is(made.network.plan);
-        RC_ASSERT(is.from == was.from);
-        RC_ASSERT(is.to == was.to);
-        for (std::size_t a = 0; a < was.arcs.size(); ++a) {
-            RC_ASSERT(made.network.plan[is.arcs[a]].line == rivers.plan[was.arcs[a]].line);
+        RC_ASSERT(made.network.plan.from() == rivers.plan.from());
+        RC_ASSERT(made.network.plan.to() == rivers.plan.to());
+        for (std::size_t a = 0; a < rivers.plan.arc_count(); ++a) {
+            RC_ASSERT(made.network.plan.arc(a).line == rivers.plan.arc(a).line);
         }
     }));
 }

@@ -173,9 +173,9 @@ TEST(CarryOutlets, EndsAtTheSea) {
     StreamNetwork const net = test::network_of({{16.5, 16.5}, {26.5, 16.5}}, {{1, 0}});
     auto const carried = network::carry_outlets(net, land, 100);
     ASSERT_EQ(carried.notes.size(), 1U);
-    EXPECT_EQ(carried.network[0].at.x, 10.5);
+    EXPECT_EQ(carried.network.node(0).at.x, 10.5);
     EXPECT_NE(carried.notes[0].text.find("to the coast"), std::string::npos) << carried.notes[0].text;
-    std::vector<Cell> const way = cells_along(carried.network[NetworkIndex(carried.network).arcs[0]].line, grid);
+    std::vector<Cell> const way = cells_along(carried.network.arc(0).line, grid);
     for (std::size_t i = 0; i + 1 < way.size(); ++i) {
         EXPECT_FALSE(touches_sea(land, way[i]));
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -32,13 +33,13 @@ struct Plain {
     std::vector<ArcId> arcs;
 
     explicit Plain(StreamNetwork const& network) : net(network) {
-        auto const [first, last] = boost::edges(net);
-        arcs.assign(first, last);
+        arcs.resize(net.arc_count());
+        std::iota(arcs.begin(), arcs.end(), ArcId{0});
     }
     std::vector<std::size_t> above(NodeId node) const {
         std::vector<std::size_t> out;
         for (std::size_t a = 0; a < arcs.size(); ++a) {
-            if (boost::target(arcs[a], net) == node) {
+            if (net.to(arcs[a]) == node) {
                 out.push_back(a);
             }
         }
@@ -47,7 +48,7 @@ struct Plain {
     std::vector<std::size_t> below(std::size_t arc) const {
         std::vector<std::size_t> out;
         for (std::size_t a = 0; a < arcs.size(); ++a) {
-            if (boost::source(arcs[a], net) == boost::target(arcs[arc], net)) {
+            if (net.from(arcs[a]) == net.to(arcs[arc])) {
                 out.push_back(a);
             }
         }
@@ -55,7 +56,7 @@ struct Plain {
     }
     int strahler(std::size_t arc) const {
         std::vector<int> orders;
-        for (std::size_t const a : above(boost::source(arcs[arc], net))) {
+        for (std::size_t const a : above(net.from(arcs[arc]))) {
             orders.push_back(strahler(a));
         }
         if (orders.empty()) {
@@ -66,7 +67,7 @@ struct Plain {
     }
     std::int64_t shreve(std::size_t arc) const {
         std::int64_t sum = 0;
-        for (std::size_t const a : above(boost::source(arcs[arc], net))) {
+        for (std::size_t const a : above(net.from(arcs[arc]))) {
             sum += shreve(a);
         }
         return sum == 0 ? 1 : sum;
@@ -74,14 +75,14 @@ struct Plain {
     int topological(std::size_t arc) const { return below(arc).empty() ? 1 : 1 + topological(below(arc)[0]); }
     double longest(std::size_t arc) const {
         double most = 0.0;
-        for (std::size_t const a : above(boost::source(arcs[arc], net))) {
+        for (std::size_t const a : above(net.from(arcs[arc]))) {
             most = std::max(most, longest(a));
         }
-        return most + length_of(net[arcs[arc]].line);
+        return most + length_of(net.arc(arcs[arc]).line);
     }
     int hack(std::size_t arc) const {
         std::size_t stem = arc;
-        for (std::size_t const a : above(boost::target(arcs[arc], net))) {
+        for (std::size_t const a : above(net.to(arcs[arc]))) {
             if (longest(a) > longest(stem) || (longest(a) == longest(stem) && a < stem)) {
                 stem = a;
             }
@@ -90,10 +91,10 @@ struct Plain {
     }
     double dist_out(NodeId node) const {
         double sum = 0.0;
-        while (boost::out_degree(node, net) == 1) {
-            ArcId const arc = *boost::out_edges(node, net).first;
-            sum += length_of(net[arc].line);
-            node = boost::target(arc, net);
+        while (net.out_arcs(node).size() == 1) {
+            ArcId const arc = net.out_arcs(node).front();
+            sum += length_of(net.arc(arc).line);
+            node = net.to(arc);
         }
         return sum;
     }
@@ -164,18 +165,17 @@ TEST(Order, EqualsTheDefinitions) {
                                                             *rc::gen::inRange<std::size_t>(1, 4));
         NetworkOrders const o = order(net);
         Plain const plain(net);
-        NetworkIndex const index(net);
         for (std::size_t a = 0; a < plain.arcs.size(); ++a) {
             RC_ASSERT(o.strahler[a] == plain.strahler(a));
             RC_ASSERT(o.shreve[a] == plain.shreve(a));
             RC_ASSERT(o.topological[a] == plain.topological(a));
             RC_ASSERT(o.hack[a] == plain.hack(a));
-            RC_ASSERT(o.arc_basin[a] == o.node_basin[boost::source(plain.arcs[a], net)]);
+            RC_ASSERT(o.arc_basin[a] == o.node_basin[net.from(plain.arcs[a])]);
         }
-        for (NodeId n = 0; n < boost::num_vertices(net); ++n) {
+        for (NodeId n = 0; n < net.node_count(); ++n) {
             RC_ASSERT(std::fabs(o.node_dist_out_m[n] - plain.dist_out(n)) <= 1e-9);
-            if (index.out[n] >= 0) {
-                RC_ASSERT(o.node_strahler[n] == o.strahler[static_cast<std::size_t>(index.out[n])]);
+            if (net.out(n) != no_arc) {
+                RC_ASSERT(o.node_strahler[n] == o.strahler[net.out(n)]);
             }
         }
     }));

@@ -30,11 +30,10 @@ Labels streams_of(StreamNetwork const& network) {
 
 /// The definition: every arc runs down as long as the order stays; streams are told apart by where that ends.
 Labels walked(StreamNetwork const& network, NetworkOrders const& orders) {
-    NetworkIndex const index(network);
     std::vector<std::size_t> last;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
         std::size_t at = a;
-        for (std::int64_t below = index.out[index.to[at]]; below >= 0; below = index.out[index.to[at]]) {
+        for (std::int64_t below = network.out(network.to(at)); below >= 0; below = network.out(network.to(at))) {
             auto const next = static_cast<std::size_t>(below);
             if (orders.strahler[next] != orders.strahler[at]) {
                 break;
@@ -55,9 +54,8 @@ void check(StreamNetwork const& network) {
     NetworkOrders const orders = order(network);
     Labels const labels = streams(network, orders);
     RC_ASSERT(labels == walked(network, orders));
-    NetworkIndex const index(network);
     for (std::size_t a = 0; a < labels.size(); ++a) {
-        if (std::int64_t const out = index.out[index.to[a]]; out >= 0) {
+        if (std::int64_t const out = network.out(network.to(a)); out >= 0) {
             auto const below = static_cast<std::size_t>(out);
             RC_ASSERT((labels[a] == labels[below]) == (orders.strahler[a] == orders.strahler[below]));
         }

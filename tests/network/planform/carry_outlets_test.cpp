@@ -191,25 +191,23 @@ struct PlainGround {
 /// there.
 std::vector<std::vector<Vec2>> ways_of(StreamNetwork const& before, network::Carried const& carried) {
     std::vector<std::vector<Vec2>> ways;
-    NetworkIndex const old(before);
-    NetworkIndex const now(carried.network);
-    RC_ASSERT(now.arcs.size() >= old.arcs.size());
-    for (std::size_t a = 0; a < now.arcs.size(); ++a) {
-        std::vector<Vec2> const& line = carried.network[now.arcs[a]].line;
-        RC_ASSERT(line.front() == carried.network[now.from[a]].at);
-        RC_ASSERT(line.back() == carried.network[now.to[a]].at);
-        if (a >= old.arcs.size()) {
-            RC_ASSERT(old.in[now.from[a]].size() > 1U); // a confluence that was an outlet
+    RC_ASSERT(carried.network.arc_count() >= before.arc_count());
+    for (std::size_t a = 0; a < carried.network.arc_count(); ++a) {
+        std::vector<Vec2> const& line = carried.network.arc(a).line;
+        RC_ASSERT(line.front() == carried.network.node(carried.network.from(a)).at);
+        RC_ASSERT(line.back() == carried.network.node(carried.network.to(a)).at);
+        if (a >= before.arc_count()) {
+            RC_ASSERT(before.in(carried.network.from(a)).size() > 1U); // a confluence that was an outlet
             ways.push_back(line);
             continue;
         }
-        std::vector<Vec2> const& drawn = before[old.arcs[a]].line;
-        RC_ASSERT((now.from[a] == old.from[a] && now.to[a] == old.to[a]));
-        RC_ASSERT(before[old.arcs[a]].feature == carried.network[now.arcs[a]].feature);
+        std::vector<Vec2> const& drawn = before.arc(a).line;
+        RC_ASSERT((carried.network.from(a) == before.from(a) && carried.network.to(a) == before.to(a)));
+        RC_ASSERT(before.arc(a).feature == carried.network.arc(a).feature);
         RC_ASSERT(line.size() >= drawn.size());
         RC_ASSERT(std::equal(drawn.begin(), drawn.end(), line.begin()));
         if (line.size() > drawn.size()) {
-            RC_ASSERT(old.in[old.to[a]].size() == 1U);
+            RC_ASSERT(before.in(before.to(a)).size() == 1U);
             ways.emplace_back(line.begin() + static_cast<std::ptrdiff_t>(drawn.size()) - 1, line.end());
         }
     }
@@ -223,10 +221,10 @@ network::CarryParams const alone{.join = false, .beside_cells = 0.0};
 
 TEST(CarryOutlets, NothingToCarry) {
     Grid const grid = test::grid_of(5, 5);
-    EXPECT_EQ(boost::num_edges(carry_outlets({}, grid).network), 0U);
+    EXPECT_EQ(carry_outlets({}, grid).network.arc_count(), 0U);
     auto const at_the_border = carry_outlets(test::network_of({{2.5, 0.5}, {2.5, 3.5}}, {{1, 0}}), grid);
     EXPECT_TRUE(at_the_border.notes.empty());
-    EXPECT_EQ(at_the_border.network[0].at, (Vec2{2.5, 0.5}));
+    EXPECT_EQ(at_the_border.network.node(0).at, (Vec2{2.5, 0.5}));
     EXPECT_THROW(carry_outlets(test::network_of({{2.5, 0.5}, {2.5, 9.5}}, {{1, 0}}), grid), BadInput);
     EXPECT_THROW(carry_outlets(test::network_of({{2, 2}, {3, 3}}, {{1, 0}, {0, 1}}), grid), BadInput);
 }
@@ -234,12 +232,11 @@ TEST(CarryOutlets, NothingToCarry) {
 TEST(CarryOutlets, OneArcIsDrawnOn) {
     Grid const grid = test::grid_of(15, 7);
     auto const carried = carry_outlets(test::network_of({{7.25, 2.75}, {7.5, 6.5}}, {{1, 0, {}, 42}}), grid, alone);
-    NetworkIndex const index(carried.network);
-    ASSERT_EQ(index.arcs.size(), 1U);
+    ASSERT_EQ(carried.network.arc_count(), 1U);
     // Aside first, away from its own river, then straight; of the two sides the west.
     std::vector<Vec2> const expected{{7.5, 6.5}, {7.25, 2.75}, {6.5, 1.5}, {6.5, 0.5}};
-    EXPECT_TRUE(carried.network[index.arcs[0]].line == expected);
-    EXPECT_TRUE((carried.network[0].at == Vec2{6.5, 0.5}));
+    EXPECT_TRUE(carried.network.arc(0).line == expected);
+    EXPECT_TRUE((carried.network.node(0).at == Vec2{6.5, 0.5}));
     ASSERT_EQ(carried.notes.size(), 1U);
     EXPECT_EQ(carried.notes[0].kind, "carried_outlet");
     EXPECT_EQ(carried.notes[0].feature, 42);
@@ -249,19 +246,18 @@ TEST(CarryOutlets, OneArcIsDrawnOn) {
 
 TEST(CarryOutlets, SeveralArcsGetATrunk) {
     Grid const grid = test::grid_of(15, 7);
-    StreamNetwork net = test::network_of({{7.5, 2.5}, {5.5, 4.5}, {9.5, 4.5}}, {{1, 0}, {2, 0}});
-    for (auto [e, end] = boost::edges(net); e != end; ++e) {
-        net[*e].survives = boost::source(*e, net) == 1 ? 3.0 : 4.0;
+    NetworkDraft net = test::network_of({{7.5, 2.5}, {5.5, 4.5}, {9.5, 4.5}}, {{1, 0}, {2, 0}}).draft();
+    for (DraftArc& drawn : net.arcs) {
+        drawn.arc.survives = drawn.from == 1 ? 3.0 : 4.0;
     }
     auto const carried = carry_outlets(net, grid);
-    NetworkIndex const index(carried.network);
-    ASSERT_EQ(index.arcs.size(), 3U);
+    ASSERT_EQ(carried.network.arc_count(), 3U);
     EXPECT_EQ(kind_of(carried.network, 0), NodeKind::confluence);
-    EXPECT_EQ(index.from[2], 0U);
-    EXPECT_TRUE((carried.network[0].at == Vec2{7.5, 2.5}));
-    EXPECT_EQ(carried.network[index.to[2]].at.y, 0.5);
-    EXPECT_EQ(carried.network[index.arcs[2]].survives, 4.0); // as long as one of the rivers it carries
-    EXPECT_EQ(carried.notes[0].feature, 1);                  // the arc, where no file named a line
+    EXPECT_EQ(carried.network.from(2), 0U);
+    EXPECT_TRUE((carried.network.node(0).at == Vec2{7.5, 2.5}));
+    EXPECT_EQ(carried.network.node(carried.network.to(2)).at.y, 0.5);
+    EXPECT_EQ(carried.network.arc(2).survives, 4.0); // as long as one of the rivers it carries
+    EXPECT_EQ(carried.notes[0].feature, 1);          // the arc, where no file named a line
 }
 
 TEST(CarryOutlets, AClosedBasinStays) {
@@ -273,13 +269,12 @@ TEST(CarryOutlets, AClosedBasinStays) {
     auto const carried = carry_outlets(net, grid, alone);
     ASSERT_EQ(carried.notes.size(), 1U);
     EXPECT_EQ(carried.notes[0].kind, "closed_basin");
-    EXPECT_EQ(carried.network[0].at, (Vec2{5.5, 5.5}));
+    EXPECT_EQ(carried.network.node(0).at, (Vec2{5.5, 5.5}));
 
     auto const joined = carry_outlets(net, grid);
     EXPECT_EQ(joined.notes[0].kind, "joined_outlet");
-    NetworkIndex const index(joined.network);
-    EXPECT_EQ(index.outlets.size(), 1U);
-    EXPECT_EQ(index.arcs.size(), 3U);
+    EXPECT_EQ(joined.network.outlets().size(), 1U);
+    EXPECT_EQ(joined.network.arc_count(), 3U);
 }
 
 TEST(CarryOutlets, NotThroughADiagonalRiver) {
@@ -296,13 +291,12 @@ TEST(CarryOutlets, NotThroughADiagonalRiver) {
 TEST(CarryOutlets, TheCheapestWay) {
     ASSERT_TRUE(rc::check("A* = relaxing every step; closed only where there is no way", [] {
         StreamNetwork const net = scattered_rivers(*rc::gen::arbitrary<std::uint64_t>(), 1);
-        RC_PRE(boost::num_edges(net) > 0U);
+        RC_PRE(net.arc_count() > 0U);
         PlainGround ground{test::grid_of(32, 32), {}, {}, {}};
-        NetworkIndex const index(net);
-        for (ArcId const arc : index.arcs) {
-            ground.add(net[arc].line);
+        for (ArcId arc = 0; arc < net.arc_count(); ++arc) {
+            ground.add(net.arc(arc).line);
         }
-        Vec2 const outlet = net[index.outlets[0]].at;
+        Vec2 const outlet = net.node(net.outlets()[0]).at;
         auto const carried = carry_outlets(net, ground.grid, alone);
         auto const ways = ways_of(net, carried);
         if (ground.grid.on_border(cells_along({outlet}, ground.grid)[0])) {
@@ -325,17 +319,16 @@ TEST(CarryOutlets, AddsNoCrossing) {
         StreamNetwork const net = *rc::gen::arbitrary<bool>()
                                       ? scattered_rivers(seed, *rc::gen::inRange<std::size_t>(1, 9))
                                       : test::random_skeleton(seed, 32);
-        RC_PRE(boost::num_edges(net) > 0U);
+        RC_PRE(net.arc_count() > 0U);
         PlainGround ground{test::grid_of(32, 32), {}, {}, {}};
-        NetworkIndex const index(net);
-        for (ArcId const arc : index.arcs) {
-            ground.add(net[arc].line);
+        for (ArcId arc = 0; arc < net.arc_count(); ++arc) {
+            ground.add(net.arc(arc).line);
         }
         auto const carried = carry_outlets(net, ground.grid, alone);
         auto const ways = ways_of(net, carried);
         std::size_t inside = 0;
-        for (NodeId const outlet : index.outlets) {
-            inside += ground.grid.on_border(cells_along({net[outlet].at}, ground.grid)[0]) ? 0 : 1;
+        for (NodeId const outlet : net.outlets()) {
+            inside += ground.grid.on_border(cells_along({net.node(outlet).at}, ground.grid)[0]) ? 0 : 1;
         }
         RC_ASSERT(carried.notes.size() == inside);
         for (auto const& way : ways) {
@@ -400,14 +393,13 @@ TEST(CarryOutlets, RiversThatAreJoinedAreTreesWithoutCrossings) {
             reaches.push_back({nodes.size() - 2, nodes.size() - 1, {line.begin() + 1, line.end() - 1}});
         }
         auto const carried = carry_outlets(test::network_of(nodes, reaches), grid);
-        NetworkIndex const index(carried.network);
-        for (NodeId const outlet : index.outlets) {
-            RC_ASSERT(grid.on_border(cells_along({carried.network[outlet].at}, grid)[0]));
+        for (NodeId const outlet : carried.network.outlets()) {
+            RC_ASSERT(grid.on_border(cells_along({carried.network.node(outlet).at}, grid)[0]));
         }
-        RC_ASSERT(index.upstream_order.size() == index.out.size());
+        RC_ASSERT(carried.network.upstream_order().size() == carried.network.node_count());
         std::vector<Piece> pieces;
-        for (ArcId const arc : index.arcs) {
-            for (Piece const& piece : pieces_of(carried.network[arc].line)) {
+        for (ArcId arc = 0; arc < carried.network.arc_count(); ++arc) {
+            for (Piece const& piece : pieces_of(carried.network.arc(arc).line)) {
                 for (Piece const& other : pieces) {
                     RC_ASSERT(!conflict(piece, other));
                 }

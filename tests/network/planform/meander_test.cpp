@@ -70,12 +70,12 @@ StreamNetwork lattice_rivers(std::uint64_t seed, Grid const& grid) {
             ++donors[static_cast<std::size_t>(way[i + 1])];
         }
     }
-    StreamNetwork net;
+    NetworkDraft net;
     std::vector<NodeId> node(down.size(), 0);
     auto const is_node = [&](std::size_t i) { return down[i] == -1 || (down[i] >= 0 && donors[i] != 1); };
     for (std::size_t i = 0; i < down.size(); ++i) {
         if (is_node(i)) {
-            node[i] = boost::add_vertex(Node{at(static_cast<std::int64_t>(i))}, net);
+            node[i] = net.add_node(at(static_cast<std::int64_t>(i)));
         }
     }
     for (std::size_t i = 0; i < down.size(); ++i) {
@@ -90,18 +90,17 @@ StreamNetwork lattice_rivers(std::uint64_t seed, Grid const& grid) {
             j = static_cast<std::size_t>(down[j]);
         } while (!is_node(j));
         arc.line.push_back(at(static_cast<std::int64_t>(j)));
-        add_arc(net, node[i], node[j], std::move(arc));
+        net.add_arc(node[i], node[j], std::move(arc));
     }
     return net;
 }
 
 std::vector<geometry::Meeting> meetings_of(StreamNetwork const& net) {
-    NetworkIndex const index(net);
     std::vector<std::vector<Vec2>> lines;
     std::vector<geometry::EndNodes> nodes;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        lines.push_back(net[index.arcs[a]].line);
-        nodes.push_back({index.from[a], index.to[a]});
+    for (std::size_t a = 0; a < net.arc_count(); ++a) {
+        lines.push_back(net.arc(a).line);
+        nodes.push_back({net.from(a), net.to(a)});
     }
     return geometry::meetings(lines, nodes);
 }
@@ -126,7 +125,7 @@ Grid hundred_cells() {
 }
 
 TEST(Meander, NothingIsNothing) {
-    EXPECT_EQ(boost::num_edges(meander({}, test::grid_of(5, 5), {}).network), 0U);
+    EXPECT_EQ(meander({}, test::grid_of(5, 5), {}).network.arc_count(), 0U);
 }
 
 TEST(Meander, RefusesWhatItCannotBend) {
@@ -149,7 +148,7 @@ TEST(Meander, AStraightRiverIsStraightNoLonger) {
     StreamNetwork const net = test::network_of({mouth, {grid.west + 1500.0, grid.north - 300.0}}, {{1, 0}});
     for (std::uint64_t seed = 1; seed < 20; ++seed) {
         Meandered const out = meander(net, grid, {9e6}, {.seed = seed});
-        auto const& line = out.network[*boost::edges(out.network).first].line;
+        auto const& line = out.network.arc(0).line;
         double const sinuosity = length_of(line) / distance(line.front(), line.back());
         EXPECT_GT(sinuosity, 1.02) << seed;
         EXPECT_LT(sinuosity, 1.6) << seed;
@@ -166,7 +165,7 @@ TEST(Meander, RoundedStepsStayWithinHalfACell) {
     StreamNetwork const net =
         test::network_of({steps.front(), steps.back()}, {{0, 1, {steps.begin() + 1, steps.end() - 1}}});
     Meandered const out = meander(net, grid, {9e6}, {.gain = 0.0});
-    auto const& line = out.network[*boost::edges(out.network).first].line;
+    auto const& line = out.network.arc(0).line;
     EXPECT_LE(out.max_shift_m, 15.0 + 1e-6);
     EXPECT_LT(length_of(line), 1.1 * distance(line.front(), line.back()));
     EXPECT_GT(length_of(steps), 1.4 * distance(line.front(), line.back()));
@@ -178,45 +177,42 @@ TEST(Meander, TheSameTreeOfRiversThatDoNotMeet) {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         double const gain = *rc::gen::element(0.0, 0.5, 1.0, 2.0);
         StreamNetwork const net = lattice_rivers(seed, grid);
-        RC_PRE(boost::num_edges(net) > 0U);
+        RC_PRE(net.arc_count() > 0U);
         RC_ASSERT(meetings_of(net).empty());
         Meandered const out = meander(net, grid, some_areas(net, grid), {.gain = gain, .seed = seed});
-        NetworkIndex const before(net);
-        NetworkIndex const after(out.network);
-        RC_ASSERT(after.from == before.from);
-        RC_ASSERT(after.to == before.to);
+        RC_ASSERT(out.network.from() == net.from());
+        RC_ASSERT(out.network.to() == net.to());
         RC_ASSERT(meetings_of(out.network).empty());
-        for (NodeId const n : before.outlets) {
-            RC_ASSERT(out.network[n].at == net[n].at);
+        for (NodeId const n : net.outlets()) {
+            RC_ASSERT(out.network.node(n).at == net.node(n).at);
         }
         double shift = 0.0;
-        for (std::size_t a = 0; a < after.arcs.size(); ++a) {
-            Arc const& arc = out.network[after.arcs[a]];
-            RC_ASSERT(arc.feature == net[before.arcs[a]].feature);
-            RC_ASSERT(arc.line.front() == out.network[after.from[a]].at);
-            RC_ASSERT(arc.line.back() == out.network[after.to[a]].at);
+        for (std::size_t a = 0; a < out.network.arc_count(); ++a) {
+            Arc const& arc = out.network.arc(a);
+            RC_ASSERT(arc.feature == net.arc(a).feature);
+            RC_ASSERT(arc.line.front() == out.network.node(out.network.from(a)).at);
+            RC_ASSERT(arc.line.back() == out.network.node(out.network.to(a)).at);
             for (Vec2 const p : arc.line) {
                 RC_ASSERT(grid.west <= p.x);
                 RC_ASSERT(p.x <= grid.east());
                 RC_ASSERT(grid.south() <= p.y);
                 RC_ASSERT(p.y <= grid.north);
             }
-            shift = std::max(shift, distance(arc.line.front(), net[before.arcs[a]].line.front()));
+            shift = std::max(shift, distance(arc.line.front(), net.arc(a).line.front()));
         }
         RC_ASSERT(shift <= out.max_shift_m + 1e-9);
         if (gain > 0.0) {
             return;
         }
         RC_ASSERT(out.max_shift_m <= 15.0 + 1e-5);
-        for (NodeId n = 0; n < boost::num_vertices(net); ++n) {
-            RC_ASSERT(out.network[n].at == net[n].at);
+        for (NodeId n = 0; n < net.node_count(); ++n) {
+            RC_ASSERT(out.network.node(n).at == net.node(n).at);
         }
-        for (std::size_t a = 0; a < after.arcs.size(); ++a) {
-            for (std::size_t b = 0; b < after.arcs.size(); ++b) {
-                if (a != b && least_distance(net[before.arcs[a]].line, net[before.arcs[b]].line) >= 45.0 &&
-                    least_distance(net[before.arcs[b]].line, net[before.arcs[a]].line) >= 45.0) {
-                    RC_ASSERT(least_distance(out.network[after.arcs[a]].line, out.network[after.arcs[b]].line) >=
-                              45.0 - 1e-5);
+        for (std::size_t a = 0; a < out.network.arc_count(); ++a) {
+            for (std::size_t b = 0; b < out.network.arc_count(); ++b) {
+                if (a != b && least_distance(net.arc(a).line, net.arc(b).line) >= 45.0 &&
+                    least_distance(net.arc(b).line, net.arc(a).line) >= 45.0) {
+                    RC_ASSERT(least_distance(out.network.arc(a).line, out.network.arc(b).line) >= 45.0 - 1e-5);
                 }
             }
         }
@@ -228,24 +224,24 @@ TEST(Meander, RiversStayOnLandAndEndWhereTheyEnded) {
         Grid const grid = hundred_cells();
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         StreamNetwork net = lattice_rivers(seed, grid);
-        RC_PRE(boost::num_edges(net) > 0U);
+        RC_PRE(net.arc_count() > 0U);
         // the last eight cells are sea, but for what the rivers run through
         Mask land(grid, 1);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             land[i] = grid.at(i).row < 92 ? 1 : 0;
         }
-        for (auto [e, end] = boost::edges(net); e != end; ++e) {
-            for (Cell const c : cells_along(net[*e].line, grid)) {
+        for (ArcId e = 0; e < net.arc_count(); ++e) {
+            for (Cell const c : cells_along(net.arc(e).line, grid)) {
                 land[c] = 1;
             }
         }
         Meandered const out = meander(net, land, some_areas(net, grid), {.seed = seed});
         RC_ASSERT(meetings_of(out.network).empty());
-        for (NodeId const n : NetworkIndex(net).outlets) {
-            RC_ASSERT(out.network[n].at == net[n].at);
+        for (NodeId const n : net.outlets()) {
+            RC_ASSERT(out.network.node(n).at == net.node(n).at);
         }
-        for (auto [e, end] = boost::edges(out.network); e != end; ++e) {
-            for (Vec2 const p : out.network[*e].line) {
+        for (ArcId e = 0; e < out.network.arc_count(); ++e) {
+            for (Vec2 const p : out.network.arc(e).line) {
                 Cell const c = grid.cell_of(p);
                 RC_ASSERT((!grid.contains(c) || land[c] == 1));
             }
@@ -257,7 +253,7 @@ TEST(Meander, AnOutletInsideTheGridStays) {
     Grid const grid = hundred_cells();
     Vec2 const sink{grid.west + 1511.0, grid.south() + 1503.0};
     StreamNetwork const net = test::network_of({sink, {grid.west + 1500.0, grid.north - 300.0}}, {{1, 0}});
-    EXPECT_EQ(meander(net, grid, {9e6}).network[0].at, sink);
+    EXPECT_EQ(meander(net, grid, {9e6}).network.node(0).at, sink);
 }
 
 TEST(Meander, ChanceIsTheSeeds) {
@@ -266,8 +262,8 @@ TEST(Meander, ChanceIsTheSeeds) {
     auto const lines = [&](std::uint64_t seed) {
         StreamNetwork const out = meander(net, grid, some_areas(net, grid), {.seed = seed}).network;
         std::vector<std::vector<Vec2>> all;
-        for (auto [e, end] = boost::edges(out); e != end; ++e) {
-            all.push_back(out[*e].line);
+        for (ArcId e = 0; e < out.arc_count(); ++e) {
+            all.push_back(out.arc(e).line);
         }
         return all;
     };

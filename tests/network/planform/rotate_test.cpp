@@ -33,8 +33,8 @@ TEST(Rotate, RefusesWhatItCannotTurn) {
 TEST(Rotate, AQuarterTurnIsCounterClockwise) {
     StreamNetwork const net = test::network_of({{0.0, 0.0}, {0.0, 8.0}}, {{1, 0}});
     Rotated const out = rotate(net, test::grid_of(10, 10), {90.0});
-    EXPECT_EQ(out.network[0].at, (Vec2{9.0, 5.0}));
-    EXPECT_EQ(out.network[1].at, (Vec2{1.0, 5.0}));
+    EXPECT_EQ(out.network.node(0).at, (Vec2{9.0, 5.0}));
+    EXPECT_EQ(out.network.node(1).at, (Vec2{1.0, 5.0}));
 }
 
 TEST(Rotate, TheSameRiversInTheMiddleOfTheirGrid) {
@@ -48,13 +48,11 @@ TEST(Rotate, TheSameRiversInTheMiddleOfTheirGrid) {
         frame.west = 500000.0;
         frame.north = 5000000.0;
         Rotated const out = rotate(net, frame, {turn});
-        NetworkIndex const before(net);
-        NetworkIndex const after(out.network);
-        RC_ASSERT(after.from == before.from);
-        for (std::size_t a = 0; a < before.arcs.size(); ++a) {
-            auto const& line = out.network[after.arcs[a]].line;
-            RC_ASSERT(std::fabs(after.length_m[a] - before.length_m[a]) < 1e-5 * static_cast<double>(line.size()));
-            RC_ASSERT(line.front() == out.network[after.from[a]].at);
+        RC_ASSERT(out.network.from() == net.from());
+        for (std::size_t a = 0; a < net.arc_count(); ++a) {
+            auto const& line = out.network.arc(a).line;
+            RC_ASSERT(std::fabs(out.network.length_m(a) - net.length_m(a)) < 1e-5 * static_cast<double>(line.size()));
+            RC_ASSERT(line.front() == out.network.node(out.network.from(a)).at);
             for (Cell const c : cells_of_vertices(line, out.grid)) {
                 RC_ASSERT(!out.grid.on_border(c));
             }
@@ -69,11 +67,11 @@ TEST(Rotate, ABranchCutToTheTurnedBoxFits) {
     for (double const turn : {-33.0, -12.0, 20.0}) {
         auto const branch = network::pick_branch(cluster, {network::BranchChoice::all, 60, 40, turn});
         EXPECT_TRUE(branch.cut);
-        StreamNetwork net;
+        NetworkDraft net;
         for (Cell const c : branch.cells) {
-            boost::add_vertex(Node{{static_cast<double>(c.col), -static_cast<double>(c.row)}}, net);
+            net.add_node({static_cast<double>(c.col), -static_cast<double>(c.row)});
         }
-        add_arc(net, 0, 1, {});
+        net.add_arc(0, 1);
         EXPECT_NO_THROW(rotate(net, test::grid_of(60, 40), {turn}));
         EXPECT_THROW(rotate(net, test::grid_of(60, 30), {turn}), BadInput);
     }

@@ -24,13 +24,14 @@ namespace {
 /// Rivers that meet in one point, evenly around it, and leave it to the south; or none leaves.
 RaisedNetwork star(int rivers, bool outlet_in_the_middle, double reach_m = 100.0, double leaving_m = 100.0) {
     RaisedNetwork made;
+    NetworkDraft plan;
     auto const node = [&](Vec2 at, double z) {
         made.node_z.push_back(z);
-        return add_node(made.plan, at);
+        return plan.add_node(at);
     };
     auto const arc = [&](NodeId from, NodeId to) {
         made.arc_z.push_back({made.node_z[from], made.node_z[to]});
-        add_arc(made.plan, from, to, {});
+        plan.add_arc(from, to);
     };
     Vec2 const middle{4000000.1, 500000.7};
     NodeId const centre = node(middle, 10.0);
@@ -41,6 +42,7 @@ RaisedNetwork star(int rivers, bool outlet_in_the_middle, double reach_m = 100.0
     if (!outlet_in_the_middle) {
         arc(centre, node({middle.x, middle.y - leaving_m}, 0.0));
     }
+    made.plan = std::move(plan);
     return made;
 }
 
@@ -48,18 +50,17 @@ RaisedNetwork star(int rivers, bool outlet_in_the_middle, double reach_m = 100.0
 /// end wherever nothing crosses, that is where the arc is one segment and its upper node has arcs upstream.
 RaisedNetwork merged_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t rows, double share, double spacing_m) {
     RaisedNetwork const rivers = random_rivers(seed, cols, rows, spacing_m);
-    NetworkIndex const index(rivers.plan);
-    std::vector<NodeId> goes_to(index.out.size());
+    std::vector<NodeId> goes_to(rivers.plan.node_count());
     for (NodeId n = 0; n < goes_to.size(); ++n) {
         goes_to[n] = n;
     }
-    std::vector<std::uint8_t> gone(index.arcs.size(), 0);
-    std::vector<std::uint8_t> touched(index.out.size(), 0);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        NodeId const from = index.from[a];
-        NodeId const to = index.to[a];
+    std::vector<std::uint8_t> gone(rivers.plan.arc_count(), 0);
+    std::vector<std::uint8_t> touched(rivers.plan.node_count(), 0);
+    for (std::size_t a = 0; a < rivers.plan.arc_count(); ++a) {
+        NodeId const from = rivers.plan.from(a);
+        NodeId const to = rivers.plan.to(a);
         bool const wanted = static_cast<double>(chance(seed, 1000 + a) % 1000) < 1000.0 * share;
-        if (wanted && rivers.arc_z[a].size() == 2 && !index.in[from].empty() && touched[from] == 0 &&
+        if (wanted && rivers.arc_z[a].size() == 2 && !rivers.plan.in(from).empty() && touched[from] == 0 &&
             touched[to] == 0) {
             gone[a] = 1;
             goes_to[from] = to;
@@ -67,32 +68,34 @@ RaisedNetwork merged_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t 
         }
     }
     RaisedNetwork made;
+    NetworkDraft plan;
     std::vector<NodeId> number(goes_to.size());
     for (NodeId n = 0; n < goes_to.size(); ++n) {
         if (goes_to[n] == n) {
-            number[n] = add_node(made.plan, rivers.plan[n].at);
+            number[n] = plan.add_node(rivers.plan.node(n).at);
             made.node_z.push_back(rivers.node_z[n]);
         }
     }
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (std::size_t a = 0; a < rivers.plan.arc_count(); ++a) {
         if (gone[a] == 0) {
-            NodeId const from = goes_to[index.from[a]];
-            NodeId const to = goes_to[index.to[a]];
-            Arc arc = rivers.plan[index.arcs[a]];
+            NodeId const from = goes_to[rivers.plan.from(a)];
+            NodeId const to = goes_to[rivers.plan.to(a)];
+            Arc arc = rivers.plan.arc(a);
             arc.feature = static_cast<std::int64_t>(a) + 1;
             std::vector<double> z = rivers.arc_z[a];
             z.back() = rivers.node_z[to];
-            add_arc(made.plan, number[from], number[to], std::move(arc));
+            plan.add_arc(number[from], number[to], std::move(arc));
             made.arc_z.push_back(std::move(z));
         }
     }
+    made.plan = std::move(plan);
     return made;
 }
 
 std::size_t most_upstream(StreamNetwork const& network) {
     std::size_t most = 0;
-    for (auto const& in : NetworkIndex(network).in) {
-        most = std::max(most, in.size());
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        most = std::max(most, network.in(n).size());
     }
     return most;
 }
@@ -107,10 +110,9 @@ std::string words(std::vector<Finding> const& findings) {
 
 /// The sources upstream of each outlet, outlets in their order: what no splitting may change.
 std::vector<std::int64_t> sources_by_outlet(StreamNetwork const& network) {
-    NetworkIndex const index(network);
-    std::vector<std::int64_t> sources(index.outlets.size() + 1, 0);
-    for (NodeId n = 0; n < index.out.size(); ++n) {
-        sources[static_cast<std::size_t>(index.basin[n])] += index.in[n].empty() ? 1 : 0;
+    std::vector<std::int64_t> sources(network.outlets().size() + 1, 0);
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        sources[static_cast<std::size_t>(network.basin(n))] += network.in(n).empty() ? 1 : 0;
     }
     return sources;
 }
@@ -144,8 +146,8 @@ TEST(SplitConfluences, ThirdRiverJoinsOneDistanceDownstream) {
     EXPECT_FALSE(split.pieces[0].upstream);
     EXPECT_EQ(most_upstream(split.network.plan), 2U);
     EXPECT_EQ(words(faults(split.network)), "");
-    Vec2 const centre = split.network.plan[0].at;
-    Vec2 const joined = split.network.plan[5].at;
+    Vec2 const centre = split.network.plan.node(0).at;
+    Vec2 const joined = split.network.plan.node(5).at;
     EXPECT_EQ(joined.x, centre.x);
     EXPECT_NEAR(joined.y, centre.y - 5.0, 1e-9);
     EXPECT_NEAR(split.network.node_z[5], 10.0 - 10.0 * 5.0 / 100.0, 1e-9);
@@ -161,7 +163,7 @@ TEST(SplitConfluences, ManyRiversAroundAPointAreSplitWhereverTheyLeave) {
                     EXPECT_LE(most_upstream(split.network.plan), static_cast<std::size_t>(most));
                     EXPECT_EQ(split.pieces.size(), static_cast<std::size_t>(rivers - most));
                     EXPECT_EQ(words(faults(split.network)), "") << rivers << outlet << leaving_m << most;
-                    EXPECT_EQ(NetworkIndex(split.network.plan).outlets.size(), 1U);
+                    EXPECT_EQ(split.network.plan.outlets().size(), 1U);
                 }
             }
         }
@@ -172,28 +174,29 @@ TEST(SplitConfluences, OutletIsSplitUpstream) {
     network::Split const split = split_confluences(star(3, true), {.distance_m = 5.0});
     ASSERT_EQ(split.pieces.size(), 1U);
     EXPECT_TRUE(split.pieces[0].upstream);
-    NetworkIndex const index(split.network.plan);
-    EXPECT_EQ(index.outlets, (std::vector<NodeId>{0}));
-    EXPECT_EQ(index.in[0].size(), 2U);
-    EXPECT_NEAR(distance(split.network.plan[0].at, split.network.plan[4].at), 5.0, 1e-9);
+    EXPECT_EQ(split.network.plan.outlets(), (std::vector<NodeId>{0}));
+    EXPECT_EQ(split.network.plan.in(0).size(), 2U);
+    EXPECT_NEAR(distance(split.network.plan.node(0).at, split.network.plan.node(4).at), 5.0, 1e-9);
 }
 
 TEST(SplitConfluences, RiversOnOneSideAreLedAroundTheOthers) {
     // All come from the east within a fan; the river leaves to the west: straight ways would cut across the fan.
     RaisedNetwork network;
+    NetworkDraft plan;
     auto const node = [&](Vec2 at, double z) {
         network.node_z.push_back(z);
-        return add_node(network.plan, at);
+        return plan.add_node(at);
     };
     NodeId const centre = node({0.0, 0.0}, 1.0);
     for (double const y : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
         NodeId const source = node({100.0, y}, 5.0);
         network.arc_z.push_back({5.0, 1.0});
-        add_arc(network.plan, source, centre, {});
+        plan.add_arc(source, centre);
     }
     NodeId const outlet = node({-100.0, 0.0}, 0.0);
     network.arc_z.push_back({1.0, 0.0});
-    add_arc(network.plan, centre, outlet, {});
+    plan.add_arc(centre, outlet);
+    network.plan = std::move(plan);
     network::Split const split = split_confluences(network, {.distance_m = 2.0});
     EXPECT_EQ(most_upstream(split.network.plan), 2U);
     EXPECT_EQ(words(faults(split.network)), "");
@@ -227,18 +230,15 @@ TEST(SplitConfluences, LawsHoldOnRandomRivers) {
         RC_ASSERT(most_upstream(split.network.plan) <= static_cast<std::size_t>(most));
         RC_ASSERT(words(faults(split.network)) == "");
         RC_ASSERT(sources_by_outlet(split.network.plan) == sources_by_outlet(network.plan));
-        NetworkIndex const before(network.plan);
-        NetworkIndex const after(split.network.plan);
-        RC_ASSERT(after.arcs.size() == before.arcs.size() + split.pieces.size());
-        RC_ASSERT(after.out.size() == before.out.size() + split.pieces.size());
-        for (std::size_t a = 0; a < before.arcs.size(); ++a) {
-            RC_ASSERT(split.network.plan[after.arcs[a]].feature == network.plan[before.arcs[a]].feature);
+        RC_ASSERT(split.network.plan.arc_count() == network.plan.arc_count() + split.pieces.size());
+        RC_ASSERT(split.network.plan.node_count() == network.plan.node_count() + split.pieces.size());
+        for (std::size_t a = 0; a < network.plan.arc_count(); ++a) {
+            RC_ASSERT(split.network.plan.arc(a).feature == network.plan.arc(a).feature);
         }
         for (std::size_t i = 0; i < split.pieces.size(); ++i) {
-            std::size_t const arc = before.arcs.size() + i;
-            RC_ASSERT(split.network.plan[after.arcs[arc]].feature ==
-                      split.network.plan[after.arcs[split.pieces[i].of]].feature);
-            RC_ASSERT(after.to[split.pieces[i].moved] == before.out.size() + i);
+            std::size_t const arc = network.plan.arc_count() + i;
+            RC_ASSERT(split.network.plan.arc(arc).feature == split.network.plan.arc(split.pieces[i].of).feature);
+            RC_ASSERT(split.network.plan.to(split.pieces[i].moved) == network.plan.node_count() + i);
         }
     }));
 }

@@ -32,8 +32,8 @@ std::vector<std::pair<double, double>> key(std::vector<Vec2> const& line) {
 
 Lines lines_of(StreamNetwork const& net) {
     Lines lines;
-    for (ArcId const arc : NetworkIndex(net).arcs) {
-        lines[key(net[arc].line)] = net[arc].survives;
+    for (ArcId arc = 0; arc < net.arc_count(); ++arc) {
+        lines[key(net.arc(arc).line)] = net.arc(arc).survives;
     }
     return lines;
 }
@@ -47,15 +47,13 @@ bool same_lines(Lines const& a, Lines const& b) {
 
 /// Bit for bit, with numbering.
 bool equal(StreamNetwork const& a, StreamNetwork const& b) {
-    NetworkIndex const i(a);
-    NetworkIndex const j(b);
-    bool same = i.from == j.from && i.to == j.to && i.out.size() == j.out.size();
-    for (NodeId n = 0; same && n < i.out.size(); ++n) {
-        same = a[n].at == b[n].at;
+    bool same = a.from() == b.from() && a.to() == b.to() && a.node_count() == b.node_count();
+    for (NodeId n = 0; same && n < a.node_count(); ++n) {
+        same = a.node(n).at == b.node(n).at;
     }
-    for (std::size_t k = 0; same && k < i.arcs.size(); ++k) {
-        Arc const& p = a[i.arcs[k]];
-        Arc const& q = b[j.arcs[k]];
+    for (std::size_t k = 0; same && k < a.arc_count(); ++k) {
+        Arc const& p = a.arc(k);
+        Arc const& q = b.arc(k);
         same = p.line == q.line && p.survives == q.survives && p.feature == q.feature && p.type == q.type;
     }
     return same;
@@ -73,11 +71,11 @@ struct PlainForest {
     std::vector<PlainArc> arcs;
 
     explicit PlainForest(StreamNetwork const& net) {
-        for (NodeId n = 0; n < boost::num_vertices(net); ++n) {
-            at.push_back(net[n].at);
+        for (NodeId n = 0; n < net.node_count(); ++n) {
+            at.push_back(net.node(n).at);
         }
-        for (ArcId const arc : NetworkIndex(net).arcs) {
-            arcs.push_back({boost::source(arc, net), boost::target(arc, net), net[arc].line});
+        for (ArcId arc = 0; arc < net.arc_count(); ++arc) {
+            arcs.push_back({net.from(arc), net.to(arc), net.arc(arc).line});
         }
         while (merge_one()) {
         }
@@ -155,16 +153,15 @@ Lines plain_prune(StreamNetwork const& net, double length_cells) {
 
 /// Keeps the arcs that survive L and merges where two are left: what a reader of the thresholds does.
 Lines filtered(StreamNetwork const& net, double length_cells) {
-    NetworkIndex const index(net);
-    StreamNetwork kept;
-    for (NodeId n = 0; n < index.out.size(); ++n) {
-        boost::add_vertex(net[n], kept);
+    NetworkDraft kept;
+    for (NodeId n = 0; n < net.node_count(); ++n) {
+        kept.add_node(net.node(n).at);
     }
     std::map<std::size_t, double> survives;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        if (net[index.arcs[a]].survives >= length_cells) {
-            add_arc(kept, index.from[a], index.to[a], net[index.arcs[a]]);
-            survives[index.from[a]] = net[index.arcs[a]].survives;
+    for (std::size_t a = 0; a < net.arc_count(); ++a) {
+        if (net.arc(a).survives >= length_cells) {
+            kept.add_arc(net.from(a), net.to(a), net.arc(a));
+            survives[net.from(a)] = net.arc(a).survives;
         }
     }
     Lines lines;
@@ -185,8 +182,8 @@ StreamNetwork any_network() {
 /// A length at which something is left: a random share of the longest threshold.
 double any_length(StreamNetwork const& net) {
     double longest = 0.0;
-    for (ArcId const arc : NetworkIndex(net).arcs) {
-        longest = std::max(longest, net[arc].survives);
+    for (ArcId arc = 0; arc < net.arc_count(); ++arc) {
+        longest = std::max(longest, net.arc(arc).survives);
     }
     return longest * *rc::gen::element(0.02, 0.1, 0.3, 0.7, 1.0);
 }
@@ -216,7 +213,7 @@ TEST(Prune, NamesTheLongestThatCanBeKept) {
     StreamNetwork const net = test::network_of({{0, 0}, {384, 0}}, {{1, 0}});
     EXPECT_EQ(refusal(net, {500.0, 1.0}),
               "network.prune: pruning at 500 cells removes every arc (the longest is 384). Try 384 or less.");
-    EXPECT_EQ(boost::num_edges(prune(net, {384.0, 1.0}).network), 1U); // the boundary is kept
+    EXPECT_EQ(prune(net, {384.0, 1.0}).network.arc_count(), 1U); // the boundary is kept
     StreamNetwork const odd = test::network_of({{0, 0}, {1, 1}}, {{1, 0}});
     EXPECT_NE(refusal(odd, {2.0, 1.0}).find("Try 1.41 or less"), std::string::npos);
     EXPECT_EQ(refusal(net, {12.9, 30.0}),
@@ -239,8 +236,8 @@ TEST(Prune, AMergedArcTakesTheNameOfItsLongestPiece) {
     StreamNetwork const net = test::network_of({{0, 0}, {5, 0}, {5, 3}, {9, 0}},
                                                {{2, 1, {}, 7, "A"}, {3, 1, {}, 8, "B"}, {1, 0, {}, 9, "C"}});
     StreamNetwork const pruned = prune(net, {4.0, 1.0}).network;
-    ASSERT_EQ(boost::num_edges(pruned), 1U);
-    Arc const& arc = pruned[*boost::edges(pruned).first];
+    ASSERT_EQ(pruned.arc_count(), 1U);
+    Arc const& arc = pruned.arc(0);
     EXPECT_EQ(arc.line, (std::vector<Vec2>{{9, 0}, {5, 0}, {0, 0}}));
     EXPECT_EQ(arc.feature, 9);
     EXPECT_EQ(arc.type, "C");
@@ -257,7 +254,7 @@ TEST(Prune, OfEqualLeavesTheNorthernThenTheWesternGoes) {
 TEST(Prune, ASmallBasinMayVanish) {
     StreamNetwork const net = test::network_of({{0, 0}, {3, 0}, {0, 9}, {8, 9}}, {{1, 0}, {3, 2}});
     StreamNetwork const pruned = prune(net, {4.0, 1.0}).network;
-    EXPECT_EQ(boost::num_vertices(pruned), 2U);
+    EXPECT_EQ(pruned.node_count(), 2U);
     EXPECT_EQ(lines_of(pruned).begin()->first, key({{8, 9}, {0, 9}}));
 }
 
@@ -266,16 +263,15 @@ TEST(Prune, Laws) {
         StreamNetwork const net = prune(any_network(), {0.0, 1.0}).network;
         double const length = any_length(net);
         network::Pruned const pruned = prune(net, {length, 1.0});
-        RC_ASSERT(pruned.arcs_before == static_cast<std::int64_t>(boost::num_edges(net)));
-        NetworkIndex const index(pruned.network);
-        RC_ASSERT(boost::num_vertices(pruned.network) == index.arcs.size() + index.outlets.size());
-        RC_ASSERT(index.upstream_order.size() == boost::num_vertices(pruned.network));
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-            NodeId const from = index.from[a];
+        RC_ASSERT(pruned.arcs_before == static_cast<std::int64_t>(net.arc_count()));
+        RC_ASSERT(pruned.network.node_count() == pruned.network.arc_count() + pruned.network.outlets().size());
+        RC_ASSERT(pruned.network.upstream_order().size() == pruned.network.node_count());
+        for (std::size_t a = 0; a < pruned.network.arc_count(); ++a) {
+            NodeId const from = pruned.network.from(a);
             RC_ASSERT(kind_of(pruned.network, from) != NodeKind::pseudo);
-            RC_ASSERT((!index.in[from].empty() || index.length_m[a] >= length - 1e-6));
-            RC_ASSERT(pruned.network[index.arcs[a]].line.front() == pruned.network[from].at);
-            RC_ASSERT(pruned.network[index.arcs[a]].line.back() == pruned.network[index.to[a]].at);
+            RC_ASSERT((!pruned.network.in(from).empty() || pruned.network.length_m(a) >= length - 1e-6));
+            RC_ASSERT(pruned.network.arc(a).line.front() == pruned.network.node(from).at);
+            RC_ASSERT(pruned.network.arc(a).line.back() == pruned.network.node(pruned.network.to(a)).at);
         }
         RC_ASSERT(equal(prune(pruned.network, {length, 1.0}).network, pruned.network));
     }));
@@ -303,7 +299,7 @@ TEST(Prune, ThresholdsAgreeWithPruningAnew) {
         // Pruned further, the same network with the same numbers.
         StreamNetwork const further = prune(at_low, {high, 1.0}).network;
         RC_ASSERT(lines_of(further) == lines_of(at_high));
-        RC_ASSERT(NetworkIndex(further).from == NetworkIndex(at_high).from);
+        RC_ASSERT(further.from() == at_high.from());
         // Each step of the sparser network is one of the denser.
         std::map<std::pair<double, double>, std::pair<double, double>> steps;
         double sum = 0.0;
@@ -313,8 +309,8 @@ TEST(Prune, ThresholdsAgreeWithPruningAnew) {
             }
         }
         double sum_of_steps = 0.0;
-        for (ArcId const arc : NetworkIndex(at_high).arcs) {
-            std::vector<Vec2> const& line = at_high[arc].line;
+        for (ArcId arc = 0; arc < at_high.arc_count(); ++arc) {
+            std::vector<Vec2> const& line = at_high.arc(arc).line;
             sum += length_of(line);
             for (std::size_t i = 1; i < line.size(); ++i) {
                 sum_of_steps += distance(line[i - 1], line[i]);
@@ -343,12 +339,10 @@ TEST(Prune, TheSameArcsWhateverTheCell) {
         StreamNetwork const small = network::trace(fine, {fine.grid().centre({20, 39})});
         network::Pruned const a = prune(coarse, {3.0, 1.0});
         network::Pruned const b = prune(small, {3.0, 0.1});
-        NetworkIndex const i(a.network);
-        NetworkIndex const j(b.network);
-        RC_ASSERT(i.from == j.from);
-        RC_ASSERT(i.to == j.to);
-        for (std::size_t k = 0; k < i.arcs.size(); ++k) {
-            RC_ASSERT(a.network[i.arcs[k]].survives == b.network[j.arcs[k]].survives);
+        RC_ASSERT(a.network.from() == b.network.from());
+        RC_ASSERT(a.network.to() == b.network.to());
+        for (std::size_t k = 0; k < a.network.arc_count(); ++k) {
+            RC_ASSERT(a.network.arc(k).survives == b.network.arc(k).survives);
         }
     }));
 }
@@ -356,16 +350,16 @@ TEST(Prune, TheSameArcsWhateverTheCell) {
 TEST(Prune, ACombOfManyTeeth) {
     // Teeth that grow upstream along a spine: each removal merges the spine anew, a quadratic rule would not end.
     std::size_t const teeth = 100000;
-    StreamNetwork net;
-    boost::add_vertex(Node{{0.0, 0.0}}, net);
+    NetworkDraft net;
+    net.add_node({0.0, 0.0});
     for (std::size_t t = 1; t <= teeth; ++t) {
         auto const x = static_cast<double>(t);
-        NodeId const spine = boost::add_vertex(Node{{x, 0.0}}, net);
-        NodeId const tip = boost::add_vertex(Node{{x, 1.0 + x / 1024.0}}, net);
-        add_arc(net, spine, t == 1 ? 0 : spine - 2, {});
-        add_arc(net, tip, spine, {});
+        NodeId const spine = net.add_node({x, 0.0});
+        NodeId const tip = net.add_node({x, 1.0 + x / 1024.0});
+        net.add_arc(spine, t == 1 ? 0 : spine - 2);
+        net.add_arc(tip, spine);
     }
     StreamNetwork const pruned = prune(net, {50.0, 1.0}).network;
     std::size_t const left = teeth - 49 * 1024 + 1;
-    EXPECT_EQ(boost::num_edges(pruned), 2 * left - 1); // the head of the spine is merged with its tooth
+    EXPECT_EQ(pruned.arc_count(), 2 * left - 1); // the head of the spine is merged with its tooth
 }

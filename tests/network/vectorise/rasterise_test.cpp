@@ -21,7 +21,7 @@ using namespace thalweg;
 using network::rasterise;
 
 RaisedNetwork raised(StreamNetwork const& net, std::vector<std::vector<double>> arc_z) {
-    return {net, std::vector<double>(boost::num_vertices(net), 0.0), std::move(arc_z)};
+    return {net, std::vector<double>(net.node_count(), 0.0), std::move(arc_z)};
 }
 
 std::string refusal(RaisedNetwork const& net, Grid const& grid) {
@@ -37,9 +37,8 @@ std::string refusal(RaisedNetwork const& net, Grid const& grid) {
 std::map<std::int64_t, float> plain_valley(RaisedNetwork const& net, Grid const& grid, std::int64_t& lowered) {
     std::map<std::int64_t, float> z;
     std::vector<std::vector<std::int64_t>> paths;
-    NetworkIndex const index(net.plan);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        std::vector<Vec2> const& line = net.plan[index.arcs[a]].line;
+    for (std::size_t a = 0; a < net.plan.arc_count(); ++a) {
+        std::vector<Vec2> const& line = net.plan.arc(a).line;
         std::vector<std::int64_t> path;
         for (std::size_t i = 1; i < line.size(); ++i) {
             std::vector<Cell> const cells = cells_along({line[i - 1], line[i]}, grid);
@@ -182,12 +181,12 @@ TEST(Rasterise, ASkeletonGetsItsOwnCellsBack) {
         StreamNetwork const net = test::random_skeleton(seed, 32);
         auto const out = rasterise(network::set_heights(net).network, test::grid_of(32, 32));
         std::int64_t cells = 0;
-        std::int64_t vertices = static_cast<std::int64_t>(NetworkIndex(net).outlets.size());
+        std::int64_t vertices = static_cast<std::int64_t>(net.outlets().size());
         for (float const v : out.valley.z.values()) {
             cells += std::isnan(v) ? 0 : 1;
         }
-        for (ArcId const arc : NetworkIndex(net).arcs) {
-            vertices += static_cast<std::int64_t>(net[arc].line.size()) - 1;
+        for (ArcId arc = 0; arc < net.arc_count(); ++arc) {
+            vertices += static_cast<std::int64_t>(net.arc(arc).line.size()) - 1;
         }
         RC_ASSERT(cells == vertices);
         RC_ASSERT(out.lowered_cells == 0);

@@ -119,9 +119,9 @@ TEST(Trace, NothingToTrace) {
 
 TEST(Trace, TwoCells) {
     StreamNetwork const net = trace(test::mask_of({"##", "..", ".#"}), {{0.0, 3.0}});
-    ASSERT_EQ(boost::num_edges(net), 1U);
-    ASSERT_EQ(boost::num_vertices(net), 2U); // the lone cell is left out
-    EXPECT_EQ(net[*boost::edges(net).first].line, (std::vector<Vec2>{{1.5, 2.5}, {0.5, 2.5}}));
+    ASSERT_EQ(net.arc_count(), 1U);
+    ASSERT_EQ(net.node_count(), 2U); // the lone cell is left out
+    EXPECT_EQ(net.arc(0).line, (std::vector<Vec2>{{1.5, 2.5}, {0.5, 2.5}}));
 }
 
 TEST(Trace, ArcsOfASmallTree) {
@@ -131,11 +131,10 @@ TEST(Trace, ArcsOfASmallTree) {
                                      "..#..", //
                                      "..#.."});
     StreamNetwork const net = trace(mask, {{2.5, 0.0}});
-    NetworkIndex const index(net);
-    ASSERT_EQ(index.arcs.size(), 3U);
-    EXPECT_EQ(net[index.arcs[0]].line, (std::vector<Vec2>{{0.5, 4.5}, {1.5, 3.5}, {2.5, 2.5}}));
-    EXPECT_EQ(net[index.arcs[1]].line, (std::vector<Vec2>{{4.5, 4.5}, {3.5, 3.5}, {2.5, 2.5}}));
-    EXPECT_EQ(net[index.arcs[2]].line, (std::vector<Vec2>{{2.5, 2.5}, {2.5, 1.5}, {2.5, 0.5}}));
+    ASSERT_EQ(net.arc_count(), 3U);
+    EXPECT_EQ(net.arc(0).line, (std::vector<Vec2>{{0.5, 4.5}, {1.5, 3.5}, {2.5, 2.5}}));
+    EXPECT_EQ(net.arc(1).line, (std::vector<Vec2>{{4.5, 4.5}, {3.5, 3.5}, {2.5, 2.5}}));
+    EXPECT_EQ(net.arc(2).line, (std::vector<Vec2>{{2.5, 2.5}, {2.5, 1.5}, {2.5, 0.5}}));
     EXPECT_EQ(kind_of(net, 0), NodeKind::source);
     EXPECT_EQ(kind_of(net, 2), NodeKind::confluence);
     EXPECT_EQ(kind_of(net, 3), NodeKind::outlet);
@@ -143,29 +142,27 @@ TEST(Trace, ArcsOfASmallTree) {
 
 TEST(Trace, TheMouthChoosesTheOutletAndTiesGoToTheLowerCell) {
     Mask const line = test::mask_of({"#####"});
-    EXPECT_EQ(trace(line, {{4.5, 0.5}})[1].at, (Vec2{4.5, 0.5}));
+    EXPECT_EQ(trace(line, {{4.5, 0.5}}).node(1).at, (Vec2{4.5, 0.5}));
     // Cells 1 and 2 are equally near to x = 2: the outlet is cell 1, in the middle of the river.
     StreamNetwork const net = trace(line, {{2.0, 0.5}});
-    NetworkIndex const index(net);
-    ASSERT_EQ(index.outlets.size(), 1U);
-    EXPECT_EQ(net[index.outlets[0]].at, (Vec2{1.5, 0.5}));
-    EXPECT_EQ(index.in[index.outlets[0]].size(), 2U);
+    ASSERT_EQ(net.outlets().size(), 1U);
+    EXPECT_EQ(net.node(net.outlets()[0]).at, (Vec2{1.5, 0.5}));
+    EXPECT_EQ(net.in(net.outlets()[0]).size(), 2U);
 }
 
 TEST(Trace, CornersMakeNoFalseJunctions) {
     // With plain 8-adjacency the corner cell would have a short cut past it and hang as a leaf.
     StreamNetwork const net = trace(test::mask_of({"##.", ".##", "..#"}), {{0.0, 3.0}});
-    EXPECT_EQ(boost::num_edges(net), 1U);
-    EXPECT_EQ(net[*boost::edges(net).first].line.size(), 5U);
+    EXPECT_EQ(net.arc_count(), 1U);
+    EXPECT_EQ(net.arc(0).line.size(), 5U);
 }
 
 TEST(Trace, LoopsAreCutWhereTheWaysMeet) {
     StreamNetwork const net = trace(test::mask_of({".#.", "#.#", ".#."}), {{1.5, 3.0}});
-    NetworkIndex const index(net);
-    // The southern cell is as far by the west as by the east: it drains to the western one, of lower index.
-    ASSERT_EQ(index.arcs.size(), 2U);
-    EXPECT_EQ(net[index.arcs[0]].line, (std::vector<Vec2>{{2.5, 1.5}, {1.5, 2.5}}));
-    EXPECT_EQ(net[index.arcs[1]].line, (std::vector<Vec2>{{1.5, 0.5}, {0.5, 1.5}, {1.5, 2.5}}));
+    // The southern cell is as far by the west as by the east: it drains to the western one, of lower net.
+    ASSERT_EQ(net.arc_count(), 2U);
+    EXPECT_EQ(net.arc(0).line, (std::vector<Vec2>{{2.5, 1.5}, {1.5, 2.5}}));
+    EXPECT_EQ(net.arc(1).line, (std::vector<Vec2>{{1.5, 0.5}, {0.5, 1.5}, {1.5, 2.5}}));
 }
 
 TEST(Trace, IsTheShortestPathTree) {
@@ -191,14 +188,13 @@ TEST(Trace, IsTheShortestPathTree) {
             return;
         }
         StreamNetwork const net = trace(mask, {mouth});
-        NetworkIndex const index(net);
         std::set<std::int64_t> starts;
         std::int64_t last_start = -1;
         std::int64_t steps = 0;
-        for (ArcId const arc : index.arcs) {
-            std::vector<Vec2> const& line = net[arc].line;
-            RC_ASSERT(line.front() == net[boost::source(arc, net)].at);
-            RC_ASSERT(line.back() == net[boost::target(arc, net)].at);
+        for (ArcId arc = 0; arc < net.arc_count(); ++arc) {
+            std::vector<Vec2> const& line = net.arc(arc).line;
+            RC_ASSERT(line.front() == net.node(net.from(arc)).at);
+            RC_ASSERT(line.back() == net.node(net.to(arc)).at);
             std::vector<std::int64_t> cells;
             for (Vec2 const p : line) {
                 cells.push_back(mask.grid().index(mask.grid().cell_of(p)));
@@ -219,15 +215,15 @@ TEST(Trace, IsTheShortestPathTree) {
             outlets += way.parent == i && children[i] > 0 ? 1 : 0;
         }
         RC_ASSERT(steps == draining); // every cell that drains is drawn, once
-        RC_ASSERT(static_cast<std::int64_t>(index.outlets.size()) == outlets);
-        RC_ASSERT(boost::num_vertices(net) == boost::num_edges(net) + index.outlets.size());
-        RC_ASSERT(index.upstream_order.size() == boost::num_vertices(net));
+        RC_ASSERT(static_cast<std::int64_t>(net.outlets().size()) == outlets);
+        RC_ASSERT(net.node_count() == net.arc_count() + net.outlets().size());
+        RC_ASSERT(net.upstream_order().size() == net.node_count());
     }));
 }
 
 TEST(Trace, InMetres) {
     Mask mask(Grid{3, 1, 30.0, 500000.0, 4000000.0, "EPSG:32611"}, 1);
     StreamNetwork const net = trace(mask, {{500000.0, 4000000.0}});
-    EXPECT_EQ(net[*boost::edges(net).first].line,
+    EXPECT_EQ(net.arc(0).line,
               (std::vector<Vec2>{{500075.0, 3999985.0}, {500045.0, 3999985.0}, {500015.0, 3999985.0}}));
 }

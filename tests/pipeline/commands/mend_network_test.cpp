@@ -102,10 +102,9 @@ TEST(MendNetwork, AreasStayWhereTheEndDoes) {
     MendedNetwork const mended = mend(file);
     ASSERT_TRUE(mended.done);
     EXPECT_EQ(kinds_of(mended), (std::vector<std::string>{"turned", "mended"}));
-    NetworkIndex const index(mended.network.plan);
-    ASSERT_EQ(index.arcs.size(), file.arcs.size());
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        auto const was = static_cast<std::size_t>(mended.network.plan[index.arcs[a]].feature - 1000);
+    ASSERT_EQ(mended.network.plan.arc_count(), file.arcs.size());
+    for (std::size_t a = 0; a < mended.network.plan.arc_count(); ++a) {
+        auto const was = static_cast<std::size_t>(mended.network.plan.arc(a).feature - 1000);
         EXPECT_EQ(mended.us_area_m2[a], file.arcs[was].us_area_m2);
         EXPECT_EQ(mended.ds_area_m2[a], file.arcs[was].ds_area_m2);
         EXPECT_EQ(mended.braided[a], was == 7 ? 1 : 0);

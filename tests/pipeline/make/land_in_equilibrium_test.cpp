@@ -256,7 +256,7 @@ TEST(LandInEquilibrium, RiversThatEndInsideAreCarriedOrSinks) {
         EXPECT_TRUE(c.ok) << c.name << " " << c.value;
     }
     ASSERT_EQ(drained.sinks.size(), 1U);
-    EXPECT_EQ(drained.network.plan[drained.sinks.front()].at, (Vec2{502000.0, 5001500.0}));
+    EXPECT_EQ(drained.network.plan.node(drained.sinks.front()).at, (Vec2{502000.0, 5001500.0}));
 }
 
 TEST(LandInEquilibrium, GivenHeightsGetTheSlopeThatIsAsked) {
@@ -306,8 +306,8 @@ TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {
     expect_lawful(t);
     EXPECT_GT(t.equilibrium->side_valleys, 30);
     std::int64_t grown = 0;
-    for (ArcId const arc : NetworkIndex(t.network.plan).arcs) {
-        grown += t.network.plan[arc].given ? 0 : 1;
+    for (ArcId arc = 0; arc < t.network.plan.arc_count(); ++arc) {
+        grown += t.network.plan.arc(arc).given ? 0 : 1;
     }
     EXPECT_EQ(grown, t.equilibrium->side_valleys);
     EXPECT_EQ(t.relief->perched, 0);
@@ -321,7 +321,7 @@ TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToWander) {
     EXPECT_EQ(still.recipe.network->meander, 0.0);
     auto const length = [](Terrain const& t) {
         double sum = 0.0;
-        for (double const one : NetworkIndex(t.network.plan).length_m) {
+        for (double const one : t.network.plan.length_m()) {
             sum += one;
         }
         return sum;
@@ -362,10 +362,9 @@ TEST(LandInEquilibrium, AForestTilesALargeMap) {
                            "[surface]\nedge = \"closed\"\n",
                            files);
     expect_lawful(t);
-    NetworkIndex const index(t.network.plan);
     std::vector<std::int64_t> outlets;
-    for (NodeId const n : index.outlets) {
-        outlets.push_back(t.grid.index(t.grid.cell_of(t.network.plan[n].at)));
+    for (NodeId const n : t.network.plan.outlets()) {
+        outlets.push_back(t.grid.index(t.grid.cell_of(t.network.plan.node(n).at)));
     }
     EXPECT_GT(outlets.size(), 50U);
     flow::FlowField const drainage = flow::route(t.surface->dem);

@@ -103,8 +103,8 @@ TEST(Land, OverTheTrianglesOfRivers) {
     }
     EXPECT_GE(t.statistics->min.z, low - 1e-3);
     EXPECT_LE(t.statistics->max.z, high + 1e-3);
-    for (auto const& arc : boost::make_iterator_range(boost::edges(t.network.plan))) {
-        for (Vec2 const p : t.network.plan[arc].line) {
+    for (ArcId arc = 0; arc < t.network.plan.arc_count(); ++arc) {
+        for (Vec2 const p : t.network.plan.arc(arc).line) {
             EXPECT_TRUE(std::any_of(t.tin->vertices.begin(), t.tin->vertices.end(),
                                     [&](Vec3 const& v) { return v.x == p.x && v.y == p.y; }));
         }

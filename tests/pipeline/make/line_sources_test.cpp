@@ -28,9 +28,10 @@ Stretches stretches_in(StreamNetwork& network, std::uint64_t seed) {
     Stretches result;
     std::int64_t feature = 0;
     std::uint64_t place = 0;
-    for (ArcId const arc : NetworkIndex(network).arcs) {
-        auto const& line = network[arc].line;
-        network[arc].feature = feature + 1;
+    NetworkDraft named = network.draft();
+    for (DraftArc& drawn : named.arcs) {
+        auto const& line = drawn.arc.line;
+        drawn.arc.feature = feature + 1;
         std::vector<Stretch> own;
         double along_m = 0.0;
         for (std::size_t i = 1; i < line.size(); ++i) {
@@ -42,17 +43,17 @@ Stretches stretches_in(StreamNetwork& network, std::uint64_t seed) {
         }
         result.push_back(own);
     }
+    network = std::move(named);
     return result;
 }
 
 /// Law: sorted, without gaps, from one end of the arc to the other.
 void expect_covered(StreamNetwork const& network, Stretches const& stretches) {
-    NetworkIndex const index(network);
-    ASSERT_EQ(stretches.size(), index.arcs.size());
+    ASSERT_EQ(stretches.size(), network.arc_count());
     for (std::size_t a = 0; a < stretches.size(); ++a) {
         ASSERT_FALSE(stretches[a].empty()) << "arc " << a + 1;
         EXPECT_EQ(stretches[a].front().from_m, 0.0);
-        EXPECT_NEAR(stretches[a].back().to_m, index.length_m[a], 1e-9 * index.length_m[a]);
+        EXPECT_NEAR(stretches[a].back().to_m, network.length_m(a), 1e-9 * network.length_m(a));
         for (std::size_t k = 0; k < stretches[a].size(); ++k) {
             Stretch const& s = stretches[a][k];
             EXPECT_GT(s.feature, 0);
@@ -78,15 +79,16 @@ void expect_same(Stretches const& is, Stretches const& was) {
 /// A river from north to south, 1000 m between its nodes, into each of which several tributaries of many vertices run.
 RaisedNetwork fans(std::uint64_t seed, std::size_t nodes, std::size_t most) {
     RaisedNetwork rivers;
+    NetworkDraft plan;
     auto const node = [&](Vec2 at, double z) {
         rivers.node_z.push_back(z);
-        return boost::add_vertex(Node{at}, rivers.plan);
+        return plan.add_node(at);
     };
     auto const reach = [&](NodeId from, NodeId to, std::size_t segments) {
         Arc arc;
         std::vector<double> z;
-        Vec2 const a = rivers.plan[from].at;
-        Vec2 const b = rivers.plan[to].at;
+        Vec2 const a = plan.nodes[from].at;
+        Vec2 const b = plan.nodes[to].at;
         for (std::size_t i = 0; i <= segments; ++i) {
             double const share = static_cast<double>(i) / static_cast<double>(segments);
             arc.line.push_back({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)});
@@ -95,7 +97,7 @@ RaisedNetwork fans(std::uint64_t seed, std::size_t nodes, std::size_t most) {
         arc.line.back() = b;
         z.back() = rivers.node_z[to];
         rivers.arc_z.push_back(z);
-        add_arc(rivers.plan, from, to, std::move(arc));
+        plan.add_arc(from, to, std::move(arc));
     };
     ChanceStream words(seed, 7, 0);
     NodeId above = node({0.0, 1000.0 * static_cast<double>(nodes)}, 10.0 * static_cast<double>(nodes));
@@ -110,6 +112,7 @@ RaisedNetwork fans(std::uint64_t seed, std::size_t nodes, std::size_t most) {
         }
         above = at;
     }
+    rivers.plan = std::move(plan);
     return rivers;
 }
 
@@ -158,7 +161,7 @@ TEST(LineSources, WhatIsDrawnBeyondTheFileIsInNoStretch) {
     StreamNetwork net = test::network_of({{50, 90}, {50, 50}}, {{0, 1, {{50, 70}}, 1}});
     LineSources const sources(net, {{{1, 0.0, 40.0}}});
     network::Carried const carried = network::carry_outlets(net, Grid{20, 20, 5.0, 0.0, 100.0, "EPSG:32631"});
-    ASSERT_GT(NetworkIndex(carried.network).length_m[0], 50.0);
+    ASSERT_GT(carried.network.length_m(0), 50.0);
     expect_same(sources.of(carried.network), {{{1, 0.0, 40.0}}});
     // Nor when confluences are split afterwards.
     LineSources const later(carried.network, sources.of(carried.network));
@@ -172,22 +175,20 @@ TEST(LineSources, MeanderedRiversAreCovered) {
         StreamNetwork net = fans(seed, 4, 2).plan;
         Stretches const drawn = stretches_in(net, seed);
         Grid const grid{100, 480, 10.0, -500.0, 4400.0, "EPSG:32631"};
-        std::vector<double> const area_m2(boost::num_edges(net), 1e6);
+        std::vector<double> const area_m2(net.arc_count(), 1e6);
         network::Meandered const bent = network::meander(net, grid, area_m2, {.gain = 2.0, .seed = seed});
         RC_PRE(bent.vertices > 0);
         LineSources const sources = LineSources(net, drawn).bent(net, bent.network);
         Stretches const is = sources.of(bent.network);
         expect_covered(bent.network, is);
         RC_ASSERT(!testing::Test::HasFailure());
-        NetworkIndex const was(net);
-        NetworkIndex const now(bent.network);
         for (std::size_t a = 0; a < is.size(); ++a) {
             double longest_m = 0.0;
-            auto const& line = bent.network[now.arcs[a]].line;
+            auto const& line = bent.network.arc(a).line;
             for (std::size_t i = 1; i < line.size(); ++i) {
                 longest_m = std::max(longest_m, distance(line[i - 1], line[i]));
             }
-            double const share = now.length_m[a] / was.length_m[a];
+            double const share = bent.network.length_m(a) / net.length_m(a);
             for (Stretch const& s : is[a]) {
                 auto const old = std::ranges::find(drawn[a], s.feature, &Stretch::feature);
                 RC_ASSERT(old != drawn[a].end());
@@ -208,10 +209,9 @@ TEST(LineSources, SplitConfluencesAreCovered) {
         Stretches const drawn = stretches_in(rivers.plan, seed);
         std::map<std::int64_t, std::size_t> arc_of;
         std::map<std::pair<double, double>, std::int64_t> leaving; // features by place
-        NetworkIndex const was(rivers.plan);
         for (std::size_t a = 0; a < drawn.size(); ++a) {
             double along_m = 0.0;
-            auto const& line = rivers.plan[was.arcs[a]].line;
+            auto const& line = rivers.plan.arc(a).line;
             for (std::size_t i = 0; i + 1 < line.size(); ++i) {
                 auto const at = std::ranges::find_if(
                     drawn[a], [&](Stretch const& s) { return along_m >= s.from_m && along_m < s.to_m; });
@@ -227,7 +227,6 @@ TEST(LineSources, SplitConfluencesAreCovered) {
         Stretches const is = LineSources(rivers.plan, drawn).redrawn(split.network.plan);
         expect_covered(split.network.plan, is);
         RC_ASSERT(!testing::Test::HasFailure());
-        NetworkIndex const now(split.network.plan);
         for (std::size_t a = 0; a < is.size(); ++a) {
             std::size_t first = a;
             while (first >= drawn.size()) {
@@ -237,7 +236,7 @@ TEST(LineSources, SplitConfluencesAreCovered) {
                 RC_ASSERT(arc_of.at(s.feature) == first);
             }
             double along_m = 0.0;
-            auto const& line = split.network.plan[now.arcs[a]].line;
+            auto const& line = split.network.plan.arc(a).line;
             for (std::size_t i = 0; i + 1 < line.size(); ++i) {
                 if (auto const known = leaving.find({line[i].x, line[i].y}); known != leaving.end()) {
                     auto const at = std::ranges::find_if(

@@ -91,10 +91,9 @@ void expect_lawful(Terrain const& t) {
     for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
         ASSERT_EQ(std::isfinite(t.surface->dem[i]), is_land(t.grid.at(i))) << i;
     }
-    NetworkIndex const index(t.network.plan);
-    EXPECT_FALSE(index.outlets.empty());
-    for (NodeId const n : index.outlets) {
-        Cell const c = t.grid.cell_of(t.network.plan[n].at);
+    EXPECT_FALSE(t.network.plan.outlets().empty());
+    for (NodeId const n : t.network.plan.outlets()) {
+        Cell const c = t.grid.cell_of(t.network.plan.node(n).at);
         EXPECT_TRUE(is_land(c));
         EXPECT_FALSE(is_land({c.col - 1, c.row}) && is_land({c.col + 1, c.row}) && is_land({c.col, c.row - 1}) &&
                      is_land({c.col, c.row + 1}));
@@ -128,7 +127,7 @@ TEST(PlanForest, TheWholeGridDrainsOverItsBorder) {
     expect_lawful(t);
     EXPECT_TRUE(t.land.values().empty());
     EXPECT_TRUE(t.story.full);
-    EXPECT_GT(NetworkIndex(t.network.plan).outlets.size(), 5U);
+    EXPECT_GT(t.network.plan.outlets().size(), 5U);
 }
 
 TEST(PlanForest, AnIslandIsDiffusedAndTriangulatedToo) {
@@ -187,7 +186,7 @@ TEST(PlanForest, PointsMoveToTheCoast) {
     expect_lawful(t);
     EXPECT_EQ(count(t.story.repairs, "moved_outlet"), 1);
     EXPECT_EQ(count(t.story.repairs, "added_outlet"), 1); // the islet's
-    EXPECT_EQ(NetworkIndex(t.network.plan).outlets.size(), 3U);
+    EXPECT_EQ(t.network.plan.outlets().size(), 3U);
     EXPECT_TRUE(has(fault_of(recipe + "seeds = 4\n" + dilated, files.folder()), "leave network.forest.seeds out"));
 }
 
@@ -197,8 +196,8 @@ TEST(PlanForest, LinesAndPolygonsTellWhereTheCoastHasOutlets) {
     Terrain const west = made(region + "outlets = \"west.geojson\"\n" + dilated, files.folder());
     expect_lawful(west);
     std::int64_t on_line = 0;
-    for (NodeId const n : NetworkIndex(west.network.plan).outlets) {
-        on_line += west.network.plan[n].at.x < 500400 ? 1 : 0;
+    for (NodeId const n : west.network.plan.outlets()) {
+        on_line += west.network.plan.node(n).at.x < 500400 ? 1 : 0;
     }
     EXPECT_EQ(on_line, 4);
     Terrain const lake = made(region + "outlets = \"lake.geojson\"\n" + dilated, files.folder());
@@ -211,8 +210,8 @@ TEST(PlanForest, LinesAndPolygonsTellWhereTheCoastHasOutlets) {
 TEST(PlanForest, OutletsThatArePrunedAwayAreTold) {
     Terrain const all = made(small_grid + forest + "prune = 0\n" + dilated);
     Terrain const some = made(small_grid + forest + "prune = 40\n" + dilated);
-    std::size_t const before = NetworkIndex(all.network.plan).outlets.size();
-    std::size_t const after = NetworkIndex(some.network.plan).outlets.size();
+    std::size_t const before = all.network.plan.outlets().size();
+    std::size_t const after = some.network.plan.outlets().size();
     EXPECT_LT(after, before);
     EXPECT_EQ(count(some.story.repairs, "pruned_outlet"), static_cast<std::int64_t>(before - after));
 }

@@ -21,13 +21,14 @@ struct Star {
 
 Star star(int rivers, bool outlet) {
     Star made;
+    NetworkDraft plan;
     auto const node = [&](Vec2 at, double z) {
         made.network.node_z.push_back(z);
-        return boost::add_vertex(Node{at}, made.network.plan);
+        return plan.add_node(at);
     };
     auto const arc = [&](NodeId from, NodeId to, double us, double ds) {
         made.network.arc_z.push_back({made.network.node_z[from], made.network.node_z[to]});
-        add_arc(made.network.plan, from, to, {});
+        plan.add_arc(from, to);
         made.us_area_m2.push_back(us);
         made.ds_area_m2.push_back(ds);
     };
@@ -41,6 +42,7 @@ Star star(int rivers, bool outlet) {
     if (!outlet) {
         arc(centre, node({0.0, -100.0}, 0.0), sum, sum + 7.0);
     }
+    made.network.plan = std::move(plan);
     return made;
 }
 
@@ -53,23 +55,22 @@ TEST(SplitAreas, WhatArrivesLeaves) {
             Star made = star(rivers, outlet);
             network::Split const split = network::split_confluences(made.network, {.distance_m = 2.0});
             pipeline::add_pieces(split.pieces, made.us_area_m2, made.ds_area_m2);
-            NetworkIndex const index(split.network.plan);
-            ASSERT_EQ(made.us_area_m2.size(), index.arcs.size());
-            for (NodeId n = 0; n < index.out.size(); ++n) {
-                if (index.in[n].empty() || index.out[n] < 0) {
+            ASSERT_EQ(made.us_area_m2.size(), split.network.plan.arc_count());
+            for (NodeId n = 0; n < split.network.plan.node_count(); ++n) {
+                if (split.network.plan.in(n).empty() || split.network.plan.out(n) == no_arc) {
                     continue;
                 }
                 double arriving = 0.0;
-                for (std::int64_t const a : index.in[n]) {
-                    arriving += made.ds_area_m2[static_cast<std::size_t>(a)];
+                for (ArcId const a : split.network.plan.in(n)) {
+                    arriving += made.ds_area_m2[a];
                 }
                 double const own = n == 0 ? 1.0 : 0.0;
-                EXPECT_DOUBLE_EQ(made.us_area_m2[static_cast<std::size_t>(index.out[n])], arriving + own) << n;
+                EXPECT_DOUBLE_EQ(made.us_area_m2[split.network.plan.out(n)], arriving + own) << n;
             }
             if (outlet) {
                 double arriving = 0.0;
-                for (std::int64_t const a : index.in[0]) {
-                    arriving += made.ds_area_m2[static_cast<std::size_t>(a)];
+                for (ArcId const a : split.network.plan.in(0)) {
+                    arriving += made.ds_area_m2[a];
                 }
                 EXPECT_DOUBLE_EQ(arriving, 5.0 * rivers * (rivers + 1));
             }

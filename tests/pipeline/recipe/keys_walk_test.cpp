@@ -271,9 +271,8 @@ std::string digest(Terrain const& t) {
         hash.add(x);
     }
     add_text(hash, t.grid.crs);
-    NetworkIndex const index(t.network.plan);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        Arc const& arc = t.network.plan[index.arcs[a]];
+    for (std::size_t a = 0; a < t.network.plan.arc_count(); ++a) {
+        Arc const& arc = t.network.plan.arc(a);
         for (Vec2 const p : arc.line) {
             hash.add(p.x);
             hash.add(p.y);

@@ -72,17 +72,16 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
     }
 
     json const& arcs = data["rivers"]["arcs"];
-    NetworkIndex const index(terrain.network.plan);
     auto const lines = page_decoder::lines(unpacked(page_decoder::part(html, "@@LINES@@")),
                                            arcs["n"].get<std::vector<std::int64_t>>());
-    ASSERT_EQ(lines.size(), index.arcs.size());
+    ASSERT_EQ(lines.size(), terrain.network.plan.arc_count());
     double const step_m = data["rivers"]["step"].get<double>() * terrain.grid.cell_m;
     for (auto const& [name, column] : arcs.items()) {
         EXPECT_EQ(column.size(), lines.size()) << name;
     }
     for (std::size_t a = 0; a < lines.size(); ++a) {
-        Vec2 const from = terrain.network.plan[index.from[a]].at;
-        Vec2 const to = terrain.network.plan[index.to[a]].at;
+        Vec2 const from = terrain.network.plan.node(terrain.network.plan.from(a)).at;
+        Vec2 const to = terrain.network.plan.node(terrain.network.plan.to(a)).at;
         EXPECT_NEAR(terrain.grid.west + lines[a].front().x * step_m, from.x, step_m / 2.0);
         EXPECT_NEAR(terrain.grid.north - lines[a].front().y * step_m, from.y, step_m / 2.0);
         EXPECT_NEAR(terrain.grid.west + lines[a].back().x * step_m, to.x, step_m / 2.0);
@@ -92,10 +91,10 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
         if (ds > 0) {
             EXPECT_EQ(lines[a].back(), lines[ds - 1].front()) << "rivers are not torn apart";
         }
-        EXPECT_NEAR(arcs["length"][a].get<double>(), index.length_m[a], 0.001);
+        EXPECT_NEAR(arcs["length"][a].get<double>(), terrain.network.plan.length_m(a), 0.001);
         EXPECT_NEAR(arcs["z_up"][a].get<double>(), terrain.network.arc_z[a].front(), 0.001);
         EXPECT_EQ(arcs["ds_area"][a], terrain.areas.ds_area_m2[a]);
-        double const survives = terrain.network.plan[index.arcs[a]].survives;
+        double const survives = terrain.network.plan.arc(a).survives;
         EXPECT_EQ(arcs["survives"][a].is_null(), std::isinf(survives));
     }
 }
@@ -175,15 +174,15 @@ TEST(Page, TheProfileRunsFromTheSourceOfTheLargestBasinToItsOutlet) {
     Terrain two = terrain;
     two.network = {};
     two.orders = {};
+    NetworkDraft plan;
     for (double const length : {100.0, 50.0, 70.0}) {
-        auto const source = boost::add_vertex(two.network.plan);
-        auto const outlet = boost::add_vertex(two.network.plan);
-        two.network.plan[source].at = {two.grid.west + length, two.grid.north};
-        two.network.plan[outlet].at = {two.grid.west, two.grid.north};
-        add_arc(two.network.plan, source, outlet, {});
+        auto const source = plan.add_node({two.grid.west + length, two.grid.north});
+        auto const outlet = plan.add_node({two.grid.west, two.grid.north});
+        plan.add_arc(source, outlet);
         two.network.arc_z.push_back({length, 1.0});
         two.orders.node_dist_out_m.insert(two.orders.node_dist_out_m.end(), {length, 0.0});
     }
+    two.network.plan = std::move(plan);
     two.orders.strahler = {1, 1, 1};
     two.orders.hack = {1, 1, 1};
     two.orders.shreve = {1, 1, 1};

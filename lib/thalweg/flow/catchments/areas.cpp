@@ -73,26 +73,25 @@ std::vector<std::int64_t> count_draining(std::vector<RiverCell> const& cells, Fl
 }
 
 /// Adds up along the rivers what each of their cells gathers.
-ContributingAreas accumulate(StreamNetwork const& network, NetworkIndex const& index,
-                             std::vector<RiverCell> const& cells, std::vector<std::int64_t> const& count,
-                             Grid const& grid, char const* source) {
-    std::vector<double> const arcs(index.arcs.size(), 0.0);
-    ContributingAreas areas{arcs, arcs, std::vector<double>(index.out.size(), 0.0), source};
-    std::vector<std::int64_t> at_start(index.arcs.size(), 0); // the share of the arc's first cell
-    std::vector<std::int64_t> beyond(index.arcs.size(), 0);   // that of its other cells
+ContributingAreas accumulate(StreamNetwork const& network, std::vector<RiverCell> const& cells,
+                             std::vector<std::int64_t> const& count, Grid const& grid, char const* source) {
+    std::vector<double> const arcs(network.arc_count(), 0.0);
+    ContributingAreas areas{arcs, arcs, std::vector<double>(network.node_count(), 0.0), source};
+    std::vector<std::int64_t> at_start(network.arc_count(), 0); // the share of the arc's first cell
+    std::vector<std::int64_t> beyond(network.arc_count(), 0);   // that of its other cells
     for (std::size_t i = 0; i < cells.size(); ++i) {
         std::size_t const a = cells[i].reach;
-        Cell const start = cells_of_vertices({network[index.from[a]].at}, grid).front();
+        Cell const start = cells_of_vertices({network.node(network.from(a)).at}, grid).front();
         (cells[i].cell == grid.index(start) ? at_start : beyond)[a] += count[i];
     }
-    std::vector<std::int64_t> through(index.out.size(), 0); // by node, in cells
+    std::vector<std::int64_t> through(network.node_count(), 0); // by node, in cells
     double const cell_m2 = grid.cell_m * grid.cell_m;
-    for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) {
-        if (index.out[*n] >= 0) {
-            auto const a = static_cast<std::size_t>(index.out[*n]);
+    for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) {
+        if (network.out(*n) != no_arc) {
+            auto const a = network.out(*n);
             through[*n] += at_start[a];
             std::int64_t const end = through[*n] + beyond[a];
-            through[index.to[a]] += end;
+            through[network.to(a)] += end;
             areas.us_area_m2[a] = static_cast<double>(through[*n]) * cell_m2;
             areas.ds_area_m2[a] = static_cast<double>(end) * cell_m2;
         }
@@ -104,17 +103,15 @@ ContributingAreas accumulate(StreamNetwork const& network, NetworkIndex const& i
 } // namespace
 
 ContributingAreas areas_nearest(StreamNetwork const& network, Grid const& grid, Run const& run) {
-    NetworkIndex const index(network);
     auto const cells = river_cells(reaches_of(network), grid, run);
     auto const count = cells.empty() ? std::vector<std::int64_t>{} : count_nearest(cells, grid, run);
-    return accumulate(network, index, cells, count, grid, "nearest");
+    return accumulate(network, cells, count, grid, "nearest");
 }
 
 ContributingAreas areas_d8(StreamNetwork const& network, FlowField const& drainage, Run const& run) {
     Grid const& grid = drainage.direction.grid();
-    NetworkIndex const index(network);
     auto const cells = river_cells(reaches_of(network), grid, run);
-    return accumulate(network, index, cells, count_draining(cells, drainage, run), grid, "d8");
+    return accumulate(network, cells, count_draining(cells, drainage, run), grid, "d8");
 }
 
 } // namespace thalweg::flow

@@ -13,17 +13,19 @@
 namespace thalweg::flow {
 
 std::vector<Reach> reaches_of(StreamNetwork const& network) {
-    for (NodeId n = 0; n < boost::num_vertices(network); ++n) {
-        if (boost::out_degree(n, network) > 1) {
-            throw BadInput(fmt::format("flow.reaches_of: {} arcs leave node {} at ({}, {}); a river must not split",
-                                       boost::out_degree(n, network), n + 1, network[n].at.x, network[n].at.y));
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        if (network.out_arcs(n).size() > 1) {
+            throw BadInput(fmt::format("measure.reaches_of: {} arcs leave node {} at ({}, {}); a river must not split",
+                                       network.out_arcs(n).size(), n + 1, network.node(n).at.x, network.node(n).at.y));
         }
     }
-    NetworkIndex const index(network);
     std::vector<Reach> reaches;
-    reaches.reserve(index.arcs.size());
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        reaches.push_back({{network[index.arcs[a]].line}, index.out[index.to[a]], static_cast<std::int64_t>(a) + 1});
+    reaches.reserve(network.arc_count());
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        ArcId const below = network.out(network.to(a));
+        reaches.push_back({{network.arc(a).line},
+                           below == no_arc ? -1 : static_cast<std::int64_t>(below),
+                           static_cast<std::int64_t>(a) + 1});
     }
     return reaches;
 }

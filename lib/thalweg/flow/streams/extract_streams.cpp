@@ -57,13 +57,10 @@ struct Steps {
 
 /// What outlets drain beside the arcs that end in them goes to the first of these, as areas_d8 has it.
 void give_outlets(StreamNetwork const& plan, ContributingAreas& areas) {
-    NetworkIndex const index(plan);
-    for (NodeId const outlet : index.outlets) {
-        double const brought =
-            std::accumulate(index.in[outlet].begin(), index.in[outlet].end(), 0.0, [&](double sum, std::int64_t a) {
-                return sum + areas.ds_area_m2[static_cast<std::size_t>(a)];
-            });
-        areas.ds_area_m2[static_cast<std::size_t>(index.in[outlet].front())] += areas.node_m2[outlet] - brought;
+    for (NodeId const outlet : plan.outlets()) {
+        double const brought = std::accumulate(plan.in(outlet).begin(), plan.in(outlet).end(), 0.0,
+                                               [&](double sum, ArcId a) { return sum + areas.ds_area_m2[a]; });
+        areas.ds_area_m2[plan.in(outlet).front()] += areas.node_m2[outlet] - brought;
     }
 }
 
@@ -82,15 +79,14 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
                                    dem.width(), dem.height(), grid.width, grid.height));
     }
     ExtractedStreams streams;
-    StreamNetwork& plan = streams.network.plan;
+    NetworkDraft plan;
     streams.areas.source = "d8";
     double const cell_m2 = grid.cell_m * grid.cell_m;
     auto const area_m2 = [&](std::int64_t cell) { return static_cast<double>(drainage.area_cells[cell]) * cell_m2; };
 
     auto const cells = node_cells(drainage, params.support_cells, run);
     for (std::int64_t const cell : cells) {
-        NodeId const node = boost::add_vertex(plan);
-        plan[node].at = grid.centre(grid.at(cell));
+        plan.add_node(grid.centre(grid.at(cell)));
         streams.network.node_z.push_back(dem[cell]);
         streams.areas.node_m2.push_back(area_m2(cell));
     }
@@ -101,7 +97,7 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
             continue;
         }
         Arc arc;
-        arc.line.push_back(plan[from].at);
+        arc.line.push_back(plan.nodes[from].at);
         std::vector<double> z{dem[cells[from]]};
         std::int64_t last = cells[from];
         auto to = cells.end();
@@ -113,12 +109,13 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
                 break;
             }
         }
-        add_arc(plan, from, static_cast<NodeId>(to - cells.begin()), std::move(arc));
+        plan.add_arc(from, static_cast<NodeId>(to - cells.begin()), std::move(arc));
         streams.network.arc_z.push_back(std::move(z));
         streams.areas.us_area_m2.push_back(area_m2(cells[from]));
         streams.areas.ds_area_m2.push_back(area_m2(last));
     }
-    give_outlets(plan, streams.areas);
+    streams.network.plan = std::move(plan);
+    give_outlets(streams.network.plan, streams.areas);
     return streams;
 }
 

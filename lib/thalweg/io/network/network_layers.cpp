@@ -15,27 +15,27 @@ namespace thalweg::io {
 
 namespace {
 
-void require_nameable(StreamNetwork const& plan, NetworkIndex const& index, SchemaTable const& schema,
-                      std::string const& what) {
+void require_nameable(StreamNetwork const& plan, SchemaTable const& schema, std::string const& what) {
     auto const most = static_cast<std::size_t>(schema.most_upstream);
-    for (NodeId n = 0; most > 0 && n < index.in.size(); ++n) {
-        if (index.out[n] >= 0 && index.in[n].size() > most) {
+    for (NodeId n = 0; most > 0 && n < plan.node_count(); ++n) {
+        if (plan.out(n) != no_arc && plan.in(n).size() > most) {
             throw BadInput(fmt::format("{}: {} rivers meet at ({}, {}), but {} names no more than {} upstream of one: "
                                        "split confluences (--max-upstream {})",
-                                       what, index.in[n].size(), plan[n].at.x, plan[n].at.y, schema.name, most, most));
+                                       what, plan.in(n).size(), plan.node(n).at.x, plan.node(n).at.y, schema.name, most,
+                                       most));
         }
     }
 }
 
 } // namespace
 
-void require_whole(NetworkTables const& tables, NetworkIndex const& index, std::string const& what) {
+void require_whole(NetworkTables const& tables, std::string const& what) {
     StreamNetwork const& plan = tables.network.plan;
     auto const& node_z = tables.network.node_z;
     auto const& arc_z = tables.network.arc_z;
     NetworkOrders const& orders = tables.orders;
-    std::size_t const arcs = index.arcs.size();
-    std::size_t const nodes = boost::num_vertices(plan);
+    std::size_t const arcs = tables.network.plan.arc_count();
+    std::size_t const nodes = plan.node_count();
     if (arcs == 0) {
         throw BadInput(what + ": the network has no arcs");
     }
@@ -54,11 +54,11 @@ void require_whole(NetworkTables const& tables, NetworkIndex const& index, std::
             what, arcs, nodes));
     }
     for (std::size_t i = 0; i < arcs; ++i) {
-        auto const& line = plan[index.arcs[i]].line;
-        NodeId const from = index.from[i];
-        NodeId const to = index.to[i];
-        bool const meets = line.size() >= 2 && arc_z[i].size() == line.size() && line.front() == plan[from].at &&
-                           line.back() == plan[to].at && arc_z[i].front() == node_z[from] &&
+        auto const& line = plan.arc(i).line;
+        NodeId const from = tables.network.plan.from(i);
+        NodeId const to = tables.network.plan.to(i);
+        bool const meets = line.size() >= 2 && arc_z[i].size() == line.size() && line.front() == plan.node(from).at &&
+                           line.back() == plan.node(to).at && arc_z[i].front() == node_z[from] &&
                            arc_z[i].back() == node_z[to];
         if (!meets) {
             throw BadInput(
@@ -66,21 +66,21 @@ void require_whole(NetworkTables const& tables, NetworkIndex const& index, std::
         }
     }
     for (NodeId n = 0; n < nodes; ++n) {
-        if (index.basin[n] == 0) {
-            throw BadInput(
-                fmt::format("{}: node {} at ({}, {}) reaches no outlet", what, n + 1, plan[n].at.x, plan[n].at.y));
+        if (tables.network.plan.basin(n) == 0) {
+            throw BadInput(fmt::format("{}: node {} at ({}, {}) reaches no outlet", what, n + 1, plan.node(n).at.x,
+                                       plan.node(n).at.y));
         }
     }
 }
 
-std::vector<Table> network_layers(NetworkTables const& tables, NetworkIndex const& index, Schema schema,
-                                  bool short_names, std::string const& what) {
-    require_whole(tables, index, what);
+std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names,
+                                  std::string const& what) {
+    require_whole(tables, what);
     if (schema == Schema::native) {
-        return {arcs_table(tables, index, short_names), nodes_table(tables, index)};
+        return {arcs_table(tables, short_names), nodes_table(tables)};
     }
-    require_nameable(tables.network.plan, index, table_of(schema), what);
-    return {schema_arcs(table_of(schema), tables, index, short_names)};
+    require_nameable(tables.network.plan, table_of(schema), what);
+    return {schema_arcs(table_of(schema), tables, short_names)};
 }
 
 } // namespace thalweg::io

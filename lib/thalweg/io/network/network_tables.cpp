@@ -49,16 +49,16 @@ double length_in_space(std::vector<Vec2> const& line, std::vector<double> const&
     return sum;
 }
 
-Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool short_names) {
+Table arcs_table(NetworkTables const& tables, bool short_names) {
     StreamNetwork const& plan = tables.network.plan;
     auto const& arc_z = tables.network.arc_z;
     NetworkOrders const& orders = tables.orders;
-    auto const arc = [&](std::int64_t row) -> Arc const& { return plan[index.arcs[as_index(row)]]; };
-    auto const up = [&](std::int64_t row) { return index.from[as_index(row)]; };
-    auto const down = [&](std::int64_t row) { return index.to[as_index(row)]; };
+    auto const arc = [&](std::int64_t row) -> Arc const& { return plan.arc(as_index(row)); };
+    auto const up = [&](std::int64_t row) { return plan.from(as_index(row)); };
+    auto const down = [&](std::int64_t row) { return plan.to(as_index(row)); };
 
     double const unit = metres_in(tables.unit);
-    Table table{"arcs", Table::Shape::line, static_cast<std::int64_t>(index.arcs.size()), {}, {}};
+    Table table{"arcs", Table::Shape::line, static_cast<std::int64_t>(plan.arc_count()), {}, {}};
     table.shape_at = [arc, unit, &arc_z](std::int64_t row) {
         std::vector<Vec3> line;
         for (std::size_t i = 0; Vec2 const p : arc(row).line) {
@@ -70,14 +70,14 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool sh
         integer("arc_id", [](auto row) { return row + 1; }),
         integer("from_node", [up](auto row) { return up(row) + 1; }),
         integer("to_node", [down](auto row) { return down(row) + 1; }),
-        integer("ds_arc", [down, &index](auto row) { return index.out[down(row)] + 1; }),
-        integer("n_up", [up, &index](auto row) { return index.in[up(row)].size(); }),
+        integer("ds_arc", [down, &plan](auto row) { return plan.out(down(row)) + 1; }),
+        integer("n_up", [up, &plan](auto row) { return plan.in(up(row)).size(); }),
         integer("basin_id", [&orders](auto row) { return orders.arc_basin[as_index(row)]; }),
         integer("topo_ord", [&orders](auto row) { return orders.topological[as_index(row)]; }),
         integer("strahler", [&orders](auto row) { return orders.strahler[as_index(row)]; }),
         integer("shreve", [&orders](auto row) { return orders.shreve[as_index(row)]; }),
         integer("hack", [&orders](auto row) { return orders.hack[as_index(row)]; }),
-        real("length", length_decimals, [&index](auto row) { return index.length_m[as_index(row)]; }),
+        real("length", length_decimals, [&plan](auto row) { return plan.length_m(as_index(row)); }),
         real("length_3d", length_decimals,
              [arc, &arc_z](auto row) { return length_in_space(arc(row).line, arc_z[as_index(row)]); }),
         real("straight", length_decimals,
@@ -86,8 +86,8 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool sh
         real("z_down", length_decimals, [unit, &arc_z](auto row) { return arc_z[as_index(row)].back() / unit; }),
         real("dist_out", length_decimals, [down, &orders](auto row) { return orders.node_dist_out_m[down(row)]; }),
         real("slope", slope_decimals,
-             [&arc_z, &index](auto row) {
-                 return (arc_z[as_index(row)].front() - arc_z[as_index(row)].back()) / index.length_m[as_index(row)];
+             [&arc_z, &plan](auto row) {
+                 return (arc_z[as_index(row)].front() - arc_z[as_index(row)].back()) / plan.length_m(as_index(row));
              }),
         real("us_area", area_decimals, [&area = tables.us_area_m2](auto row) { return area[as_index(row)]; }),
         real("ds_area", area_decimals, [&area = tables.ds_area_m2](auto row) { return area[as_index(row)]; }),
@@ -109,15 +109,15 @@ Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool sh
     return table;
 }
 
-Table nodes_table(NetworkTables const& tables, NetworkIndex const& index) {
+Table nodes_table(NetworkTables const& tables) {
     auto const& plan = tables.network.plan;
     auto const& node_z = tables.network.node_z;
     NetworkOrders const& orders = tables.orders;
 
     double const unit = metres_in(tables.unit);
-    Table table{"nodes", Table::Shape::point, static_cast<std::int64_t>(boost::num_vertices(plan)), {}, {}};
+    Table table{"nodes", Table::Shape::point, static_cast<std::int64_t>(plan.node_count()), {}, {}};
     table.shape_at = [unit, &plan, &node_z](std::int64_t row) {
-        Vec2 const p = plan[as_index(row)].at;
+        Vec2 const p = plan.node(as_index(row)).at;
         return std::vector<Vec3>{{p.x, p.y, node_z[as_index(row)] / unit}};
     };
     table.columns = {
@@ -127,8 +127,8 @@ Table nodes_table(NetworkTables const& tables, NetworkIndex const& index) {
                  bool const is_sink = std::binary_search(sinks.begin(), sinks.end(), as_index(row));
                  return name_of(is_sink ? NodeKind::sink : kind_of(plan, as_index(row)));
              }),
-        integer("deg_in", [&index](auto row) { return index.in[as_index(row)].size(); }),
-        integer("deg_out", [&index](auto row) { return index.out[as_index(row)] < 0 ? 0 : 1; }),
+        integer("deg_in", [&plan](auto row) { return plan.in(as_index(row)).size(); }),
+        integer("deg_out", [&plan](auto row) { return plan.out(as_index(row)) == no_arc ? 0 : 1; }),
         integer("basin_id", [&orders](auto row) { return orders.node_basin[as_index(row)]; }),
         integer("strahler", [&orders](auto row) { return orders.node_strahler[as_index(row)]; }),
         real("z", length_decimals, [unit, &node_z](auto row) { return node_z[as_index(row)] / unit; }),

@@ -26,27 +26,28 @@ using Value = Column::Value;
 /// What the quantities of an arc are, by its number; links to arcs are numbers too, -1 for none.
 class Arcs {
 public:
-    Arcs(NetworkTables const& tables, NetworkIndex const& index) : tables_(tables), index_(index) {
-        std::size_t const arcs = index.arcs.size();
+    explicit Arcs(NetworkTables const& tables) : tables_(tables), plan_(tables.network.plan) {
+        std::size_t const arcs = tables.network.plan.arc_count();
         key_.assign(arcs, 0);
         mouth_.assign(arcs, 0);
         outlet_.assign(arcs, 0);
         length_up_m_.assign(arcs, 0.0);
         longest_up_m_.assign(arcs, 0.0);
         std::int64_t key = 0;
-        for (NodeId const n : index.upstream_order) { // outlets first
-            if (std::int64_t const a = index.out[n]; a >= 0) {
+        for (NodeId const n : tables.network.plan.upstream_order()) { // outlets first
+            if (std::int64_t const a = tables.network.plan.out(n); a >= 0) {
                 std::int64_t const below = down(a);
                 key_[as_index(a)] = ++key;
                 outlet_[as_index(a)] = below < 0 ? a : outlet_[as_index(below)];
                 mouth_[as_index(a)] = below >= 0 && hack(below) == hack(a) ? mouth_[as_index(below)] : a;
             }
         }
-        for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) { // sources first
-            if (std::int64_t const a = index.out[*n]; a >= 0) {
-                for (std::int64_t const above : index.in[*n]) {
-                    length_up_m_[as_index(a)] += length_up_m_[as_index(above)];
-                    longest_up_m_[as_index(a)] = std::max(longest_up_m_[as_index(a)], longest_up_m_[as_index(above)]);
+        for (auto n = tables.network.plan.upstream_order().rbegin(); n != tables.network.plan.upstream_order().rend();
+             ++n) { // sources first
+            if (std::int64_t const a = tables.network.plan.out(*n); a >= 0) {
+                for (ArcId const above : tables.network.plan.in(*n)) {
+                    length_up_m_[as_index(a)] += length_up_m_[above];
+                    longest_up_m_[as_index(a)] = std::max(longest_up_m_[as_index(a)], longest_up_m_[above]);
                 }
                 length_up_m_[as_index(a)] += length(a);
                 longest_up_m_[as_index(a)] += length(a);
@@ -90,8 +91,8 @@ public:
         using enum Quantity;
         NetworkOrders const& orders = tables_.orders;
         switch (quantity) {
-        case from_node: return static_cast<std::int64_t>(index_.from[as_index(a)]) + 1;
-        case to_node: return static_cast<std::int64_t>(index_.to[as_index(a)]) + 1;
+        case from_node: return static_cast<std::int64_t>(plan_.from(as_index(a))) + 1;
+        case to_node: return static_cast<std::int64_t>(plan_.to(as_index(a))) + 1;
         case n_up: return static_cast<std::int64_t>(above(a).size());
         case basin_id: return orders.arc_basin[as_index(a)];
         case topo_ord: return orders.topological[as_index(a)];
@@ -120,7 +121,7 @@ public:
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         double const drop_m = z(a).front() - z(a).back();
         double const straight_m = distance(arc(a).line.front(), arc(a).line.back());
-        double const dist_out_m = orders.node_dist_out_m[index_.to[as_index(a)]];
+        double const dist_out_m = orders.node_dist_out_m[plan_.to(as_index(a))];
         double const us_m2 = tables_.us_area_m2[as_index(a)];
         double const ds_m2 = tables_.ds_area_m2[as_index(a)];
         auto const known = [&](bool is_known, double value) { return is_known ? value : unknown; };
@@ -149,13 +150,18 @@ public:
     std::string const& type(std::int64_t a) const { return arc(a).type; }
 
 private:
-    Arc const& arc(std::int64_t a) const { return tables_.network.plan[index_.arcs[as_index(a)]]; }
+    Arc const& arc(std::int64_t a) const { return plan_.arc(as_index(a)); }
     std::vector<double> const& z(std::int64_t a) const { return tables_.network.arc_z[as_index(a)]; }
-    double length(std::int64_t a) const { return index_.length_m[as_index(a)]; }
+    double length(std::int64_t a) const { return plan_.length_m(as_index(a)); }
     int hack(std::int64_t a) const { return tables_.orders.hack[as_index(a)]; }
-    std::int64_t down(std::int64_t a) const { return index_.out[index_.to[as_index(a)]]; }
-    std::vector<std::int64_t> const& above(std::int64_t a) const { return index_.in[index_.from[as_index(a)]]; }
-    std::int64_t up(std::int64_t a, std::size_t k) const { return k < above(a).size() ? above(a)[k] : -1; }
+    std::int64_t down(std::int64_t a) const {
+        ArcId const below = plan_.out(plan_.to(as_index(a)));
+        return below == no_arc ? -1 : static_cast<std::int64_t>(below);
+    }
+    std::span<ArcId const> above(std::int64_t a) const { return plan_.in(plan_.from(as_index(a))); }
+    std::int64_t up(std::int64_t a, std::size_t k) const {
+        return k < above(a).size() ? static_cast<std::int64_t>(above(a)[k]) : -1;
+    }
     /// The arc upstream on the same main stem.
     std::int64_t main_up(std::int64_t a) const {
         auto const found = std::ranges::find_if(above(a), [&](std::int64_t b) { return hack(b) == hack(a); });
@@ -163,7 +169,7 @@ private:
     }
 
     NetworkTables const& tables_;
-    NetworkIndex const& index_;
+    StreamNetwork const& plan_;
     std::vector<std::int64_t> key_;    ///< 1, 2, ... from the outlets upstream
     std::vector<std::int64_t> mouth_;  ///< last arc downstream of the same main stem
     std::vector<std::int64_t> outlet_; ///< the arc at the outlet
@@ -228,9 +234,13 @@ std::string short_name(SchemaField const& field) {
 
 } // namespace
 
-Table schema_arcs(SchemaTable const& schema, NetworkTables const& tables, NetworkIndex const& index, bool short_names) {
-    auto const arcs = std::make_shared<Arcs const>(tables, index);
-    Table table{std::string(schema.layer), Table::Shape::line, static_cast<std::int64_t>(index.arcs.size()), {}, {}};
+Table schema_arcs(SchemaTable const& schema, NetworkTables const& tables, bool short_names) {
+    auto const arcs = std::make_shared<Arcs const>(tables);
+    Table table{std::string(schema.layer),
+                Table::Shape::line,
+                static_cast<std::int64_t>(tables.network.plan.arc_count()),
+                {},
+                {}};
     table.shape_at = [arcs, upstream = schema.drawn_upstream](std::int64_t row) {
         std::vector<Vec3> line = arcs->line(row);
         if (upstream) {

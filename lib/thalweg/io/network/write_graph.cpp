@@ -95,7 +95,7 @@ public:
     std::string geometry(std::int64_t row) const { return quote_(well_known(graph_.arcs.shape_at(row))); }
     std::pair<NodeId, NodeId> ends(std::int64_t row) const {
         auto const a = static_cast<std::size_t>(row);
-        return {graph_.index.from[a] + 1, graph_.index.to[a] + 1};
+        return {graph_.plan.from(a) + 1, graph_.plan.to(a) + 1};
     }
     void append(std::string_view text) { file_.append(text); }
     void close() { file_.close(); }

@@ -43,10 +43,9 @@ Table run_table(std::map<std::string, std::string> const& rows) {
 } // namespace
 
 void write_geopackage(NetworkTables const& tables, std::string const& path, Run const& run) {
-    NetworkIndex const index(tables.network.plan);
     std::string const file = path.ends_with(".gpkg") ? path : path + ".gpkg";
-    require_whole(tables, index, "io.write_geopackage: " + file);
-    std::vector<Table> layers{arcs_table(tables, index), nodes_table(tables, index)};
+    require_whole(tables, "io.write_geopackage: " + file);
+    std::vector<Table> layers{arcs_table(tables), nodes_table(tables)};
     if (tables.ridges != nullptr && !tables.ridges->lines.empty()) {
         require_lines(*tables.ridges, "io.write_geopackage: " + file);
         layers.push_back(ridges_table(*tables.ridges, tables.unit));
@@ -67,10 +66,9 @@ std::vector<ShortenedName> shortened_names(NetworkTables const& tables, Schema s
     if (tables.user == nullptr) {
         return {};
     }
-    NetworkIndex const index(tables.network.plan);
     std::string const what = "io.shortened_names";
-    Table const full = network_layers(tables, index, schema, false, what).front();
-    Table const cut = network_layers(tables, index, schema, true, what).front();
+    Table const full = network_layers(tables, schema, false, what).front();
+    Table const cut = network_layers(tables, schema, true, what).front();
     std::vector<ShortenedName> names;
     for (std::size_t c = 0; c < full.columns.size(); ++c) {
         if (full.columns[c].is_users && full.columns[c].name != cut.columns[c].name) {
@@ -81,10 +79,9 @@ std::vector<ShortenedName> shortened_names(NetworkTables const& tables, Schema s
 }
 
 void write_shapefiles(NetworkTables const& tables, std::string const& path, Run const& run) {
-    NetworkIndex const index(tables.network.plan);
-    require_whole(tables, index, "io.write_shapefiles: " + path);
-    write_shapefile(arcs_table(tables, index, true), tables.crs, path + "_arcs.shp", run);
-    write_shapefile(nodes_table(tables, index), tables.crs, path + "_nodes.shp", run);
+    require_whole(tables, "io.write_shapefiles: " + path);
+    write_shapefile(arcs_table(tables, true), tables.crs, path + "_arcs.shp", run);
+    write_shapefile(nodes_table(tables), tables.crs, path + "_nodes.shp", run);
 }
 
 namespace {
@@ -106,10 +103,10 @@ std::string file_of(std::string const& path, std::string const& layer, bool seve
     return several ? fmt::format("{}_{}{}", stem, layer, ending) : path;
 }
 
-Mask mask_of(StreamNetwork const& plan, NetworkIndex const& index, Grid const& grid) {
+Mask mask_of(StreamNetwork const& plan, Grid const& grid) {
     Mask cells(grid);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        for (Cell const c : cells_along(plan[index.arcs[a]].line, grid, fmt::format("arc {}", a + 1))) {
+    for (std::size_t a = 0; a < plan.arc_count(); ++a) {
+        for (Cell const c : cells_along(plan.arc(a).line, grid, fmt::format("arc {}", a + 1))) {
             cells[c] = 1;
         }
     }
@@ -153,14 +150,13 @@ std::vector<std::string> network_files(std::string const& path, WriteNetworkPara
 
 void write_network(NetworkTables const& tables, std::string const& path, WriteNetworkParams const& params,
                    Run const& run) {
-    NetworkIndex const index(tables.network.plan);
     std::string const what = "io.write_network: " + path;
     if (params.schema == Schema::native && params.format == NetworkFormat::geopackage) {
         write_geopackage(tables, path, run);
         return;
     }
     bool const is_shapefile = params.format == NetworkFormat::shapefile;
-    std::vector<Table> const layers = network_layers(tables, index, params.schema, is_shapefile, what);
+    std::vector<Table> const layers = network_layers(tables, params.schema, is_shapefile, what);
     auto const each = [&](auto const& write) {
         for (Table const& layer : layers) {
             write(layer, tables.crs, file_of(path, layer.name, layers.size() > 1), run);
@@ -172,15 +168,15 @@ void write_network(NetworkTables const& tables, std::string const& path, WriteNe
     case NetworkFormat::flatgeobuf: each(write_flatgeobuf); break;
     case NetworkFormat::geojson: each(write_geojson); break;
     case NetworkFormat::graphml:
-        write_graphml({layers.front(), nodes_table(tables, index), index, tables.crs}, path, run);
+        write_graphml({layers.front(), nodes_table(tables), tables.network.plan, tables.crs}, path, run);
         break;
     case NetworkFormat::csv:
-        write_edge_table({layers.front(), nodes_table(tables, index), index, tables.crs}, path, run);
+        write_edge_table({layers.front(), nodes_table(tables), tables.network.plan, tables.crs}, path, run);
         break;
     case NetworkFormat::edges:
-        write_edge_list({layers.front(), nodes_table(tables, index), index, tables.crs}, path, run);
+        write_edge_list({layers.front(), nodes_table(tables), tables.network.plan, tables.crs}, path, run);
         break;
-    case NetworkFormat::mask: write_mask(mask_of(tables.network.plan, index, params.grid), path, run); break;
+    case NetworkFormat::mask: write_mask(mask_of(tables.network.plan, params.grid), path, run); break;
     }
 }
 

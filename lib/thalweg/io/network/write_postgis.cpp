@@ -137,9 +137,8 @@ bool is_postgis(std::string const& name) {
 std::vector<std::string> write_postgis(NetworkTables const& tables, std::string const& connection,
                                        WritePostgisParams const& params, Run const& run) {
     Names const names = names_of(params.name);
-    NetworkIndex const index(tables.network.plan);
     std::string const what = "io.write_postgis: " + names.full(names.name);
-    std::vector<Table> layers = network_layers(tables, index, params.schema, false, what);
+    std::vector<Table> layers = network_layers(tables, params.schema, false, what);
     bool const routable = field_of(table_of(params.schema), Quantity::from_node) != nullptr;
     std::vector<std::string> relations;
     for (Table& layer : layers) {

@@ -11,8 +11,7 @@ namespace thalweg::measure {
 
 std::optional<PowerLaw> concavity(RaisedNetwork const& network, flow::ContributingAreas const& areas,
                                   PowerLawParams const& params) {
-    NetworkIndex const index(network.plan);
-    std::size_t const arcs = index.arcs.size();
+    std::size_t const arcs = network.plan.arc_count();
     if (areas.us_area_m2.size() != arcs || areas.ds_area_m2.size() != arcs || network.arc_z.size() != arcs) {
         throw BadInput(fmt::format("measure.concavity: {} and {} areas and heights of {} for {} arcs; measure the "
                                    "network again",
@@ -22,7 +21,7 @@ std::optional<PowerLaw> concavity(RaisedNetwork const& network, flow::Contributi
     slopes.reserve(arcs);
     for (std::size_t a = 0; a < arcs; ++a) {
         double const drop = network.arc_z[a].front() - network.arc_z[a].back();
-        slopes.push_back({0.5 * (areas.us_area_m2[a] + areas.ds_area_m2[a]), drop / index.length_m[a]});
+        slopes.push_back({0.5 * (areas.us_area_m2[a] + areas.ds_area_m2[a]), drop / network.plan.length_m(a)});
     }
     return fit_power_law(slopes, params);
 }

@@ -47,8 +47,7 @@ std::optional<HortonRatio> ratio(std::optional<LineFit> const& fit, double sign)
 } // namespace
 
 HortonLaws horton(StreamNetwork const& network, NetworkOrders const& orders, std::vector<double> const& ds_area_m2) {
-    NetworkIndex const index(network);
-    std::size_t const arcs = index.arcs.size();
+    std::size_t const arcs = network.arc_count();
     require_all(arcs, orders, ds_area_m2);
     HortonLaws laws;
     if (arcs == 0) {
@@ -60,8 +59,8 @@ HortonLaws horton(StreamNetwork const& network, NetworkOrders const& orders, std
     std::vector<CompensatedSum> area(highest);
     for (std::size_t a = 0; a < arcs; ++a) {
         auto const k = static_cast<std::size_t>(orders.strahler[a]) - 1;
-        length[k].add(index.length_m[a]);
-        std::int64_t const next = index.out[index.to[a]];
+        length[k].add(network.length_m(a));
+        std::int64_t const next = network.out(network.to(a));
         bool const ends = next < 0 || orders.strahler[static_cast<std::size_t>(next)] != orders.strahler[a];
         if (ends) {
             ++laws.orders[k].streams;

@@ -16,12 +16,12 @@ namespace thalweg::measure {
 namespace {
 
 /// From the end of an arc to the place so far up its link; nothing where the link has not half of it.
-std::optional<Vec2> chord_up(StreamNetwork const& network, NetworkIndex const& index, std::size_t arc, double reach_m) {
+std::optional<Vec2> chord_up(StreamNetwork const& network, std::size_t arc, double reach_m) {
     double left = reach_m;
-    Vec2 const foot = network[index.to[arc]].at;
+    Vec2 const foot = network.node(network.to(arc)).at;
     Vec2 at = foot;
     for (std::size_t a = arc;;) {
-        auto const& line = network[index.arcs[a]].line;
+        auto const& line = network.arc(a).line;
         for (std::size_t i = line.size() - 1; i-- > 0;) {
             double const step = distance(at, line[i]);
             if (step >= left) {
@@ -31,7 +31,7 @@ std::optional<Vec2> chord_up(StreamNetwork const& network, NetworkIndex const& i
             left -= step;
             at = line[i];
         }
-        auto const& above = index.in[index.from[a]];
+        auto const& above = network.in(network.from(a));
         if (above.size() != 1) {
             break;
         }
@@ -46,17 +46,16 @@ JunctionAngles junction_angles(StreamNetwork const& network, double reach_m) {
     if (!(reach_m > 0.0) || std::isinf(reach_m)) {
         throw BadParameter(fmt::format("measure.junction_angles: the reach is {} m; it must be above 0", reach_m));
     }
-    NetworkIndex const index(network);
     JunctionAngles angles;
     angles.reach_m = reach_m;
     std::vector<double> degrees;
-    for (NodeId n = 0; n < index.in.size(); ++n) {
-        auto const& above = index.in[n];
-        if (above.size() < 2 || index.out[n] < 0) {
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        auto const& above = network.in(n);
+        if (above.size() < 2 || network.out(n) == no_arc) {
             continue;
         }
-        auto const one = chord_up(network, index, static_cast<std::size_t>(above[0]), reach_m);
-        auto const other = chord_up(network, index, static_cast<std::size_t>(above[1]), reach_m);
+        auto const one = chord_up(network, static_cast<std::size_t>(above[0]), reach_m);
+        auto const other = chord_up(network, static_cast<std::size_t>(above[1]), reach_m);
         auto const is_zero = [](Vec2 v) { return v == Vec2{}; };
         if (above.size() > 2 || !one || !other || is_zero(*one) || is_zero(*other)) {
             ++angles.left_out;

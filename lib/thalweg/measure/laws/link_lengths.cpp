@@ -29,19 +29,18 @@ LengthSpread spread_of(std::vector<double> lengths) {
 } // namespace
 
 LinkLengths link_lengths(StreamNetwork const& network) {
-    NetworkIndex const index(network);
     std::vector<double> exterior;
     std::vector<double> interior;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        std::size_t const above = index.in[index.from[a]].size();
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        std::size_t const above = network.in(network.from(a)).size();
         if (above == 1) {
             continue;
         }
-        double length = index.length_m[a];
-        for (NodeId at = index.to[a]; index.in[at].size() == 1 && index.out[at] >= 0;) {
-            auto const next = static_cast<std::size_t>(index.out[at]);
-            length += index.length_m[next];
-            at = index.to[next];
+        double length = network.length_m(a);
+        for (NodeId at = network.to(a); network.in(at).size() == 1 && network.out(at) != no_arc;) {
+            auto const next = network.out(at);
+            length += network.length_m(next);
+            at = network.to(next);
         }
         (above == 0 ? exterior : interior).push_back(length);
     }

@@ -24,7 +24,7 @@ NetworkLaws network_laws(RaisedNetwork const& network, NetworkOrders const& orde
     laws.hack = hack(network.plan, areas.ds_area_m2, params.head_m);
     laws.concavity = concavity(network, areas);
     CompensatedSum length;
-    for (double const l : NetworkIndex(network.plan).length_m) {
+    for (double const l : network.plan.length_m()) {
         length.add(l);
     }
     laws.drainage_density_m = length.value() / params.land_m2;

@@ -9,9 +9,8 @@
 namespace thalweg::measure {
 
 NetworkFile as_file(RaisedNetwork const& network, NetworkOrders const& orders) {
-    NetworkIndex const index(network.plan);
-    std::size_t const nodes = boost::num_vertices(network.plan);
-    std::size_t const arcs = index.arcs.size();
+    std::size_t const nodes = network.plan.node_count();
+    std::size_t const arcs = network.plan.arc_count();
     if (network.node_z.size() != nodes || network.arc_z.size() != arcs || orders.strahler.size() != arcs ||
         orders.shreve.size() != arcs || orders.arc_basin.size() != arcs) {
         throw BadInput(fmt::format("measure.as_file: heights or orders are not those of this network of {} arcs and {} "
@@ -20,11 +19,11 @@ NetworkFile as_file(RaisedNetwork const& network, NetworkOrders const& orders) {
     }
     NetworkFile file;
     for (NodeId n = 0; n < nodes; ++n) {
-        Vec2 const at = network.plan[n].at;
+        Vec2 const at = network.plan.node(n).at;
         file.nodes.push_back({static_cast<std::int64_t>(n) + 1, {at.x, at.y, network.node_z[n]}});
     }
     for (std::size_t a = 0; a < arcs; ++a) {
-        auto const& line = network.plan[index.arcs[a]].line;
+        auto const& line = network.plan.arc(a).line;
         auto const& z = network.arc_z[a];
         if (z.size() != line.size()) {
             throw BadInput(
@@ -32,9 +31,9 @@ NetworkFile as_file(RaisedNetwork const& network, NetworkOrders const& orders) {
         }
         NetworkFile::FileArc arc;
         arc.id = static_cast<std::int64_t>(a) + 1;
-        arc.from_node = static_cast<std::int64_t>(index.from[a]) + 1;
-        arc.to_node = static_cast<std::int64_t>(index.to[a]) + 1;
-        arc.ds_arc = index.out[index.to[a]] + 1;
+        arc.from_node = static_cast<std::int64_t>(network.plan.from(a)) + 1;
+        arc.to_node = static_cast<std::int64_t>(network.plan.to(a)) + 1;
+        arc.ds_arc = network.plan.out(network.plan.to(a)) + 1;
         arc.strahler = orders.strahler[a];
         arc.shreve = orders.shreve[a];
         arc.basin = orders.arc_basin[a];

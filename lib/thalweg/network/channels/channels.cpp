@@ -133,14 +133,14 @@ private:
 };
 
 /// The arcs by steps to their outlet, then number: a cell belongs to the first that comes.
-std::vector<std::size_t> downstream_first(NetworkIndex const& index) {
-    std::vector<std::int64_t> steps(index.arcs.size(), 0);
+std::vector<std::size_t> downstream_first(StreamNetwork const& network) {
+    std::vector<std::int64_t> steps(network.arc_count(), 0);
     std::vector<std::size_t> order;
-    for (NodeId const n : index.upstream_order) {
-        if (std::int64_t const out = index.out[n]; out >= 0) {
-            std::int64_t const below = index.out[index.to[as_index(out)]];
-            steps[as_index(out)] = below < 0 ? 0 : steps[as_index(below)] + 1;
-            order.push_back(as_index(out));
+    for (NodeId const n : network.upstream_order()) {
+        if (ArcId const out = network.out(n); out != no_arc) {
+            ArcId const below = network.out(network.to(out));
+            steps[out] = below == no_arc ? 0 : steps[below] + 1;
+            order.push_back(out);
         }
     }
     std::sort(order.begin(), order.end(),
@@ -151,14 +151,14 @@ std::vector<std::size_t> downstream_first(NetworkIndex const& index) {
 /// Draws the arcs, and keeps who drew what.
 class Drawer {
 public:
-    Drawer(StreamNetwork const& network, NetworkIndex const& index, Grid const& grid)
-        : drawing(grid), way(index.arcs.size()), network_(network), index_(index), grid_(grid) {}
+    Drawer(StreamNetwork const& network, Grid const& grid)
+        : drawing(grid), way(network.arc_count()), network_(network), grid_(grid) {}
 
     Drawing drawing;
     std::vector<std::vector<Cell>> way; ///< by arc: its cells, downstream
 
     void draw(std::size_t a) {
-        way[a] = simple_way(cells_along(network_[index_.arcs[a]].line, grid_, fmt::format("arc {}", a + 1)), grid_);
+        way[a] = simple_way(cells_along(network_.arc(a).line, grid_, fmt::format("arc {}", a + 1)), grid_);
         for (std::size_t i = way[a].size(); i-- > 0;) {
             if (drawing.number(way[a][i]) >= 0) {
                 continue;
@@ -188,9 +188,8 @@ public:
 
 private:
     bool is_downstream(std::size_t of, std::size_t a) const {
-        for (std::int64_t below = static_cast<std::int64_t>(of); below >= 0;
-             below = index_.out[index_.to[as_index(below)]]) {
-            if (as_index(below) == a) {
+        for (ArcId below = of; below != no_arc; below = network_.out(network_.to(below))) {
+            if (below == a) {
                 return true;
             }
         }
@@ -199,11 +198,11 @@ private:
 
     void note_capture(std::size_t a, std::size_t i, std::int64_t receiver) {
         std::size_t const by = owner_[as_index(receiver)];
-        if (by == a || index_.to[by] == index_.to[a] || is_downstream(a, by)) {
+        if (by == a || network_.to(by) == network_.to(a) || is_downstream(a, by)) {
             return;
         }
         Vec2 const where = grid_.centre(drawing.at(receiver));
-        std::int64_t const feature = network_[index_.arcs[a]].feature;
+        std::int64_t const feature = network_.arc(a).feature;
         notes_.emplace_back(
             a, Finding{"captured", feature != 0 ? feature : static_cast<std::int64_t>(a) + 1, where,
                        static_cast<double>(way[a].size() - 1 - i),
@@ -213,7 +212,6 @@ private:
     }
 
     StreamNetwork const& network_;
-    NetworkIndex const& index_;
     Grid grid_;
     std::vector<std::size_t> owner_; ///< arc, by channel cell
     std::vector<std::pair<std::size_t, Finding>> notes_;
@@ -221,11 +219,11 @@ private:
 
 /// By channel cell whether a river begins there. Ways that begin where rivers share cells begin there too, but the
 /// short ones, which are left out.
-std::vector<std::uint8_t> sources(Drawer& drawer, NetworkIndex const& index, std::int64_t stub_cells) {
+std::vector<std::uint8_t> sources(Drawer& drawer, StreamNetwork const& network, std::int64_t stub_cells) {
     Drawing& drawing = drawer.drawing;
     std::vector<std::uint8_t> begins(as_index(drawing.size()), 0);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        if (index.in[index.from[a]].empty()) {
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        if (network.in(network.from(a)).empty()) {
             begins[as_index(drawing.number(drawer.way[a].front()))] = 1;
         }
     }
@@ -300,21 +298,20 @@ void check(ChannelsParams const& params) {
 
 ChannelsOfArcs channels(StreamNetwork const& network, Grid const& grid, ChannelsParams const& params, Run const& run) {
     check(params);
-    NetworkIndex const index(network);
-    require_trees(network, index, "network.channels");
-    Drawer drawer(network, index, grid);
-    for (std::size_t const a : downstream_first(index)) {
+    require_trees(network, "network.channels");
+    Drawer drawer(network, grid);
+    for (std::size_t const a : downstream_first(network)) {
         run.check();
         drawer.draw(a);
     }
-    std::vector<std::uint8_t> const begins = sources(drawer, index, params.stub_cells);
+    std::vector<std::uint8_t> const begins = sources(drawer, network, params.stub_cells);
     take_short_cuts(drawer.drawing, begins, params.look_cells, run);
 
     ChannelsOfArcs out;
     out.channels.grid = grid;
     std::vector<std::int64_t> const now = drawer.drawing.renumbered(out.channels);
-    out.of_arc.resize(index.arcs.size());
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    out.of_arc.resize(network.arc_count());
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
         for (Cell const c : drawer.way[a]) {
             if (std::int64_t const i = drawer.drawing.number(c); i >= 0) {
                 out.of_arc[a].push_back(now[as_index(i)]);

@@ -136,47 +136,46 @@ Channels left_of(Channels const& channels, Flags const& is_gone, std::vector<std
 class Tips {
 public:
     Tips(StreamNetwork const& network, ChannelsOfArcs const& drawn, Flags const& is_gone)
-        : kept(boost::num_edges(network), 1), network_(network), index_(network_), drawn_(drawn), is_gone_(is_gone),
-          goes_(drawn.channels.grid, 0), stays_(drawn.channels.grid, 0), has_water_(index_.arcs.size(), 0) {}
+        : kept(network.arc_count(), 1), network_(network), draft_(network.draft()), drawn_(drawn), is_gone_(is_gone),
+          goes_(drawn.channels.grid, 0), stays_(drawn.channels.grid, 0), has_water_(network.arc_count(), 0) {}
 
     Flags kept; ///< by arc
     std::vector<Finding> notes;
 
     /// Sources first: an arc without water above loses the cells at its beginning that are gone.
     void take_off() {
-        for (auto n = index_.upstream_order.rbegin(); n != index_.upstream_order.rend(); ++n) {
-            if (index_.out[*n] >= 0) {
-                visit(as_index(index_.out[*n]));
+        for (auto n = network_.upstream_order().rbegin(); n != network_.upstream_order().rend(); ++n) {
+            if (network_.out(*n) != no_arc) {
+                visit(network_.out(*n));
             }
         }
     }
 
-    StreamNetwork const& network() const { return network_; }
-    NetworkIndex const& index() const { return index_; }
+    NetworkDraft const& shortened() const { return draft_; }
 
 private:
     /// Whether cells that are rivers flow into an arc's first; arcs without cells of their own are passed through.
     bool has_water_above(std::size_t a) const {
-        auto const& above = index_.in[index_.from[a]];
-        return std::any_of(above.begin(), above.end(), [&](std::int64_t b) { return has_water_[as_index(b)] != 0; });
+        auto const above = network_.in(network_.from(a));
+        return std::any_of(above.begin(), above.end(), [&](ArcId b) { return has_water_[b] != 0; });
     }
 
     /// Whether the rivers above an arc are gone, and passed by the cell of the node in which it begins.
     bool lost_its_node(std::size_t a) const {
         Grid const& grid = drawn_.channels.grid;
-        Cell const first = cells_of_vertices({network_[index_.arcs[a]].line.front()}, grid).front();
-        return !index_.in[index_.from[a]].empty() &&
+        Cell const first = cells_of_vertices({draft_.arcs[a].arc.line.front()}, grid).front();
+        return !network_.in(network_.from(a)).empty() &&
                grid.index(first) != drawn_.channels.cell[as_index(drawn_.of_arc[a].front())];
     }
 
     void leave_out_above(std::size_t a) {
         std::vector<std::size_t> open{a};
         while (!open.empty()) {
-            auto const& above = index_.in[index_.from[open.back()]];
+            auto const above = network_.in(network_.from(open.back()));
             open.pop_back();
-            for (std::int64_t const b : above) {
-                kept[as_index(b)] = 0;
-                open.push_back(as_index(b));
+            for (ArcId const b : above) {
+                kept[b] = 0;
+                open.push_back(b);
             }
         }
     }
@@ -189,7 +188,7 @@ private:
             return;
         }
         leave_out_above(a);
-        std::vector<Vec2>& line = network_[index_.arcs[a]].line;
+        std::vector<Vec2>& line = draft_.arcs[a].arc.line;
         Vec2 const source = line.front();
         double const before_m = length_of(line);
         mark(goes_, drawn_.channels, cells, is_gone_, 1, 1);
@@ -197,7 +196,7 @@ private:
         std::vector<Vec2> rest = rest_of(line, drawn_.channels.grid, goes_, stays_);
         mark(goes_, drawn_.channels, cells, is_gone_, 1, 0);
         mark(stays_, drawn_.channels, cells, is_gone_, 0, 0);
-        Finding note{"shortened", network_[index_.arcs[a]].feature, source, before_m, ""};
+        Finding note{"shortened", network_.arc(a).feature, source, before_m, ""};
         note.feature = note.feature != 0 ? note.feature : static_cast<std::int64_t>(a) + 1;
         if (rest.empty()) {
             kept[a] = 0;
@@ -207,7 +206,7 @@ private:
         } else {
             has_water_[a] = 1;
             line = std::move(rest);
-            network_[index_.from[a]].at = line.front();
+            draft_.nodes[network_.from(a)].at = line.front();
             note.amount = before_m - length_of(line);
             note.where = line.front();
             note.text = fmt::format("arc {} begins at ({:.3f}, {:.3f}), {:.3f} m farther down: its tip stood above its "
@@ -217,8 +216,8 @@ private:
         notes.push_back(std::move(note));
     }
 
-    StreamNetwork network_;
-    NetworkIndex index_;
+    StreamNetwork const& network_;
+    NetworkDraft draft_; ///< the network as far as it is shortened
     ChannelsOfArcs const& drawn_;
     Flags const& is_gone_;
     Mask goes_;
@@ -229,20 +228,21 @@ private:
 } // namespace
 
 Shortened shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn, std::vector<std::int64_t> const& gone) {
-    require_trees(network, NetworkIndex(network), "network.shorten");
-    if (drawn.of_arc.size() != boost::num_edges(network)) {
+    require_trees(network, "network.shorten");
+    if (drawn.of_arc.size() != network.arc_count()) {
         throw BadInput(fmt::format("network.shorten: channels of {} arcs for {}; draw this network",
-                                   drawn.of_arc.size(), boost::num_edges(network)));
+                                   drawn.of_arc.size(), network.arc_count()));
     }
     Flags const is_gone = flags_of(gone, drawn.channels);
     Tips tips(network, drawn, is_gone);
     tips.take_off();
 
+    StreamNetwork const shortened(tips.shortened());
     std::vector<std::int64_t> lengths;
-    for (ArcId const arc : tips.index().arcs) {
-        lengths.push_back(static_cast<std::int64_t>(std::floor(length_of(tips.network()[arc].line) * 1024.0)));
+    for (double const length_m : shortened.length_m()) {
+        lengths.push_back(static_cast<std::int64_t>(std::floor(length_m * 1024.0)));
     }
-    KeptArcs kept = keep_arcs(tips.network(), tips.index(), lengths, tips.kept, Merge::new_ones);
+    KeptArcs kept = keep_arcs(shortened, lengths, tips.kept, Merge::new_ones);
     Shortened out;
     out.network = std::move(kept.network);
     out.notes = std::move(tips.notes);

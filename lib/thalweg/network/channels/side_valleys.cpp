@@ -44,11 +44,11 @@ struct Place {
 /// The drawn lines of given rivers, to find what is near.
 class DrawnLines {
 public:
-    DrawnLines(StreamNetwork const& plan, NetworkIndex const& index, Grid const& grid)
-        : plan_(plan), index_(index), cell_m_(grid.cell_m),
-          segments_({grid.west, grid.south()}, {grid.east(), grid.north}, 4.0 * grid.cell_m, count(plan, index)) {
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-            std::vector<Vec2> const& line = plan[index.arcs[a]].line;
+    DrawnLines(StreamNetwork const& plan, Grid const& grid)
+        : plan_(plan), cell_m_(grid.cell_m),
+          segments_({grid.west, grid.south()}, {grid.east(), grid.north}, 4.0 * grid.cell_m, count(plan)) {
+        for (std::size_t a = 0; a < plan.arc_count(); ++a) {
+            std::vector<Vec2> const& line = plan.arc(a).line;
             for (std::size_t k = 0; k + 1 < line.size(); ++k) {
                 segments_.add(owners_.size(), {line[k], line[k + 1]});
                 owners_.emplace_back(a, k);
@@ -85,17 +85,17 @@ public:
     }
 
 private:
-    static std::size_t count(StreamNetwork const& plan, NetworkIndex const& index) {
+    static std::size_t count(StreamNetwork const& plan) {
         std::size_t segments = 0;
-        for (ArcId const arc : index.arcs) {
-            segments += plan[arc].line.size() - 1;
+        for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
+            segments += plan.arc(arc).line.size() - 1;
         }
         return segments;
     }
 
     /// The place moved to the vertex it is next to.
     Place settled(Place place) const {
-        std::vector<Vec2> const& line = plan_[index_.arcs[place.arc]].line;
+        std::vector<Vec2> const& line = plan_.arc(place.arc).line;
         double const near = same_cells * cell_m_;
         if (distance(place.at, line[place.segment + 1]) <= near) {
             return {place.arc, place.segment + 1, 0.0, line[place.segment + 1]};
@@ -106,7 +106,6 @@ private:
     }
 
     StreamNetwork const& plan_;
-    NetworkIndex const& index_;
     double cell_m_;
     SegmentGrid segments_;
     std::vector<std::pair<std::size_t, std::size_t>> owners_; ///< by segment: arc and segment of it
@@ -203,25 +202,24 @@ private:
 /// Puts given arcs and grown valleys together.
 class Grafting {
 public:
-    Grafting(RaisedNetwork const& given, NetworkIndex const& index, LandWater const& water)
-        : given_(given), index_(index), water_(water) {}
+    Grafting(RaisedNetwork const& given, LandWater const& water) : given_(given), water_(water) {}
 
     RaisedNetwork join(std::vector<Grown> const& grown) {
         out_ = {};
-        for (NodeId n = 0; n < index_.out.size(); ++n) {
-            add_node(given_.plan[n].at, given_.node_z[n]);
+        plan_ = {};
+        for (NodeId n = 0; n < given_.plan.node_count(); ++n) {
+            add_node(given_.plan.node(n).at, given_.node_z[n]);
         }
         cut_given(grown);
         add_grown(grown);
+        out_.plan = std::move(plan_);
         return std::move(out_);
     }
 
 private:
     NodeId add_node(Vec2 at, double z) {
-        NodeId const node = boost::add_vertex(out_.plan);
-        out_.plan[node].at = at;
         out_.node_z.push_back(z);
-        return node;
+        return plan_.add_node(at);
     }
 
     void cut_given(std::vector<Grown> const& grown) {
@@ -234,18 +232,18 @@ private:
         std::sort(places.begin(), places.end());
         nodes_.clear();
         auto place = places.begin();
-        for (std::size_t a = 0; a < index_.arcs.size(); ++a) {
-            Arc const& arc = given_.plan[index_.arcs[a]];
+        for (std::size_t a = 0; a < given_.plan.arc_count(); ++a) {
+            Arc const& arc = given_.plan.arc(a);
             std::vector<double> const& z = given_.arc_z[a];
             Arc piece = arc;
             piece.line = {arc.line.front()};
             std::vector<double> heights{z.front()};
-            NodeId from = index_.from[a];
+            NodeId from = given_.plan.from(a);
             auto const end_at = [&](NodeId node, double height) {
-                add_arc(out_.plan, from, node, piece);
+                plan_.add_arc(from, node, piece);
                 out_.arc_z.push_back(heights);
                 from = node;
-                piece.line = {out_.plan[node].at};
+                piece.line = {plan_.nodes[node].at};
                 heights = {height};
             };
             for (std::size_t k = 0; k + 1 < arc.line.size(); ++k) {
@@ -264,9 +262,9 @@ private:
                 heights.push_back(z[k + 1]);
             }
             for (; place != places.end() && place->arc == a; ++place) { // in its last vertex
-                nodes_[key_of(*place)] = index_.to[a];
+                nodes_[key_of(*place)] = given_.plan.to(a);
             }
-            add_arc(out_.plan, from, index_.to[a], std::move(piece));
+            plan_.add_arc(from, given_.plan.to(a), std::move(piece));
             out_.arc_z.push_back(std::move(heights));
         }
     }
@@ -277,11 +275,11 @@ private:
     /// The node in which a valley joins an arc; from, the last one on it, where that is the same place.
     NodeId node_at(Place const& place, std::size_t a, NodeId from, std::vector<double> const& z) {
         bool const at_source = place.segment == 0 && place.along == 0.0;
-        auto const [entry, is_new] = nodes_.try_emplace(key_of(place), index_.from[a]);
+        auto const [entry, is_new] = nodes_.try_emplace(key_of(place), given_.plan.from(a));
         if (at_source || !is_new) {
             return at_source ? from : entry->second;
         }
-        if (out_.plan[from].at == place.at) {
+        if (plan_.nodes[from].at == place.at) {
             entry->second = from;
             return from;
         }
@@ -331,28 +329,27 @@ private:
             if (grown[g].join) {
                 arc.line.push_back(grown[g].join->at);
             }
-            add_arc(out_.plan, ends[g].first, ends[g].second, std::move(arc));
+            plan_.add_arc(ends[g].first, ends[g].second, std::move(arc));
             out_.arc_z.push_back(std::move(heights[g]));
         }
     }
 
     RaisedNetwork const& given_;
-    NetworkIndex const& index_;
     LandWater const& water_;
     RaisedNetwork out_;
+    NetworkDraft plan_;
     std::map<Key, NodeId> nodes_;
 };
 
 /// Of the arcs that meet where they should not, those the land has grown: numbers among the grown, ascending.
 std::vector<std::size_t> offenders(StreamNetwork const& plan, std::size_t grown, Run const& run) {
-    NetworkIndex const index(plan);
     std::vector<std::vector<Vec2>> lines;
     std::vector<geometry::EndNodes> ends;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        lines.push_back(plan[index.arcs[a]].line);
-        ends.push_back({index.from[a], index.to[a]});
+    for (std::size_t a = 0; a < plan.arc_count(); ++a) {
+        lines.push_back(plan.arc(a).line);
+        ends.push_back({plan.from(a), plan.to(a)});
     }
-    std::size_t const first = index.arcs.size() - grown;
+    std::size_t const first = plan.arc_count() - grown;
     std::vector<std::size_t> found;
     for (geometry::Meeting const& m : geometry::meetings(lines, ends, run)) {
         if (std::size_t const later = std::max(m.line, m.other); later >= first) {
@@ -407,10 +404,9 @@ SideValleys side_valleys(RaisedNetwork const& given, Channels const& channels, R
             fmt::format("network.side_valleys: the support is {} cells; it must be at least 1", params.support_cells));
     }
     require_one_grid(channels, water);
-    NetworkIndex const index(given.plan);
-    DrawnLines const lines(given.plan, index, water.dem.grid());
+    DrawnLines const lines(given.plan, water.dem.grid());
     Valleys valleys(channels, water, lines, params.support_cells, run);
-    Grafting grafting(given, index, water);
+    Grafting grafting(given, water);
     SideValleys made;
     made.cut = valleys.cut();
     for (;;) {

@@ -46,22 +46,21 @@ RiverTypes assign_types(StreamNetwork const& network, NetworkOrders const& order
     if (params.by_order.empty()) {
         throw BadParameter("network.assign_types: by_order names no type; name one at least");
     }
-    NetworkIndex const index(network);
-    require_trees(network, index, "network.assign_types");
-    std::size_t const arcs = index.arcs.size();
-    bool const fits = orders.strahler.size() == arcs && orders.node_dist_out_m.size() == index.out.size() &&
+    require_trees(network, "network.assign_types");
+    std::size_t const arcs = network.arc_count();
+    bool const fits = orders.strahler.size() == arcs && orders.node_dist_out_m.size() == network.node_count() &&
                       std::ranges::all_of(orders.strahler, [](int w) { return w >= 1; });
     if (!fits) {
         throw BadInput(fmt::format("network.assign_types: the orders are not those of a network of {} arcs and {} "
                                    "nodes; give the orders that network.order returns",
-                                   arcs, index.out.size()));
+                                   arcs, network.node_count()));
     }
     run.check();
 
     int const highest = arcs == 0 ? 1 : *std::ranges::max_element(orders.strahler);
     RiverTypes types;
     for (std::size_t a = 0; a < arcs; ++a) {
-        Arc const& arc = network[index.arcs[a]];
+        Arc const& arc = network.arc(a);
         Rosgen type = params.one;
         if (!arc.type.empty() && arc.type != "none") {
             auto const own = rosgen_of(arc.type);
@@ -72,7 +71,7 @@ RiverTypes assign_types(StreamNetwork const& network, NetworkOrders const& order
         } else if (params.choice == TypeChoice::by_order) {
             type = of_order(orders.strahler[a], highest, params.by_order);
         }
-        double const middle = orders.node_dist_out_m[index.to[a]] + 0.5 * index.length_m[a];
+        double const middle = orders.node_dist_out_m[network.to(a)] + 0.5 * network.length_m(a);
         types.type.push_back(type);
         types.braided.push_back(is_braided(type) || middle < params.coast_m ? 1 : 0);
     }

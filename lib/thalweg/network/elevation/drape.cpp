@@ -30,29 +30,27 @@ double height_at(Raster<float> const& dem, Vec2 p) {
 } // namespace
 
 RaisedNetwork drape(StreamNetwork const& network, Raster<float> const& dem) {
-    NetworkIndex const index(network);
-    require_trees(network, index, "network.drape");
+    require_trees(network, "network.drape");
     RaisedNetwork raised{network, {}, {}};
-    raised.arc_z.resize(index.arcs.size());
-    for (NodeId n = 0; n < index.out.size(); ++n) {
-        raised.node_z.push_back(height_at(dem, network[n].at));
+    raised.arc_z.resize(network.arc_count());
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        raised.node_z.push_back(height_at(dem, network.node(n).at));
     }
-    for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) { // sources first
-        std::int64_t const out = index.out[*n];
-        if (out < 0) {
+    for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) { // sources first
+        ArcId const a = network.out(*n);
+        if (a == no_arc) {
             continue;
         }
-        auto const a = static_cast<std::size_t>(out);
         double z = raised.node_z[*n];
-        for (Vec2 const p : network[index.arcs[a]].line) {
+        for (Vec2 const p : network.arc(a).line) {
             z = std::min(z, height_at(dem, p));
             raised.arc_z[a].push_back(z);
         }
-        double& end = raised.node_z[index.to[a]];
+        double& end = raised.node_z[network.to(a)];
         end = std::min(end, z);
     }
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) { // another arc may have come to the node lower
-        raised.arc_z[a].back() = raised.node_z[index.to[a]];
+    for (std::size_t a = 0; a < network.arc_count(); ++a) { // another arc may have come to the node lower
+        raised.arc_z[a].back() = raised.node_z[network.to(a)];
     }
     return raised;
 }

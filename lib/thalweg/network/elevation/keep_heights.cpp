@@ -14,9 +14,8 @@ namespace thalweg::network {
 
 RaisedNetwork keep_heights(StreamNetwork const& network, RaisedNetwork const& known, double slope) {
     std::map<std::pair<double, double>, double> height;
-    NetworkIndex const old(known.plan);
-    for (std::size_t a = 0; a < old.arcs.size(); ++a) {
-        auto const& line = known.plan[old.arcs[a]].line;
+    for (std::size_t a = 0; a < known.plan.arc_count(); ++a) {
+        auto const& line = known.plan.arc(a).line;
         for (std::size_t i = 0; i < line.size(); ++i) {
             height[{line[i].x, line[i].y}] = known.arc_z[a][i];
         }
@@ -27,20 +26,19 @@ RaisedNetwork keep_heights(StreamNetwork const& network, RaisedNetwork const& kn
         return at == height.end() ? none : at->second;
     };
 
-    NetworkIndex const index(network);
     RaisedNetwork out;
     out.plan = network;
-    out.arc_z.resize(index.arcs.size());
-    for (NodeId n = 0; n < boost::num_vertices(network); ++n) {
-        out.node_z.push_back(height_at(network[n].at));
+    out.arc_z.resize(network.arc_count());
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        out.node_z.push_back(height_at(network.node(n).at));
     }
-    for (auto n = index.upstream_order.rbegin(); n != index.upstream_order.rend(); ++n) { // sources first
-        std::int64_t const leaving = index.out[*n];
+    for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) { // sources first
+        std::int64_t const leaving = network.out(*n);
         if (leaving < 0) {
             continue;
         }
         auto const a = static_cast<std::size_t>(leaving);
-        auto const& line = network[index.arcs[a]].line;
+        auto const& line = network.arc(a).line;
         auto& z = out.arc_z[a];
         z.push_back(out.node_z[*n]);
         for (std::size_t i = 1; i < line.size(); ++i) {
@@ -51,11 +49,11 @@ RaisedNetwork keep_heights(StreamNetwork const& network, RaisedNetwork const& kn
             throw BadInput("network.keep_heights: a river has no height at its source; give the lines Z, or choose "
                            "another [network] heights");
         }
-        double& end = out.node_z[index.to[a]];
+        double& end = out.node_z[network.to(a)];
         end = std::isnan(end) ? z.back() : std::min(end, z.back());
     }
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) { // several arcs may carry on to one node: its lowest counts
-        out.arc_z[a].back() = out.node_z[index.to[a]];
+    for (std::size_t a = 0; a < network.arc_count(); ++a) { // several arcs may carry on to one node: its lowest counts
+        out.arc_z[a].back() = out.node_z[network.to(a)];
     }
     return out;
 }

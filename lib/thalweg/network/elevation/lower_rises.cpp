@@ -13,25 +13,23 @@
 namespace thalweg::network {
 
 Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double>> const& arc_z) {
-    NetworkIndex const index(network);
-    require_trees(network, index, "network.lower_rises");
-    bool whole = arc_z.size() == index.arcs.size();
+    require_trees(network, "network.lower_rises");
+    bool whole = arc_z.size() == network.arc_count();
     for (std::size_t a = 0; whole && a < arc_z.size(); ++a) {
-        whole = arc_z[a].size() == network[index.arcs[a]].line.size() && !arc_z[a].empty();
+        whole = arc_z[a].size() == network.arc(a).line.size() && !arc_z[a].empty();
     }
     if (!whole) {
         throw BadInput(
-            fmt::format("network.lower_rises: heights are not one for each vertex of {} arcs", index.arcs.size()));
+            fmt::format("network.lower_rises: heights are not one for each vertex of {} arcs", network.arc_count()));
     }
     Lowered lowered{{network, {}, arc_z}, std::vector<double>(arc_z.size(), 0.0)};
     auto& node_z = lowered.network.node_z;
-    node_z.assign(boost::num_vertices(network), std::numeric_limits<double>::infinity());
-    for (auto node = index.upstream_order.rbegin(); node != index.upstream_order.rend(); ++node) {
-        auto const out = index.out[*node];
-        if (out < 0) {
+    node_z.assign(network.node_count(), std::numeric_limits<double>::infinity());
+    for (auto node = network.upstream_order().rbegin(); node != network.upstream_order().rend(); ++node) {
+        ArcId const a = network.out(*node);
+        if (a == no_arc) {
             continue;
         }
-        auto const a = static_cast<std::size_t>(out);
         auto& z = lowered.network.arc_z[a];
         double low = std::min(node_z[*node], z.front());
         node_z[*node] = low;
@@ -40,13 +38,13 @@ Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double
             lowered.by_m[a] = std::max(lowered.by_m[a], vertex - low);
             vertex = low;
         }
-        double& below = node_z[index.to[a]];
+        double& below = node_z[network.to(a)];
         below = std::min(below, low);
     }
     // The last vertex of an arc takes the height that its node got from all of them.
     for (std::size_t a = 0; a < arc_z.size(); ++a) {
         double& last = lowered.network.arc_z[a].back();
-        double const z = node_z[index.to[a]];
+        double const z = node_z[network.to(a)];
         lowered.by_m[a] = std::max(lowered.by_m[a], last - z);
         last = z;
     }

@@ -14,11 +14,11 @@
 
 namespace thalweg::network {
 
-void require_raisable(StreamNetwork const& network, NetworkIndex const& index, std::string_view who) {
-    require_trees(network, index, who);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        if (!(index.length_m[a] > 0.0)) {
-            Vec2 const at = network[index.from[a]].at;
+void require_raisable(StreamNetwork const& network, std::string_view who) {
+    require_trees(network, who);
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        if (!(network.length_m(a) > 0.0)) {
+            Vec2 const at = network.node(network.from(a)).at;
             throw BadInput(
                 fmt::format("{}: arc {} at ({:.3f}, {:.3f}) has no length; remove it", who, a + 1, at.x, at.y));
         }
@@ -51,18 +51,17 @@ void require_heights(StreamNetwork const& network, std::vector<double> const& no
             throw BadInput(
                 fmt::format("{}: the height of the node at ({}, {}) is not a finite number; the rivers below "
                             "it are too long, or too steep",
-                            who, network[n].at.x, network[n].at.y));
+                            who, network.node(n).at.x, network.node(n).at.y));
         }
     }
 }
 
-RaisedNetwork raise_linearly(StreamNetwork const& network, NetworkIndex const& index, std::vector<double> node_z,
-                             std::string_view who) {
+RaisedNetwork raise_linearly(StreamNetwork const& network, std::vector<double> node_z, std::string_view who) {
     require_heights(network, node_z, who);
     RaisedNetwork raised{network, std::move(node_z), {}};
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
         raised.arc_z.push_back(
-            between(way_along(network[index.arcs[a]].line), raised.node_z[index.from[a]], raised.node_z[index.to[a]]));
+            between(way_along(network.arc(a).line), raised.node_z[network.from(a)], raised.node_z[network.to(a)]));
     }
     return raised;
 }

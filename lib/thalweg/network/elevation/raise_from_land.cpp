@@ -44,9 +44,8 @@ double between(Known up, Known down) {
 
 class Heights {
 public:
-    Heights(StreamNetwork const& network, NetworkIndex const& index, Channels const& channels,
-            Raster<float> const& land)
-        : network_(network), index_(index), land_(land), z_(index.arcs.size()), up_(index.arcs.size()) {
+    Heights(StreamNetwork const& network, Channels const& channels, Raster<float> const& land)
+        : network_(network), land_(land), z_(network.arc_count()), up_(network.arc_count()) {
         Mask is_channel(channels.grid, 0);
         for (std::int64_t const cell : channels.cell) {
             is_channel[cell] = 1;
@@ -57,10 +56,10 @@ public:
                 lake_.insert(channels.cell[static_cast<std::size_t>(channels.receiver[i])]);
             }
         }
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        for (std::size_t a = 0; a < network.arc_count(); ++a) {
             cells_.push_back(cells_of_vertices(line(a), channels.grid, fmt::format("arc {}", a + 1)));
         }
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        for (std::size_t a = 0; a < network.arc_count(); ++a) {
             know(a, is_channel);
         }
     }
@@ -72,7 +71,7 @@ public:
     }
 
 private:
-    std::vector<Vec2> const& line(std::size_t a) const { return network_[index_.arcs[a]].line; }
+    std::vector<Vec2> const& line(std::size_t a) const { return network_.arc(a).line; }
 
     double height(Cell cell) const {
         auto const z = static_cast<double>(land_[cell]);
@@ -88,8 +87,8 @@ private:
     /// The heights that the land says itself. The last vertex of an arc is its node's business.
     void know(std::size_t a, Mask const& is_channel) {
         auto const& cells = cells_[a];
-        bool const is_source = index_.in[index_.from[a]].empty();
-        bool const is_last = index_.out[index_.to[a]] < 0;
+        bool const is_source = network_.in(network_.from(a)).empty();
+        bool const is_last = network_.out(network_.to(a)) == no_arc;
         z_[a].assign(cells.size(), unknown);
         for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
             bool const in_last_cell = is_last && cells[i] == cells.back();
@@ -110,23 +109,23 @@ private:
 
     /// Sources first: the nearest known height above each vertex; of several arcs' the lowest.
     void look_up() {
-        std::vector<Known> above(index_.out.size());
-        for (auto n = index_.upstream_order.rbegin(); n != index_.upstream_order.rend(); ++n) {
-            if (index_.out[*n] < 0) {
+        std::vector<Known> above(network_.node_count());
+        for (auto n = network_.upstream_order().rbegin(); n != network_.upstream_order().rend(); ++n) {
+            if (network_.out(*n) == no_arc) {
                 continue;
             }
-            auto const a = static_cast<std::size_t>(index_.out[*n]);
+            auto const a = network_.out(*n);
             Known at = above[*n];
             for (std::size_t i = 0; i < z_[a].size(); ++i) {
                 at = farther(at, i == 0 ? 0.0 : distance(line(a)[i - 1], line(a)[i]));
-                bool const is_outlet = i + 1 == z_[a].size() && index_.out[index_.to[a]] < 0;
+                bool const is_outlet = i + 1 == z_[a].size() && network_.out(network_.to(a)) == no_arc;
                 if (!is_outlet && says_nothing(z_[a][i], cells_[a][i], at)) {
                     z_[a][i] = unknown;
                 }
                 at = std::isnan(z_[a][i]) ? at : Known{z_[a][i], 0.0, cells_[a][i]};
                 up_[a].push_back(at);
             }
-            Known& below = above[index_.to[a]];
+            Known& below = above[network_.to(a)];
             bool const is_lower = at.z < below.z || (at.z == below.z && at.away_m < below.away_m);
             below = std::isnan(below.z) || is_lower ? at : below;
         }
@@ -138,16 +137,16 @@ private:
             Known below; ///< itself included
             double z = unknown;
         };
-        std::vector<Node> nodes(index_.out.size());
-        for (NodeId const n : index_.upstream_order) {
-            if (index_.out[n] < 0) {
+        std::vector<Node> nodes(network_.node_count());
+        for (NodeId const n : network_.upstream_order()) {
+            if (network_.out(n) == no_arc) {
                 continue;
             }
-            auto const a = static_cast<std::size_t>(index_.out[n]);
+            auto const a = network_.out(n);
             Known at =
-                std::isnan(z_[a].back()) ? nodes[index_.to[a]].below : Known{z_[a].back(), 0.0, cells_[a].back()};
+                std::isnan(z_[a].back()) ? nodes[network_.to(a)].below : Known{z_[a].back(), 0.0, cells_[a].back()};
             if (std::isnan(z_[a].back())) {
-                z_[a].back() = nodes[index_.to[a]].z;
+                z_[a].back() = nodes[network_.to(a)].z;
             }
             for (std::size_t i = z_[a].size() - 1; i-- > 0;) {
                 at = farther(at, distance(line(a)[i], line(a)[i + 1]));
@@ -163,7 +162,6 @@ private:
     }
 
     StreamNetwork const& network_;
-    NetworkIndex const& index_;
     Raster<float> const& land_;
     std::unordered_set<std::int64_t> lake_; ///< cells of lakes and of their outlets
     std::vector<std::vector<Cell>> cells_;  ///< by arc and vertex
@@ -174,13 +172,12 @@ private:
 } // namespace
 
 RaisedNetwork raise_from_land(StreamNetwork const& network, Channels const& channels, Raster<float> const& land) {
-    NetworkIndex const index(network);
-    require_trees(network, index, "network.raise_from_land");
+    require_trees(network, "network.raise_from_land");
     if (land.grid() != channels.grid) {
         throw BadInput("network.raise_from_land: the land is not on the grid of the channels; give the land that was "
                        "made around them");
     }
-    return lower_rises(network, Heights(network, index, channels, land).filled()).network;
+    return lower_rises(network, Heights(network, channels, land).filled()).network;
 }
 
 } // namespace thalweg::network

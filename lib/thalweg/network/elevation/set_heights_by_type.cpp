@@ -35,26 +35,25 @@ double slope_at(Vec2 place, Rosgen type, HeightsByTypeParams const& params) {
 
 RaisedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,
                                   HeightsByTypeParams const& params, Run const& run) {
-    NetworkIndex const index(network);
-    require_raisable(network, index, "network.set_heights_by_type");
-    if (types.type.size() != index.arcs.size()) {
+    require_raisable(network, "network.set_heights_by_type");
+    if (types.type.size() != network.arc_count()) {
         throw BadInput(fmt::format(
             "network.set_heights_by_type: {} types for {} arcs; give the types that network.assign_types returns",
-            types.type.size(), index.arcs.size()));
+            types.type.size(), network.arc_count()));
     }
     run.check();
 
-    std::vector<double> z(index.out.size(), 0.0);
-    for (NodeId const n : index.upstream_order) {
-        if (index.out[n] >= 0) {
-            auto const a = static_cast<std::size_t>(index.out[n]);
-            double const below = z[index.to[a]];
-            double const slope = slope_at(network[n].at, types.type[a], params);
+    std::vector<double> z(network.node_count(), 0.0);
+    for (NodeId const n : network.upstream_order()) {
+        if (network.out(n) != no_arc) {
+            auto const a = network.out(n);
+            double const below = z[network.to(a)];
+            double const slope = slope_at(network.node(n).at, types.type[a], params);
             // A rise lost in rounding would leave the arc level.
-            z[n] = std::max(below + slope * index.length_m[a], next_above(below));
+            z[n] = std::max(below + slope * network.length_m(a), next_above(below));
         }
     }
-    return raise_linearly(network, index, std::move(z), "network.set_heights_by_type");
+    return raise_linearly(network, std::move(z), "network.set_heights_by_type");
 }
 
 } // namespace thalweg::network

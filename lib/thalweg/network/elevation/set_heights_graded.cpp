@@ -34,9 +34,9 @@ void require(GradedParams const& params) {
     }
 }
 
-void require_areas(StreamNetwork const& network, NetworkIndex const& index, std::vector<double> const& us_area_m2,
+void require_areas(StreamNetwork const& network, std::vector<double> const& us_area_m2,
                    std::vector<double> const& ds_area_m2) {
-    std::size_t const arcs = index.arcs.size();
+    std::size_t const arcs = network.arc_count();
     if (us_area_m2.size() != arcs || ds_area_m2.size() != arcs) {
         throw BadInput(fmt::format("network.set_heights_graded: {} and {} areas for {} arcs; give one for each end",
                                    us_area_m2.size(), ds_area_m2.size(), arcs));
@@ -44,7 +44,7 @@ void require_areas(StreamNetwork const& network, NetworkIndex const& index, std:
     for (std::size_t a = 0; a < arcs; ++a) {
         for (double const area : {us_area_m2[a], ds_area_m2[a]}) {
             if (!(area >= 0.0) || !std::isfinite(area)) {
-                Vec2 const at = network[index.from[a]].at;
+                Vec2 const at = network.node(network.from(a)).at;
                 throw BadInput(fmt::format("network.set_heights_graded: an area of arc {} at ({:.3f}, {:.3f}) is {} "
                                            "m2; it must be a number of 0 or more",
                                            a + 1, at.x, at.y, area));
@@ -105,13 +105,13 @@ std::vector<double> fall_along(std::vector<Vec2> const& line, double us_area, do
 }
 
 /// From the outlets upwards, the sum of what every arc adds.
-std::vector<double> sum_upstream(NetworkIndex const& index, std::vector<double> const& by_arc) {
-    std::vector<double> sum(index.out.size(), 0.0);
-    for (NodeId const n : index.upstream_order) {
-        if (index.out[n] >= 0) {
-            auto const a = static_cast<std::size_t>(index.out[n]);
+std::vector<double> sum_upstream(StreamNetwork const& network, std::vector<double> const& by_arc) {
+    std::vector<double> sum(network.node_count(), 0.0);
+    for (NodeId const n : network.upstream_order()) {
+        if (network.out(n) != no_arc) {
+            auto const a = network.out(n);
             // An addition lost in rounding would leave the arc level.
-            sum[n] = std::max(sum[index.to[a]] + by_arc[a], next_above(sum[index.to[a]]));
+            sum[n] = std::max(sum[network.to(a)] + by_arc[a], next_above(sum[network.to(a)]));
         }
     }
     return sum;
@@ -122,34 +122,33 @@ std::vector<double> sum_upstream(NetworkIndex const& index, std::vector<double> 
 Graded set_heights_graded(StreamNetwork const& network, std::vector<double> const& us_area_m2,
                           std::vector<double> const& ds_area_m2, GradedParams const& params, Run const& run) {
     require(params);
-    NetworkIndex const index(network);
-    require_raisable(network, index, "network.set_heights_graded");
-    require_areas(network, index, us_area_m2, ds_area_m2);
+    require_raisable(network, "network.set_heights_graded");
+    require_areas(network, us_area_m2, ds_area_m2);
 
     std::vector<std::vector<double>> falls;
     std::vector<double> whole;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
         run.check();
-        falls.push_back(fall_along(network[index.arcs[a]].line, std::max(us_area_m2[a], params.least_area_m2),
+        falls.push_back(fall_along(network.arc(a).line, std::max(us_area_m2[a], params.least_area_m2),
                                    std::max(ds_area_m2[a], params.least_area_m2), params.theta));
         whole.push_back(falls.back().back());
     }
 
-    Graded graded{{network, std::vector<double>(index.out.size(), 0.0), {}}, 0.0};
-    if (index.arcs.empty()) {
+    Graded graded{{network, std::vector<double>(network.node_count(), 0.0), {}}, 0.0};
+    if (network.arcs().empty()) {
         return graded;
     }
-    std::vector<double> const way = sum_upstream(index, index.length_m);
+    std::vector<double> const way = sum_upstream(network, network.length_m());
     auto const source = static_cast<std::size_t>(std::ranges::max_element(way) - way.begin());
-    graded.steepness = params.slope * way[source] / sum_upstream(index, whole)[source];
+    graded.steepness = params.slope * way[source] / sum_upstream(network, whole)[source];
     for (double& fall : whole) {
         fall *= graded.steepness;
     }
-    graded.network.node_z = sum_upstream(index, whole);
+    graded.network.node_z = sum_upstream(network, whole);
     require_heights(network, graded.network.node_z, "network.set_heights_graded");
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
         graded.network.arc_z.push_back(
-            between(falls[a], graded.network.node_z[index.from[a]], graded.network.node_z[index.to[a]]));
+            between(falls[a], graded.network.node_z[network.from(a)], graded.network.node_z[network.to(a)]));
     }
     return graded;
 }

@@ -185,12 +185,12 @@ void add_arcs(Adopted& adopted, Flow const& flow, std::vector<double> const& nod
         std::ranges::sort(by_piece, {}, [&](std::size_t n) { return flow.leaves[n]; });
         return by_piece;
     }();
-    NodeId const none = StreamNetwork::null_vertex();
+    constexpr NodeId none = std::numeric_limits<NodeId>::max();
+    NetworkDraft network;
     std::vector<NodeId> ids(flow.leaves.size(), none);
     auto const node = [&](std::size_t n) {
         if (ids[n] == none) {
-            ids[n] = boost::add_vertex(adopted.network);
-            adopted.network[ids[n]].at = flow.pieces.nodes[n];
+            ids[n] = network.add_node(flow.pieces.nodes[n]);
         }
         return ids[n];
     };
@@ -214,12 +214,13 @@ void add_arcs(Adopted& adopted, Flow const& flow, std::vector<double> const& nod
         arc.feature = longest_of(stretches);
         adopted.stretches.push_back(std::move(stretches));
         NodeId const from = node(head);
-        add_arc(adopted.network, from, node(n), std::move(arc));
+        network.add_arc(from, node(n), std::move(arc));
         if (!node_z.empty()) {
             z.push_back(node_z[n]);
             adopted.arc_z.push_back(std::move(z));
         }
     }
+    adopted.network = std::move(network);
 }
 
 } // namespace

@@ -117,10 +117,10 @@ void require_end(FileArc const& arc, NetworkFile::FileNode const& node, Vec3 end
 }
 
 /// That the arcs downstream are those which the file says.
-void require_downstream(NetworkFile const& file, std::vector<std::size_t> const& order, NetworkIndex const& index) {
+void require_downstream(NetworkFile const& file, std::vector<std::size_t> const& order, StreamNetwork const& network) {
     for (std::size_t a = 0; a < order.size(); ++a) {
-        std::int64_t const below = index.out[index.to[a]];
-        std::int64_t const id = below < 0 ? 0 : file.arcs[order[static_cast<std::size_t>(below)]].id;
+        ArcId const below = network.out(network.to(a));
+        std::int64_t const id = below == no_arc ? 0 : file.arcs[order[below]].id;
         if (FileArc const& arc = file.arcs[order[a]]; arc.ds_arc != id) {
             refuse(fmt::format("arc {} says that {} is downstream of it, but its node {} leads to {}", arc.id,
                                arc.ds_arc, arc.to_node, id));
@@ -141,10 +141,10 @@ FileNetwork from_file(NetworkFile const& file) {
         nodes.number_by(order);
     }
     FileNetwork made;
-    StreamNetwork& plan = made.network.plan;
+    NetworkDraft drawing;
     for (std::size_t const i : nodes.order()) {
         Vec3 const at = file.nodes[i].at;
-        boost::add_vertex(Node{{at.x, at.y}}, plan);
+        drawing.add_node({at.x, at.y});
         made.network.node_z.push_back(heights ? at.z : std::numeric_limits<double>::quiet_NaN());
     }
     for (std::size_t const i : order) {
@@ -163,7 +163,7 @@ FileNetwork from_file(NetworkFile const& file) {
         }
         z.front() = made.network.node_z[from];
         z.back() = made.network.node_z[to];
-        add_arc(plan, from, to, std::move(drawn));
+        drawing.add_arc(from, to, std::move(drawn));
         made.network.arc_z.push_back(std::move(z));
         made.us_area_m2.push_back(arc.us_area_m2);
         made.ds_area_m2.push_back(arc.ds_area_m2);
@@ -171,25 +171,26 @@ FileNetwork from_file(NetworkFile const& file) {
         made.arc_ids.push_back(arc.id);
         made.records.push_back(arc.record);
     }
-    NetworkIndex const index(plan);
+    made.network.plan = std::move(drawing);
+    StreamNetwork const& plan = made.network.plan;
     for (std::size_t a = 0; a < order.size(); ++a) {
         FileArc const& arc = file.arcs[order[a]];
         bool const is_whole = arc.sources.empty() && arc.feature != 0;
-        made.stretches.push_back(is_whole ? std::vector<Stretch>{{arc.feature, 0.0, index.length_m[a]}} : arc.sources);
+        made.stretches.push_back(is_whole ? std::vector<Stretch>{{arc.feature, 0.0, plan.length_m(a)}} : arc.sources);
     }
-    for (NodeId n = 0; n < index.out.size(); ++n) {
-        if (index.out[n] < 0 && index.in[n].empty()) {
-            refuse(fmt::format("node {} at ({}, {}) has no arc", file.nodes[nodes.order()[n]].id, plan[n].at.x,
-                               plan[n].at.y));
+    for (NodeId n = 0; n < plan.node_count(); ++n) {
+        if (plan.out(n) == no_arc && plan.in(n).empty()) {
+            refuse(fmt::format("node {} at ({}, {}) has no arc", file.nodes[nodes.order()[n]].id, plan.node(n).at.x,
+                               plan.node(n).at.y));
         }
     }
     try {
-        require_trees(plan, index, "network.from_file");
+        require_trees(plan, "network.from_file");
     } catch (BadInput const& fault) {
         throw BadInput(fmt::format("{}: {}; {}", fault.where(), fault.what(), remedy));
     }
     if (file.says.downstream) {
-        require_downstream(file, order, index);
+        require_downstream(file, order, plan);
     }
     return made;
 }

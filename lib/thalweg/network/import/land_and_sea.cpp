@@ -165,24 +165,23 @@ LandAndSea land_and_sea(RiverLines const& coastlines, RiverLines const& rivers, 
 }
 
 Mask land_behind_outlets(StreamNetwork const& network, Grid const& grid, Run const& run) {
-    NetworkIndex const index(network);
     Mask rivers(grid);
-    for (ArcId const arc : index.arcs) {
-        for (Cell const c : cells_along(network[arc].line, grid, "a river")) {
+    for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
+        for (Cell const c : cells_along(network.arc(arc).line, grid, "a river")) {
             rivers[c] = 1;
         }
     }
     Mask decided = rivers;
     Raster<std::int64_t> nearest = nearest_cells(rivers, run);
     bool has_sea = false;
-    for (NodeId const outlet : index.outlets) {
-        Cell const end = cells_along({network[outlet].at}, grid).front();
-        if (grid.on_border(end) || index.in[outlet].empty()) {
+    for (NodeId const outlet : network.outlets()) {
+        Cell const end = cells_along({network.node(outlet).at}, grid).front();
+        if (grid.on_border(end) || network.in(outlet).empty()) {
             continue;
         }
-        auto const last = static_cast<std::size_t>(index.in[outlet].front());
-        Vec2 const from = before_end(network[index.arcs[last]].line, heading_cells * grid.cell_m);
-        Vec2 const at = network[outlet].at;
+        auto const last = static_cast<std::size_t>(network.in(outlet).front());
+        Vec2 const from = before_end(network.arc(last).line, heading_cells * grid.cell_m);
+        Vec2 const at = network.node(outlet).at;
         cells_around(grid, end, mouth_cells, [&](Cell c) {
             Vec2 const p = grid.centre(c);
             double const ahead = (p.x - at.x) * (at.x - from.x) + (p.y - at.y) * (at.y - from.y);
@@ -207,9 +206,9 @@ Mask land_behind_outlets(StreamNetwork const& network, Grid const& grid, Run con
 
 Mask land_along_rivers(Mask land, StreamNetwork const& network) {
     Grid const grid = land.grid();
-    for (auto const arc : boost::make_iterator_range(boost::edges(network))) {
-        bool const ends = boost::out_degree(boost::target(arc, network), network) == 0;
-        std::vector<Cell> const cells = cells_along(network[arc].line, grid, "a river");
+    for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
+        bool const ends = network.out_arcs(network.to(arc)).size() == 0;
+        std::vector<Cell> const cells = cells_along(network.arc(arc).line, grid, "a river");
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (ends && i + 1 == cells.size()) {
                 land[cells[i]] = 1;

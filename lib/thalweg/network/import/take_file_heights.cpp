@@ -51,23 +51,21 @@ std::string uphill(RiverLines const& file, Vec2 a, Vec2 b, double za, double zb)
 } // namespace
 
 RaisedNetwork take_file_heights(Adopted const& adopted, RiverLines const& file) {
-    NetworkIndex const index(adopted.network);
-    if (adopted.arc_z.size() != index.arcs.size()) {
+    if (adopted.arc_z.size() != adopted.network.arc_count()) {
         throw BadInput("network.take_file_heights: the rivers of " + file.name +
                        " carry no heights; leave heights to [network] heights");
     }
-    RaisedNetwork raised{adopted.network, std::vector<double>(boost::num_vertices(adopted.network), 0.0),
-                         adopted.arc_z};
-    for (std::size_t i = 0; i < index.arcs.size(); ++i) {
-        auto const& line = adopted.network[index.arcs[i]].line;
+    RaisedNetwork raised{adopted.network, std::vector<double>(adopted.network.node_count(), 0.0), adopted.arc_z};
+    for (std::size_t i = 0; i < adopted.network.arc_count(); ++i) {
+        auto const& line = adopted.network.arc(i).line;
         auto const& z = adopted.arc_z[i];
         for (std::size_t v = 0; v + 1 < z.size(); ++v) {
             if (z[v] < z[v + 1]) {
                 throw BadInput(uphill(file, line[v], line[v + 1], z[v], z[v + 1]));
             }
         }
-        raised.node_z[index.from[i]] = z.front();
-        raised.node_z[index.to[i]] = z.back();
+        raised.node_z[adopted.network.from(i)] = z.front();
+        raised.node_z[adopted.network.to(i)] = z.back();
     }
     return raised;
 }

@@ -69,14 +69,13 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
 }
 
 StreamCounts count_streams(StreamNetwork const& network) {
-    NetworkIndex const index(network);
-    std::vector<std::int64_t> place(index.arcs.size(), -1); // downstream before upstream
+    std::vector<std::int64_t> place(network.arc_count(), -1); // downstream before upstream
     std::vector<std::int64_t> down;
-    for (NodeId const n : index.upstream_order) {
-        if (std::int64_t const arc = index.out[n]; arc >= 0) {
-            std::int64_t const below = index.out[index.to[as_index(arc)]];
-            place[as_index(arc)] = static_cast<std::int64_t>(down.size());
-            down.push_back(below < 0 ? -1 : place[as_index(below)]);
+    for (NodeId const n : network.upstream_order()) {
+        if (ArcId const arc = network.out(n); arc != no_arc) {
+            ArcId const below = network.out(network.to(arc));
+            place[arc] = static_cast<std::int64_t>(down.size());
+            down.push_back(below == no_arc ? -1 : place[below]);
         }
     }
     return count_streams(down);

@@ -10,29 +10,29 @@
 
 namespace thalweg::network {
 
-void require_trees(StreamNetwork const& network, NetworkIndex const& index, std::string_view who) {
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+void require_trees(StreamNetwork const& network, std::string_view who) {
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
         // A sum of square roots is a finite number only if every coordinate is one.
-        if (!std::isfinite(index.length_m[a])) {
+        if (!std::isfinite(network.length_m(a))) {
             throw BadInput(fmt::format("{}: arc {} has a coordinate that is not a number; mend the line", who, a + 1));
         }
     }
-    for (NodeId n = 0; n < index.out.size(); ++n) {
-        if (boost::out_degree(n, network) > 1) {
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        if (network.out_arcs(n).size() > 1) {
             throw BadInput(fmt::format("{}: {} arcs leave the node at ({:.3f}, {:.3f}); a river may leave a node once, "
                                        "remove the bifurcation",
-                                       who, boost::out_degree(n, network), network[n].at.x, network[n].at.y));
+                                       who, network.out_arcs(n).size(), network.node(n).at.x, network.node(n).at.y));
         }
     }
-    for (NodeId n = 0; n < index.out.size(); ++n) {
-        if (index.out[n] >= 0 && index.basin[n] == 0) {
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        if (network.out(n) != no_arc && network.basin(n) == 0) {
             NodeId on_cycle = n;
-            for (std::size_t step = 0; step < index.out.size(); ++step) {
-                on_cycle = index.to[static_cast<std::size_t>(index.out[on_cycle])];
+            for (std::size_t step = 0; step < network.node_count(); ++step) {
+                on_cycle = network.to(network.out(on_cycle));
             }
             throw BadInput(fmt::format("{}: the rivers run in a circle through the node at ({:.3f}, {:.3f}); turn or "
                                        "remove one of them",
-                                       who, network[on_cycle].at.x, network[on_cycle].at.y));
+                                       who, network.node(on_cycle).at.x, network.node(on_cycle).at.y));
         }
     }
 }

@@ -10,20 +10,17 @@
 namespace thalweg::network {
 
 std::vector<std::int64_t> streams(StreamNetwork const& network, NetworkOrders const& orders) {
-    NetworkIndex const index(network);
-    require_trees(network, index, "network.streams");
-    std::size_t const arcs = index.arcs.size();
+    require_trees(network, "network.streams");
+    std::size_t const arcs = network.arc_count();
     if (orders.strahler.size() != arcs) {
         throw BadInput(
             fmt::format("network.streams: {} orders for {} arcs; order this network", orders.strahler.size(), arcs));
     }
     std::vector<std::size_t> mouth(arcs); // the last arc of the stream
-    for (NodeId const n : index.upstream_order) {
-        if (std::int64_t const out = index.out[n]; out >= 0) {
-            auto const a = static_cast<std::size_t>(out);
-            std::int64_t const below = index.out[index.to[a]];
-            auto const b = static_cast<std::size_t>(below);
-            mouth[a] = below >= 0 && orders.strahler[b] == orders.strahler[a] ? mouth[b] : a;
+    for (NodeId const n : network.upstream_order()) {
+        if (ArcId const a = network.out(n); a != no_arc) {
+            ArcId const below = network.out(network.to(a));
+            mouth[a] = below != no_arc && orders.strahler[below] == orders.strahler[a] ? mouth[below] : a;
         }
     }
     std::vector<std::int64_t> number(arcs, 0);

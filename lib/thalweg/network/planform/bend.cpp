@@ -172,8 +172,7 @@ Vec2 across(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2
 
 } // namespace
 
-Raster<std::uint8_t> distance_to_fixed(StreamNetwork const& network, NetworkIndex const& index, Grid const& grid,
-                                       Mask const& land) {
+Raster<std::uint8_t> distance_to_fixed(StreamNetwork const& network, Grid const& grid, Mask const& land) {
     auto const far = static_cast<std::uint8_t>(margin);
     Raster<std::uint8_t> out(grid, far);
     std::vector<std::int64_t> front;
@@ -188,8 +187,8 @@ Raster<std::uint8_t> distance_to_fixed(StreamNetwork const& network, NetworkInde
             fix(grid.at(i));
         }
     }
-    for (NodeId const outlet : index.outlets) {
-        Cell const at = grid.cell_of(network[outlet].at);
+    for (NodeId const outlet : network.outlets()) {
+        Cell const at = grid.cell_of(network.node(outlet).at);
         fix(at);
         for (Cell const step : d8_steps) {
             fix({at.col + step.col, at.row + step.row});

@@ -357,45 +357,44 @@ Way way_out(Vec2 outlet, Cell start, Ground const& ground, Ends const& ends, May
 
 /// A network in which rivers end in vertices of others: those become nodes.
 /// ends: nodes that lie on such a vertex.
-StreamNetwork joined(StreamNetwork const& network, std::vector<NodeId> const& ends) {
+NetworkDraft joined(StreamNetwork const& network, std::vector<NodeId> const& ends) {
     std::map<std::pair<double, double>, NodeId> node_at;
-    std::vector<std::uint8_t> is_end(boost::num_vertices(network), 0);
+    std::vector<std::uint8_t> is_end(network.node_count(), 0);
     for (NodeId const n : ends) {
         is_end[n] = 1;
     }
-    StreamNetwork out;
+    NetworkDraft out;
     std::vector<NodeId> node(is_end.size());
     for (NodeId n = 0; n < node.size(); ++n) {
-        auto const place = std::pair(network[n].at.x, network[n].at.y);
+        auto const place = std::pair(network.node(n).at.x, network.node(n).at.y);
         auto const known = is_end[n] != 0 ? node_at.find(place) : node_at.end();
-        node[n] = known != node_at.end() ? known->second : boost::add_vertex(network[n], out);
+        node[n] = known != node_at.end() ? known->second : out.add_node(network.node(n).at);
         if (is_end[n] != 0) {
             node_at.emplace(place, node[n]);
         }
     }
-    for (ArcId const arc : NetworkIndex(network).arcs) {
-        Arc piece = network[arc];
+    for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
+        Arc piece = network.arc(arc);
         std::vector<Vec2> const line = std::move(piece.line);
-        NodeId from = node[boost::source(arc, network)];
+        NodeId from = node[network.from(arc)];
         piece.line = {line.front()};
         for (std::size_t i = 1; i < line.size(); ++i) {
             piece.line.push_back(line[i]);
             auto const known = node_at.find({line[i].x, line[i].y});
             if (i + 1 < line.size() && known != node_at.end()) {
-                add_arc(out, from, known->second, piece);
+                out.add_arc(from, known->second, piece);
                 from = known->second;
                 piece.line = {line[i]};
             }
         }
-        add_arc(out, from, node[boost::target(arc, network)], piece);
+        out.add_arc(from, node[network.to(arc)], piece);
     }
     return out;
 }
 
 Carried carry(StreamNetwork const& network, Grid const& grid, Ends const& ends, std::int64_t reach_cells,
               CarryParams const& params) {
-    NetworkIndex const index(network);
-    require_trees(network, index, "network.carry_outlets");
+    require_trees(network, "network.carry_outlets");
     if (!(params.join_cells >= 0.0 && params.beside_cells >= 0.0)) {
         throw BadParameter(
             fmt::format("network.carry_outlets: joining costs {} cells, a cell beside a river {}; give 0 "
@@ -403,16 +402,16 @@ Carried carry(StreamNetwork const& network, Grid const& grid, Ends const& ends, 
                         params.join_cells, params.beside_cells));
     }
     Ground ground(grid, params);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        ground.add(network[index.arcs[a]].line, as_index(index.basin[index.from[a]]), fmt::format("arc {}", a + 1));
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        ground.add(network.arc(a).line, as_index(network.basin(network.from(a))), fmt::format("arc {}", a + 1));
     }
-    Basins basins(index.outlets.size() + 1); // 0: none
+    Basins basins(network.outlets().size() + 1); // 0: none
     std::vector<NodeId> confluences;
 
     // The nearest to an end go first: their short ways leave the others the most room.
     std::vector<std::pair<std::int64_t, NodeId>> inside;
-    for (NodeId const outlet : index.outlets) {
-        Cell const cell = cells_along({network[outlet].at}, grid).front();
+    for (NodeId const outlet : network.outlets()) {
+        Cell const cell = cells_along({network.node(outlet).at}, grid).front();
         if (std::int64_t const steps = ends.steps(cell); steps > 0 && steps <= reach_cells) {
             inside.emplace_back(steps, outlet);
         }
@@ -420,16 +419,15 @@ Carried carry(StreamNetwork const& network, Grid const& grid, Ends const& ends, 
     std::sort(inside.begin(), inside.end());
 
     Carried carried;
-    carried.network = network;
-    NetworkIndex const copy(carried.network);
+    NetworkDraft longer = network.draft();
     for (auto const& [cells_inside, outlet] : inside) {
-        Vec2 const at = network[outlet].at;
-        auto const last = static_cast<std::size_t>(index.in[outlet].front());
-        std::int64_t const feature = network[index.arcs[last]].feature;
+        Vec2 const at = network.node(outlet).at;
+        auto const last = network.in(outlet).front();
+        std::int64_t const feature = network.arc(last).feature;
         Finding note;
         note.feature = feature != 0 ? feature : static_cast<std::int64_t>(last) + 1;
         note.where = at;
-        std::size_t const basin = as_index(index.basin[outlet]);
+        std::size_t const basin = as_index(network.basin(outlet));
         Way const way = way_out(at, cells_along({at}, grid).front(), ground, ends, [&](Confluence const& into) {
             return params.join && basins.root(into.basin) != basins.root(basin);
         });
@@ -457,10 +455,10 @@ Carried carry(StreamNetwork const& network, Grid const& grid, Ends const& ends, 
                                 at.x, at.y, note.amount, to, line.back().x, line.back().y);
         bool const joins = note.kind == "joined_outlet";
         carried.notes.push_back(std::move(note));
-        if (index.in[outlet].size() == 1) {
-            std::vector<Vec2>& drawn = carried.network[copy.arcs[last]].line;
+        if (network.in(outlet).size() == 1) {
+            std::vector<Vec2>& drawn = longer.arcs[last].arc.line;
             drawn.insert(drawn.end(), line.begin() + 1, line.end());
-            carried.network[outlet].at = line.back();
+            longer.nodes[outlet].at = line.back();
             if (joins) {
                 confluences.push_back(outlet);
             }
@@ -468,19 +466,17 @@ Carried carry(StreamNetwork const& network, Grid const& grid, Ends const& ends, 
         }
         Arc trunk;
         trunk.survives = 0.0;
-        for (std::int64_t const a : index.in[outlet]) {
-            trunk.survives = std::max(trunk.survives, network[index.arcs[static_cast<std::size_t>(a)]].survives);
+        for (ArcId const a : network.in(outlet)) {
+            trunk.survives = std::max(trunk.survives, network.arc(a).survives);
         }
-        NodeId const mouth = boost::add_vertex(Node{line.back()}, carried.network);
+        NodeId const mouth = longer.add_node(line.back());
         trunk.line = std::move(line);
-        add_arc(carried.network, outlet, mouth, std::move(trunk));
+        longer.add_arc(outlet, mouth, std::move(trunk));
         if (joins) {
             confluences.push_back(mouth);
         }
     }
-    if (!confluences.empty()) {
-        carried.network = joined(carried.network, confluences);
-    }
+    carried.network = confluences.empty() ? std::move(longer) : joined(std::move(longer), confluences);
     return carried;
 }
 

@@ -25,30 +25,30 @@ constexpr double eased_reach = 6.0;   // [cells] along a river on either side of
 constexpr double smoothed_near = 8.0; // [cells] along a river within which smoothing may bring it nearer to itself
 constexpr int rounds_of_halving = 48;
 
-void check(StreamNetwork const& network, NetworkIndex const& index, Grid const& grid,
-           std::vector<double> const& area_m2, MeanderParams const& params) {
+void check(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
+           MeanderParams const& params) {
     if (!(params.gain >= 0.0 && params.gain <= 2.0)) {
         throw BadParameter(fmt::format("network.meander: gain is {}, it must lie in [0, 2]", params.gain));
     }
     if (!(params.gap_cells >= 0.5 && params.gap_cells <= 4.0)) {
         throw BadParameter(fmt::format("network.meander: gap_cells is {}, it must lie in [0.5, 4]", params.gap_cells));
     }
-    require_trees(network, index, "network.meander");
-    if (area_m2.size() != index.arcs.size()) {
+    require_trees(network, "network.meander");
+    if (area_m2.size() != network.arc_count()) {
         throw BadInput(fmt::format("network.meander: {} areas for {} arcs; give those of this network", area_m2.size(),
-                                   index.arcs.size()));
+                                   network.arc_count()));
     }
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
         if (!(area_m2[a] >= 0.0) || !std::isfinite(area_m2[a])) {
             throw BadInput(
                 fmt::format("network.meander: the area of arc {} is {}; it must be 0 or more", a + 1, area_m2[a]));
         }
-        if (!(index.length_m[a] > 0.0)) {
-            Vec2 const at = network[index.from[a]].at;
+        if (!(network.length_m(a) > 0.0)) {
+            Vec2 const at = network.node(network.from(a)).at;
             throw BadInput(
                 fmt::format("network.meander: arc {} at ({:.3f}, {:.3f}) has no length; remove it", a + 1, at.x, at.y));
         }
-        cells_of_vertices(network[index.arcs[a]].line, grid, fmt::format("arc {}", a + 1));
+        cells_of_vertices(network.arc(a).line, grid, fmt::format("arc {}", a + 1));
     }
 }
 
@@ -58,9 +58,9 @@ struct Lines {
     std::vector<std::vector<std::size_t>> point;
 };
 
-Lines lines_through(Stems const& stems, NetworkIndex const& index, std::vector<Vec2> const& at) {
+Lines lines_through(Stems const& stems, StreamNetwork const& network, std::vector<Vec2> const& at) {
     Lines out;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
         auto& line = out.line.emplace_back();
         auto& point = out.point.emplace_back();
         for (std::size_t i = stems.first_point[a]; i <= stems.last_point[a]; ++i) {
@@ -74,10 +74,10 @@ Lines lines_through(Stems const& stems, NetworkIndex const& index, std::vector<V
 }
 
 /// Points at which arcs meet though they should not.
-std::vector<std::size_t> meeting_points(Lines const& lines, NetworkIndex const& index, Run const& run) {
+std::vector<std::size_t> meeting_points(Lines const& lines, StreamNetwork const& network, Run const& run) {
     std::vector<geometry::EndNodes> nodes;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        nodes.push_back({index.from[a], index.to[a]});
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        nodes.push_back({network.from(a), network.to(a)});
     }
     std::vector<std::size_t> found;
     for (geometry::Meeting const& m : geometry::meetings(lines.line, nodes, run)) {
@@ -86,7 +86,7 @@ std::vector<std::size_t> meeting_points(Lines const& lines, NetworkIndex const& 
         found.push_back(lines.point[m.other][m.other_segment]);
         found.push_back(lines.point[m.other][m.other_segment + 1]);
     }
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
         if (lines.line[a].size() < 2) { // shrunk to a point
             found.push_back(lines.point[a].front());
         }
@@ -110,11 +110,10 @@ std::vector<std::size_t> with_mouths(Stems const& stems, std::vector<std::size_t
 
 class Meandering {
 public:
-    Meandering(StreamNetwork const& network, NetworkIndex const& index, Grid const& grid, Mask const& land,
-               std::vector<double> const& area_m2, MeanderParams const& params, Run const& run)
-        : network_(network), index_(index), grid_(grid), land_(land), params_(params), run_(run),
-          to_fixed_(distance_to_fixed(network, index, grid, land)),
-          stems_(stems_of(network, index, area_m2, grid.cell_m)) {}
+    Meandering(StreamNetwork const& network, Grid const& grid, Mask const& land, std::vector<double> const& area_m2,
+               MeanderParams const& params, Run const& run)
+        : network_(network), grid_(grid), land_(land), params_(params), run_(run),
+          to_fixed_(distance_to_fixed(network, grid, land)), stems_(stems_of(network, area_m2, grid.cell_m)) {}
 
     Meandered made() {
         out_.vertices = static_cast<std::int64_t>(stems_.at.size());
@@ -153,7 +152,7 @@ private:
             std::vector<std::size_t> bad =
                 too_near(stems_, base_, at, grid_, land_, {params_.gap_cells * grid_.cell_m, near_m});
             if (bad.empty()) {
-                bad = meeting_points(lines_through(stems_, index_, at), index_, run_);
+                bad = meeting_points(lines_through(stems_, network_, at), network_, run_);
             }
             if (bad.empty()) {
                 base_ = std::move(at);
@@ -177,7 +176,7 @@ private:
     }
 
     bool is_proven(std::vector<Vec2> const& at) const {
-        return meeting_points(lines_through(stems_, index_, at), index_, run_).empty();
+        return meeting_points(lines_through(stems_, network_, at), network_, run_).empty();
     }
 
     /// Whether some point on land came to lie in the sea.
@@ -195,23 +194,24 @@ private:
     }
 
     void finish(std::vector<Vec2> const& at) {
-        Lines lines = lines_through(stems_, index_, at);
-        for (NodeId n = 0; n < index_.out.size(); ++n) {
-            bool const has_arcs = index_.out[n] >= 0 || !index_.in[n].empty();
-            boost::add_vertex(has_arcs ? Node{at[stems_.node_point[n]]} : network_[n], out_.network);
+        Lines lines = lines_through(stems_, network_, at);
+        NetworkDraft bent;
+        for (NodeId n = 0; n < network_.node_count(); ++n) {
+            bool const has_arcs = network_.out(n) != no_arc || !network_.in(n).empty();
+            bent.add_node(has_arcs ? at[stems_.node_point[n]] : network_.node(n).at);
         }
-        for (std::size_t a = 0; a < index_.arcs.size(); ++a) {
-            Arc arc = network_[index_.arcs[a]];
+        for (std::size_t a = 0; a < network_.arc_count(); ++a) {
+            Arc arc = network_.arc(a);
             arc.line = std::move(lines.line[a]);
-            add_arc(out_.network, index_.from[a], index_.to[a], std::move(arc));
+            bent.add_arc(network_.from(a), network_.to(a), std::move(arc));
         }
+        out_.network = std::move(bent);
         for (std::size_t i = 0; i < at.size(); ++i) {
             out_.max_shift_m = std::max(out_.max_shift_m, distance(at[i], stems_.at[i]));
         }
     }
 
     StreamNetwork const& network_;
-    NetworkIndex const& index_;
     Grid const& grid_;
     Mask const& land_;
     MeanderParams const& params_;
@@ -222,13 +222,13 @@ private:
     Meandered out_;
 };
 
-void require_apart(StreamNetwork const& network, NetworkIndex const& index, Run const& run) {
+void require_apart(StreamNetwork const& network, Run const& run) {
     std::vector<std::vector<Vec2>> lines;
     std::vector<geometry::EndNodes> nodes;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        auto& line = lines.emplace_back(network[index.arcs[a]].line);
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        auto& line = lines.emplace_back(network.arc(a).line);
         line.erase(std::unique(line.begin(), line.end()), line.end());
-        nodes.push_back({index.from[a], index.to[a]});
+        nodes.push_back({network.from(a), network.to(a)});
     }
     auto const found = geometry::meetings(lines, nodes, run);
     if (!found.empty()) {
@@ -241,13 +241,12 @@ void require_apart(StreamNetwork const& network, NetworkIndex const& index, Run 
 
 Meandered wandering(StreamNetwork const& network, Grid const& grid, Mask const& land,
                     std::vector<double> const& area_m2, MeanderParams const& params, Run const& run) {
-    NetworkIndex const index(network);
-    check(network, index, grid, area_m2, params);
-    if (index.arcs.empty()) {
+    check(network, grid, area_m2, params);
+    if (network.arc_count() == 0) {
         return {network, 0, 0, 0, 0.0};
     }
-    require_apart(network, index, run);
-    return Meandering(network, index, grid, land, area_m2, params, run).made();
+    require_apart(network, run);
+    return Meandering(network, grid, land, area_m2, params, run).made();
 }
 
 } // namespace

@@ -32,18 +32,18 @@ struct Extent {
 };
 
 /// Calls change for every position in a network.
-template <class Change> void each_position(StreamNetwork& network, Change change) {
-    for (NodeId n = 0; n < boost::num_vertices(network); ++n) {
-        change(network[n].at);
+template <class Change> void each_position(NetworkDraft& network, Change change) {
+    for (Node& node : network.nodes) {
+        change(node.at);
     }
-    for (auto [e, end] = boost::edges(network); e != end; ++e) {
-        for (Vec2& p : network[*e].line) {
+    for (DraftArc& drawn : network.arcs) {
+        for (Vec2& p : drawn.arc.line) {
             change(p);
         }
     }
 }
 
-Extent extent_of(StreamNetwork& network) {
+Extent extent_of(NetworkDraft& network) {
     Extent box;
     each_position(network, [&](Vec2 const& p) { box.enlarge(p); });
     return box;
@@ -70,20 +70,21 @@ Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams con
     if (!(params.turn_deg >= -180.0 && params.turn_deg <= 180.0)) {
         throw BadParameter(fmt::format("network.rotate: turn_deg is {}, it must lie in [-180, 180]", params.turn_deg));
     }
-    if (boost::num_edges(network) == 0) {
+    if (network.arc_count() == 0) {
         throw BadInput("network.rotate: the network has no arcs; trace or read some rivers first");
     }
-    require_trees(network, NetworkIndex(network), "network.rotate");
-    Rotated out{network, frame};
-    Vec2 const about = extent_of(out.network).middle();
+    require_trees(network, "network.rotate");
+    Rotated out{{}, frame};
+    NetworkDraft turned = network.draft();
+    Vec2 const about = extent_of(turned).middle();
     double const turn = params.turn_deg / 180.0 * exact::pi;
     double const c = params.turn_deg == 0.0 ? 1.0 : exact::cos(turn);
     double const s = params.turn_deg == 0.0 ? 0.0 : exact::sin(turn);
-    each_position(out.network, [&](Vec2& p) {
+    each_position(turned, [&](Vec2& p) {
         Vec2 const from{p.x - about.x, p.y - about.y};
         p = {c * from.x - s * from.y, s * from.x + c * from.y};
     });
-    Extent const box = extent_of(out.network);
+    Extent const box = extent_of(turned);
     double const wide = (box.high.x - box.low.x) / frame.cell_m;
     double const high = (box.high.y - box.low.y) / frame.cell_m;
     out.grid = grid_around(frame, wide, high);
@@ -94,9 +95,10 @@ Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams con
                         wide, high, params.turn_deg, out.grid.width, out.grid.height));
     }
     Vec2 const middle{0.5 * (out.grid.west + out.grid.east()), 0.5 * (out.grid.north + out.grid.south())};
-    each_position(out.network, [&](Vec2& p) {
+    each_position(turned, [&](Vec2& p) {
         p = {rounded(p.x - box.middle().x + middle.x), rounded(p.y - box.middle().y + middle.y)};
     });
+    out.network = std::move(turned);
     return out;
 }
 

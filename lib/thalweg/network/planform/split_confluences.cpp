@@ -21,10 +21,10 @@ namespace thalweg::network {
 
 namespace {
 
-double median_segment(StreamNetwork const& network, NetworkIndex const& index) {
+double median_segment(StreamNetwork const& network) {
     std::vector<double> lengths;
-    for (ArcId const arc : index.arcs) {
-        auto const& line = network[arc].line;
+    for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
+        auto const& line = network.arc(arc).line;
         for (std::size_t i = 1; i < line.size(); ++i) {
             lengths.push_back(distance(line[i - 1], line[i]));
         }
@@ -37,19 +37,21 @@ double median_segment(StreamNetwork const& network, NetworkIndex const& index) {
 /// A network whose arcs can be cut and led elsewhere.
 class Loose {
 public:
-    Loose(RaisedNetwork const& network, NetworkIndex const& index) : in_(index.in), out_(index.out) {
-        for (NodeId n = 0; n < index.out.size(); ++n) {
-            Vec2 const at = network.plan[n].at;
+    explicit Loose(RaisedNetwork const& network) {
+        for (NodeId n = 0; n < network.plan.node_count(); ++n) {
+            in_.emplace_back(network.plan.in(n).begin(), network.plan.in(n).end());
+            out_.push_back(network.plan.out(n));
+            Vec2 const at = network.plan.node(n).at;
             nodes_.push_back({at.x, at.y, network.node_z[n]});
         }
-        for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+        for (std::size_t a = 0; a < network.plan.arc_count(); ++a) {
             Line line;
-            for (std::size_t i = 0; Vec2 const p : network.plan[index.arcs[a]].line) {
+            for (std::size_t i = 0; Vec2 const p : network.plan.arc(a).line) {
                 line.push_back({p.x, p.y, network.arc_z[a][i++]});
             }
             lines_.push_back(std::move(line));
-            from_.push_back(index.from[a]);
-            to_.push_back(index.to[a]);
+            from_.push_back(network.plan.from(a));
+            to_.push_back(network.plan.to(a));
             cut_off_.emplace_back();
         }
     }
@@ -72,12 +74,9 @@ public:
 
     /// The arcs at a node, counter-clockwise.
     std::vector<std::size_t> around(NodeId n) const {
-        std::vector<std::size_t> arcs;
-        for (std::int64_t const a : in_[n]) {
-            arcs.push_back(static_cast<std::size_t>(a));
-        }
-        if (out_[n] >= 0) {
-            arcs.push_back(static_cast<std::size_t>(out_[n]));
+        std::vector<ArcId> arcs = in_[n];
+        if (out_[n] != no_arc) {
+            arcs.push_back(out_[n]);
         }
         Vec2 const centre = plan(nodes_[n]);
         auto const next = [&](std::size_t a) {
@@ -97,7 +96,7 @@ public:
     /// Cuts the trunk, whose near part touches the node, and lets the tributary end between the parts.
     void shift(NodeId n, std::size_t trunk, std::size_t tributary, Shifted shifted) {
         bool const upstream = !leaves(trunk, n);
-        auto const piece = static_cast<std::int64_t>(lines_.size());
+        ArcId const piece = lines_.size();
         NodeId const node = nodes_.size();
         nodes_.push_back(shifted.far.front());
         if (upstream) {
@@ -109,48 +108,50 @@ public:
         lines_[tributary] = std::move(shifted.tributary);
         lines_.push_back(std::move(shifted.near));
         cut_off_.emplace_back();
-        cut_off_[trunk].push_back(static_cast<std::size_t>(piece));
-        std::erase(in_[n], static_cast<std::int64_t>(tributary));
+        cut_off_[trunk].push_back(piece);
+        std::erase(in_[n], tributary);
         to_[tributary] = node;
         if (upstream) {
-            std::ranges::replace(in_[n], static_cast<std::int64_t>(trunk), piece);
+            std::ranges::replace(in_[n], trunk, piece);
             to_[trunk] = node;
             from_.push_back(node);
             to_.push_back(n);
-            in_.push_back({static_cast<std::int64_t>(trunk), static_cast<std::int64_t>(tributary)});
+            in_.push_back({trunk, tributary});
             out_.push_back(piece);
         } else {
             out_[n] = piece;
             from_[trunk] = node;
             from_.push_back(n);
             to_.push_back(node);
-            in_.push_back({static_cast<std::int64_t>(tributary), piece});
-            out_.push_back(static_cast<std::int64_t>(trunk));
+            in_.push_back({tributary, piece});
+            out_.push_back(trunk);
         }
         pieces_.push_back({trunk, tributary, upstream});
     }
 
-    RaisedNetwork raised(StreamNetwork const& old, NetworkIndex const& index) const {
+    RaisedNetwork raised(StreamNetwork const& old) const {
         RaisedNetwork made;
+        NetworkDraft drawn;
         for (Vec3 const at : nodes_) {
-            boost::add_vertex(Node{plan(at)}, made.plan);
+            drawn.add_node(plan(at));
             made.node_z.push_back(at.z);
         }
         for (std::size_t a = 0; a < lines_.size(); ++a) {
             std::size_t first = a; // the arc of which this is a piece of a piece
-            while (first >= index.arcs.size()) {
-                first = pieces_[first - index.arcs.size()].of;
+            while (first >= old.arc_count()) {
+                first = pieces_[first - old.arc_count()].of;
             }
-            Arc const& source = old[index.arcs[first]];
+            Arc const& source = old.arc(first);
             Arc arc{{}, source.survives, source.feature, source.type, source.given};
             std::vector<double> z;
             for (Vec3 const p : lines_[a]) {
                 arc.line.push_back(plan(p));
                 z.push_back(p.z);
             }
-            add_arc(made.plan, from_[a], to_[a], std::move(arc));
+            drawn.add_arc(from_[a], to_[a], std::move(arc));
             made.arc_z.push_back(std::move(z));
         }
+        made.plan = std::move(drawn);
         return made;
     }
 
@@ -159,8 +160,8 @@ private:
     std::vector<Line> lines_;
     std::vector<NodeId> from_;
     std::vector<NodeId> to_;
-    std::vector<std::vector<std::int64_t>> in_;
-    std::vector<std::int64_t> out_;
+    std::vector<std::vector<ArcId>> in_;
+    std::vector<ArcId> out_;
     std::vector<std::vector<std::size_t>> cut_off_; ///< by arc: pieces of it
     std::vector<SplitPiece> pieces_;
 };
@@ -256,7 +257,7 @@ private:
     double distance_m_;
 };
 
-void require(SplitParams const& params, RaisedNetwork const& network, NetworkIndex const& index) {
+void require(SplitParams const& params, RaisedNetwork const& network) {
     if (params.max_upstream < 2) {
         throw BadParameter(fmt::format("network.split_confluences: max_upstream is {}; a confluence joins at least 2",
                                        params.max_upstream));
@@ -265,10 +266,10 @@ void require(SplitParams const& params, RaisedNetwork const& network, NetworkInd
         throw BadParameter(
             fmt::format("network.split_confluences: distance is {} m; it must be 0 or more", params.distance_m));
     }
-    require_trees(network.plan, index, "network.split_confluences");
-    bool whole = network.node_z.size() == index.out.size() && network.arc_z.size() == index.arcs.size();
-    for (std::size_t a = 0; whole && a < index.arcs.size(); ++a) {
-        auto const& line = network.plan[index.arcs[a]].line;
+    require_trees(network.plan, "network.split_confluences");
+    bool whole = network.node_z.size() == network.plan.node_count() && network.arc_z.size() == network.plan.arc_count();
+    for (std::size_t a = 0; whole && a < network.plan.arc_count(); ++a) {
+        auto const& line = network.plan.arc(a).line;
         whole = network.arc_z[a].size() == line.size();
         if (auto const twice = std::ranges::adjacent_find(line); twice != line.end()) {
             throw BadInput(fmt::format("network.split_confluences: arc {} has the vertex ({}, {}) twice in a row; "
@@ -284,31 +285,30 @@ void require(SplitParams const& params, RaisedNetwork const& network, NetworkInd
 } // namespace
 
 Split split_confluences(RaisedNetwork const& network, SplitParams const& params, Run const& run) {
-    NetworkIndex const index(network.plan);
-    require(params, network, index);
+    require(params, network);
     auto const most = static_cast<std::size_t>(params.max_upstream);
     std::vector<NodeId> crowded;
     std::vector<Vec2> places;
     std::size_t highest = most;
-    for (NodeId n = 0; n < index.in.size(); ++n) {
-        if (index.in[n].size() > most) {
+    for (NodeId n = 0; n < network.plan.node_count(); ++n) {
+        if (network.plan.in(n).size() > most) {
             crowded.push_back(n);
-            places.push_back(network.plan[n].at);
-            highest = std::max(highest, index.in[n].size());
+            places.push_back(network.plan.node(n).at);
+            highest = std::max(highest, network.plan.in(n).size());
         }
     }
     if (crowded.empty()) {
         return {network, {}};
     }
-    double const distance_m = params.distance_m > 0.0 ? params.distance_m : median_segment(network.plan, index);
+    double const distance_m = params.distance_m > 0.0 ? params.distance_m : median_segment(network.plan);
     std::vector<std::vector<Vec2>> lines;
-    for (ArcId const arc : index.arcs) {
-        lines.push_back(network.plan[arc].line);
+    for (ArcId arc = 0; arc < network.plan.arc_count(); ++arc) {
+        lines.push_back(network.plan.arc(arc).line);
     }
     // What is drawn anew lies within one reach of its node; what another node's splitting drew, within two.
     double const reach_m = distance_m * static_cast<double>(highest - most);
     auto const near = geometry::segments_near(places, lines, 2.25 * reach_m, run);
-    Loose net(network, index);
+    Loose net(network);
     Splitter const splitter(net, params, distance_m);
     for (std::size_t i = 0; i < crowded.size(); ++i) {
         run.at(static_cast<double>(i) / static_cast<double>(crowded.size()), "split");
@@ -327,7 +327,7 @@ Split split_confluences(RaisedNetwork const& network, SplitParams const& params,
             }
         }
     }
-    return {net.raised(network.plan, index), net.pieces()};
+    return {net.raised(network.plan), net.pieces()};
 }
 
 } // namespace thalweg::network

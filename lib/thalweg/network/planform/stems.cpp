@@ -9,13 +9,12 @@ namespace thalweg::network {
 
 namespace {
 
-/// By node the arc whose river goes on below it, -1 at sources.
-std::vector<std::int64_t> main_arcs(NetworkIndex const& index, std::vector<double> const& area_m2) {
-    std::vector<std::int64_t> out(index.out.size(), -1);
+/// By node the arc whose river goes on below it, no_arc at sources.
+std::vector<ArcId> main_arcs(StreamNetwork const& network, std::vector<double> const& area_m2) {
+    std::vector<ArcId> out(network.node_count(), no_arc);
     for (NodeId n = 0; n < out.size(); ++n) {
-        for (std::int64_t const a : index.in[n]) {
-            auto const best = static_cast<std::size_t>(std::max<std::int64_t>(out[n], 0));
-            if (out[n] < 0 || area_m2[static_cast<std::size_t>(a)] > area_m2[best]) {
+        for (ArcId const a : network.in(n)) {
+            if (out[n] == no_arc || area_m2[a] > area_m2[out[n]]) {
                 out[n] = a;
             }
         }
@@ -54,35 +53,34 @@ void add_arc_points(Stems& out, std::vector<Vec2> const& line, double area_m2, d
 
 } // namespace
 
-Stems stems_of(StreamNetwork const& network, NetworkIndex const& index, std::vector<double> const& area_m2,
-               double step_m) {
+Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2, double step_m) {
     Stems out;
-    out.first_point.resize(index.arcs.size());
-    out.last_point.resize(index.arcs.size());
-    out.node_point.resize(index.out.size());
-    std::vector<std::int64_t> const main = main_arcs(index, area_m2);
-    for (NodeId const mouth : index.upstream_order) { // every stem after what it joins
-        bool const is_outlet = index.out[mouth] < 0;
-        std::vector<std::int64_t> arriving = index.in[mouth];
-        std::stable_partition(arriving.begin(), arriving.end(), [&](std::int64_t a) { return a == main[mouth]; });
-        for (std::int64_t const last : arriving) {
+    out.first_point.resize(network.arc_count());
+    out.last_point.resize(network.arc_count());
+    out.node_point.resize(network.node_count());
+    std::vector<ArcId> const main = main_arcs(network, area_m2);
+    for (NodeId const mouth : network.upstream_order()) { // every stem after what it joins
+        bool const is_outlet = network.out(mouth) == no_arc;
+        std::vector<ArcId> arriving(network.in(mouth).begin(), network.in(mouth).end());
+        std::stable_partition(arriving.begin(), arriving.end(), [&](ArcId a) { return a == main[mouth]; });
+        for (ArcId const last : arriving) {
             if (!is_outlet && last == main[mouth]) {
                 continue; // it is the middle of a stem
             }
-            std::vector<std::size_t> arcs;
-            for (std::int64_t a = last; a >= 0; a = main[index.from[static_cast<std::size_t>(a)]]) {
-                arcs.push_back(static_cast<std::size_t>(a));
+            std::vector<ArcId> arcs;
+            for (ArcId a = last; a != no_arc; a = main[network.from(a)]) {
+                arcs.push_back(a);
             }
             std::reverse(arcs.begin(), arcs.end());
             bool const owns_mouth = is_outlet && last == main[mouth];
-            out.stems.push_back({out.at.size(), 0, index.from[arcs.front()], mouth, !owns_mouth});
+            out.stems.push_back({out.at.size(), 0, network.from(arcs.front()), mouth, !owns_mouth});
             for (std::size_t const a : arcs) {
-                add_arc_points(out, network[index.arcs[a]].line, area_m2[a], step_m);
+                add_arc_points(out, network.arc(a).line, area_m2[a], step_m);
                 out.last_point[a] = out.at.size() - 1;
-                out.first_point[a] = a == arcs.front() ? out.stems.back().begin : out.node_point[index.from[a]];
-                out.node_point[index.from[a]] = out.first_point[a];
+                out.first_point[a] = a == arcs.front() ? out.stems.back().begin : out.node_point[network.from(a)];
+                out.node_point[network.from(a)] = out.first_point[a];
                 if (a != arcs.back() || owns_mouth) {
-                    out.node_point[index.to[a]] = out.last_point[a];
+                    out.node_point[network.to(a)] = out.last_point[a];
                 }
             }
             out.stems.back().end = out.at.size();

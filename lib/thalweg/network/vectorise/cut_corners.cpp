@@ -34,13 +34,14 @@ bool is_corner(Vec2 a, Vec2 b, Vec2 c, double cell_m) {
 
 } // namespace
 
-StreamNetwork cut_corners(StreamNetwork network, double cell_m, Run const& run) {
+StreamNetwork cut_corners(StreamNetwork const& network, double cell_m, Run const& run) {
     if (!(cell_m > 0.0) || !std::isfinite(cell_m)) {
         throw BadParameter(fmt::format("network.cut_corners: cell is {} m; it must be above 0", cell_m));
     }
-    for (auto const& arc : boost::make_iterator_range(boost::edges(network))) {
+    NetworkDraft shorter = network.draft();
+    for (DraftArc& drawn : shorter.arcs) {
         run.check();
-        std::vector<Vec2>& line = network[arc].line;
+        std::vector<Vec2>& line = drawn.arc.line;
         std::vector<Vec2> cut;
         for (std::size_t i = 0; i < line.size(); ++i) {
             bool const inner = !cut.empty() && i + 1 < line.size();
@@ -50,7 +51,7 @@ StreamNetwork cut_corners(StreamNetwork network, double cell_m, Run const& run) 
         }
         line = std::move(cut);
     }
-    return network;
+    return shorter;
 }
 
 } // namespace thalweg::network

@@ -13,6 +13,6 @@ namespace thalweg::network {
 /// cell to the side and one above or below; of corners in a row every second one is left. Other vertices, nodes and the
 /// numbers of arcs stay. Cutting again changes nothing.
 /// Throws: BadParameter; Cancelled. Source: m-adjacency (specification 0.2) of what is left after pruning.
-StreamNetwork cut_corners(StreamNetwork network, double cell_m, Run const& run = {});
+StreamNetwork cut_corners(StreamNetwork const& network, double cell_m, Run const& run = {});
 
 } // namespace thalweg::network

@@ -25,9 +25,9 @@ constexpr double units_per_cell = 0x1p24;
 
 using Number = std::int64_t;
 
-std::vector<std::int64_t> lengths_in_units(StreamNetwork const& network, NetworkIndex const& index, double cell_m) {
+std::vector<std::int64_t> lengths_in_units(StreamNetwork const& network, double cell_m) {
     double total_m = 0.0;
-    for (double const length_m : index.length_m) {
+    for (double const length_m : network.length_m()) {
         total_m += length_m;
     }
     if (!(total_m / cell_m < 0x1p36)) {
@@ -36,8 +36,8 @@ std::vector<std::int64_t> lengths_in_units(StreamNetwork const& network, Network
                                        total_m, cell_m));
     }
     std::vector<std::int64_t> units;
-    for (ArcId const arc : index.arcs) {
-        std::vector<Vec2> const& line = network[arc].line;
+    for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
+        std::vector<Vec2> const& line = network.arc(arc).line;
         std::int64_t sum = 0;
         for (std::size_t i = 1; i < line.size(); ++i) {
             double const cells = distance(line[i - 1], line[i]) / cell_m;
@@ -52,14 +52,17 @@ std::vector<std::int64_t> lengths_in_units(StreamNetwork const& network, Network
 /// it goes by the number of its most upstream piece.
 class Remains {
 public:
-    Remains(NetworkIndex const& index, std::vector<std::int64_t> units)
-        : units_(std::move(units)), source_(index.from), mouth_(index.to), arriving_(index.out.size(), 0),
-          arriving_xor_(index.out.size(), 0), leaving_(index.out), gone_(units_.size(), 0),
-          next_piece_(units_.size(), -1), last_piece_(units_.size()) {
+    Remains(StreamNetwork const& network, std::vector<std::int64_t> units)
+        : units_(std::move(units)), source_(network.from()), mouth_(network.to()), arriving_(network.node_count(), 0),
+          arriving_xor_(network.node_count(), 0), gone_(units_.size(), 0), next_piece_(units_.size(), -1),
+          last_piece_(units_.size()) {
         for (Number a = 0; a < static_cast<Number>(units_.size()); ++a) {
             last_piece_[as_index(a)] = a;
             ++arriving_[mouth_[as_index(a)]];
             arriving_xor_[mouth_[as_index(a)]] ^= a;
+        }
+        for (NodeId n = 0; n < arriving_.size(); ++n) {
+            leaving_.push_back(network.out(n) == no_arc ? -1 : static_cast<Number>(network.out(n)));
         }
         for (NodeId n = 0; n < arriving_.size(); ++n) {
             merge_at(n);
@@ -127,7 +130,7 @@ struct Leaf {
 std::vector<std::int64_t> survival(StreamNetwork const& network, Remains remains, Run const& run) {
     std::priority_queue<Leaf, std::vector<Leaf>, std::greater<>> queue;
     auto const push = [&](Number reach) {
-        Vec2 const at = network[remains.source(reach)].at;
+        Vec2 const at = network.node(remains.source(reach)).at;
         queue.push({remains.units(reach), -at.y, at.x, reach});
     };
     for (Number a = 0; a < remains.arcs(); ++a) {
@@ -170,23 +173,21 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
     if (!(params.cell_m > 0.0) || !std::isfinite(params.cell_m)) {
         throw BadParameter(fmt::format("network.prune: cell is {} m; it must be above 0", params.cell_m));
     }
-    NetworkIndex const index(network);
-    require_trees(network, index, "network.prune");
-    if (index.arcs.empty()) {
+    require_trees(network, "network.prune");
+    if (network.arc_count() == 0) {
         throw BadInput("network.prune: the network has no arcs; trace or read some rivers first");
     }
 
-    std::vector<std::int64_t> const units = lengths_in_units(network, index, params.cell_m);
-    std::vector<std::int64_t> const survives = survival(network, Remains(index, units), run);
+    std::vector<std::int64_t> const units = lengths_in_units(network, params.cell_m);
+    std::vector<std::int64_t> const survives = survival(network, Remains(network, units), run);
 
     Pruned pruned;
-    pruned.arcs_before = static_cast<std::int64_t>(index.arcs.size());
-    StreamNetwork with_thresholds = network;
-    NetworkIndex const copy(with_thresholds); // an ArcId points into its own network
+    pruned.arcs_before = static_cast<std::int64_t>(network.arc_count());
+    NetworkDraft with_thresholds = network.draft();
     std::vector<std::uint8_t> kept;
-    for (std::size_t a = 0; a < copy.arcs.size(); ++a) {
+    for (ArcId a = 0; a < with_thresholds.arcs.size(); ++a) {
         double const cells = static_cast<double>(survives[a]) / units_per_cell;
-        with_thresholds[copy.arcs[a]].survives = cells;
+        with_thresholds.arcs[a].arc.survives = cells;
         kept.push_back(cells >= params.length_cells ? 1 : 0);
     }
     if (std::find(kept.begin(), kept.end(), 1) == kept.end()) {
@@ -197,8 +198,8 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
                                        params.length_cells, most, most));
     }
     // L = 0 leaves a network as it is drawn, with the nodes between its features.
-    pruned.network =
-        params.length_cells > 0.0 ? keep_arcs(with_thresholds, copy, units, kept).network : std::move(with_thresholds);
+    pruned.network = params.length_cells > 0.0 ? keep_arcs(std::move(with_thresholds), units, kept).network
+                                               : std::move(with_thresholds);
     return pruned;
 }
 

@@ -59,18 +59,16 @@ void lower_downstream(std::vector<Step> steps, Rasterised& out) {
 } // namespace
 
 Rasterised rasterise(RaisedNetwork const& network, Grid const& grid) {
-    NetworkIndex const index(network.plan);
-    if (network.arc_z.size() != index.arcs.size()) {
+    if (network.arc_z.size() != network.plan.arc_count()) {
         throw BadInput(fmt::format("network.rasterise: {} arcs with heights for {}; set the heights again",
-                                   index.arcs.size(), network.arc_z.size()));
+                                   network.plan.arc_count(), network.arc_z.size()));
     }
     Rasterised out;
     out.valley.z = Raster<float>(grid, std::numeric_limits<float>::quiet_NaN());
     Raster<float>& z = out.valley.z;
     std::vector<Step> steps;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        std::vector<Cell> const at =
-            cells_of_vertices(network.plan[index.arcs[a]].line, grid, fmt::format("arc {}", a + 1));
+    for (std::size_t a = 0; a < network.plan.arc_count(); ++a) {
+        std::vector<Cell> const at = cells_of_vertices(network.plan.arc(a).line, grid, fmt::format("arc {}", a + 1));
         std::vector<double> const& height = network.arc_z[a];
         if (height.size() != at.size()) {
             throw BadInput(
@@ -82,7 +80,7 @@ Rasterised rasterise(RaisedNetwork const& network, Grid const& grid) {
             double const from = height[i - 1];
             double const to = height[i];
             if (!std::isfinite(from) || !std::isfinite(to)) {
-                Vec2 const p = network.plan[index.arcs[a]].line[std::isfinite(from) ? i : i - 1];
+                Vec2 const p = network.plan.arc(a).line[std::isfinite(from) ? i : i - 1];
                 throw BadInput(fmt::format("network.rasterise: the height of arc {} at ({:.3f}, {:.3f}) is not a "
                                            "number; set it in the file or let it be computed",
                                            a + 1, p.x, p.y));

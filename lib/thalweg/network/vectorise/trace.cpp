@@ -183,13 +183,13 @@ StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& 
             ++upstream[down];
         }
     }
-    StreamNetwork network;
+    NetworkDraft network;
     std::vector<std::int64_t> node(cells, -1);
     for (std::size_t i = 0; i < cells; ++i) {
         bool const outlet = downstream[i] == static_cast<std::int64_t>(i);
         if (outlet ? upstream[i] > 0 : upstream[i] != 1) {
             Vec2 const at = grid.centre(graph.cell(static_cast<std::int64_t>(i)));
-            node[i] = static_cast<std::int64_t>(boost::add_vertex(Node{at}, network));
+            node[i] = static_cast<std::int64_t>(network.add_node(at));
         }
     }
     for (std::size_t i = 0; i < cells; ++i) {
@@ -203,9 +203,9 @@ StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& 
             at = static_cast<std::size_t>(downstream[at]);
             arc.line.push_back(grid.centre(graph.cell(static_cast<std::int64_t>(at))));
         } while (node[at] < 0);
-        add_arc(network, static_cast<NodeId>(node[i]), static_cast<NodeId>(node[at]), std::move(arc));
+        network.add_arc(static_cast<NodeId>(node[i]), static_cast<NodeId>(node[at]), std::move(arc));
     }
-    if (boost::num_edges(network) == 0) {
+    if (network.arcs.empty()) {
         throw BadInput(fmt::format("network.trace: no two of the skeleton's {} cells are neighbours, there is nothing "
                                    "to trace; grow a larger cluster or choose another branch",
                                    count));

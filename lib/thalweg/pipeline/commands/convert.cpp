@@ -110,10 +110,9 @@ Grid grid_of(StreamNetwork const& plan, ConvertParams const& params, Raster<floa
         throw BadParameter("pipeline.convert: a raster needs cells: give --dem or --cell");
     }
     RiverLines lines{{}, crs, params.path, false};
-    NetworkIndex const index(plan);
-    for (ArcId const arc : index.arcs) {
+    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
         RiverLine line;
-        for (Vec2 const p : plan[arc].line) {
+        for (Vec2 const p : plan.arc(arc).line) {
             line.vertices.push_back({p.x, p.y, 0.0});
         }
         lines.lines.push_back(std::move(line));
@@ -258,8 +257,8 @@ Converted convert(ConvertParams const& params, std::string const& output, io::Ex
     }
     StreamNetwork const& plan = ready.source.network.plan;
     ready.orders = network::order(plan);
-    converted.arcs = static_cast<std::int64_t>(boost::num_edges(plan));
-    converted.nodes = static_cast<std::int64_t>(boost::num_vertices(plan));
+    converted.arcs = static_cast<std::int64_t>(plan.arc_count());
+    converted.nodes = static_cast<std::int64_t>(plan.node_count());
     io::NetworkTables tables{ready.source.network,
                              ready.orders,
                              ready.source.us_area_m2,

@@ -61,20 +61,19 @@ private:
 /// An arc has the area its file gives at an end that is still where it was; else what flows in, which is the least.
 void take_areas(Known const& known, double near_m, MendedNetwork& mended) {
     StreamNetwork const& plan = mended.network.plan;
-    NetworkIndex const index(plan);
-    mended.us_area_m2.assign(index.arcs.size(), 0.0);
-    mended.ds_area_m2.assign(index.arcs.size(), 0.0);
-    mended.node_area_m2.assign(boost::num_vertices(plan), 0.0);
+    mended.us_area_m2.assign(plan.arc_count(), 0.0);
+    mended.ds_area_m2.assign(plan.arc_count(), 0.0);
+    mended.node_area_m2.assign(plan.node_count(), 0.0);
     auto const is_at = [&](Vec2 p, Vec3 q) { return distance(p, {q.x, q.y}) <= near_m; };
-    for (auto node = index.upstream_order.rbegin(); node != index.upstream_order.rend(); ++node) {
-        for (std::int64_t const a : index.in[*node]) {
-            mended.node_area_m2[*node] += mended.ds_area_m2[static_cast<std::size_t>(a)];
+    for (auto node = plan.upstream_order().rbegin(); node != plan.upstream_order().rend(); ++node) {
+        for (ArcId const a : plan.in(*node)) {
+            mended.node_area_m2[*node] += mended.ds_area_m2[a];
         }
-        if (index.out[*node] < 0) {
+        if (plan.out(*node) == no_arc) {
             continue;
         }
-        auto const a = static_cast<std::size_t>(index.out[*node]);
-        Arc const& arc = plan[index.arcs[a]];
+        auto const a = plan.out(*node);
+        Arc const& arc = plan.arc(a);
         auto const& given = known.arc(arc.feature);
         auto const& line = known.line(arc.feature).vertices;
         bool const keeps_up = is_at(arc.line.front(), line.front()) && std::isfinite(given.us_area_m2);
@@ -97,9 +96,9 @@ std::vector<Stretch> stretches_of(NetworkFile::FileArc const& given, double give
 
 /// Arcs take from the file what it says of them beside their lines.
 void take_words(Known const& known, MendedNetwork& mended) {
-    NetworkIndex const index(mended.network.plan);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        Arc& of = mended.network.plan[index.arcs[a]];
+    NetworkDraft named = mended.network.plan.draft();
+    for (ArcId a = 0; a < named.arcs.size(); ++a) {
+        Arc& of = named.arcs[a].arc;
         auto const& given = known.arc(of.feature);
         std::vector<Vec2> line;
         for (Vec3 const v : known.line(of.feature).vertices) {
@@ -107,11 +106,12 @@ void take_words(Known const& known, MendedNetwork& mended) {
         }
         mended.braided.push_back(given.braided ? 1 : 0);
         mended.user.record.push_back(given.record);
-        mended.user.sources.push_back(stretches_of(given, length_of(line), index.length_m[a]));
+        mended.user.sources.push_back(stretches_of(given, length_of(line), mended.network.plan.length_m(a)));
         of.survives = given.survives;
         of.given = given.given;
         of.feature = given.feature;
     }
+    mended.network.plan = std::move(named);
 }
 
 /// Secondary lines by the features of the file.
@@ -142,8 +142,8 @@ void say_mended(measure::TopologyReport const& found, std::vector<Finding>& mend
 
 void say_lowered(network::Lowered const& lowered, std::vector<Finding>& mended) {
     std::size_t a = 0;
-    for (ArcId const arc : NetworkIndex(lowered.network.plan).arcs) {
-        Arc const& of = lowered.network.plan[arc];
+    for (ArcId arc = 0; arc < lowered.network.plan.arc_count(); ++arc) {
+        Arc const& of = lowered.network.plan.arc(arc);
         if (double const by = lowered.by_m[a++]; by > 0.0) {
             mended.push_back(
                 {"lowered", of.feature, of.line.front(), by,

@@ -34,15 +34,15 @@ constexpr std::int64_t largest_text = 1 << 30;
 /// A network as its own files hold it.
 RaisedNetwork network_of(NetworkFile const& file, std::string const& name) {
     RaisedNetwork out;
+    NetworkDraft plan;
     std::unordered_map<std::int64_t, NodeId> nodes;
     for (NetworkFile::FileNode const& node : file.nodes) {
-        NodeId const id = boost::add_vertex(out.plan);
+        NodeId const id = plan.add_node({node.at.x, node.at.y});
         if (!nodes.emplace(node.id, id).second) {
             throw BadInput(fmt::format("pipeline.read_scene: {}: node {} is there twice; check the network "
                                        "(thalweg check)",
                                        name, node.id));
         }
-        out.plan[id].at = {node.at.x, node.at.y};
         out.node_z.push_back(node.at.z);
     }
     for (NetworkFile::FileArc const& arc : file.arcs) {
@@ -59,9 +59,10 @@ RaisedNetwork network_of(NetworkFile const& file, std::string const& name) {
             drawn.line.push_back({v.x, v.y});
             z.push_back(v.z);
         }
-        add_arc(out.plan, from->second, to->second, std::move(drawn));
+        plan.add_arc(from->second, to->second, std::move(drawn));
         out.arc_z.push_back(std::move(z));
     }
+    out.plan = std::move(plan);
     return out;
 }
 
@@ -102,11 +103,11 @@ double lowest_of(Raster<float> const& dem) {
 RaisedNetwork drape(StreamNetwork plan, Raster<float> const& dem) {
     RaisedNetwork out{std::move(plan), {}, {}};
     double const lowest = lowest_of(dem);
-    out.node_z.assign(boost::num_vertices(out.plan), lowest);
-    for (auto const& arc : boost::make_iterator_range(boost::edges(out.plan))) {
-        out.arc_z.push_back(draped(out.plan[arc].line, dem, lowest));
-        out.node_z[boost::source(arc, out.plan)] = out.arc_z.back().front();
-        out.node_z[boost::target(arc, out.plan)] = out.arc_z.back().back();
+    out.node_z.assign(out.plan.node_count(), lowest);
+    for (ArcId arc = 0; arc < out.plan.arc_count(); ++arc) {
+        out.arc_z.push_back(draped(out.plan.arc(arc).line, dem, lowest));
+        out.node_z[out.plan.from(arc)] = out.arc_z.back().front();
+        out.node_z[out.plan.to(arc)] = out.arc_z.back().back();
     }
     return out;
 }

@@ -74,8 +74,8 @@ skeleton::Scattered scattered(DrawnLand const& drawn, Mask const& inside, Diary&
 DrawnLand with_tin(DrawnLand drawn, FeaturePoints const& points, Diary& diary, Run const& run) {
     std::vector<std::vector<Vec3>> breaklines;
     std::size_t number = 0;
-    for (auto const& arc : boost::make_iterator_range(boost::edges(drawn.network.plan))) {
-        breaklines.push_back(in_space(drawn.network.plan[arc].line, drawn.network.arc_z[number++]));
+    for (ArcId arc = 0; arc < terrain.network.plan.arc_count(); ++arc) {
+        breaklines.push_back(in_space(terrain.network.plan.arc(arc).line, terrain.network.arc_z[number++]));
     }
     for (RidgeLine const& ridge : drawn.ridges.lines) {
         breaklines.push_back(ridge.line);

@@ -28,8 +28,8 @@ measure::NetworkLaws laws_of(RaisedNetwork const& network, NetworkOrders const& 
     params.junction_reach_m = cells_of_junction * grid.cell_m;
     params.side_branches = network::count_streams(network.plan).side;
     if (flow_length != nullptr) {
-        for (NodeId n = 0; n < boost::num_vertices(network.plan); ++n) {
-            Cell const cell = grid.cell_of(network.plan[n].at);
+        for (NodeId n = 0; n < network.plan.node_count(); ++n) {
+            Cell const cell = grid.cell_of(network.plan.node(n).at);
             params.head_m.push_back(grid.contains(cell) ? static_cast<double>((*flow_length)[cell]) : 0.0);
         }
     }
@@ -76,9 +76,10 @@ RiverLaws laws_of_land(DrawnLand const& drawn, flow::ContributingAreas const& ar
         flow_length = flow::flow_lengths(*drainage, run);
     }
     DemLawsParams params;
-    if (boost::num_edges(drawn.network.plan) > 0) {
-        found.network =
-            laws_of(drawn.network, drawn.orders, areas, drawn.grid, land_cells, flow_length ? &*flow_length : nullptr);
+    if (terrain.network.plan.arc_count() > 0) {
+        std::int64_t const land = terrain.statistics ? terrain.statistics->cells : terrain.grid.cells();
+        found.network = laws_of(terrain.network, terrain.orders, terrain.areas, terrain.grid, land,
+                                flow_length ? &*flow_length : nullptr);
         params.network_m =
             found.network->drainage_density_m * static_cast<double>(land_cells) * drawn.grid.cell_m * drawn.grid.cell_m;
     }

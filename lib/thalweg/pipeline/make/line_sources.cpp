@@ -46,9 +46,8 @@ std::size_t LineSources::Hash::operator()(std::pair<Vec2, Vec2> const& segment) 
 }
 
 LineSources::LineSources(StreamNetwork const& network, std::vector<std::vector<Stretch>> const& stretches) {
-    NetworkIndex const index(network);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        auto const& line = network[index.arcs[a]].line;
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        auto const& line = network.arc(a).line;
         auto const& own = stretches[a];
         double along_m = 0.0;
         std::size_t k = 0;
@@ -73,15 +72,15 @@ LineSources::LineSources(StreamNetwork const& network, std::vector<std::vector<S
 
 std::vector<std::vector<Stretch>> LineSources::of(StreamNetwork const& network) const {
     std::vector<std::vector<Stretch>> result;
-    for (ArcId const arc : NetworkIndex(network).arcs) {
-        auto const& line = network[arc].line;
+    for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
+        auto const& line = network.arc(arc).line;
         std::vector<std::int64_t> features;
         for (std::size_t i = 1; i < line.size(); ++i) {
             if (auto const known = segments_.find({line[i - 1], line[i]}); known != segments_.end()) {
                 features.push_back(known->second);
             } else { // an arc may begin farther down, but not one that is the terrain's own
-                bool const is_cut = i == 1 && network[arc].feature > 0 && arriving_.contains(line[i]);
-                features.push_back(is_cut ? replaced(network[arc], i) : 0);
+                bool const is_cut = i == 1 && network.arc(arc).feature > 0 && arriving_.contains(line[i]);
+                features.push_back(is_cut ? replaced(network.arc(arc), i) : 0);
             }
         }
         result.push_back(stretches_of(line, features));
@@ -91,8 +90,8 @@ std::vector<std::vector<Stretch>> LineSources::of(StreamNetwork const& network) 
 
 std::vector<std::vector<Stretch>> LineSources::redrawn(StreamNetwork const& network) const {
     std::vector<std::vector<Stretch>> result;
-    for (ArcId const arc : NetworkIndex(network).arcs) {
-        auto const& line = network[arc].line;
+    for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
+        auto const& line = network.arc(arc).line;
         std::vector<std::int64_t> features;
         std::size_t unknown = 0; // at the beginning
         for (std::size_t i = 1; i < line.size(); ++i) {
@@ -101,8 +100,8 @@ std::vector<std::vector<Stretch>> LineSources::redrawn(StreamNetwork const& netw
                 known != segments_.end() || arriving_.contains(line[i]) || leaving_.contains(line[i - 1]);
             unknown += !is_known && unknown + 1 == i ? 1U : 0U;
             features.push_back(known != segments_.end() ? known->second
-                               : is_known               ? replaced(network[arc], i)
-                               : features.empty()       ? network[arc].feature
+                               : is_known               ? replaced(network.arc(arc), i)
+                               : features.empty()       ? network.arc(arc).feature
                                                         : features.back());
         }
         if (unknown < features.size()) {
@@ -127,10 +126,8 @@ std::int64_t LineSources::replaced(Arc const& arc, std::size_t segment) const {
 
 LineSources LineSources::bent(StreamNetwork const& before, StreamNetwork const& after) const {
     auto stretches = of(before);
-    NetworkIndex const was(before);
-    NetworkIndex const is(after);
     for (std::size_t a = 0; a < stretches.size(); ++a) {
-        double const share = is.length_m[a] / was.length_m[a];
+        double const share = after.length_m(a) / before.length_m(a);
         for (Stretch& s : stretches[a]) {
             s.from_m *= share;
             s.to_m *= share;

@@ -179,8 +179,8 @@ Planned plan_forest(Recipe given, Diary& diary, Run const& run) {
 std::vector<Finding> pruned_outlets(StreamNetwork const& before, StreamNetwork const& after) {
     auto const places = [](StreamNetwork const& network) {
         std::vector<Vec2> at;
-        for (NodeId const n : NetworkIndex(network).outlets) {
-            at.push_back(network[n].at);
+        for (NodeId const n : network.outlets()) {
+            at.push_back(network.node(n).at);
         }
         std::ranges::sort(at, [](Vec2 a, Vec2 b) { return a.y != b.y ? a.y > b.y : a.x < b.x; });
         return at;

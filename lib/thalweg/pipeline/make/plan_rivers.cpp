@@ -119,20 +119,19 @@ std::vector<Finding> left_out(RiverLines const& lines) {
 void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped_m, Run const& run) {
     constexpr std::int64_t near_cells = 2;
     constexpr std::int64_t mouth_cells = 5;
-    NetworkIndex const index(network);
     Raster<std::int64_t> basin(grid, 0);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        for (Cell const c : cells_along(network[index.arcs[a]].line, grid, "a river")) {
-            basin[c] = index.basin[index.to[a]];
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        for (Cell const c : cells_along(network.arc(a).line, grid, "a river")) {
+            basin[c] = network.basin(network.to(a));
         }
     }
-    auto const end_of = [&](NodeId outlet) { return cells_along({network[outlet].at}, grid).front(); };
+    auto const end_of = [&](NodeId outlet) { return cells_along({network.node(outlet).at}, grid).front(); };
     std::int64_t gaps = 0;
-    for (NodeId const outlet : index.outlets) {
+    for (NodeId const outlet : network.outlets()) {
         bool is_near = false;
         cells_around(grid, end_of(outlet), near_cells, [&](Cell c) {
-            if (basin[c] != 0 && basin[c] != index.basin[outlet]) {
-                Cell const mouth = end_of(index.outlets[static_cast<std::size_t>(basin[c] - 1)]);
+            if (basin[c] != 0 && basin[c] != network.basin(outlet)) {
+                Cell const mouth = end_of(network.outlets()[static_cast<std::size_t>(basin[c] - 1)]);
                 is_near = is_near || squared_cells(mouth, end_of(outlet)) > mouth_cells * mouth_cells;
             }
         });
@@ -275,11 +274,11 @@ Planned plan_lines(Recipe given, Diary& diary, Run const& run) {
     for (RiverLine const& line : lines.lines) {
         file.drawn.push_back({line.feature, line.vertices, "", line.feature});
     }
-    file.attributes = std::move(lines.attributes);
-    file.sources = LineSources(adopted.network, adopted.stretches);
-    file.secondary.insert(file.secondary.end(), adopted.secondary.begin(), adopted.secondary.end());
-    diary.say(fmt::format("{} arcs, {} repairs{}", boost::num_edges(adopted.network), story.repairs.size(),
-                          file.secondary.empty() ? "" : fmt::format(", {} secondary", file.secondary.size())));
+    terrain.attributes = std::move(lines.attributes);
+    terrain.sources = LineSources(adopted.network, adopted.stretches);
+    terrain.secondary.insert(terrain.secondary.end(), adopted.secondary.begin(), adopted.secondary.end());
+    diary.say(fmt::format("{} arcs, {} repairs{}", adopted.network.arc_count(), terrain.story.repairs.size(),
+                          terrain.secondary.empty() ? "" : fmt::format(", {} secondary", terrain.secondary.size())));
 
     warn_of_gaps(adopted.network, grid, wanted.snap_m, run);
     Mask land = wanted.coastlines == Coastlines::sea ? land_of_coastlines(lines, grid, diary, run) : Mask{};

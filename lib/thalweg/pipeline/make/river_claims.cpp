@@ -86,8 +86,8 @@ std::vector<NodeId> sinks_in(StreamNetwork const& network, NetworkFile const& fi
         }
     }
     std::vector<NodeId> sinks;
-    for (NodeId const outlet : NetworkIndex(network).outlets) {
-        if (places.contains({network[outlet].at.x, network[outlet].at.y})) {
+    for (NodeId const outlet : network.outlets()) {
+        if (places.contains({network.node(outlet).at.x, network.node(outlet).at.y})) {
             sinks.push_back(outlet);
         }
     }
@@ -97,8 +97,8 @@ std::vector<NodeId> sinks_in(StreamNetwork const& network, NetworkFile const& fi
 std::vector<NodeId> inland_ends(StreamNetwork const& network, Raster<float> const& dem) {
     Grid const& grid = dem.grid();
     std::vector<NodeId> ends;
-    for (NodeId const outlet : NetworkIndex(network).outlets) {
-        Cell const at = cells_of_vertices({network[outlet].at}, grid).front();
+    for (NodeId const outlet : network.outlets()) {
+        Cell const at = cells_of_vertices({network.node(outlet).at}, grid).front();
         bool const goes_on = std::all_of(d8_steps.begin(), d8_steps.end(), [&](Cell step) {
             Cell const n{at.col + step.col, at.row + step.row};
             return grid.contains(n) && !std::isnan(dem[n]);
@@ -113,7 +113,7 @@ std::vector<NodeId> inland_ends(StreamNetwork const& network, Raster<float> cons
 std::vector<std::int64_t> cells_of(std::vector<NodeId> const& nodes, StreamNetwork const& network, Grid const& grid) {
     std::vector<std::int64_t> cells;
     for (NodeId const node : nodes) {
-        cells.push_back(grid.index(cells_of_vertices({network[node].at}, grid).front()));
+        cells.push_back(grid.index(cells_of_vertices({network.node(node).at}, grid).front()));
     }
     return cells;
 }
@@ -133,16 +133,15 @@ bool replaces_rivers(Recipe const& recipe) {
 
 Valley honoured_valley(Valley valley, StreamNetwork const& network, Raster<float> const& dem) {
     Grid const& grid = dem.grid();
-    NetworkIndex const index(network);
     Mask honoured(grid);
-    std::vector<std::uint8_t> cut(index.out.size(), 0); // by node: water from here does not come to the outlet
-    for (NodeId const node : index.upstream_order) {
-        if (index.out[node] < 0) {
+    std::vector<std::uint8_t> cut(network.node_count(), 0); // by node: water from here does not come to the outlet
+    for (NodeId const node : network.upstream_order()) {
+        if (network.out(node) == no_arc) {
             continue;
         }
-        auto const arc = static_cast<std::size_t>(index.out[node]);
-        bool is_cut = cut[index.to[arc]] != 0;
-        std::vector<Cell> const cells = cells_along(network[index.arcs[arc]].line, grid);
+        auto const arc = network.out(node);
+        bool is_cut = cut[network.to(arc)] != 0;
+        std::vector<Cell> const cells = cells_along(network.arc(arc).line, grid);
         for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) {
             is_cut = is_cut || !(valley.z[*cell] == dem[*cell] || std::isnan(valley.z[*cell]));
             honoured[*cell] = is_cut ? honoured[*cell] : 1;

@@ -100,8 +100,8 @@ void warn_of_long_ways(std::vector<Finding> const& notes, StreamNetwork const& p
         }
     }
     double length_m = 0.0;
-    for (auto const arc : boost::make_iterator_range(boost::edges(plan))) {
-        length_m += length_of(plan[arc].line);
+    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
+        length_m += length_of(plan.arc(arc).line);
     }
     if (outlets >= many && carried_m > much * length_m) {
         run.say(fmt::format("warning: {} rivers end inside the grid and were extended by {:.3g} km in all, by the "
@@ -149,8 +149,8 @@ Planned with_outlets_carried(Planned planned, Run const& run) {
 
 std::size_t vertices_of(StreamNetwork const& plan) {
     std::size_t count = 0;
-    for (auto const arc : boost::make_iterator_range(boost::edges(plan))) {
-        count += plan[arc].line.size();
+    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
+        count += plan.arc(arc).line.size();
     }
     return count;
 }
@@ -198,8 +198,27 @@ Planned plan(Recipe const& recipe, Diary& diary, Run const& run) {
     return plan_lines(recipe, diary, run);
 }
 
-/// What a recipe leaves to the source of its rivers.
-Recipe with_defaults(Recipe recipe) {
+} // namespace
+
+void assign_types(StreamNetwork& plan, Terrain& terrain, Run const& run) {
+    NetworkRecipe const& wanted = *terrain.recipe.network;
+    if (wanted.heights != Heights::rosgen && !(wanted.coast_m > 0.0)) {
+        return;
+    }
+    network::AssignTypesParams params;
+    params.choice = wanted.rosgen ? network::TypeChoice::one : network::TypeChoice::by_order;
+    params.one = wanted.rosgen.value_or(params.one);
+    params.coast_m = wanted.coast_m;
+    terrain.types = network::assign_types(plan, network::order(plan), params, run);
+    NetworkDraft typed = plan.draft();
+    for (ArcId a = 0; a < typed.arcs.size(); ++a) {
+        typed.arcs[a].arc.type = network::name_of(terrain.types.type[a]);
+    }
+    plan = std::move(typed);
+}
+
+void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
+    Recipe& recipe = terrain.recipe;
     NetworkRecipe& rivers = *recipe.network;
     if (rivers.heights == Heights::automatic) {
         rivers.heights = in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;
@@ -211,14 +230,22 @@ Recipe with_defaults(Recipe recipe) {
     return recipe;
 }
 
-/// The network on its grid, with what the recipe left to it.
-Planned on_its_grid(Planned planned, Run const& run) {
-    planned.recipe = framed(std::move(planned.recipe), planned.grid);
-    std::vector<Finding> const notes = report_conversions(planned.recipe, planned.grid, run);
-    planned.story.repairs.insert(planned.story.repairs.end(), notes.begin(), notes.end());
-    planned.recipe = with_defaults(std::move(planned.recipe));
-    return planned;
-}
+    network::Pruned pruned =
+        diary.stage("prune", [&] { return prune(planned.plan, rivers, *rivers.prune_cells, grid.cell_m, run); });
+    terrain.story.arcs_traced = pruned.arcs_before;
+    terrain.story.arcs_kept = static_cast<std::int64_t>(pruned.network.arc_count());
+    diary.say(
+        fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, terrain.story.arcs_kept, pruned.arcs_before));
+    std::vector<Finding>& repairs = terrain.story.repairs;
+    if (rivers.source == Source::forest) { // its rivers end where the land does
+        std::vector<Finding> const gone = pruned_outlets(planned.plan, pruned.network);
+        repairs.insert(repairs.end(), gone.begin(), gone.end());
+    }
+    terrain.land = std::move(planned.land);
+    planned.plan = std::move(pruned.network);
+    if (rivers.source != Source::forest) {
+        carry_outlets(planned.plan, !planned.file_heights, terrain, run); // given heights may not fall into another's
+    }
 
 } // namespace
 

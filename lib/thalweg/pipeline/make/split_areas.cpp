@@ -21,16 +21,15 @@ void add_pieces(std::vector<network::SplitPiece> const& pieces, std::vector<doub
 
 std::vector<double> node_areas(StreamNetwork const& network, std::vector<double> const& us_area_m2,
                                std::vector<double> const& ds_area_m2) {
-    NetworkIndex const index(network);
     std::vector<double> areas;
-    for (NodeId n = 0; n < index.out.size(); ++n) {
-        if (index.out[n] >= 0) {
-            areas.push_back(us_area_m2[static_cast<std::size_t>(index.out[n])]);
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        if (network.out(n) != no_arc) {
+            areas.push_back(us_area_m2[network.out(n)]);
             continue;
         }
         double sum = 0.0;
-        for (std::int64_t const a : index.in[n]) {
-            double const area = ds_area_m2[static_cast<std::size_t>(a)];
+        for (ArcId const a : network.in(n)) {
+            double const area = ds_area_m2[a];
             sum = sum < 0.0 || area < 0.0 ? -1.0 : sum + area;
         }
         areas.push_back(sum);

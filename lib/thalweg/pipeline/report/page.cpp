@@ -46,8 +46,8 @@ PageLines lines_of(StreamNetwork const& plan, RidgeLines const& ridges, Grid con
         }
     }
     std::vector<std::span<Vec2 const>> lines;
-    for (ArcId const arc : boost::make_iterator_range(boost::edges(plan))) {
-        lines.emplace_back(plan[arc].line);
+    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
+        lines.emplace_back(plan.arc(arc).line);
     }
     lines.insert(lines.end(), ridges_in_plan.begin(), ridges_in_plan.end());
     return page_lines(lines, grid);

@@ -52,24 +52,24 @@ ordered_json heights_object(std::optional<PageHeights> const& heights) {
             {"min", heights->min},     {"max", heights->max},       {"nodata", heights->nodata}};
 }
 
-ordered_json arcs_object(Terrain const& t, NetworkIndex const& index, PageLines const& lines) {
+ordered_json arcs_object(Terrain const& t, PageLines const& lines) {
     ordered_json id = ordered_json::array();
     ordered_json downstream = ordered_json::array();
     ordered_json survives = ordered_json::array();
     ordered_json length = ordered_json::array();
     ordered_json z_up = ordered_json::array();
     ordered_json z_down = ordered_json::array();
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (std::size_t a = 0; a < t.network.plan.arc_count(); ++a) {
         id.push_back(a + 1);
-        downstream.push_back(index.out[index.to[a]] + 1);
-        double const until = t.network.plan[index.arcs[a]].survives;
+        downstream.push_back(t.network.plan.out(t.network.plan.to(a)) + 1);
+        double const until = t.network.plan.arc(a).survives;
         survives.push_back(std::isfinite(until) ? ordered_json(to_millimetres(until)) : ordered_json(nullptr));
-        length.push_back(to_millimetres(index.length_m[a]));
+        length.push_back(to_millimetres(t.network.plan.length_m(a)));
         z_up.push_back(to_millimetres(t.network.arc_z[a].front()));
         z_down.push_back(to_millimetres(t.network.arc_z[a].back()));
     }
     std::vector<std::int64_t> const n(lines.vertices.begin(),
-                                      lines.vertices.begin() + static_cast<std::ptrdiff_t>(index.arcs.size()));
+                                      lines.vertices.begin() + static_cast<std::ptrdiff_t>(t.network.plan.arc_count()));
     return {{"id", id},
             {"ds", downstream},
             {"basin", t.orders.arc_basin},
@@ -85,11 +85,11 @@ ordered_json arcs_object(Terrain const& t, NetworkIndex const& index, PageLines 
             {"n", n}};
 }
 
-ordered_json ridges_object(Terrain const& t, NetworkIndex const& index, PageLines const& lines) {
+ordered_json ridges_object(Terrain const& t, PageLines const& lines) {
     if (t.ridges.lines.empty()) {
         return nullptr;
     }
-    auto const first = lines.vertices.begin() + static_cast<std::ptrdiff_t>(index.arcs.size());
+    auto const first = lines.vertices.begin() + static_cast<std::ptrdiff_t>(t.network.plan.arc_count());
     return {{"n", std::vector<std::int64_t>(first, lines.vertices.end())}};
 }
 
@@ -100,24 +100,24 @@ struct ProfilePoint {
 };
 
 /// The main stem of the basin that drains the largest area, from its source down.
-std::vector<ProfilePoint> main_stem(Terrain const& t, NetworkIndex const& index) {
+std::vector<ProfilePoint> main_stem(Terrain const& t) {
     std::vector<ProfilePoint> upstream;
-    if (index.outlets.empty()) {
+    if (t.network.plan.outlets().empty()) {
         return upstream;
     }
-    NodeId const outlet = *std::max_element(index.outlets.begin(), index.outlets.end(), [&](NodeId a, NodeId b) {
-        return t.areas.node_m2[a] < t.areas.node_m2[b];
-    });
+    NodeId const outlet =
+        *std::max_element(t.network.plan.outlets().begin(), t.network.plan.outlets().end(),
+                          [&](NodeId a, NodeId b) { return t.areas.node_m2[a] < t.areas.node_m2[b]; });
     auto const stem_above = [&](NodeId node) {
-        auto const& in = index.in[node];
+        auto const& in = t.network.plan.in(node);
         auto const at = std::find_if(in.begin(), in.end(),
                                      [&](std::int64_t a) { return t.orders.hack[static_cast<std::size_t>(a)] == 1; });
         return at == in.end() ? std::int64_t{-1} : *at;
     };
     for (std::int64_t arc = stem_above(outlet); arc >= 0;) {
         auto const a = static_cast<std::size_t>(arc);
-        std::vector<Vec2> const& line = t.network.plan[index.arcs[a]].line;
-        double to_outlet = t.orders.node_dist_out_m[index.to[a]];
+        std::vector<Vec2> const& line = t.network.plan.arc(a).line;
+        double to_outlet = t.orders.node_dist_out_m[t.network.plan.to(a)];
         for (std::size_t i = line.size(); i-- > 0;) {
             bool const shared = i + 1 == line.size() && !upstream.empty();
             to_outlet += i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0;
@@ -125,7 +125,7 @@ std::vector<ProfilePoint> main_stem(Terrain const& t, NetworkIndex const& index)
                 upstream.push_back({to_outlet, t.network.arc_z[a][i]});
             }
         }
-        arc = stem_above(index.from[a]);
+        arc = stem_above(t.network.plan.from(a));
     }
     std::reverse(upstream.begin(), upstream.end());
     return upstream;
@@ -214,9 +214,9 @@ void add_land(Terrain const& t, Figures& figures) {
     figures.add("cells in pits", t.pits, "");
 }
 
-void add_rivers(Terrain const& t, NetworkIndex const& index, std::vector<ProfilePoint> const& stem, Figures& figures) {
+void add_rivers(Terrain const& t, std::vector<ProfilePoint> const& stem, Figures& figures) {
     std::optional<NetworkRecipe> const& wanted = t.recipe.network;
-    double const length = std::accumulate(index.length_m.begin(), index.length_m.end(), 0.0);
+    double const length = std::accumulate(t.network.plan.length_m().begin(), t.network.plan.length_m().end(), 0.0);
     auto const land = static_cast<double>(t.statistics ? t.statistics->cells : t.grid.cells());
     if (wanted && wanted->source == Source::dla) {
         figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.story.particles, "");
@@ -224,8 +224,8 @@ void add_rivers(Terrain const& t, NetworkIndex const& index, std::vector<Profile
     if (wanted && wanted->source == Source::forest) {
         figures.add("particles of the forest", t.story.particles, "");
     }
-    figures.add("arcs", index.arcs.size(), "");
-    figures.add("outlets", index.outlets.size(), "");
+    figures.add("arcs", t.network.plan.arc_count(), "");
+    figures.add("outlets", t.network.plan.outlets().size(), "");
     figures.add("highest Strahler order", t.laws.network ? t.laws.network->horton.orders.size() : 0, "");
     figures.add("length of all rivers", to_millimetres(length / 1000.0), "km");
     figures.add("drainage density", length / 1000.0 / (land * t.grid.cell_m * t.grid.cell_m / 1e6), "km/km2");
@@ -289,14 +289,13 @@ std::string without_tags(std::string const& json) {
 
 std::string page_data(Terrain const& t, PageParams const& params, std::optional<PageHeights> const& heights,
                       PageLines const& lines) {
-    NetworkIndex const index(t.network.plan);
-    std::vector<ProfilePoint> const stem = main_stem(t, index);
+    std::vector<ProfilePoint> const stem = main_stem(t);
     Figures figures;
     if (t.statistics) {
         add_land(t, figures);
     }
-    if (t.recipe.network || !index.arcs.empty()) {
-        add_rivers(t, index, stem, figures);
+    if (t.recipe.network || !t.network.plan.arcs().empty()) {
+        add_rivers(t, stem, figures);
     }
     ordered_json const data{{"version", version()},
                             {"title", title_of(t.recipe)},
@@ -309,8 +308,8 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
                             {"rivers",
                              {{"step", lines.step},
                               {"prune", t.recipe.network ? t.recipe.network->prune_cells.value_or(0.0) : 0.0},
-                              {"arcs", arcs_object(t, index, lines)}}},
-                            {"ridges", ridges_object(t, index, lines)},
+                              {"arcs", arcs_object(t, lines)}}},
+                            {"ridges", ridges_object(t, lines)},
                             {"profile", profile_array(stem)},
                             {"curve", curve_object(t)},
                             {"hypsometry", hypsometry_object(t)},

@@ -146,20 +146,19 @@ ordered_json dem_laws_object(DemLaws const& found) {
 
 ordered_json network_object(Terrain const& t) {
     StreamNetwork const& plan = t.network.plan;
-    NetworkIndex const index(plan);
     double length = 0.0;
-    for (double const l : index.length_m) {
+    for (double const l : plan.length_m()) {
         length += l;
     }
     int strahler = 0;
     for (int const s : t.orders.strahler) {
         strahler = std::max(strahler, s);
     }
-    auto const arcs = static_cast<std::int64_t>(index.arcs.size());
+    auto const arcs = static_cast<std::int64_t>(plan.arc_count());
     network::HeightReport const& h = t.story.heights;
     return {{"arcs", arcs},
-            {"nodes", boost::num_vertices(plan)},
-            {"outlets", index.outlets.size()},
+            {"nodes", plan.node_count()},
+            {"outlets", plan.outlets().size()},
             {"strahler", strahler},
             {"length_m", length},
             {"traced", t.story.arcs_traced},

@@ -18,8 +18,8 @@ namespace {
 
 /// Whether every vertex of the network lies on the DEM's grid, as areas by its drainage need.
 bool lies_on(RaisedNetwork const& network, Grid const& grid) {
-    for (auto const& arc : boost::make_iterator_range(boost::edges(network.plan))) {
-        auto const& line = network.plan[arc].line;
+    for (ArcId arc = 0; arc < network.plan.arc_count(); ++arc) {
+        auto const& line = network.plan.arc(arc).line;
         if (!std::all_of(line.begin(), line.end(), [&](Vec2 p) { return grid.contains(grid.cell_of(p)); })) {
             return false;
         }
@@ -46,15 +46,15 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
     found.pits = drainage.pits;
     found.pit_volume_m3 = drainage.pit_volume_m3;
     if (scene.network) {
-        drawn.network = *scene.network;
-        drawn.orders = scene.orders;
-        std::size_t const arcs = boost::num_edges(drawn.network.plan);
-        if (lies_on(drawn.network, drawn.grid)) {
-            found.areas = flow::areas_d8(drawn.network.plan, drainage, run);
+        terrain.network = *scene.network;
+        terrain.orders = scene.orders;
+        std::size_t const arcs = terrain.network.plan.arc_count();
+        if (lies_on(terrain.network, terrain.grid)) {
+            terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
         } else {
-            found.areas.us_area_m2.assign(arcs, 0.0);
-            found.areas.ds_area_m2.assign(arcs, 0.0);
-            found.areas.node_m2.assign(boost::num_vertices(drawn.network.plan), 0.0);
+            terrain.areas.us_area_m2.assign(arcs, 0.0);
+            terrain.areas.ds_area_m2.assign(arcs, 0.0);
+            terrain.areas.node_m2.assign(terrain.network.plan.node_count(), 0.0);
         }
         auto const topology = measure::check_topology(measure::as_file(drawn.network, drawn.orders), {}, run);
         found.checks = topology.checks;

@@ -39,10 +39,9 @@ std::int64_t count(std::vector<Finding> const& notes, std::string const& kind) {
 /// By cell the basin of the river that runs there, 0 for none.
 Raster<std::int64_t> basins(StreamNetwork const& network, Grid const& grid) {
     Raster<std::int64_t> basin(grid, 0);
-    NetworkIndex const index(network);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        for (Cell const c : cells_along(network[index.arcs[a]].line, grid)) {
-            basin[c] = index.basin[index.to[a]];
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        for (Cell const c : cells_along(network.arc(a).line, grid)) {
+            basin[c] = network.basin(network.to(a));
         }
     }
     return basin;
@@ -110,11 +109,10 @@ TEST(PlantForest, laws_of_a_planted_forest) {
             RC_DISCARD("no room");
         }
         Grid const& grid = land.grid();
-        NetworkIndex const index(f.network);
-        RC_ASSERT(static_cast<std::int64_t>(index.outlets.size()) == f.outlets);
-        for (NodeId const n : index.outlets) {
-            Cell const c = grid.cell_of(f.network[n].at);
-            RC_ASSERT(f.network[n].at == grid.centre(c));
+        RC_ASSERT(static_cast<std::int64_t>(f.network.outlets().size()) == f.outlets);
+        for (NodeId const n : f.network.outlets()) {
+            Cell const c = grid.cell_of(f.network.node(n).at);
+            RC_ASSERT(f.network.node(n).at == grid.centre(c));
             RC_ASSERT(std::ranges::find(coast, c) != coast.end());
         }
         Raster<std::int64_t> const basin = basins(f.network, grid);
@@ -158,10 +156,8 @@ TEST(PlantForest, same_network_for_any_number_of_threads) {
     one.threads = 1;
     PlantedForest const a = plant_forest(land, outlets, growth(5, 7), one);
     PlantedForest const b = plant_forest(land, outlets, growth(5, 7));
-    NetworkIndex const first(a.network);
-    NetworkIndex const second(b.network);
-    ASSERT_EQ(first.arcs.size(), second.arcs.size());
-    for (std::size_t k = 0; k < first.arcs.size(); ++k) {
-        EXPECT_EQ(a.network[first.arcs[k]].line, b.network[second.arcs[k]].line);
+    ASSERT_EQ(a.network.arc_count(), b.network.arc_count());
+    for (std::size_t k = 0; k < a.network.arc_count(); ++k) {
+        EXPECT_EQ(a.network.arc(k).line, b.network.arc(k).line);
     }
 }

@@ -57,9 +57,8 @@ struct PlacedLink {
 
 std::vector<PlacedLink> placed_links(EmbeddedTree const& out) {
     std::vector<PlacedLink> links;
-    NetworkIndex const index(out.network);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        auto const& line = out.network[index.arcs[a]].line;
+    for (std::size_t a = 0; a < out.network.arc_count(); ++a) {
+        auto const& line = out.network.arc(a).line;
         for (std::size_t k = 0; k + 1 < line.size(); ++k) {
             links.push_back({out.links_of_arc.at(a).at(k), line[k], line[k + 1]});
         }
@@ -87,17 +86,16 @@ double angle_deg(Vec2 here, Vec2 a, Vec2 b) {
 
 /// What is wrong with the links of the arcs as parts of the tree, or "".
 std::string broken_tree(TokunagaTree const& tree, EmbedParams const& params, EmbeddedTree const& out) {
-    NetworkIndex const index(out.network);
     if (out.placed + out.dropped != static_cast<std::int64_t>(tree.links.size())) {
         return "placed and dropped are not all";
     }
-    if (index.arcs.size() != out.links_of_arc.size()) {
+    if (out.network.arc_count() != out.links_of_arc.size()) {
         return "other arcs than lists of links";
     }
     std::set<std::int64_t> seen;
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (std::size_t a = 0; a < out.network.arc_count(); ++a) {
         auto const& links = out.links_of_arc[a];
-        std::size_t const pieces = out.network[index.arcs[a]].line.size() - 1;
+        std::size_t const pieces = out.network.arc(a).line.size() - 1;
         if (links.empty() || pieces > links.size() || (params.min_spacing_m == 0.0 && pieces < links.size())) {
             return "an arc's line has not one piece for each link";
         }
@@ -110,7 +108,7 @@ std::string broken_tree(TokunagaTree const& tree, EmbedParams const& params, Emb
                 return "an arc's links do not flow into one another";
             }
             if (last) {
-                std::int64_t const out_arc = index.out[index.to[a]];
+                std::int64_t const out_arc = out.network.out(out.network.to(a));
                 std::int64_t const below =
                     out_arc < 0 ? -1 : out.links_of_arc[static_cast<std::size_t>(out_arc)].front();
                 if (tree.links.at(static_cast<std::size_t>(links[k])).down != below) {
@@ -127,10 +125,9 @@ std::string broken_tree(TokunagaTree const& tree, EmbedParams const& params, Emb
 
 /// Where arcs meet one another or the ring and may not, or "".
 std::string broken_plane(EmbedParams const& params, EmbeddedTree const& out) {
-    NetworkIndex const index(out.network);
     std::vector<std::vector<Vec2>> lines;
-    for (ArcId const arc : index.arcs) {
-        lines.push_back(out.network[arc].line);
+    for (ArcId arc = 0; arc < out.network.arc_count(); ++arc) {
+        lines.push_back(out.network.arc(arc).line);
     }
     lines.push_back(params.region);
     lines.back().push_back(params.region.front());
@@ -145,8 +142,8 @@ std::string broken_plane(EmbedParams const& params, EmbeddedTree const& out) {
                    std::to_string(c.at.y) + ")";
         }
     }
-    for (ArcId const arc : index.arcs) {
-        for (Vec2 const p : out.network[arc].line) {
+    for (ArcId arc = 0; arc < out.network.arc_count(); ++arc) {
+        for (Vec2 const p : out.network.arc(arc).line) {
             if (distance(p, params.mouth) > 2e-6 && !network::contains(params.region, p)) {
                 return "a vertex lies outside";
             }
@@ -155,15 +152,15 @@ std::string broken_plane(EmbedParams const& params, EmbeddedTree const& out) {
             }
         }
     }
-    if (out.placed > 0 && index.outlets.size() != 1) {
+    if (out.placed > 0 && out.network.outlets().size() != 1) {
         return "not one outlet";
     }
-    for (std::size_t n = 0; n < index.basin.size(); ++n) {
-        if (index.basin[n] != 1) {
+    for (std::size_t n = 0; n < out.network.node_count(); ++n) {
+        if (out.network.basin(n) != 1) {
             return "a node does not reach the outlet";
         }
     }
-    if (out.placed > 0 && distance(out.network[index.outlets[0]].at, params.mouth) > 1e-6) {
+    if (out.placed > 0 && distance(out.network.node(out.network.outlets()[0]).at, params.mouth) > 1e-6) {
         return "the outlet is not at the mouth";
     }
     return "";
@@ -355,7 +352,7 @@ TEST(EmbedTree, ACrowdedPentagonLosesItsLowestOrders) {
     auto const out = embed_tree(tree, params);
     EXPECT_EQ(broken(tree, params, out), "");
     ASSERT_FALSE(out.links_of_arc.empty());
-    EXPECT_GT(out.links_of_arc[0].size() + 1, out.network[NetworkIndex(out.network).arcs[0]].line.size());
+    EXPECT_GT(out.links_of_arc[0].size() + 1, out.network.arc(0).line.size());
     EXPECT_GT(out.dropped, 0);
 }
 

@@ -67,12 +67,10 @@ void refused(RiverLines const& strokes, std::string const& words, StrokesParams 
 }
 
 bool same(StreamNetwork const& a, StreamNetwork const& b) {
-    NetworkIndex const one(a);
-    NetworkIndex const two(b);
-    bool equal = one.arcs.size() == two.arcs.size() && one.from == two.from && one.to == two.to;
-    for (std::size_t k = 0; equal && k < one.arcs.size(); ++k) {
-        equal = a[one.arcs[k]].line == b[two.arcs[k]].line && a[one.arcs[k]].feature == b[two.arcs[k]].feature &&
-                a[one.arcs[k]].type == b[two.arcs[k]].type;
+    bool equal = a.arc_count() == b.arc_count() && a.from() == b.from() && a.to() == b.to();
+    for (std::size_t k = 0; equal && k < a.arc_count(); ++k) {
+        equal =
+            a.arc(k).line == b.arc(k).line && a.arc(k).feature == b.arc(k).feature && a.arc(k).type == b.arc(k).type;
     }
     return equal;
 }
@@ -103,14 +101,13 @@ RiverLine const* below(RiverLines const& strokes, std::size_t k) {
 
 /// The law that a network breaks, "" where it breaks none.
 std::string broken(RiverLines const& strokes, GrownStrokes const& grown) {
-    NetworkIndex const index(grown.network);
     std::vector<std::vector<Vec2>> lines;
     std::map<std::int64_t, std::size_t> number;
     for (std::size_t k = 0; k < strokes.lines.size(); ++k) {
         number[strokes.lines[k].feature] = k;
     }
-    for (ArcId const arc : index.arcs) {
-        Arc const& here = grown.network[arc];
+    for (ArcId arc = 0; arc < grown.network.arc_count(); ++arc) {
+        Arc const& here = grown.network.arc(arc);
         lines.push_back(here.line);
         if (number.count(here.feature) == 0 || here.type != strokes.lines[number[here.feature]].type) {
             return "an arc has the type or the feature of no stroke";
@@ -126,12 +123,12 @@ std::string broken(RiverLines const& strokes, GrownStrokes const& grown) {
             return "arcs meet outside of nodes";
         }
     }
-    for (NodeId n = 0; n < boost::num_vertices(grown.network); ++n) {
-        if (boost::out_degree(n, grown.network) > 1 || index.basin[n] == 0) {
+    for (NodeId n = 0; n < grown.network.node_count(); ++n) {
+        if (grown.network.out_arcs(n).size() > 1 || grown.network.basin(n) == 0) {
             return "a node without one way to an outlet";
         }
     }
-    if (boost::num_vertices(grown.network) != index.arcs.size() + index.outlets.size()) {
+    if (grown.network.node_count() != grown.network.arc_count() + grown.network.outlets().size()) {
         return "a basin is no tree";
     }
     std::set<std::pair<double, double>> mouths;
@@ -140,8 +137,8 @@ std::string broken(RiverLines const& strokes, GrownStrokes const& grown) {
             mouths.insert({start_of(strokes.lines[k]).x, start_of(strokes.lines[k]).y});
         }
     }
-    for (NodeId const n : index.outlets) {
-        if (mouths.erase({grown.network[n].at.x, grown.network[n].at.y}) == 0) {
+    for (NodeId const n : grown.network.outlets()) {
+        if (mouths.erase({grown.network.node(n).at.x, grown.network.node(n).at.y}) == 0) {
             return "an outlet is no stroke's mouth, or twice one's";
         }
     }
@@ -150,18 +147,16 @@ std::string broken(RiverLines const& strokes, GrownStrokes const& grown) {
 
 /// Whether the arcs of a stroke that begins on another flow into others' where it does.
 bool joins(RiverLines const& strokes, std::size_t k, GrownStrokes const& grown, double within_m) {
-    NetworkIndex const index(grown.network);
-    for (NodeId n = 0; n < boost::num_vertices(grown.network); ++n) {
-        if (distance(grown.network[n].at, start_of(strokes.lines[k])) > within_m || index.out[n] < 0) {
+    for (NodeId n = 0; n < grown.network.node_count(); ++n) {
+        if (distance(grown.network.node(n).at, start_of(strokes.lines[k])) > within_m ||
+            grown.network.out(n) == no_arc) {
             continue;
         }
-        auto const feature = [&](std::int64_t arc) {
-            return grown.network[index.arcs[static_cast<std::size_t>(arc)]].feature;
-        };
+        auto const feature = [&](std::int64_t arc) { return grown.network.arc(arc).feature; };
         std::int64_t const own = strokes.lines[k].feature;
-        bool const arrives =
-            std::any_of(index.in[n].begin(), index.in[n].end(), [&](std::int64_t arc) { return feature(arc) == own; });
-        if (arrives && index.in[n].size() > 1 && feature(index.out[n]) != own) {
+        bool const arrives = std::any_of(grown.network.in(n).begin(), grown.network.in(n).end(),
+                                         [&](std::int64_t arc) { return feature(arc) == own; });
+        if (arrives && grown.network.in(n).size() > 1 && feature(grown.network.out(n)) != own) {
             return true;
         }
     }
@@ -170,17 +165,16 @@ bool joins(RiverLines const& strokes, std::size_t k, GrownStrokes const& grown, 
 
 /// Places of the main stem: from the outlet always up the arc of the highest order, while it is that of the outlet.
 std::vector<Vec2> trunk(StreamNetwork const& net, NodeId outlet) {
-    NetworkIndex const index(net);
     NetworkOrders const orders = network::order(net);
     std::vector<Vec2> places;
-    std::int64_t arc = index.in[outlet].front();
+    std::int64_t arc = net.in(outlet).front();
     int const top = orders.strahler[static_cast<std::size_t>(arc)];
     while (arc >= 0) {
-        auto const& line = net[index.arcs[static_cast<std::size_t>(arc)]].line;
+        auto const& line = net.arc(arc).line;
         places.insert(places.end(), line.rbegin(), line.rend());
         std::int64_t next = -1;
-        for (std::int64_t const up : index.in[index.from[static_cast<std::size_t>(arc)]]) {
-            next = orders.strahler[static_cast<std::size_t>(up)] == top ? up : next;
+        for (ArcId const up : net.in(net.from(arc))) {
+            next = orders.strahler[up] == top ? up : next;
         }
         arc = next;
     }
@@ -191,7 +185,7 @@ std::vector<Vec2> trunk(StreamNetwork const& net, NodeId outlet) {
 
 TEST(GrowStrokes, NoStrokesNoRivers) {
     GrownStrokes const grown = grow_strokes(drawn({}), grid);
-    EXPECT_EQ(boost::num_vertices(grown.network), 0U);
+    EXPECT_EQ(grown.network.node_count(), 0U);
     EXPECT_EQ(grown.placed, 0);
     EXPECT_EQ(grown.dropped, 0);
 }
@@ -322,9 +316,8 @@ TEST(GrowStrokes, TheTrunkFollowsTheStroke) {
         params.max_depth = 5;
         GrownStrokes const grown = grow_strokes(strokes, grid, params);
         EXPECT_EQ(broken(strokes, grown), "");
-        NetworkIndex const index(grown.network);
-        ASSERT_EQ(index.outlets.size(), 1U);
-        std::vector<Vec2> const places = trunk(grown.network, index.outlets.front());
+        ASSERT_EQ(grown.network.outlets().size(), 1U);
+        std::vector<Vec2> const places = trunk(grown.network, grown.network.outlets().front());
         EXPECT_GT(places.size(), 15U);
         for (Vec2 const p : places) {
             EXPECT_LE(off(strokes.lines.front(), p), 1e-3) << p.x << " " << p.y;
@@ -339,8 +332,7 @@ TEST(GrowStrokes, OneThatBeginsOnAnotherFlowsIntoIt) {
          stroke(2, {{997.0, 1000.0}, {300.0, 1400.0}}, "Aa+", 1), stroke(4, {{1300.0, 881.0}, {1250.0, 1300.0}}, "A")});
     GrownStrokes const grown = grow_strokes(strokes, grid);
     EXPECT_EQ(broken(strokes, grown), "");
-    NetworkIndex const index(grown.network);
-    ASSERT_EQ(index.outlets.size(), 1U);
+    ASSERT_EQ(grown.network.outlets().size(), 1U);
     for (std::size_t const k : {0U, 2U, 3U}) {
         EXPECT_TRUE(joins(strokes, k, grown, 0.5 * grid.cell_m)) << strokes.lines[k].feature;
     }
@@ -350,7 +342,7 @@ TEST(GrowStrokes, OneThatBeginsOnAnotherFlowsIntoIt) {
     std::reverse(turned.lines.begin(), turned.lines.end());
     GrownStrokes const again = grow_strokes(turned, grid);
     EXPECT_EQ(broken(turned, again), "");
-    EXPECT_EQ(NetworkIndex(again.network).outlets.size(), 1U);
+    EXPECT_EQ(again.network.outlets().size(), 1U);
 }
 
 TEST(GrowStrokes, BothSidesOfATrunkAreFilledAsTheyAreLarge) {
@@ -367,8 +359,8 @@ TEST(GrowStrokes, BothSidesOfATrunkAreFilledAsTheyAreLarge) {
             GrownStrokes const grown = grow_strokes(strokes, grid, params);
             double west = 0.0;
             double all = 0.0;
-            for (auto const& arc : boost::make_iterator_range(boost::edges(grown.network))) {
-                auto const& line = grown.network[arc].line;
+            for (ArcId arc = 0; arc < grown.network.arc_count(); ++arc) {
+                auto const& line = grown.network.arc(arc).line;
                 for (std::size_t i = 0; i + 1 < line.size(); ++i) {
                     double const middle = 0.5 * (line[i].x + line[i + 1].x);
                     double const length = distance(line[i], line[i + 1]);
@@ -489,8 +481,8 @@ RC_GTEST_PROP(GrowStrokes, KeepsEveryLawOrSaysWhereItCannot, ()) {
     RC_ASSERT(broken(strokes, grown) == "");
     RC_ASSERT(same(grown.network, grow_strokes(strokes, grid, params).network));
     std::set<std::int64_t> features;
-    for (auto const& arc : boost::make_iterator_range(boost::edges(grown.network))) {
-        features.insert(grown.network[arc].feature);
+    for (ArcId arc = 0; arc < grown.network.arc_count(); ++arc) {
+        features.insert(grown.network.arc(arc).feature);
     }
     for (std::size_t k = 0; k < strokes.lines.size(); ++k) {
         if (below(strokes, k) != nullptr && features.count(strokes.lines[k].feature) != 0) {

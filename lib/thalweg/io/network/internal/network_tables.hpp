@@ -18,10 +18,10 @@ double length_in_space(std::vector<Vec2> const& line, std::vector<double> const&
 
 /// The layer arcs of the network schema. The arguments must outlive the table.
 /// short_names: of user columns, for a shapefile.
-Table arcs_table(NetworkTables const& tables, NetworkIndex const& index, bool short_names = false);
+Table arcs_table(NetworkTables const& tables, bool short_names = false);
 
 /// The layer nodes of the network schema. The arguments must outlive the table.
-Table nodes_table(NetworkTables const& tables, NetworkIndex const& index);
+Table nodes_table(NetworkTables const& tables);
 
 /// The layer ridges of the network schema. The argument must outlive the table; every ridge has a vertex.
 Table ridges_table(RidgeLines const& ridges, HeightUnit unit = HeightUnit::metre);

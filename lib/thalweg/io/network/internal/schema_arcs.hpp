@@ -14,6 +14,6 @@ namespace thalweg::io {
 /// Takes: a network with at most as many arcs upstream of one as the schema can name. What the fields tell stands with
 /// Quantity in schema.hpp; what is not known is the field's own word for it, and -1 where it has none.
 /// The arguments must outlive the table.
-Table schema_arcs(SchemaTable const& schema, NetworkTables const& tables, NetworkIndex const& index, bool short_names);
+Table schema_arcs(SchemaTable const& schema, NetworkTables const& tables, bool short_names);
 
 } // namespace thalweg::io

@@ -15,7 +15,7 @@ namespace thalweg::io {
 struct GraphTables {
     Table arcs;
     Table nodes;
-    NetworkIndex const& index;
+    StreamNetwork const& plan;
     std::string crs;
 };
 

@@ -11,7 +11,7 @@
 namespace thalweg::network {
 
 /// Makes sure that heights can be set. Takes: as require_trees. Throws: BadInput like it, and for an arc of no length.
-void require_raisable(StreamNetwork const& network, NetworkIndex const& index, std::string_view who);
+void require_raisable(StreamNetwork const& network, std::string_view who);
 
 /// A height just above another one, as far as doubles tell them apart; 0 above 0.
 inline double next_above(double below) {
@@ -30,7 +30,6 @@ void require_heights(StreamNetwork const& network, std::vector<double> const& no
 
 /// A network with heights of its nodes and vertices linear by length along the arcs.
 /// Throws: like require_heights.
-RaisedNetwork raise_linearly(StreamNetwork const& network, NetworkIndex const& index, std::vector<double> node_z,
-                             std::string_view who);
+RaisedNetwork raise_linearly(StreamNetwork const& network, std::vector<double> node_z, std::string_view who);
 
 } // namespace thalweg::network

@@ -184,7 +184,7 @@ void note_dry_land(Mask const& land, Mouths const& mouths, std::vector<Finding>&
 }
 
 /// The trees as arcs: every particle without or with several children is a node, and so is every outlet.
-StreamNetwork as_network(GrownForest const& forest, Grid const& grid, std::vector<Mouth> const& mouths) {
+NetworkDraft as_network(GrownForest const& forest, Grid const& grid, std::vector<Mouth> const& mouths) {
     std::size_t const count = forest.cells.size();
     std::vector<int> children(count, 0);
     for (std::int64_t const up : forest.parent) {
@@ -192,14 +192,14 @@ StreamNetwork as_network(GrownForest const& forest, Grid const& grid, std::vecto
             ++children[static_cast<std::size_t>(up)];
         }
     }
-    StreamNetwork network;
+    NetworkDraft network;
     for (Mouth const& mouth : mouths) {
-        boost::add_vertex(Node{grid.centre(mouth.outlet)}, network);
+        network.add_node(grid.centre(mouth.outlet));
     }
     std::vector<NodeId> node(count, 0);
     for (std::size_t p = 0; p < count; ++p) {
         if (children[p] != 1) {
-            node[p] = boost::add_vertex(Node{grid.centre(forest.cells[p])}, network);
+            node[p] = network.add_node(grid.centre(forest.cells[p]));
         }
     }
     for (std::size_t p = 0; p < count; ++p) {
@@ -213,8 +213,8 @@ StreamNetwork as_network(GrownForest const& forest, Grid const& grid, std::vecto
             at = forest.parent[at] < 0 ? count : static_cast<std::size_t>(forest.parent[at]);
         } while (at < count && children[at] == 1);
         NodeId const end = at < count ? node[at] : static_cast<NodeId>(forest.tree[p]);
-        arc.line.push_back(network[end].at);
-        add_arc(network, node[p], end, std::move(arc));
+        arc.line.push_back(network.nodes[end].at);
+        network.add_arc(node[p], end, std::move(arc));
     }
     return network;
 }

@@ -206,14 +206,13 @@ GrownStrokes grow_strokes(RiverLines const& drawn, Grid const& grid, StrokesPara
     grown.placed = std::count(settled.stays.begin(), settled.stays.end(), std::uint8_t{1});
     grown.dropped = static_cast<std::int64_t>(forest.links.size()) - grown.placed;
     KeptNetwork kept = join_links(forest, settled.at, settled.stays);
-    grown.network = std::move(kept.network);
-    NetworkIndex const index(grown.network);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
+    for (ArcId a = 0; a < kept.network.arcs.size(); ++a) {
         RiverLine const& stroke =
             drawn.lines[forest.links[static_cast<std::size_t>(kept.links_of_arc[a].front())].tree];
-        grown.network[index.arcs[a]].type = stroke.type;
-        grown.network[index.arcs[a]].feature = stroke.feature;
+        kept.network.arcs[a].arc.type = stroke.type;
+        kept.network.arcs[a].arc.feature = stroke.feature;
     }
+    grown.network = std::move(kept.network);
     return grown;
 }
 

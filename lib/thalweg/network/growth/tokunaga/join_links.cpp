@@ -41,7 +41,7 @@ KeptNetwork join_links(Forest const& forest, std::vector<Vec2> const& at, std::v
             course = {{at[as_index(link.down)]}, {}, node[as_index(link.down)]};
         } else {
             if (has_mouth[link.tree] == 0) {
-                mouth[link.tree] = boost::add_vertex(Node{forest.shares[link.tree].mouth}, kept.network);
+                mouth[link.tree] = kept.network.add_node(forest.shares[link.tree].mouth);
                 has_mouth[link.tree] = 1;
             }
             course = {{forest.shares[link.tree].mouth}, {}, mouth[link.tree]};
@@ -52,12 +52,12 @@ KeptNetwork join_links(Forest const& forest, std::vector<Vec2> const& at, std::v
             open[i] = std::move(course);
             continue;
         }
-        node[i] = boost::add_vertex(Node{at[i]}, kept.network);
+        node[i] = kept.network.add_node(at[i]);
         std::reverse(course.line.begin(), course.line.end());
         std::reverse(course.links.begin(), course.links.end());
         Arc arc;
         arc.line = std::move(course.line);
-        add_arc(kept.network, node[i], course.to, std::move(arc));
+        kept.network.add_arc(node[i], course.to, std::move(arc));
         kept.links_of_arc.push_back(std::move(course.links));
     }
     return kept;

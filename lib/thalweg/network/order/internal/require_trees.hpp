@@ -12,6 +12,6 @@ namespace thalweg::network {
 /// Takes: a network and its index; who: the stage that asks ("network.order"), for the message.
 /// Throws: BadInput, naming a node's or an arc's place: a node with two arcs leaving it, a cycle, a coordinate that is
 /// not a number.
-void require_trees(StreamNetwork const& network, NetworkIndex const& index, std::string_view who);
+void require_trees(StreamNetwork const& network, std::string_view who);
 
 } // namespace thalweg::network

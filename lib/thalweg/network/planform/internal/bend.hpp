@@ -13,8 +13,7 @@ namespace thalweg::network {
 
 /// By cell how far it is from what does not move, up to 24 [cells]: the sea, and the cells around outlets.
 /// Takes: land (1; sea 0), without cells where all is land.
-Raster<std::uint8_t> distance_to_fixed(StreamNetwork const& network, NetworkIndex const& index, Grid const& grid,
-                                       Mask const& land);
+Raster<std::uint8_t> distance_to_fixed(StreamNetwork const& network, Grid const& grid, Mask const& land);
 
 /// Bends the plain by long shear waves in all directions, which fade to nothing at the grid's edge and at what does not
 /// move.

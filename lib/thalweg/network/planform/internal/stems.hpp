@@ -34,7 +34,6 @@ struct Stems {
 
 /// Takes: a forest, its index, by arc its area [m2], and the step [m]. At a node the river of the largest area goes on
 /// (ties: the lower arc number).
-Stems stems_of(StreamNetwork const& network, NetworkIndex const& index, std::vector<double> const& area_m2,
-               double step_m);
+Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2, double step_m);
 
 } // namespace thalweg::network

@@ -12,7 +12,7 @@ namespace thalweg::network {
 
 /// A network of the links that stay.
 struct KeptNetwork {
-    StreamNetwork network;                               ///< its arcs run between sources, confluences and outlets
+    NetworkDraft network;                                ///< its arcs run between sources, confluences and outlets
     std::vector<std::vector<std::int64_t>> links_of_arc; ///< by arc number, upstream first
 };
 
