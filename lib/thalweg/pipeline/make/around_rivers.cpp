@@ -73,9 +73,8 @@ skeleton::Scattered scattered(DrawnLand const& drawn, Mask const& inside, Diary&
 /// The triangles of points, rivers and ridges, whose lines are breaklines.
 DrawnLand with_tin(DrawnLand drawn, FeaturePoints const& points, Diary& diary, Run const& run) {
     std::vector<std::vector<Vec3>> breaklines;
-    std::size_t number = 0;
-    for (ArcId arc = 0; arc < terrain.network.plan.arc_count(); ++arc) {
-        breaklines.push_back(in_space(terrain.network.plan.arc(arc).line, terrain.network.arc_z[number++]));
+    for (ArcId a = 0; a < drawn.network.plan.arc_count(); ++a) {
+        breaklines.push_back(in_space(drawn.network.plan.arc(a).line, drawn.network.arc_z[a]));
     }
     for (RidgeLine const& ridge : drawn.ridges.lines) {
         breaklines.push_back(ridge.line);

@@ -362,20 +362,19 @@ DrawnLand with_side_valleys(DrawnLand drawn, flow::FlowField const& drainage, Di
     network::SideValleys made = diary.stage("valleys", [&] {
         return network::side_valleys(drawn.network, drawn.channels, drawn.surface->dem, drainage, {support_cells}, run);
     });
-    terrain.equilibrium->side_valleys = made.grown;
-    terrain.equilibrium->side_valleys_left_out = made.left_out;
-    diary.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown,
-                          terrain.recipe.network->support_cells,
+    drawn.equilibrium->side_valleys = made.grown;
+    drawn.equilibrium->side_valleys_left_out = made.left_out;
+    diary.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown, support_cells,
                           static_cast<std::int64_t>(made.network.plan.arc_count()) - made.grown));
-    terrain.network = std::move(made.network);
-    terrain.network.plan =
-        network::prune(terrain.network.plan, {0.0, terrain.grid.cell_m}, run).network; // lengths at which each is kept
-    assign_types(terrain.network.plan, terrain, run);
-    terrain.orders = network::order(terrain.network.plan);
-    terrain.streams = network::count_streams(terrain.network.plan);
-    for (ArcId arc = 0; arc < terrain.network.plan.arc_count(); ++arc) {
-        Arc const& of = terrain.network.plan.arc(arc);
-        bool const leaves = terrain.network.plan.out_arcs(terrain.network.plan.to(arc)).size() == 0;
+    drawn.network = std::move(made.network);
+    // Lengths at which each is kept.
+    StreamNetwork kept = network::prune(drawn.network.plan, {0.0, drawn.grid.cell_m}, run).network;
+    drawn = with_types(std::move(drawn), std::move(kept), run);
+    drawn.orders = network::order(drawn.network.plan);
+    drawn.streams = network::count_streams(drawn.network.plan);
+    for (ArcId a = 0; a < drawn.network.plan.arc_count(); ++a) {
+        Arc const& of = drawn.network.plan.arc(a);
+        bool const leaves = drawn.network.plan.out(drawn.network.plan.to(a)) == no_arc;
         for (std::size_t v = 0; !of.given && v + (leaves ? 0 : 1) < of.line.size(); ++v) { // the last may join a line
             std::int64_t const cell = drawn.grid.index(drawn.grid.cell_of(of.line[v]));
             drawn.valley.z[cell] = drawn.surface->dem[cell];

@@ -76,10 +76,9 @@ RiverLaws laws_of_land(DrawnLand const& drawn, flow::ContributingAreas const& ar
         flow_length = flow::flow_lengths(*drainage, run);
     }
     DemLawsParams params;
-    if (terrain.network.plan.arc_count() > 0) {
-        std::int64_t const land = terrain.statistics ? terrain.statistics->cells : terrain.grid.cells();
-        found.network = laws_of(terrain.network, terrain.orders, terrain.areas, terrain.grid, land,
-                                flow_length ? &*flow_length : nullptr);
+    if (drawn.network.plan.arc_count() > 0) {
+        found.network =
+            laws_of(drawn.network, drawn.orders, areas, drawn.grid, land_cells, flow_length ? &*flow_length : nullptr);
         params.network_m =
             found.network->drainage_density_m * static_cast<double>(land_cells) * drawn.grid.cell_m * drawn.grid.cell_m;
     }

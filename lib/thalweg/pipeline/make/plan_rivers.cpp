@@ -274,11 +274,11 @@ Planned plan_lines(Recipe given, Diary& diary, Run const& run) {
     for (RiverLine const& line : lines.lines) {
         file.drawn.push_back({line.feature, line.vertices, "", line.feature});
     }
-    terrain.attributes = std::move(lines.attributes);
-    terrain.sources = LineSources(adopted.network, adopted.stretches);
-    terrain.secondary.insert(terrain.secondary.end(), adopted.secondary.begin(), adopted.secondary.end());
-    diary.say(fmt::format("{} arcs, {} repairs{}", adopted.network.arc_count(), terrain.story.repairs.size(),
-                          terrain.secondary.empty() ? "" : fmt::format(", {} secondary", terrain.secondary.size())));
+    file.attributes = std::move(lines.attributes);
+    file.sources = LineSources(adopted.network, adopted.stretches);
+    file.secondary.insert(file.secondary.end(), adopted.secondary.begin(), adopted.secondary.end());
+    diary.say(fmt::format("{} arcs, {} repairs{}", adopted.network.arc_count(), story.repairs.size(),
+                          file.secondary.empty() ? "" : fmt::format(", {} secondary", file.secondary.size())));
 
     warn_of_gaps(adopted.network, grid, wanted.snap_m, run);
     Mask land = wanted.coastlines == Coastlines::sea ? land_of_coastlines(lines, grid, diary, run) : Mask{};

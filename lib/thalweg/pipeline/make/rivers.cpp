@@ -178,7 +178,7 @@ Planned pruned(Planned planned, Diary& diary, Run const& run) {
         "prune", [&] { return prune(planned.plan, rivers, *rivers.prune_cells, planned.grid.cell_m, run); });
     NetworkStory& story = planned.story;
     story.arcs_traced = kept.arcs_before;
-    story.arcs_kept = static_cast<std::int64_t>(boost::num_edges(kept.network));
+    story.arcs_kept = static_cast<std::int64_t>(kept.network.arc_count());
     diary.say(fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, story.arcs_kept, kept.arcs_before));
     if (rivers.source == Source::forest) { // its rivers end where the land does
         std::vector<Finding> const gone = pruned_outlets(planned.plan, kept.network);
@@ -198,27 +198,8 @@ Planned plan(Recipe const& recipe, Diary& diary, Run const& run) {
     return plan_lines(recipe, diary, run);
 }
 
-} // namespace
-
-void assign_types(StreamNetwork& plan, Terrain& terrain, Run const& run) {
-    NetworkRecipe const& wanted = *terrain.recipe.network;
-    if (wanted.heights != Heights::rosgen && !(wanted.coast_m > 0.0)) {
-        return;
-    }
-    network::AssignTypesParams params;
-    params.choice = wanted.rosgen ? network::TypeChoice::one : network::TypeChoice::by_order;
-    params.one = wanted.rosgen.value_or(params.one);
-    params.coast_m = wanted.coast_m;
-    terrain.types = network::assign_types(plan, network::order(plan), params, run);
-    NetworkDraft typed = plan.draft();
-    for (ArcId a = 0; a < typed.arcs.size(); ++a) {
-        typed.arcs[a].arc.type = network::name_of(terrain.types.type[a]);
-    }
-    plan = std::move(typed);
-}
-
-void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
-    Recipe& recipe = terrain.recipe;
+/// What a recipe leaves to the source of its rivers.
+Recipe with_defaults(Recipe recipe) {
     NetworkRecipe& rivers = *recipe.network;
     if (rivers.heights == Heights::automatic) {
         rivers.heights = in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;
@@ -230,22 +211,14 @@ void make_rivers(Terrain& terrain, Diary& diary, Run const& run) {
     return recipe;
 }
 
-    network::Pruned pruned =
-        diary.stage("prune", [&] { return prune(planned.plan, rivers, *rivers.prune_cells, grid.cell_m, run); });
-    terrain.story.arcs_traced = pruned.arcs_before;
-    terrain.story.arcs_kept = static_cast<std::int64_t>(pruned.network.arc_count());
-    diary.say(
-        fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, terrain.story.arcs_kept, pruned.arcs_before));
-    std::vector<Finding>& repairs = terrain.story.repairs;
-    if (rivers.source == Source::forest) { // its rivers end where the land does
-        std::vector<Finding> const gone = pruned_outlets(planned.plan, pruned.network);
-        repairs.insert(repairs.end(), gone.begin(), gone.end());
-    }
-    terrain.land = std::move(planned.land);
-    planned.plan = std::move(pruned.network);
-    if (rivers.source != Source::forest) {
-        carry_outlets(planned.plan, !planned.file_heights, terrain, run); // given heights may not fall into another's
-    }
+/// The network on its grid, with what the recipe left to it.
+Planned on_its_grid(Planned planned, Run const& run) {
+    planned.recipe = framed(std::move(planned.recipe), planned.grid);
+    std::vector<Finding> const notes = report_conversions(planned.recipe, planned.grid, run);
+    planned.story.repairs.insert(planned.story.repairs.end(), notes.begin(), notes.end());
+    planned.recipe = with_defaults(std::move(planned.recipe));
+    return planned;
+}
 
 } // namespace
 

@@ -16,10 +16,11 @@ Typed type_rivers(StreamNetwork plan, NetworkRecipe const& wanted, Run const& ru
     params.one = wanted.rosgen.value_or(params.one);
     params.coast_m = wanted.coast_m;
     typed.types = network::assign_types(typed.plan, network::order(typed.plan), params, run);
-    NetworkIndex const index(typed.plan);
-    for (std::size_t a = 0; a < index.arcs.size(); ++a) {
-        typed.plan[index.arcs[a]].type = network::name_of(typed.types.type[a]);
+    NetworkDraft draft = typed.plan.draft();
+    for (std::size_t a = 0; a < draft.arcs.size(); ++a) {
+        draft.arcs[a].arc.type = network::name_of(typed.types.type[a]);
     }
+    typed.plan = std::move(draft);
     return typed;
 }
 

@@ -11,9 +11,9 @@ std::optional<io::UserData> user_data(Terrain const& t, StreamNetwork const& pla
     if (!t.file.sources.knows_any()) {
         return std::nullopt;
     }
-    io::UserData user{t.attributes, {}, t.sources.of(plan)};
-    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
-        user.record.push_back(plan.arc(arc).feature);
+    io::UserData user{t.file.attributes, {}, t.file.sources.of(plan)};
+    for (Arc const& arc : plan.arcs()) {
+        user.record.push_back(arc.feature);
     }
     return user;
 }

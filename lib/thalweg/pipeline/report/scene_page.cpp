@@ -46,15 +46,15 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
     found.pits = drainage.pits;
     found.pit_volume_m3 = drainage.pit_volume_m3;
     if (scene.network) {
-        terrain.network = *scene.network;
-        terrain.orders = scene.orders;
-        std::size_t const arcs = terrain.network.plan.arc_count();
-        if (lies_on(terrain.network, terrain.grid)) {
-            terrain.areas = measure::areas_d8(terrain.network.plan, drainage, run);
+        drawn.network = *scene.network;
+        drawn.orders = scene.orders;
+        std::size_t const arcs = drawn.network.plan.arc_count();
+        if (lies_on(drawn.network, drawn.grid)) {
+            found.areas = flow::areas_d8(drawn.network.plan, drainage, run);
         } else {
-            terrain.areas.us_area_m2.assign(arcs, 0.0);
-            terrain.areas.ds_area_m2.assign(arcs, 0.0);
-            terrain.areas.node_m2.assign(terrain.network.plan.node_count(), 0.0);
+            found.areas.us_area_m2.assign(arcs, 0.0);
+            found.areas.ds_area_m2.assign(arcs, 0.0);
+            found.areas.node_m2.assign(drawn.network.plan.node_count(), 0.0);
         }
         auto const topology = measure::check_topology(measure::as_file(drawn.network, drawn.orders), {}, run);
         found.checks = topology.checks;
