@@ -14,11 +14,17 @@
 #include <thalweg/pipeline/commands/make_measures.hpp>
 #include <thalweg/pipeline/commands/make_points.hpp>
 #include <thalweg/pipeline/commands/make_tin.hpp>
+#include <thalweg/pipeline/make/assess.hpp>
+#include <thalweg/pipeline/make/drawn_land.hpp>
 #include <thalweg/pipeline/make/frame.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>
+#include <thalweg/pipeline/make/network_story.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
+#include <thalweg/pipeline/make/river_file.hpp>
+#include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/timings.hpp>
 #include <thalweg/pipeline/make/write_terrain.hpp>
 #include <thalweg/pipeline/recipe/forecast.hpp>
 #include <thalweg/pipeline/recipe/make_input.hpp>

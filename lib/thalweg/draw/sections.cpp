@@ -226,10 +226,8 @@ void draw_scale_of_x(Cairo* sheet, Box box, Ticks const& ticks, double metres_a_
 
 Picture sections(Raster<float> const& dem, RaisedNetwork const* network, NetworkOrders const* orders,
                  SectionsParams const& params) {
-    demand_pixels("draw.sections: width_px", params.width_px, 200, 8000);
-    if (params.count < 1 || params.count > 9) {
-        throw BadParameter(fmt::format("draw.sections: count is {}, must lie in [1, 9]", params.count));
-    }
+    require_in("draw.sections", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    require_in("draw.sections", "count", params.count, Range::between(1, 9));
     if (network != nullptr && (orders == nullptr || orders->strahler.size() != network->plan.arc_count())) {
         throw BadInput(fmt::format("draw.sections: a network of {} arcs comes with {} orders; order this network",
                                    network->plan.arc_count(), orders == nullptr ? 0 : orders->strahler.size()));

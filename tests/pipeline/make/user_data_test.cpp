@@ -27,7 +27,8 @@ Terrain terrain() {
     t.orders = network::order(t.network.plan);
     t.areas.us_area_m2 = t.areas.ds_area_m2 = {-1.0, -1.0, -1.0};
     t.areas.node_m2 = {-1.0, -1.0, -1.0, -1.0};
-    t.file.attributes.columns = {{"name", AttributeTable::Type::text}, {"name_of_the_river", AttributeTable::Type::text}};
+    t.file.attributes.columns = {{"name", AttributeTable::Type::text},
+                                 {"name_of_the_river", AttributeTable::Type::text}};
     for (std::string const name : {"one", "two", "three", "four", "five"}) {
         t.file.attributes.rows.push_back({name, name});
     }

@@ -15,7 +15,7 @@ namespace thalweg::flow {
 std::vector<Reach> reaches_of(StreamNetwork const& network) {
     for (NodeId n = 0; n < network.node_count(); ++n) {
         if (network.out_arcs(n).size() > 1) {
-            throw BadInput(fmt::format("measure.reaches_of: {} arcs leave node {} at ({}, {}); a river must not split",
+            throw BadInput(fmt::format("flow.reaches_of: {} arcs leave node {} at ({}, {}); a river must not split",
                                        network.out_arcs(n).size(), n + 1, network.node(n).at.x, network.node(n).at.y));
         }
     }
