@@ -14,6 +14,8 @@
 namespace {
 
 using namespace thalweg::detail;
+using thalweg::Lanes;
+using thalweg::widest_lanes;
 
 std::vector<float> row_of(Noise noise, NoisePlace const& place, std::size_t count, Lanes lanes = widest_lanes()) {
     std::vector<float> out(count);

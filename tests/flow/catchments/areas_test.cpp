@@ -206,7 +206,7 @@ TEST(AreasD8, ArcInsideOneCellAndNodesOffTheGrid) {
     }
     net.add_arc(0, 1);
     net.add_arc(1, 2);
-    auto const drainage = measure::drain(dem_of(2, {1, 2}));
+    auto const drainage = flow::route(dem_of(2, {1, 2}));
     EXPECT_EQ(areas_d8(net, drainage).us_area_m2, (Numbers{0, 2}));
     EXPECT_EQ(areas_d8(net, drainage).ds_area_m2, (Numbers{0, 2}));
     net.add_node({0.5, 7.0});
@@ -225,7 +225,7 @@ TEST(AreasD8, WaterOfARiverStaysInItWhereTheDemLeavesIt) {
     net.add_node({2.5, 4.5});
     net.add_node({2.5, 0.5});
     net.add_arc(0, 1);
-    auto const drainage = measure::drain(dem);
+    auto const drainage = flow::route(dem);
     ContributingAreas const areas = areas_d8(net, drainage);
     EXPECT_LT((drainage.area_cells[Cell{2, 4}]), 15) << "the upper river is lost to the accumulation of the DEM";
     EXPECT_GE(areas.ds_area_m2[0], 15.0);

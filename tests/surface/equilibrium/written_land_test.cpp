@@ -13,6 +13,7 @@
 
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/flow/direction.hpp>
 #include <thalweg/surface/equilibrium/internal/flood_land.hpp>
 #include <thalweg/surface/equilibrium/internal/order_cells.hpp>
 
@@ -104,7 +105,7 @@ double range_by_definition(SolvedLand const& land) {
 }
 
 /// A direction of steepest descent, as nearly as doubles tell; -1 where nothing is lower.
-void require_steepest(Raster<float> const& dem, Cell c, std::int8_t direction) {
+void require_steepest(Raster<float> const& dem, Cell c, flow::Direction direction) {
     double steepest = 0.0;
     double chosen = 0.0;
     for (std::size_t k = 0; k < d8_steps.size(); ++k) {
@@ -115,9 +116,9 @@ void require_steepest(Raster<float> const& dem, Cell c, std::int8_t direction) {
         double const fall = static_cast<double>(dem[c]) - static_cast<double>(dem[n]);
         double const slope = fall / (k % 2 == 0 ? 1.0 : std::sqrt(2.0));
         steepest = std::max(steepest, slope);
-        chosen = static_cast<std::int8_t>(k) == direction ? slope : chosen;
+        chosen = flow::direction_of(k) == direction ? slope : chosen;
     }
-    RC_ASSERT((direction >= 0) == (steepest > 0.0));
+    RC_ASSERT(flow::goes_on(direction) == (steepest > 0.0));
     RC_ASSERT(chosen >= steepest * (1.0 - 1e-12));
 }
 
@@ -128,7 +129,7 @@ TEST(WrittenLand, OneCell) {
     EquilibriumLand const out = written_land(land.level, land.rivers, land.window(), {10.0, -1.0, 0.5}, {}, {});
     ASSERT_EQ(out.dem.cells(), 1);
     EXPECT_NEAR(out.dem[0], 0.0, 1e-6); // 0.1 of 10 m, less 1 m
-    EXPECT_EQ(out.direction[0], -1);
+    EXPECT_TRUE(out.direction[0] == flow::Direction::leaves);
     EXPECT_TRUE(out.shortened.empty());
     EXPECT_EQ(out.rise, 1.0);
 }
@@ -162,14 +163,14 @@ TEST(WrittenLand, DrainsDownItsOwnFloats) {
                 }
                 std::int64_t const i = land.rivers.cell[n];
                 river[static_cast<std::size_t>(i)] = true;
-                RC_ASSERT(out.direction[i] == (n == 0 ? -1 : 4));
+                RC_ASSERT((out.direction[i] == (n == 0 ? flow::Direction::leaves : flow::Direction::west)));
                 RC_ASSERT((n == 0 || out.dem[i] > out.dem[land.rivers.cell[n - 1]]));
             }
             RC_ASSERT(river[static_cast<std::size_t>(land.rivers.cell[0])]);
             for (std::int64_t i = 0; i < land.grid.cells(); ++i) {
                 if (!river[static_cast<std::size_t>(i)]) {
                     require_steepest(out.dem, land.grid.at(i), out.direction[i]);
-                    RC_ASSERT((out.direction[i] >= 0 || land.grid.on_border(land.grid.at(i))));
+                    RC_ASSERT((flow::goes_on(out.direction[i]) || land.grid.on_border(land.grid.at(i))));
                 }
             }
         }));
@@ -182,7 +183,7 @@ TEST(WrittenLand, TheSeaHasNoHeight) {
     EquilibriumLand const out = written_land(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, {}, {});
     for (std::int64_t i = 0; i < land.grid.cells(); ++i) {
         EXPECT_EQ(std::isnan(out.dem[i]), land.land[i] == 0);
-        EXPECT_EQ(out.direction[i] == -2, land.land[i] == 0);
+        EXPECT_EQ(out.direction[i] == flow::Direction::no_data, land.land[i] == 0);
     }
 }
 
