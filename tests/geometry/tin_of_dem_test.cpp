@@ -171,7 +171,7 @@ TEST(TinOfDem, BadInputIsRefused) {
     auto const flat = raster(4, 4, [](Cell) { return 1.0; });
     EXPECT_TRUE(says(refusal(flat, 0.0), "error is 0 m"));
     EXPECT_TRUE(says(refusal(flat, -1.0), "error is -1 m"));
-    EXPECT_TRUE(says(refusal(flat, std::numeric_limits<double>::quiet_NaN()), "above 0"));
+    EXPECT_TRUE(says(refusal(flat, std::numeric_limits<double>::quiet_NaN()), "greater than 0"));
     EXPECT_TRUE(says(refusal(Raster<float>()), "of 0 x 0 cells 0 have data"));
     EXPECT_TRUE(says(refusal(raster(1, 9, [](Cell) { return 1.0; })), "of 1 x 9 cells 9 have data"));
     EXPECT_TRUE(says(refusal(raster(9, 1, [](Cell) { return 1.0; })), "no triangles"));

@@ -54,7 +54,7 @@ TEST(FractionalSurface, OfOneCellIsZero) {
 
 TEST(FractionalSurface, RefusesWhatItCannotMake) {
     for (double const hurst : {0.0, 1.0, -0.5, std::nan("")}) {
-        EXPECT_NE(refusal_of(4, 4, hurst).find("between 0 and 1"), std::string::npos) << hurst;
+        EXPECT_NE(refusal_of(4, 4, hurst).find("greater than 0 and less than 1"), std::string::npos) << hurst;
     }
     EXPECT_NE(refusal_of(0, 4, 0.5).find("0 x 4 cells"), std::string::npos);
     EXPECT_NE(refusal_of(60000, 60000, 0.5).find("more than 2^31 cells"), std::string::npos);
