@@ -134,7 +134,7 @@ TEST(Tin, BadInputIsRefused) {
     refused(place, "word.csv -o a.2dm", "word.csv, line 2: z is 'low'");
     refused(place, "dem.asc -o a.2dm --error 0", "error is 0 m");
     refused(place, "dem.asc -o a.2dm --error -2", "error is -2 m");
-    refused(place, "dem.asc -o a.2dm --error nan", "above 0");
+    refused(place, "dem.asc -o a.2dm --error nan", "greater than 0");
     refused(place, "dem.asc -o a.2dm --error much", "--error");
     refused(place, "dem.asc -o a.2dm --breaklines flat.geojson", "not to a DEM");
     refused(place, "p.csv -o a.2dm --error 3", "--error applies to a DEM only");
