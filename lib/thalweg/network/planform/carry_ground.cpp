@@ -42,7 +42,7 @@ bool fan_out(Vec2 from, Vec2 a, Vec2 b, double slack) {
     return dot < 0.0 || std::fabs(cross(from, a, b)) > slack * std::max(distance(from, a), distance(from, b));
 }
 
-bool is_diagonal(Cell a, Cell b) {
+bool goes_diagonally(Cell a, Cell b) {
     return a.col != b.col && a.row != b.row;
 }
 
@@ -73,7 +73,7 @@ void CarryGround::add(std::vector<Vec2> const& line, std::size_t basin, std::str
             distance_[cells[i]] = 0;
             changed.push_back(cells[i]);
         }
-        if (i > 0 && is_diagonal(cells[i - 1], cells[i])) {
+        if (i > 0 && goes_diagonally(cells[i - 1], cells[i])) {
             corner_[corner_cell(cells[i - 1], cells[i])] |= diagonal(cells[i - 1], cells[i]);
         }
     }
@@ -94,7 +94,7 @@ double CarryGround::cost(Cell c) const {
 }
 
 bool CarryGround::cuts_a_corner(Cell from, Cell to) const {
-    return is_diagonal(from, to) && (corner_[corner_cell(from, to)] & ~diagonal(from, to)) != 0;
+    return goes_diagonally(from, to) && (corner_[corner_cell(from, to)] & ~diagonal(from, to)) != 0;
 }
 
 /// Whether something holds for all segments that touch the cells around a step.

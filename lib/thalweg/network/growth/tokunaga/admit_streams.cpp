@@ -16,7 +16,7 @@ constexpr double samples_a_spacing = 3.0;
 // Where a new source is tried: first at this share of the spacing, then nearer by the factor, on either side of the
 // course.
 constexpr double first_reach = 0.75;
-constexpr double nearer = 0.7;
+constexpr double reach_factor = 0.7;
 constexpr int reaches = 24; ///< the last is 0.0002 of the spacing
 
 /// A direction by the cosine and sine of its angle with the course, upstream.
@@ -149,12 +149,12 @@ void place_source(ForestLayout& layout, std::size_t i) {
     bool const fork = turn == 1 || turn == -1;
     std::array<double, 2> const sides = turn > 0 ? std::array{1.0, -1.0} : std::array{-1.0, 1.0};
     double length = first_reach * layout.spacing_m[i];
-    for (int reach = 0; reach < reaches; ++reach, length *= nearer) {
+    for (int reach = 0; reach < reaches; ++reach, length *= reach_factor) {
         for (double const side : sides) {
             for (std::size_t k = 0; k < headings.size(); ++k) {
                 Heading const h = headings[fork && k < 2 ? 1 - k : k];
                 Vec2 const to = layout.at[node] + length * turned_by(ahead, h.cosine, side * h.sine);
-                if (may_lie(layout, i, to, Step::first_place)) {
+                if (may_lie(layout, i, to, Placement::first)) {
                     layout.place(i, to);
                     return;
                 }

@@ -29,11 +29,12 @@ double distance_needed(ForestLayout const& layout, std::size_t link, double leng
 }
 
 /// Whether a link may run along `wanted` once the node `mover`, one of its ends, has moved.
-bool keeps_clear(ForestLayout const& layout, std::size_t link, Segment const& wanted, std::size_t mover, Step step) {
+bool keeps_clear(ForestLayout const& layout, std::size_t link, Segment const& wanted, std::size_t mover,
+                 Placement placement) {
     double const length = distance(wanted.a, wanted.b);
     double const spacing = layout.spacing_m[link];
-    Segment const now = step == Step::move ? layout.segment(link) : wanted;
-    if (step == Step::move && length < shortest_link * spacing && length < distance(now.a, now.b)) {
+    Segment const now = placement == Placement::move ? layout.segment(link) : wanted;
+    if (placement == Placement::move && length < shortest_link * spacing && length < distance(now.a, now.b)) {
         return false;
     }
     double const margin = distance_needed(layout, link, length, std::numeric_limits<double>::infinity());
@@ -61,20 +62,20 @@ bool keeps_clear(ForestLayout const& layout, std::size_t link, Segment const& wa
         double const squared = squared_distance(wanted, there);
         double const need = is_wall ? margin : distance_needed(layout, link, length, distance(there.a, there.b));
         return squared >= need * need ||
-               (step == Step::move && squared > 0.0 && squared >= squared_distance(now, there));
+               (placement == Placement::move && squared > 0.0 && squared >= squared_distance(now, there));
     });
 }
 
 /// Whether two links that leave one place enclose the least angle, or, where they move, no less than before.
-bool stand_apart(Vec2 a, Vec2 b, Vec2 old_a, Vec2 old_b, Step step) {
+bool stand_apart(Vec2 a, Vec2 b, Vec2 old_a, Vec2 old_b, Placement placement) {
     double const cosine = dot(a, b);
     double const limit = cosine_of_20_degrees * norm(a) * norm(b);
-    return cosine < limit ||
-           (step == Step::move && cosine * norm(old_a) * norm(old_b) <= dot(old_a, old_b) * norm(a) * norm(b));
+    return cosine < limit || (placement == Placement::move &&
+                              cosine * norm(old_a) * norm(old_b) <= dot(old_a, old_b) * norm(a) * norm(b));
 }
 
 /// Whether the angles in a node are wide enough when the node `mover`, it or one beside it, lies at `to`.
-bool angles_fit(ForestLayout const& layout, std::size_t node, std::size_t mover, Vec2 to, Step step) {
+bool angles_fit(ForestLayout const& layout, std::size_t node, std::size_t mover, Vec2 to, Placement placement) {
     std::array<std::size_t, most_ends> ends{};
     std::size_t count = 0;
     if (!layout.is_mouth(node)) {
@@ -91,7 +92,7 @@ bool angles_fit(ForestLayout const& layout, std::size_t node, std::size_t mover,
     for (std::size_t k = 0; k < count; ++k) {
         for (std::size_t m = k + 1; m < count; ++m) {
             if (!stand_apart(place_of(ends[k]) - here, place_of(ends[m]) - here, layout.at[ends[k]] - here_now,
-                             layout.at[ends[m]] - here_now, step)) {
+                             layout.at[ends[m]] - here_now, placement)) {
                 return false;
             }
         }
@@ -101,15 +102,17 @@ bool angles_fit(ForestLayout const& layout, std::size_t node, std::size_t mover,
 
 } // namespace
 
-bool may_lie(ForestLayout const& layout, std::size_t link, Vec2 to, Step step) {
+bool may_lie(ForestLayout const& layout, std::size_t link, Vec2 to, Placement placement) {
     auto const all_above = [&](auto const& fits) {
         return std::all_of(layout.up[link].begin(), layout.up[link].end(),
                            [&](std::size_t above) { return !layout.placed->holds(above) || fits(above); });
     };
-    return angles_fit(layout, layout.below[link], link, to, step) && angles_fit(layout, link, link, to, step) &&
-           all_above([&](std::size_t above) { return angles_fit(layout, above, link, to, step); }) &&
-           keeps_clear(layout, link, {layout.lower_end(link), to}, link, step) && all_above([&](std::size_t above) {
-               return keeps_clear(layout, above, {to, layout.at[above]}, link, step);
+    return angles_fit(layout, layout.below[link], link, to, placement) &&
+           angles_fit(layout, link, link, to, placement) &&
+           all_above([&](std::size_t above) { return angles_fit(layout, above, link, to, placement); }) &&
+           keeps_clear(layout, link, {layout.lower_end(link), to}, link, placement) &&
+           all_above([&](std::size_t above) {
+               return keeps_clear(layout, above, {to, layout.at[above]}, link, placement);
            });
 }
 

@@ -135,7 +135,7 @@ void try_step(ForestLayout& layout, std::size_t i, Vec2 step) {
         step = (longest / length) * step;
     }
     for (int attempt = 0; attempt < attempts; ++attempt) {
-        if (may_lie(layout, i, layout.at[i] + step, Step::move)) {
+        if (may_lie(layout, i, layout.at[i] + step, Placement::move)) {
             layout.move(i, layout.at[i] + step);
             return;
         }

@@ -56,11 +56,11 @@ Vec2 direction_of(Vec2 a);
 void admit_streams(ForestLayout& layout, int order);
 
 /// Whether a node is new or only moves: what moves may stay as near to others as it was.
-enum class Step : std::uint8_t { first_place, move };
+enum class Placement : std::uint8_t { first, move };
 
 /// Whether the node of a link may lie at `to`: its links keep the clearance from all but their neighbours, and those
 /// that share a node enclose 20 degrees at least.
-bool may_lie(ForestLayout const& layout, std::size_t link, Vec2 to, Step step);
+bool may_lie(ForestLayout const& layout, std::size_t link, Vec2 to, Placement placement);
 
 /// Moves every free node once: towards the centres of the places nearest to it and to its links, towards a straight
 /// course, tributaries upstream, and by chance in the first sweeps. progress: [0, 1) of the sweeps of this order.
