@@ -26,6 +26,7 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -121,30 +122,27 @@ int end_of_results(int code) {
     return Exit::failed;
 }
 
-int run(int argc, char** argv) {
-    Session session;
-    session.run.stop = stop_at_signals();
+using Commands = std::map<CLI::App*, Command>;
 
-    CLI::App app("thalweg makes terrain from its rivers outward.", "thalweg");
-    app.formatter_fn([](CLI::App const* of, std::string const&, CLI::AppFormatMode) { return help_text(*of); });
-    app.set_help_flag("-h,--help", "Show this help.");
-    app.set_version_flag("--version", fmt::format("thalweg {} ({})", pipeline::version(), io::gdal_version()),
-                         "Show the version of thalweg and of GDAL.");
-    app.require_subcommand(1);
-    app.fallthrough(false);
-    std::map<CLI::App*, Command> commands;
+/// The options every command of work has.
+void add_options_of_all(CLI::App& sub, Session& session) {
+    sub.add_option("--threads", session.threads, "Use this many threads; 0 takes every core.")
+        ->check(CLI::Range(0, 1024));
+    sub.add_option("--device", session.device,
+                   "Solve large grid systems on the CPU or on an OpenCL device; heights differ by less than 1e-6 "
+                   "m. Other stages always run on the CPU.")
+        ->check(CLI::IsMember({"cpu", "opencl"}))
+        ->capture_default_str();
+    CLI::Option* const quiet = sub.add_flag("-q,--quiet", session.quiet, "Print errors only.");
+    sub.add_flag("-v,--verbose", session.verbose, "Print every note and repair, and the time of each stage.")
+        ->excludes(quiet);
+}
+
+Commands add_commands(CLI::App& app, Session& session) {
+    Commands commands;
     auto const add = [&](char const* name, char const* words, auto const& add_command) {
         CLI::App* const sub = app.add_subcommand(name, words);
-        sub->add_option("--threads", session.threads, "Use this many threads; 0 takes every core.")
-            ->check(CLI::Range(0, 1024));
-        sub->add_option("--device", session.device,
-                        "Solve large grid systems on the CPU or on an OpenCL device; heights differ by less than 1e-6 "
-                        "m. Other stages always run on the CPU.")
-            ->check(CLI::IsMember({"cpu", "opencl"}))
-            ->capture_default_str();
-        CLI::Option* const quiet = sub->add_flag("-q,--quiet", session.quiet, "Print errors only.");
-        sub->add_flag("-v,--verbose", session.verbose, "Print every note and repair, and the time of each stage.")
-            ->excludes(quiet);
+        add_options_of_all(*sub, session);
         commands[sub] = add_command(*sub, session);
     };
     add("make", "Make terrain and a river network from a recipe or a river file.", add_make);
@@ -166,12 +164,21 @@ int run(int argc, char** argv) {
     commands[completion] = add_completion(*completion);
     commands[man] = add_man(*man); // these two know every command that is there already
     commands[help] = add_help(*help);
-    app.footer("Examples:\n"
-               "  thalweg make\n"
-               "  thalweg make samples/walker_nhdplus.gpkg -o out/walker\n"
-               "  thalweg check out/walker\n"
-               "  thalweg help make\n"); // after the commands: they would take it over
+    return commands;
+}
 
+void describe_program(CLI::App& app) {
+    app.formatter_fn([](CLI::App const* of, std::string const&, CLI::AppFormatMode) { return help_text(*of); });
+    app.set_help_flag("-h,--help", "Show this help.");
+    app.set_version_flag("--version", fmt::format("thalweg {} ({})", pipeline::version(), io::gdal_version()),
+                         "Show the version of thalweg and of GDAL.");
+    app.require_subcommand(1);
+    app.fallthrough(false);
+}
+
+/// Reads the words of the command line. Gives: the exit code where there is nothing more to do: help, a version, a
+/// complaint.
+std::optional<int> parse(CLI::App& app, int argc, char** argv) {
     if (argc == 1) {
         write_to_stderr(app.help());
         return Exit::wrong;
@@ -188,35 +195,55 @@ int run(int argc, char** argv) {
         complain(complaint(app, {argv + 1, argv + argc}, e.what()));
         return Exit::wrong;
     }
+    return std::nullopt;
+}
 
-    Terminal terminal(session.quiet ? Terminal::Manner::quiet : Terminal::Manner::talk);
+/// Sets up what a run needs besides its words.
+void prepare(Session& session, Terminal& terminal) {
     session.run.threads = can_start_threads(session.threads) ? session.threads : 1;
     session.run.progress = &Terminal::progress;
     session.run.progress_arg = &terminal;
-    session.run.log = [&](std::string_view line) { terminal.line(line); };
+    session.run.log = [&terminal](std::string_view line) { terminal.line(line); };
+}
+
+int work(CLI::App const& chosen, Command const& command, Session& session, Terminal& terminal) {
+    if (session.verbose) {
+        session.run.say(fmt::format("thalweg {} ({})", pipeline::version(), io::gdal_version()));
+    }
+    if (session.run.threads != session.threads) {
+        session.run.tell("threads", "one: the system lets no more start");
+    }
+    if (session.device == "opencl") {
+        session.run.device = Device::opencl;
+        session.run.tell("device", solver::opencl_device_name());
+    }
+    auto const begin = std::chrono::steady_clock::now();
+    int const code = command();
+    bool const made = chosen.get_name() == "make" && chosen.count("--dry-run") == 0;
+    if (session.verbose || made) {
+        tell_times(session, terminal, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    }
+    return code;
+}
+
+int run(int argc, char** argv) {
+    Session session;
+    session.run.stop = stop_at_signals();
+    CLI::App app("thalweg makes terrain from its rivers outward.", "thalweg");
+    describe_program(app);
+    Commands const commands = add_commands(app, session);
+    app.footer("Examples:\n"
+               "  thalweg make\n"
+               "  thalweg make samples/walker_nhdplus.gpkg -o out/walker\n"
+               "  thalweg check out/walker\n"
+               "  thalweg help make\n"); // after the commands: they would take it over
+    if (std::optional<int> const code = parse(app, argc, argv)) {
+        return *code;
+    }
+    Terminal terminal(session.quiet ? Terminal::Manner::quiet : Terminal::Manner::talk);
+    prepare(session, terminal);
     CLI::App* const chosen = app.get_subcommands().front();
-    return call(
-        [&] {
-            if (session.verbose) {
-                session.run.say(fmt::format("thalweg {} ({})", pipeline::version(), io::gdal_version()));
-            }
-            if (session.run.threads != session.threads) {
-                session.run.tell("threads", "one: the system lets no more start");
-            }
-            if (session.device == "opencl") {
-                session.run.device = Device::opencl;
-                session.run.tell("device", solver::opencl_device_name());
-            }
-            auto const begin = std::chrono::steady_clock::now();
-            int const code = commands.at(chosen)();
-            bool const made = chosen->get_name() == "make" && chosen->count("--dry-run") == 0;
-            if (session.verbose || made) {
-                tell_times(session, terminal,
-                           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-            }
-            return code;
-        },
-        terminal);
+    return call([&] { return work(*chosen, commands.at(chosen), session, terminal); }, terminal);
 }
 
 } // namespace

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/detail/refine.hpp>
 
-#include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/detail/internal/coarse_places.hpp>
+#include <thalweg/detail/internal/level_weights.hpp>
 
 #include <algorithm>
 #include <array>
@@ -70,47 +71,6 @@ struct Lattice {
 std::int64_t kept_above(std::int64_t kept, std::int64_t all) {
     return std::min(all, (kept - 1) / 2 + 4);
 }
-
-/// Weights and deviations of one level, as its points want them.
-class LevelWeights {
-public:
-    LevelWeights(Refinement const& refinement, int level) : refinement_(refinement), side_(std::ldexp(1.0, -level)) {
-        if (!refinement.character.varies()) {
-            simple_ = at_hurst(refinement.character.hurst);
-            return;
-        }
-        for (int step = 0; step <= static_cast<int>(Character::steps_of_hurst); ++step) {
-            // No estimate comes near 0 or 1, where there is nothing to solve.
-            bool const useful = step > 0 && step < static_cast<int>(Character::steps_of_hurst);
-            by_step_.push_back(useful ? at_hurst(step / Character::steps_of_hurst) : Simple{});
-        }
-    }
-
-    /// For points with all their neighbours.
-    struct Simple {
-        float middle = 0.0F;
-        float farthest = 0.0F;
-        std::array<double, 2> deviation{}; ///< in units of sigma, of centres and of edges
-    };
-    Simple const& simple() const { return simple_; }
-    Simple const& simple(float step) const { return by_step_[static_cast<std::size_t>(step)]; }
-
-    /// sigma r^H per sigma; r: distance of the nearest neighbours in coarse cells.
-    double reach(double hurst, bool edge) const { return exact::pow(edge ? side_ : side_ * std::sqrt(2.0), hurst); }
-
-private:
-    Simple at_hurst(double hurst) const {
-        StencilWeights const full = stencil_weights(refinement_.stencil, used_neighbours(refinement_.stencil), hurst);
-        return {static_cast<float>(full.weight[4]),
-                static_cast<float>(full.weight[12]),
-                {full.deviation * reach(hurst, false), full.deviation * reach(hurst, true)}};
-    }
-
-    Refinement const& refinement_;
-    double side_; ///< [coarse cells] of the finer lattice
-    Simple simple_;
-    std::vector<Simple> by_step_;
-};
 
 /// The points of one level that one worker makes: a band of rows, with a window of four rows of centres.
 class Band {
@@ -278,26 +238,6 @@ private:
         }
     }
 
-    /// H, in steps, and sigma at a column of the row `kind`.
-    void character_at(std::int64_t col, std::int64_t row, float& step, float& sigma) const {
-        Character const& character = refinement_.character;
-        std::int64_t const width = refinement_.coarse->width();
-        std::int64_t const side = std::int64_t{1} << level_;
-        float const x = static_cast<float>(col & (side - 1)) / static_cast<float>(side);
-        float const y = static_cast<float>(row & (side - 1)) / static_cast<float>(side);
-        std::int64_t const north_west = (row >> level_) * width + (col >> level_);
-        std::int64_t const east = x > 0.0F ? 1 : 0;
-        std::int64_t const south = y > 0.0F ? width : 0;
-        auto const between = [&](std::vector<float> const& of) {
-            auto const at = [&](std::int64_t i) { return of[static_cast<std::size_t>(i)]; };
-            float const north_z = at(north_west) + x * (at(north_west + east) - at(north_west));
-            float const south_z = at(north_west + south) + x * (at(north_west + south + east) - at(north_west + south));
-            return north_z + y * (south_z - north_z);
-        };
-        step = std::floor(between(character.steps) + 0.5F);
-        sigma = between(character.sigmas);
-    }
-
     void set_factors(Kind const& kind, std::int64_t begin, std::int64_t end) {
         std::size_t const edge = kind.edge ? 1 : 0;
         if (!varies_) {
@@ -308,15 +248,13 @@ private:
             return;
         }
         for (std::int64_t i = begin; i < end; ++i) {
-            float step = 0.0F;
-            float sigma = 0.0F;
             // A centre may stand for its east and south, past the result: the coarse raster goes on there.
-            character_at(2 * i + kind.odd, kind.row, step, sigma);
-            LevelWeights::Simple const& simple = weights_.simple(step);
+            LocalCharacter const here = character_at(refinement_, level_, 2 * i + kind.odd, kind.row);
+            LevelWeights::Simple const& simple = weights_.simple(here.step);
             auto const at = static_cast<std::size_t>(i - begin);
             factors_[0][at] = simple.middle;
             factors_[1][at] = simple.farthest;
-            factors_[2][at] = static_cast<float>(static_cast<double>(sigma) * simple.deviation[edge]);
+            factors_[2][at] = static_cast<float>(static_cast<double>(here.sigma) * simple.deviation[edge]);
         }
     }
 
@@ -328,23 +266,10 @@ private:
         return row % 2 == 0 ? from_.row(row / 2)[col / 2] : window(row / 2)[col / 2];
     }
 
-    /// Whether all the coarse cells nearest to a point are holes.
-    bool in_hole(std::int64_t col, std::int64_t row) const {
-        std::int64_t const side = std::int64_t{1} << level_;
-        for (std::int64_t const r : {(row + side / 2 - 1) / side, (row + side / 2) / side}) {
-            for (std::int64_t const c : {(col + side / 2 - 1) / side, (col + side / 2) / side}) {
-                if (!std::isnan((*refinement_.coarse)[Cell{c, r}])) {
-                    return false;
-                }
-            }
-        }
-        return true;
-    }
-
     /// A point some of whose neighbours are missing.
     float make_one(Kind const& kind, std::int64_t i, float noise) {
         std::int64_t const col = 2 * i + kind.odd;
-        if (refinement_.holes && in_hole(col, kind.row)) {
+        if (refinement_.holes && in_hole(refinement_, level_, col, kind.row)) {
             return no_height;
         }
         std::array<double, 16> heights{};
@@ -365,10 +290,10 @@ private:
         double sigma = refinement_.character.sigma;
         float step = 0.0F;
         if (varies_) {
-            float sigma_here = 0.0F;
-            character_at(col, kind.row, step, sigma_here);
-            hurst = static_cast<double>(step) / Character::steps_of_hurst;
-            sigma = static_cast<double>(sigma_here);
+            LocalCharacter const here = character_at(refinement_, level_, col, kind.row);
+            step = here.step;
+            hurst = static_cast<double>(here.step) / Character::steps_of_hurst;
+            sigma = static_cast<double>(here.sigma);
         }
         StencilWeights const& weights = weights_for(known, step, hurst);
         double above = 0.0;
@@ -418,11 +343,11 @@ void make_level(Refinement const& refinement, Lattice const& from, Lattice const
     });
 }
 
-} // namespace
-
-void refine(Refinement const& refinement, Raster<float>& dem, Floors& floors, Run const& run) {
+/// The lattices of all levels, each as far as the next one needs it, in the result, the floors and the coarse raster.
+std::vector<Lattice> plan_lattices(Refinement const& refinement, Raster<float>& dem, Floors& floors) {
     Raster<float> const& coarse = *refinement.coarse;
     std::vector<Lattice> lattices(static_cast<std::size_t>(refinement.levels) + 1);
+    auto const floor_of = [&](int level) -> Floor& { return level % 2 == 1 ? floors.odd : floors.even; };
     std::int64_t cols = dem.width();
     std::int64_t rows = dem.height();
     for (int level = refinement.levels; level >= 0; --level) {
@@ -437,17 +362,24 @@ void refine(Refinement const& refinement, Raster<float>& dem, Floors& floors, Ru
         lattice.rows = rows;
         lattice.stride = cols;
         if (level > 0 && level < refinement.levels) {
-            Floor& floor = level % 2 == 1 ? floors.odd : floors.even;
+            Floor& floor = floor_of(level);
             floor.resize(std::max(floor.size(), static_cast<std::size_t>(cols * rows)));
         }
     }
     // Only now, since of a small result an upper level may be the larger one.
     for (int level = 1; level < refinement.levels; ++level) {
-        lattices[static_cast<std::size_t>(level)].z = (level % 2 == 1 ? floors.odd : floors.even).data();
+        lattices[static_cast<std::size_t>(level)].z = floor_of(level).data();
     }
     lattices.back().z = dem.values().data();
     lattices.front().z = const_cast<float*>(coarse.values().data()); // only read
     lattices.front().stride = coarse.width();
+    return lattices;
+}
+
+} // namespace
+
+void refine(Refinement const& refinement, Raster<float>& dem, Floors& floors, Run const& run) {
+    std::vector<Lattice> const lattices = plan_lattices(refinement, dem, floors);
     double const points = static_cast<double>(dem.cells());
     for (std::size_t level = 1; level < lattices.size(); ++level) {
         make_level(refinement, lattices[level - 1], lattices[level], static_cast<int>(level), run);

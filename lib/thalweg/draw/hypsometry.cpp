@@ -32,6 +32,37 @@ void demand_curve(std::vector<Vec2> const& curve, double integral) {
     }
 }
 
+/// Fills the ground below the curve and draws the curve.
+void draw_ground(Cairo* sheet, Plot const& plot, std::vector<Vec2> const& curve, double unit) {
+    std::vector<Vec2> line(curve.size());
+    std::transform(curve.begin(), curve.end(), line.begin(), [&](Vec2 p) { return plot.at(100.0 * p.x, p.y); });
+    trace_line(sheet, line, 0.0);
+    cairo_line_to(sheet, line.back().x, plot.box.bottom());
+    cairo_line_to(sheet, line.front().x, plot.box.bottom());
+    cairo_close_path(sheet);
+    set_colour(sheet, ground);
+    cairo_fill(sheet);
+    trace_line(sheet, line, 0.0);
+    set_colour(sheet, line_colour);
+    cairo_set_line_width(sheet, 0.17 * unit);
+    cairo_stroke(sheet);
+}
+
+/// A dashed line at the mean height: the integral is where that lies between the lowest and the highest.
+void draw_mean(Cairo* sheet, Plot const& plot, double low, double high, double integral, double unit) {
+    double const mean = low + integral * (high - low);
+    Vec2 const right = plot.at(100.0, mean);
+    double const dash = 0.5 * unit;
+    cairo_set_dash(sheet, &dash, 1, 0.0);
+    draw_line(sheet, plot.at(0.0, mean), right, 0.08 * unit, faint_ink);
+    cairo_set_dash(sheet, nullptr, 0, 0.0);
+    double const range = high - low;
+    int const decimals = range > 0.0 && range < 10.0 ? 2 : range < 100.0 ? 1 : 0;
+    TextStyle const small{unit, faint_ink, Weight::normal, 0.2 * unit};
+    draw_text(sheet, {right.x - 0.6 * unit, right.y - 0.5 * unit}, "mean " + number(mean, decimals) + " m", small,
+              Anchor::end);
+}
+
 } // namespace
 
 Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryParams const& params) {
@@ -67,33 +98,10 @@ Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryPa
                       {unit, faint_ink}, Anchor::middle);
             return;
         }
-        std::vector<Vec2> line(curve.size());
-        std::transform(curve.begin(), curve.end(), line.begin(), [&](Vec2 p) { return plot.at(100.0 * p.x, p.y); });
-        trace_line(sheet, line, 0.0);
-        cairo_line_to(sheet, line.back().x, plot.box.bottom());
-        cairo_line_to(sheet, line.front().x, plot.box.bottom());
-        cairo_close_path(sheet);
-        set_colour(sheet, ground);
-        cairo_fill(sheet);
-        trace_line(sheet, line, 0.0);
-        set_colour(sheet, line_colour);
-        cairo_set_line_width(sheet, 0.17 * unit);
-        cairo_stroke(sheet);
-        if (!has_integral) {
-            return;
+        draw_ground(sheet, plot, curve, unit);
+        if (has_integral) {
+            draw_mean(sheet, plot, low, high, integral, unit);
         }
-        // The integral is where the mean height lies between the lowest and the highest.
-        double const mean = low + integral * (high - low);
-        Vec2 const right = plot.at(100.0, mean);
-        double const dash = 0.5 * unit;
-        cairo_set_dash(sheet, &dash, 1, 0.0);
-        draw_line(sheet, plot.at(0.0, mean), right, 0.08 * unit, faint_ink);
-        cairo_set_dash(sheet, nullptr, 0, 0.0);
-        double const range = high - low;
-        int const decimals = range > 0.0 && range < 10.0 ? 2 : range < 100.0 ? 1 : 0;
-        TextStyle const small{unit, faint_ink, Weight::normal, 0.2 * unit};
-        draw_text(sheet, {right.x - 0.6 * unit, right.y - 0.5 * unit}, "mean " + number(mean, decimals) + " m", small,
-                  Anchor::end);
     });
 }
 

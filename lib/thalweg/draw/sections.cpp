@@ -222,74 +222,113 @@ void draw_scale_of_x(Cairo* sheet, Box box, Ticks const& ticks, double metres_a_
     }
 }
 
-} // namespace
-
-Picture sections(Raster<float> const& dem, RaisedNetwork const* network, NetworkOrders const* orders,
-                 SectionsParams const& params) {
+void demand_sections(RaisedNetwork const* network, NetworkOrders const* orders, SectionsParams const& params) {
     require_in("draw.sections", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_in("draw.sections", "count", params.count, Range::between(1, 9));
     if (network != nullptr && (orders == nullptr || orders->strahler.size() != network->plan.arc_count())) {
         throw BadInput(fmt::format("draw.sections: a network of {} arcs comes with {} orders; order this network",
                                    network->plan.arc_count(), orders == nullptr ? 0 : orders->strahler.size()));
     }
+}
+
+/// Where the panels and their key stand; lengths in pixels.
+struct PanelSheet {
+    double width;
+    double unit; ///< the size of a small letter
+    double height;
+    double pitch; ///< from panel to panel
+    double top;   ///< above the first panel's name
+    double below; ///< the last panel
+    Box first;
+    Box key;
+    Scales scales;
+    double metres_a_unit; ///< of the numbers along x
+    double exaggeration;  ///< of heights
+};
+
+PanelSheet sheet_for_panels(std::vector<Section> const& cuts, double width) {
+    PanelSheet sheet{};
+    sheet.width = width;
+    double const unit = 14.0 * std::max(0.45, width / 1000.0);
+    sheet.unit = unit;
+    double const left = 6.5 * unit;
+    double const key_room = 0.24 * width;
+    sheet.top = 3.6 * unit;
+    sheet.below = 4.6 * unit;
+    sheet.pitch = 12.8 * unit;
+    sheet.height = std::ceil(sheet.top + static_cast<double>(cuts.size()) * sheet.pitch + sheet.below);
+    double const gap = 2.2 * unit; // above a panel: its name
+    sheet.first = {left, sheet.top + gap, width - left - key_room - 4.5 * unit, sheet.pitch - gap};
+    sheet.key = {width - key_room - 1.8 * unit, sheet.top + gap, key_room,
+                 std::min(1.2 * key_room, sheet.height - sheet.top - gap - 8.0 * unit)};
+    sheet.scales = scales_of(cuts, 4);
+    Scales const& scales = sheet.scales;
+    double const widest = std::max(std::fabs(scales.x_low), std::fabs(scales.x_high));
+    sheet.metres_a_unit = widest >= 2000.0 ? 1000.0 : 1.0;
+    double const px_per_m = sheet.first.width / std::max(scales.x_high - scales.x_low, 1e-300);
+    sheet.exaggeration = sheet.first.height / scales.span_m / px_per_m;
+    return sheet;
+}
+
+void draw_panels(Cairo* cairo, PanelSheet const& sheet, std::vector<Section> const& cuts) {
+    Scales const& scales = sheet.scales;
+    Ticks const ticks = ticks_between(scales.x_low / sheet.metres_a_unit, scales.x_high / sheet.metres_a_unit,
+                                      std::clamp(static_cast<int>(sheet.first.width / (6.0 * sheet.unit)), 1, 8));
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+        Plot plot{sheet.first, scales.x_low, scales.x_high, scales.y_low[k], scales.y_low[k] + scales.span_m};
+        plot.box.y += static_cast<double>(k) * sheet.pitch;
+        for (double const x : ticks.values) {
+            double const px = plot.at(x * sheet.metres_a_unit, plot.y_low).x;
+            draw_line(cairo, {px, plot.box.y}, {px, plot.box.bottom()}, 0.07 * sheet.unit, grid_line);
+        }
+        draw_panel(cairo, plot, cuts[k], scales, k, sheet.unit);
+        if (k + 1 == cuts.size()) {
+            draw_scale_of_x(cairo, plot.box, ticks, sheet.metres_a_unit, scales, sheet.unit);
+        }
+    }
+}
+
+void name_axes(Cairo* cairo, PanelSheet const& sheet, bool across) {
+    std::string const unit_name = sheet.metres_a_unit > 1.0 ? "[km]" : "[m]";
+    TextStyle const axis{1.05 * sheet.unit, ink};
+    draw_text_within(cairo, {sheet.first.x + 0.5 * sheet.first.width, sheet.height - sheet.below + 3.4 * sheet.unit},
+                     (across ? "distance from the river " : "distance ") + unit_name +
+                         (across ? ", looking downstream" : ""),
+                     axis, sheet.first.width, Anchor::middle);
+    draw_text(cairo, {1.6 * sheet.unit, sheet.top + 0.5 * (sheet.height - sheet.top - sheet.below)}, "height [m]", axis,
+              Anchor::middle, Vec2{0.0, -1.0});
+}
+
+/// What all panels share, below the key.
+void say_scales(Cairo* cairo, PanelSheet const& sheet, Grid const& grid) {
+    Box const& key = sheet.key;
+    double const high =
+        std::min(key.height, key.width * static_cast<double>(grid.height) / static_cast<double>(grid.width));
+    TextStyle const small{sheet.unit, faint_ink};
+    draw_text_within(cairo, {key.x, key.y + high + 3.2 * sheet.unit}, "all panels on the same scales,", small,
+                     key.width);
+    draw_text_within(cairo, {key.x, key.y + high + 4.7 * sheet.unit}, "heights ×" + two_figures(sheet.exaggeration),
+                     small, key.width);
+}
+
+} // namespace
+
+Picture sections(Raster<float> const& dem, RaisedNetwork const* network, NetworkOrders const* orders,
+                 SectionsParams const& params) {
+    demand_sections(network, orders, params);
     std::vector<Section> const cuts = cut_sections(dem, network, orders, params.count);
     bool const across = cuts.front().kind == Section::Kind::river;
     MainStem const stem = across ? main_stem(network->plan, *orders) : MainStem{};
-
-    double const width = params.width_px;
-    double const unit = 14.0 * std::max(0.45, width / 1000.0);
-    double const left = 6.5 * unit;
-    double const key_room = 0.24 * width;
-    double const top = 3.6 * unit;
-    double const below = 4.6 * unit;
-    auto const panels = static_cast<double>(cuts.size());
-    double const pitch = 12.8 * unit;
-    double const height = std::ceil(top + panels * pitch + below);
-    double const gap = 2.2 * unit; // above a panel: its name
-    Box const first{left, top + gap, width - left - key_room - 4.5 * unit, pitch - gap};
-    Scales const scales = scales_of(cuts, 4);
-    double const widest = std::max(std::fabs(scales.x_low), std::fabs(scales.x_high));
-    double const metres_a_unit = widest >= 2000.0 ? 1000.0 : 1.0;
-    double const px_per_m = first.width / std::max(scales.x_high - scales.x_low, 1e-300);
-    double const exaggeration = first.height / scales.span_m / px_per_m;
-
-    return paint(width, height, params.format, [&](Cairo* sheet) {
+    PanelSheet const sheet = sheet_for_panels(cuts, params.width_px);
+    return paint(sheet.width, sheet.height, params.format, [&](Cairo* cairo) {
         std::string const name = across ? "Cross-sections" : "Sections";
-        draw_text_within(sheet, {left, 2.2 * unit},
+        draw_text_within(cairo, {sheet.first.x, 2.2 * sheet.unit},
                          params.title.empty() ? name : params.title + ": " + (across ? "cross-sections" : "sections"),
-                         {1.35 * unit, ink, Weight::bold}, width - left - 2.0 * unit);
-        Ticks const ticks = ticks_between(scales.x_low / metres_a_unit, scales.x_high / metres_a_unit,
-                                          std::clamp(static_cast<int>(first.width / (6.0 * unit)), 1, 8));
-        for (std::size_t k = 0; k < cuts.size(); ++k) {
-            Plot plot{first, scales.x_low, scales.x_high, scales.y_low[k], scales.y_low[k] + scales.span_m};
-            plot.box.y += static_cast<double>(k) * pitch;
-            for (double const x : ticks.values) {
-                double const px = plot.at(x * metres_a_unit, plot.y_low).x;
-                draw_line(sheet, {px, plot.box.y}, {px, plot.box.bottom()}, 0.07 * unit, grid_line);
-            }
-            draw_panel(sheet, plot, cuts[k], scales, k, unit);
-            if (k + 1 == cuts.size()) {
-                draw_scale_of_x(sheet, plot.box, ticks, metres_a_unit, scales, unit);
-            }
-        }
-        std::string const unit_name = metres_a_unit > 1.0 ? "[km]" : "[m]";
-        TextStyle const axis{1.05 * unit, ink};
-        draw_text_within(sheet, {first.x + 0.5 * first.width, height - below + 3.4 * unit},
-                         (across ? "distance from the river " : "distance ") + unit_name +
-                             (across ? ", looking downstream" : ""),
-                         axis, first.width, Anchor::middle);
-        draw_text(sheet, {1.6 * unit, top + 0.5 * (height - top - below)}, "height [m]", axis, Anchor::middle,
-                  Vec2{0.0, -1.0});
-        Box const key{width - key_room - 1.8 * unit, top + gap, key_room,
-                      std::min(1.2 * key_room, height - top - gap - 8.0 * unit)};
-        draw_key(sheet, key, dem.grid(), stem, cuts, unit);
-        double const key_high =
-            std::min(key.height, key.width * static_cast<double>(dem.height()) / static_cast<double>(dem.width()));
-        TextStyle const small{unit, faint_ink};
-        draw_text_within(sheet, {key.x, key.y + key_high + 3.2 * unit}, "all panels on the same scales,", small,
-                         key.width);
-        draw_text_within(sheet, {key.x, key.y + key_high + 4.7 * unit}, "heights ×" + two_figures(exaggeration), small,
-                         key.width);
+                         {1.35 * sheet.unit, ink, Weight::bold}, sheet.width - sheet.first.x - 2.0 * sheet.unit);
+        draw_panels(cairo, sheet, cuts);
+        name_axes(cairo, sheet, across);
+        draw_key(cairo, sheet.key, dem.grid(), stem, cuts, sheet.unit);
+        say_scales(cairo, sheet, dem.grid());
     });
 }
 

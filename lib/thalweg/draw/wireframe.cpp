@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <cairo.h>
 #include <fmt/format.h>
@@ -17,12 +16,14 @@
 #include <thalweg/draw/internal/fishnet.hpp>
 #include <thalweg/draw/internal/hidden_lines.hpp>
 #include <thalweg/draw/internal/main_stem.hpp>
+#include <thalweg/draw/internal/wireframe_model.hpp>
 
 namespace thalweg::draw {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr int orders_shown = 3; // the smaller streams would only hide the net
+constexpr Colour skirt_line{0.55, 0.55, 0.57};
+constexpr Colour river_line{0.08, 0.36, 0.72};
 
 void demand_scene(WireframeScene const& scene, WireframeParams const& params) {
     require_in("draw.wireframe", "width_px", params.width_px, Range::between(200, 8000), "pixels");
@@ -43,213 +44,6 @@ void demand_scene(WireframeScene const& scene, WireframeParams const& params) {
                                        arcs, scene.orders == nullptr ? 0 : scene.orders->strahler.size()));
         }
     }
-}
-
-/// Parallel projection, in metres: x to the right, y up.
-struct View {
-    double sine = 0.0; ///< of the bearing
-    double cosine = 1.0;
-    double tilt = 0.5;    ///< what depth adds to y
-    double upright = 1.0; ///< what height adds to y
-
-    View(double azimuth_deg, double elevation_deg, double exaggeration) {
-        double bearing = azimuth_deg - 90.0 * std::floor(azimuth_deg / 90.0);
-        // Seen end on a line would be a point: a twentieth of a degree shows no difference but to the arithmetic.
-        double const turned = std::clamp(bearing, 0.05, 89.95) - bearing;
-        bearing = (azimuth_deg + turned) * degree;
-        sine = std::sin(bearing);
-        cosine = std::cos(bearing);
-        tilt = std::sin(elevation_deg * degree);
-        upright = exaggeration * std::cos(elevation_deg * degree);
-    }
-    Vec2 at(Vec2 ground, double z) const {
-        return {ground.x * cosine - ground.y * sine, (ground.x * sine + ground.y * cosine) * tilt + z * upright};
-    }
-};
-
-/// Relief of about a fifth of the land's greater side: 1, 2, 3, 5 times a power of ten, not below 1 unless the land is
-/// steeper than that altogether.
-double choose_exaggeration(double relief_m, double side_m) {
-    if (!(relief_m > 0.0)) {
-        return 1.0;
-    }
-    double const most = 0.22 * side_m / relief_m;
-    if (most < 1.0 && most > 0.25) {
-        return 1.0;
-    }
-    double const power = round_down(most) > 0.0 ? std::pow(10.0, std::floor(std::log10(most))) : 1.0;
-    double chosen = power;
-    for (double const factor : {2.0, 3.0, 5.0}) {
-        chosen = factor * power <= most ? factor * power : chosen;
-    }
-    return std::clamp(chosen, 1e-6, 1e6);
-}
-
-/// The net over the ground with what stands around it, projected.
-struct Model {
-    Fishnet knots;
-    Net net;
-    double exaggeration = 1.0;
-    std::vector<std::array<Vec2, 2>> skirt;  ///< from knots on front edges down to the base, where seen
-    std::vector<std::array<Vec2, 2>> bottom; ///< the base between them
-    Vec2 base_corner;                        ///< the nearest corner, on the base
-    Vec2 base_col_end;                       ///< the far end of the front edge along columns
-    Vec2 base_row_end;
-    Box box; ///< of all that, y up: x, y are its lower left corner
-};
-
-Vec2 ground_of(Grid const& grid, double col, double row) {
-    return {(col + 0.5) * grid.cell_m, -(row + 0.5) * grid.cell_m};
-}
-
-/// A place on the base below a knot.
-struct Foot {
-    Vec2 at;
-    double depth = 0.0; ///< [m] of the knot, growing away from the viewer
-};
-
-/// How high the land nearer to the viewer than a place stands in its column of the sheet.
-double cover_before(Net const& net, std::vector<Foot> const& feet, Foot const& place) {
-    double cover = -std::numeric_limits<double>::infinity();
-    auto const ask = [&](std::size_t a, std::size_t b) {
-        Vec2 const from = net.at[a];
-        Vec2 const to = net.at[b];
-        double const share = (place.at.x - from.x) / (to.x - from.x);
-        // Sides that end in the knot above cover nothing; between two knots the share is never a hair from the ends.
-        if (share > 1e-9 && share < 1.0 - 1e-9 && std::isfinite(from.y) && std::isfinite(to.y) &&
-            feet[a].depth + (feet[b].depth - feet[a].depth) * share < place.depth - 1e-9 * std::fabs(place.depth)) {
-            cover = std::max(cover, from.y + (to.y - from.y) * share);
-        }
-    };
-    auto const columns = static_cast<std::size_t>(net.columns);
-    for (std::size_t i = 0; i < net.at.size(); ++i) {
-        if ((i + 1) % columns != 0) {
-            ask(i, i + 1);
-        }
-        if (i + columns < net.at.size()) {
-            ask(i, i + columns);
-        }
-    }
-    return cover;
-}
-
-/// Hangs a skirt on every side of a mesh that has land behind it and none before it.
-void hang_skirt(Model& model, std::vector<Foot> const& feet) {
-    Net const& net = model.net;
-    auto const has = [&](std::int64_t col, std::int64_t row) {
-        return col >= 0 && row >= 0 && col < net.columns && row < net.rows && std::isfinite(net.knot(col, row).y);
-    };
-    auto const has_mesh = [&](std::int64_t col, std::int64_t row) { // by its knot of lowest column and row
-        return has(col, row) && has(col + 1, row) && has(col, row + 1) && has(col + 1, row + 1);
-    };
-    std::vector<std::int8_t> hung(net.at.size(), 0); // 1: seen down to the base, 2: covered there
-    auto const hang = [&](std::int64_t col, std::int64_t row) {
-        auto const knot = static_cast<std::size_t>(row * net.columns + col);
-        if (hung[knot] == 0) {
-            double const down_to = std::max(feet[knot].at.y, cover_before(net, feet, feet[knot]));
-            Vec2 const top = net.at[knot];
-            if (down_to < top.y) {
-                model.skirt.push_back({top, Vec2{top.x, down_to}});
-            }
-            hung[knot] = down_to > feet[knot].at.y ? 2 : 1;
-        }
-        return hung[knot] == 1;
-    };
-    auto const hang_side = [&](std::int64_t col, std::int64_t row, std::int64_t next_col, std::int64_t next_row) {
-        bool const first = hang(col, row);
-        bool const second = hang(next_col, next_row);
-        Foot const& from = feet[static_cast<std::size_t>(row * net.columns + col)];
-        Foot const& to = feet[static_cast<std::size_t>(next_row * net.columns + next_col)];
-        if (first && second) {
-            model.bottom.push_back({from.at, to.at});
-            return;
-        }
-        constexpr int parts = 12; // of a line that is partly covered
-        auto const at = [&](double share) {
-            return Foot{{from.at.x + (to.at.x - from.at.x) * share, from.at.y + (to.at.y - from.at.y) * share},
-                        from.depth + (to.depth - from.depth) * share};
-        };
-        for (int k = 0; k < parts; ++k) {
-            Foot const middle = at((k + 0.5) / parts);
-            if (cover_before(net, feet, middle) < middle.at.y) {
-                model.bottom.push_back({at(static_cast<double>(k) / parts).at, at((k + 1.0) / parts).at});
-            }
-        }
-    };
-    for (std::int64_t row = 0; row < net.rows; ++row) {
-        for (std::int64_t col = 0; col < net.columns; ++col) {
-            std::int64_t const above = net.away_row > 0 ? row : row - 1; // the mesh behind a side along the row
-            std::int64_t const before = net.away_row > 0 ? row - 1 : row;
-            if (has_mesh(col, above) && !has_mesh(col, before)) {
-                hang_side(col, row, col + 1, row);
-            }
-            std::int64_t const behind = net.away_col > 0 ? col : col - 1;
-            std::int64_t const in_front = net.away_col > 0 ? col - 1 : col;
-            if (has_mesh(behind, row) && !has_mesh(in_front, row)) {
-                hang_side(col, row, col, row + 1);
-            }
-        }
-    }
-}
-
-Model model_of(Raster<float> const& dem, WireframeParams const& params) {
-    Grid const& grid = dem.grid();
-    Model model;
-    model.knots = fishnet(dem, params.lines);
-    Fishnet const& knots = model.knots;
-    bool const empty = knots.low_m > knots.high_m;
-    double const low = empty ? 0.0 : knots.low_m;
-    double const relief = empty ? 0.0 : knots.high_m - knots.low_m;
-    double const side =
-        grid.cell_m * std::max(knots.col_at.back() - knots.col_at.front(), knots.row_at.back() - knots.row_at.front());
-    model.exaggeration = params.exaggeration > 0.0 ? params.exaggeration : choose_exaggeration(relief, side);
-    View const view(params.azimuth_deg, params.elevation_deg, model.exaggeration);
-
-    Net& net = model.net;
-    net.columns = knots.columns;
-    net.rows = knots.rows;
-    net.away_col = view.sine > 0.0 ? 1 : -1;
-    net.away_row = view.cosine > 0.0 ? -1 : 1;
-    auto const place = [&](std::int64_t col, std::int64_t row) {
-        return ground_of(grid, knots.col_at[static_cast<std::size_t>(col)],
-                         knots.row_at[static_cast<std::size_t>(row)]);
-    };
-    // Heights from the lowest: with those of a plateau the sheet would be far from the numbers' origin.
-    double const base = -std::max(0.06 * relief, 0.015 * side / model.exaggeration);
-    for (std::int64_t row = 0; row < net.rows; ++row) {
-        for (std::int64_t col = 0; col < net.columns; ++col) {
-            double const z = knots.height_m[static_cast<std::size_t>(row * net.columns + col)];
-            net.at.push_back(view.at(place(col, row), z - low));
-        }
-    }
-    std::int64_t const front_col = net.away_col > 0 ? 0 : net.columns - 1;
-    std::int64_t const front_row = net.away_row > 0 ? 0 : net.rows - 1;
-    std::vector<Foot> feet;
-    for (std::int64_t row = 0; row < net.rows; ++row) {
-        for (std::int64_t col = 0; col < net.columns; ++col) {
-            Vec2 const ground = place(col, row);
-            feet.push_back({view.at(ground, base), ground.x * view.sine + ground.y * view.cosine});
-        }
-    }
-    hang_skirt(model, feet);
-    model.base_corner = view.at(place(front_col, front_row), base);
-    model.base_col_end = view.at(place(net.columns - 1 - front_col, front_row), base);
-    model.base_row_end = view.at(place(front_col, net.rows - 1 - front_row), base);
-
-    Vec2 least = model.base_corner;
-    Vec2 most = model.base_corner;
-    auto const widen = [&](Vec2 p) {
-        if (std::isfinite(p.y)) {
-            least = {std::min(least.x, p.x), std::min(least.y, p.y)};
-            most = {std::max(most.x, p.x), std::max(most.y, p.y)};
-        }
-    };
-    std::for_each(net.at.begin(), net.at.end(), widen);
-    widen(model.base_col_end);
-    widen(model.base_row_end);
-    widen(view.at(place(net.columns - 1 - front_col, net.rows - 1 - front_row), base));
-    model.box = {least.x, least.y, most.x - least.x, most.y - least.y};
-    return model;
 }
 
 /// Rivers as threads on the net, with their order.
@@ -338,6 +132,113 @@ void draw_north(Cairo* sheet, Vec2 at, View const& view, double unit) {
               {12.0 * unit, faint_ink}, Anchor::middle);
 }
 
+/// Where the model stands on the sheet; lengths in pixels.
+struct Sheet {
+    double width;
+    double unit; ///< a pixel of a sheet 1200 wide
+    double margin;
+    double top;
+    double scale; ///< [px/m]
+    double height;
+    Vec2 corner; ///< the model's lower left one
+
+    Vec2 at(Box const& box, Vec2 p) const {
+        return {corner.x + (p.x - box.x) * scale, corner.y - (p.y - box.y) * scale};
+    }
+    double line_px() const { return std::max(0.45, 0.62 * unit); }
+};
+
+Sheet sheet_for(Box const& box, WireframeParams const& params) {
+    Sheet sheet{};
+    sheet.width = params.width_px;
+    sheet.unit = std::max(0.5, sheet.width / 1200.0);
+    sheet.margin = 30.0 * sheet.unit;
+    sheet.top = (params.title.empty() ? 24.0 : 74.0) * sheet.unit;
+    double const below = 92.0 * sheet.unit; // lengths of the sides, caption, arrow
+    sheet.scale = std::min((sheet.width - 2.0 * sheet.margin) / std::max(box.width, 1e-300),
+                           0.75 * sheet.width / std::max(box.height, 1e-300));
+    double const ground_high = sheet.scale * box.height;
+    sheet.height = std::ceil(std::clamp(sheet.top + ground_high + below, 0.2 * sheet.width, 2.0 * sheet.width));
+    sheet.corner = {0.5 * (sheet.width - sheet.scale * box.width), sheet.top + ground_high};
+    return sheet;
+}
+
+void trace_straight(Cairo* cairo, std::vector<std::array<Vec2, 2>> const& lines, Sheet const& sheet, Box const& box) {
+    for (auto const& line : lines) {
+        trace_line(cairo, {sheet.at(box, line[0]), sheet.at(box, line[1])}, 0.0);
+    }
+}
+
+/// A line of the hidden-line removal, whose y grows upwards.
+void trace_upward(Cairo* cairo, std::vector<Vec2> line) {
+    for (Vec2& p : line) {
+        p.y = -p.y;
+    }
+    trace_line(cairo, line, 0.0);
+}
+
+void draw_net(Cairo* cairo, Model const& model, Seen const& seen, Sheet const& sheet) {
+    trace_straight(cairo, model.skirt, sheet, model.box);
+    stroke(cairo, skirt_line, 0.8 * sheet.line_px());
+    trace_straight(cairo, model.bottom, sheet, model.box);
+    stroke(cairo, ink, 1.3 * sheet.line_px());
+    for (auto const& line : seen.net) {
+        trace_upward(cairo, line);
+    }
+    stroke(cairo, ink, sheet.line_px());
+}
+
+void draw_threads(Cairo* cairo, Rivers const& rivers, Seen const& seen, Sheet const& sheet) {
+    for (int order = 1; order <= rivers.highest; ++order) {
+        for (SeenThread const& river : seen.threads) {
+            if (rivers.order[river.thread] == order) {
+                trace_upward(cairo, river.line);
+            }
+        }
+        double const share = 1.0 - 0.35 * (rivers.highest - order);
+        stroke(cairo, river_line, std::max(1.1 * sheet.line_px(), 2.4 * sheet.unit * share));
+    }
+}
+
+/// Writes the length of a front edge beside it, where there is room.
+void name_side(Cairo* cairo, Model const& model, Vec2 end, double metres, Sheet const& sheet) {
+    double const unit = sheet.unit;
+    Vec2 const from = sheet.at(model.box, model.base_corner);
+    Vec2 const to = sheet.at(model.box, end);
+    if (distance(from, to) < 60.0 * unit) {
+        return;
+    }
+    Vec2 const middle{0.5 * (from.x + to.x), 0.5 * (from.y + to.y)};
+    bool const left = to.x < from.x;
+    draw_text(cairo, {middle.x + (left ? -8.0 : 8.0) * unit, middle.y + 19.0 * unit}, length_text(metres),
+              {13.0 * unit, faint_ink}, left ? Anchor::end : Anchor::start);
+}
+
+void name_sides(Cairo* cairo, Model const& model, Grid const& grid, Sheet const& sheet) {
+    auto const extent_m = [&](std::vector<double> const& at, std::int64_t cells) {
+        // Knots stand in the middle of cells, so that the land reaches half a cell further.
+        double const reach = at.back() - at.front();
+        return grid.cell_m * (cells == 1 ? 1.0 : std::min(static_cast<double>(cells), reach + 1.0));
+    };
+    name_side(cairo, model, model.base_col_end, extent_m(model.knots.col_at, grid.width), sheet);
+    name_side(cairo, model, model.base_row_end, extent_m(model.knots.row_at, grid.height), sheet);
+}
+
+std::string caption_of(Model const& model, double cell_m, WireframeParams const& params) {
+    Fishnet const& knots = model.knots;
+    std::string caption = fmt::format("seen from the {}, {:.0f}° above the horizon   ·   heights ×{:.6g}",
+                                      quarter_of(params.azimuth_deg), params.elevation_deg, model.exaggeration);
+    if (knots.low_m <= knots.high_m) {
+        double const mesh_m =
+            cell_m * (knots.col_at.back() - knots.col_at.front()) / static_cast<double>(knots.columns - 1);
+        double const relief = knots.high_m - knots.low_m;
+        int const decimals = relief < 10.0 && relief > 0.0 ? 1 : 0;
+        caption += fmt::format("   ·   {}{} m   ·   lines {} apart", number(knots.low_m, decimals),
+                               relief > 0.0 ? " – " + number(knots.high_m, decimals) : "", length_text(mesh_m));
+    }
+    return caption;
+}
+
 } // namespace
 
 double azimuth_up_valley(WireframeScene const& scene) {
@@ -367,104 +268,36 @@ double azimuth_up_valley(WireframeScene const& scene) {
 
 Picture wireframe(WireframeScene const& scene, WireframeParams const& params) {
     demand_scene(scene, params);
-    Grid const& grid = scene.dem.grid();
     Model const model = model_of(scene.dem, params);
-    double const width = params.width_px;
-    double const unit = std::max(0.5, width / 1200.0);
-    double const margin = 30.0 * unit;
-    double const top = (params.title.empty() ? 24.0 : 74.0) * unit;
-    double const below = 92.0 * unit; // lengths of the sides, caption, arrow
-    double const scale = std::min((width - 2.0 * margin) / std::max(model.box.width, 1e-300),
-                                  0.75 * width / std::max(model.box.height, 1e-300));
-    double const ground_high = scale * model.box.height;
-    double const height = std::ceil(std::clamp(top + ground_high + below, 0.2 * width, 2.0 * width));
-    Vec2 const corner{0.5 * (width - scale * model.box.width), top + ground_high};
-    auto const on_sheet = [&](Vec2 p) {
-        return Vec2{corner.x + (p.x - model.box.x) * scale, corner.y - (p.y - model.box.y) * scale};
-    };
-
     Rivers const rivers = rivers_on(scene, model.knots);
+    Sheet const sheet = sheet_for(model.box, params);
+    double const unit = sheet.unit;
     Net net = model.net;
     for (Vec2& p : net.at) {
-        Vec2 const at = on_sheet(p);
+        Vec2 const at = sheet.at(model.box, p);
         p = {at.x, -at.y};
     }
     Seen const seen = hidden_lines(net, rivers.threads, 0.8 * unit);
-    double const line_px = std::max(0.45, 0.62 * unit);
     View const view(params.azimuth_deg, params.elevation_deg, model.exaggeration);
 
-    return paint(width, height, params.format, [&](Cairo* sheet) {
-        draw_text_within(sheet, {margin, 42.0 * unit}, params.title, {24.0 * unit, ink, Weight::bold},
-                         width - 2.0 * margin);
-        cairo_set_line_cap(sheet, CAIRO_LINE_CAP_ROUND);
-        auto const path = [&](std::vector<Vec2> const& line) {
-            std::vector<Vec2> flipped(line.size());
-            std::transform(line.begin(), line.end(), flipped.begin(), [](Vec2 p) { return Vec2{p.x, -p.y}; });
-            trace_line(sheet, flipped, 0.0);
-        };
-        auto const straight = [&](std::array<Vec2, 2> const& line) {
-            trace_line(sheet, {on_sheet(line[0]), on_sheet(line[1])}, 0.0);
-        };
-        for (auto const& line : model.skirt) {
-            straight(line);
-        }
-        stroke(sheet, {0.55, 0.55, 0.57}, 0.8 * line_px);
-        for (auto const& line : model.bottom) {
-            straight(line);
-        }
-        stroke(sheet, ink, 1.3 * line_px);
-        for (auto const& line : seen.net) {
-            path(line);
-        }
-        stroke(sheet, ink, line_px);
-        for (int order = 1; order <= rivers.highest; ++order) {
-            for (SeenThread const& river : seen.threads) {
-                if (rivers.order[river.thread] == order) {
-                    path(river.line);
-                }
-            }
-            double const share = 1.0 - 0.35 * (rivers.highest - order);
-            stroke(sheet, {0.08, 0.36, 0.72}, std::max(1.1 * line_px, 2.4 * unit * share));
-        }
-        cairo_set_line_cap(sheet, CAIRO_LINE_CAP_BUTT);
+    return paint(sheet.width, sheet.height, params.format, [&](Cairo* cairo) {
+        draw_text_within(cairo, {sheet.margin, 42.0 * unit}, params.title, {24.0 * unit, ink, Weight::bold},
+                         sheet.width - 2.0 * sheet.margin);
+        cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+        draw_net(cairo, model, seen, sheet);
+        draw_threads(cairo, rivers, seen, sheet);
+        cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
 
         TextStyle const small{13.0 * unit, faint_ink};
         if (model.knots.low_m > model.knots.high_m) {
-            draw_text(sheet, {0.5 * width, 0.5 * (top + corner.y)}, "no heights", small, Anchor::middle);
+            draw_text(cairo, {0.5 * sheet.width, 0.5 * (sheet.top + sheet.corner.y)}, "no heights", small,
+                      Anchor::middle);
         }
-        auto const name_side = [&](Vec2 end, double metres) {
-            Vec2 const from = on_sheet(model.base_corner);
-            Vec2 const to = on_sheet(end);
-            if (distance(from, to) < 60.0 * unit) {
-                return;
-            }
-            Vec2 const middle{0.5 * (from.x + to.x), 0.5 * (from.y + to.y)};
-            bool const left = to.x < from.x;
-            draw_text(sheet, {middle.x + (left ? -8.0 : 8.0) * unit, middle.y + 19.0 * unit}, length_text(metres),
-                      small, left ? Anchor::end : Anchor::start);
-        };
-        auto const extent_m = [&](std::vector<double> const& at, std::int64_t cells) {
-            // Knots stand in the middle of cells, so that the land reaches half a cell further.
-            double const reach = at.back() - at.front();
-            return grid.cell_m * (cells == 1 ? 1.0 : std::min(static_cast<double>(cells), reach + 1.0));
-        };
-        name_side(model.base_col_end, extent_m(model.knots.col_at, grid.width));
-        name_side(model.base_row_end, extent_m(model.knots.row_at, grid.height));
-
-        double const mesh_m = grid.cell_m * (model.knots.col_at.back() - model.knots.col_at.front()) /
-                              static_cast<double>(model.knots.columns - 1);
-        std::string caption = fmt::format("seen from the {}, {:.0f}° above the horizon   ·   heights ×{:.6g}",
-                                          quarter_of(params.azimuth_deg), params.elevation_deg, model.exaggeration);
-        if (model.knots.low_m <= model.knots.high_m) {
-            double const relief = model.knots.high_m - model.knots.low_m;
-            int const decimals = relief < 10.0 && relief > 0.0 ? 1 : 0;
-            std::string const low = number(model.knots.low_m, decimals);
-            caption +=
-                fmt::format("   ·   {}{} m   ·   lines {} apart", low,
-                            relief > 0.0 ? " – " + number(model.knots.high_m, decimals) : "", length_text(mesh_m));
-        }
-        draw_text_within(sheet, {margin, height - 20.0 * unit}, caption, small, width - 2.0 * margin - 70.0 * unit);
-        draw_north(sheet, {width - margin - 26.0 * unit, height - 34.0 * unit}, view, unit);
+        name_sides(cairo, model, scene.dem.grid(), sheet);
+        draw_text_within(cairo, {sheet.margin, sheet.height - 20.0 * unit},
+                         caption_of(model, scene.dem.grid().cell_m, params), small,
+                         sheet.width - 2.0 * sheet.margin - 70.0 * unit);
+        draw_north(cairo, {sheet.width - sheet.margin - 26.0 * unit, sheet.height - 34.0 * unit}, view, unit);
     });
 }
 

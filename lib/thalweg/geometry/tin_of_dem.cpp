@@ -17,6 +17,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
+#include <thalweg/geometry/internal/dem_land.hpp>
 #include <thalweg/geometry/triangle_order.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 
@@ -25,99 +26,6 @@ namespace {
 
 constexpr std::int64_t most_cells_a_side = 1 << 20; // areas fit 64 bits, circles 128
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-
-// Where triangles may be: squares between four centres with data, halves of those with three.
-class Land {
-public:
-    explicit Land(Raster<float> const& dem) : dem_(dem) {}
-
-    bool has(std::int64_t col, std::int64_t row) const {
-        return dem_.grid().contains({col, row}) && !std::isnan(dem_[Cell{col, row}]);
-    }
-    // Centres with data of the square south-east of a centre.
-    int corners(std::int64_t col, std::int64_t row) const {
-        return (has(col, row) ? 1 : 0) + (has(col + 1, row) ? 1 : 0) + (has(col, row + 1) ? 1 : 0) +
-               (has(col + 1, row + 1) ? 1 : 0);
-    }
-    bool holds(std::int64_t col, std::int64_t row) const {
-        return has(col, row) && (corners(col, row) >= 3 || corners(col - 1, row) >= 3 || corners(col, row - 1) >= 3 ||
-                                 corners(col - 1, row - 1) >= 3);
-    }
-    // Whether the outline runs from a centre to its neighbour: the land lies on one side of the step, not on both.
-    bool outline(std::int64_t col, std::int64_t row, int dx, int dy) const {
-        if (dx < 0 || (dx == 0 && dy < 0)) {
-            return outline(col + dx, row + dy, -dx, -dy);
-        }
-        if (!has(col, row) || !has(col + dx, row + dy)) {
-            return false;
-        }
-        if (dx == 0) {
-            return (corners(col, row) >= 3) != (corners(col - 1, row) >= 3);
-        }
-        if (dy == 0) {
-            return (corners(col, row) >= 3) != (corners(col, row - 1) >= 3);
-        }
-        return corners(col, dy > 0 ? row : row - 1) == 3;
-    }
-    int degree(std::int64_t col, std::int64_t row) const {
-        int count = 0;
-        for (int dy = -1; dy <= 1; ++dy) {
-            for (int dx = -1; dx <= 1; ++dx) {
-                count += (dx != 0 || dy != 0) && outline(col, row, dx, dy) ? 1 : 0;
-            }
-        }
-        return count;
-    }
-    // Whether a triangle whose sides do not cross the outline lies on land: asked at its middle, given thrice.
-    bool is_inside(std::int64_t col3, std::int64_t row3) const {
-        std::int64_t const col = col3 / 3;
-        std::int64_t const row = row3 / 3;
-        int const data = corners(col, row);
-        if (data != 3) {
-            return data == 4;
-        }
-        std::int64_t const x = col3 - 3 * col;
-        std::int64_t const y = row3 - 3 * row;
-        if (!has(col, row)) {
-            return x + y > 3;
-        }
-        if (!has(col + 1, row + 1)) {
-            return x + y < 3;
-        }
-        return has(col + 1, row) ? x > y : x < y;
-    }
-
-private:
-    Raster<float> const& dem_;
-};
-
-// The outline as straight lines between its corners; heights go with them. Rows grow to the south, y to the north.
-std::vector<std::vector<Vec3>> outlines(Raster<float> const& dem, Land const& land, Run const& run) {
-    std::vector<std::vector<Vec3>> lines;
-    auto const place = [&](std::int64_t col, std::int64_t row) {
-        return Vec3{static_cast<double>(col), static_cast<double>(-row), static_cast<double>(dem[Cell{col, row}])};
-    };
-    constexpr std::array<std::pair<int, int>, 4> directions{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
-    for (std::int64_t row = 0; row < dem.height(); ++row) {
-        run.check();
-        for (std::int64_t col = 0; col < dem.width(); ++col) {
-            for (auto const& [dx, dy] : directions) {
-                if (!land.outline(col, row, dx, dy) ||
-                    (land.outline(col, row, -dx, -dy) && land.degree(col, row) == 2)) {
-                    continue;
-                }
-                std::int64_t c = col + dx;
-                std::int64_t r = row + dy;
-                while (land.outline(c, r, dx, dy) && land.degree(c, r) == 2) {
-                    c += dx;
-                    r += dy;
-                }
-                lines.push_back({place(col, row), place(c, r)});
-            }
-        }
-    }
-    return lines;
-}
 
 struct Spot {
     std::int64_t x = 0; // column
@@ -150,7 +58,8 @@ struct Fraction {
 
 class Mesh {
 public:
-    Mesh(Raster<float> const& dem, double error_m, Tin const& first, Land const& land) : dem_(dem), error_m_(error_m) {
+    Mesh(Raster<float> const& dem, double error_m, Tin const& first, DemLand const& land)
+        : dem_(dem), error_m_(error_m) {
         for (Vec3 const& v : first.vertices) {
             spots_.push_back({static_cast<std::int64_t>(v.x), static_cast<std::int64_t>(v.y)});
         }
@@ -267,26 +176,11 @@ private:
         spots_.push_back({at.col, -at.row});
         changed_.clear();
         loose_.clear();
-        auto const [a, b, c] = faces_[face].corner;
-        std::size_t on = 3;
-        for (std::size_t k = 0; k < 3; ++k) {
-            auto const& corner = faces_[face].corner;
-            if (turn(spots_[corner[(k + 1) % 3]], spots_[corner[(k + 2) % 3]], spots_[p]) == 0) {
-                on = k;
-            }
-        }
-        if (on == 3) {
-            auto const [to_a, to_b, to_c] = faces_[face].beyond;
-            std::uint32_t const second = new_face();
-            std::uint32_t const third = new_face();
-            set(face, {p, b, c}, {to_a, second, third});
-            set(second, {p, c, a}, {to_b, third, face});
-            set(third, {p, a, b}, {to_c, face, second});
-            relink(to_b, face, second);
-            relink(to_c, face, third);
-            loose_ = {face, second, third};
+        std::size_t const side = side_through(face, p);
+        if (side == 3) {
+            split_face(face, p);
         } else {
-            split_side(face, on, p);
+            split_side(face, side, p);
         }
         while (!loose_.empty()) {
             std::uint32_t const f = loose_.back();
@@ -299,6 +193,32 @@ private:
             ++stamps_[f];
             scan(f);
         }
+    }
+
+    // The side of a face that runs through a vertex in it; 3: none.
+    std::size_t side_through(std::uint32_t face, std::uint32_t p) const {
+        auto const& corner = faces_[face].corner;
+        std::size_t on = 3;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (turn(spots_[corner[(k + 1) % 3]], spots_[corner[(k + 2) % 3]], spots_[p]) == 0) {
+                on = k;
+            }
+        }
+        return on;
+    }
+
+    // A face becomes three round the new vertex.
+    void split_face(std::uint32_t face, std::uint32_t p) {
+        auto const [a, b, c] = faces_[face].corner;
+        auto const [to_a, to_b, to_c] = faces_[face].beyond;
+        std::uint32_t const second = new_face();
+        std::uint32_t const third = new_face();
+        set(face, {p, b, c}, {to_a, second, third});
+        set(second, {p, c, a}, {to_b, third, face});
+        set(third, {p, a, b}, {to_c, face, second});
+        relink(to_b, face, second);
+        relink(to_c, face, third);
+        loose_ = {face, second, third};
     }
 
     // Both faces of a side get a sister: (p, apex, one end) and (p, other end, apex).
@@ -435,7 +355,7 @@ void require_sound(Raster<float> const& dem, TinOfDemParams const& params) {
 
 SimplifiedDem tin_of_dem(Raster<float> const& dem, TinOfDemParams const& params, Run const& run) {
     require_sound(dem, params);
-    Land const land(dem);
+    DemLand const land(dem);
     std::int64_t data = 0;
     std::int64_t left_out = 0;
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
@@ -444,7 +364,7 @@ SimplifiedDem tin_of_dem(Raster<float> const& dem, TinOfDemParams const& params,
         data += has ? 1 : 0;
         left_out += has && !land.holds(c.col, c.row) ? 1 : 0;
     }
-    auto const lines = outlines(dem, land, run);
+    auto const lines = outlines_of(dem, land, run);
     if (lines.empty()) {
         throw BadInput(
             fmt::format("geometry.tin_of_dem: of {} x {} cells {} have data, and no three of them meet: there "

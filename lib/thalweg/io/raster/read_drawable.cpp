@@ -80,41 +80,50 @@ OGRSpatialReference projection_for(GDALDataset& dataset, Frame const& frame, std
     return equal_area_around(middle.x, middle.y);
 }
 
-struct Warped {
-    Dataset dataset;
-    double cell = 1.0;
+using Target = OGRSpatialReference const*; ///< the projection to warp into; null: only onto north-up squares
+
+std::string exported_wkt(OGRSpatialReference const& reference) {
+    char* text = nullptr;
+    reference.exportToWkt(&text);
+    std::string wkt = text == nullptr ? "" : text;
+    CPLFree(text);
+    return wkt;
+}
+
+/// Squares that cover what a raster becomes.
+struct Squares {
+    Frame frame{};
+    double wide = 0.0; ///< [m], as the other lengths
+    double high = 0.0;
+    double finest = 0.0; ///< as GDAL suggests
+    double cell = 0.0;   ///< so that there are no more than the most a side
 };
 
-/// Onto north-up squares, in another projection where one is given.
-Warped warp(GDALDataset& source, OGRSpatialReference const* target, std::int64_t most_side, std::string const& what,
-            Driver const& driver, Run const& run) {
-    std::string wkt;
-    if (target != nullptr) {
-        char* text = nullptr;
-        target->exportToWkt(&text);
-        wkt = text == nullptr ? "" : text;
-        CPLFree(text);
-    }
-    double const own_cell = frame_of(source).value_or(Frame{})[1];
+Squares squares_for(GDALDataset& source, Target target, std::int64_t most_side, std::string const& what,
+                    Driver const& driver) {
     CPLStringList options;
     if (target != nullptr) {
-        options.SetNameValue("DST_SRS", wkt.c_str());
+        options.SetNameValue("DST_SRS", exported_wkt(*target).c_str());
     }
     std::unique_ptr<void, decltype(&GDALDestroyGenImgProjTransformer)> const transformer(
         GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(&source), nullptr, options.List()),
         &GDALDestroyGenImgProjTransformer);
-    Frame frame{};
+    Squares squares;
+    Frame& frame = squares.frame;
     int columns = 0;
     int rows = 0;
     if (!transformer || GDALSuggestedWarpOutput(GDALDataset::ToHandle(&source), GDALGenImgProjTransform,
                                                 transformer.get(), frame.data(), &columns, &rows) != CE_None) {
         throw BadInput(fmt::format("{} cannot be warped to be drawn: {}", what, driver.take()));
     }
-    double const wide = frame[1] * columns;
-    double const high = -frame[5] * rows;
-    double const finest = std::min(frame[1], -frame[5]);
-    double const coarsest = std::max(wide, high) / static_cast<double>(most_side);
-    double const cell = std::max(finest, coarsest);
+    squares.wide = frame[1] * columns;
+    squares.high = -frame[5] * rows;
+    squares.finest = std::min(frame[1], -frame[5]);
+    squares.cell = std::max(squares.finest, std::max(squares.wide, squares.high) / static_cast<double>(most_side));
+    return squares;
+}
+
+CPLStringList warp_arguments(Squares const& squares, Target target) {
     CPLStringList arguments;
     auto const add = [&](std::initializer_list<std::string> words) {
         for (std::string const& word : words) {
@@ -122,24 +131,44 @@ Warped warp(GDALDataset& source, OGRSpatialReference const* target, std::int64_t
         }
     };
     auto const digits = [](double v) { return fmt::format("{:.17g}", v); };
-    add({"-of", "MEM", "-ot", "Float32", "-dstnodata", "nan", "-r", coarsest > finest ? "average" : "bilinear"});
-    add({"-te", digits(frame[0]), digits(frame[3] - std::max(cell, high)), digits(frame[0] + std::max(cell, wide)),
-         digits(frame[3]), "-tr", digits(cell), digits(cell)});
+    Frame const& frame = squares.frame;
+    double const cell = squares.cell;
+    add({"-of", "MEM", "-ot", "Float32", "-dstnodata", "nan", "-r", cell > squares.finest ? "average" : "bilinear"});
+    add({"-te", digits(frame[0]), digits(frame[3] - std::max(cell, squares.high)),
+         digits(frame[0] + std::max(cell, squares.wide)), digits(frame[3]), "-tr", digits(cell), digits(cell)});
     if (target != nullptr) {
-        add({"-t_srs", wkt});
+        add({"-t_srs", exported_wkt(*target)});
     }
-    // Older GDAL warps every band: a virtual copy of the first one leaves the others out.
+    return arguments;
+}
+
+/// Older GDAL warps every band: a virtual copy of the first one leaves the others out.
+Dataset first_band_of(GDALDataset& source, std::string const& what, Driver const& driver) {
     CPLStringList first;
     for (char const* word : {"-of", "VRT", "-b", "1"}) {
         first.AddString(word);
     }
-    std::unique_ptr<GDALTranslateOptions, decltype(&GDALTranslateOptionsFree)> const copy_options(
+    std::unique_ptr<GDALTranslateOptions, decltype(&GDALTranslateOptionsFree)> const options(
         GDALTranslateOptionsNew(first.List(), nullptr), &GDALTranslateOptionsFree);
-    Dataset const band_one(
-        GDALDataset::FromHandle(GDALTranslate("", GDALDataset::ToHandle(&source), copy_options.get(), nullptr)));
-    if (band_one == nullptr) {
+    Dataset band(GDALDataset::FromHandle(GDALTranslate("", GDALDataset::ToHandle(&source), options.get(), nullptr)));
+    if (band == nullptr) {
         throw IoError(fmt::format("{}: its first band cannot be taken: {}", what, driver.take()));
     }
+    return band;
+}
+
+struct Warped {
+    Dataset dataset;
+    double cell = 1.0;
+};
+
+/// Onto north-up squares, in another projection where one is given.
+Warped warp(GDALDataset& source, Target target, std::int64_t most_side, std::string const& what, Driver const& driver,
+            Run const& run) {
+    double const own_cell = frame_of(source).value_or(Frame{})[1];
+    Squares const squares = squares_for(source, target, most_side, what, driver);
+    CPLStringList arguments = warp_arguments(squares, target);
+    Dataset const band_one = first_band_of(source, what, driver);
     Watch watch(run, "warp");
     std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> const warp_options(
         GDALWarpAppOptionsNew(arguments.List(), nullptr), &GDALWarpAppOptionsFree);
@@ -156,7 +185,7 @@ Warped warp(GDALDataset& source, OGRSpatialReference const* target, std::int64_t
         throw BadInput(fmt::format("{} cannot be warped to be drawn: {}", what, driver.take()));
     }
     driver.check(what);
-    return {std::move(warped), cell};
+    return {std::move(warped), squares.cell};
 }
 
 /// Reads the first band, k x k cells in one.
@@ -218,60 +247,49 @@ Raster<float> read_means(GDALDataset& dataset, Grid const& grid, std::int64_t k,
     return dem;
 }
 
-} // namespace
-
-Drawable read_drawable(std::string const& path, std::int64_t most_side, Run const& run) {
-    std::string const what = "io.read_drawable: " + path;
-    require_in("io.read_drawable", "most_side", most_side, Range::between(16, 30000));
-    Driver const driver;
-    Dataset source = open_file(path, GDAL_OF_RASTER, what);
-    if (source->GetRasterCount() < 1) {
+void require_heights(GDALDataset& source, std::string const& what) {
+    if (source.GetRasterCount() < 1) {
         throw BadInput(what + " has no bands of its own: name one of its subdatasets (gdalinfo lists them)");
     }
-    GDALRasterBand& band = *source->GetRasterBand(1);
-    if (GDALDataTypeIsComplex(band.GetRasterDataType()) != 0) {
+    if (GDALDataTypeIsComplex(source.GetRasterBand(1)->GetRasterDataType()) != 0) {
         throw BadInput(what + " holds complex numbers, not heights");
     }
-    Drawable out;
-    auto const note = [&](std::string words) { out.notes.push_back(std::move(words)); };
-    if (source->GetRasterCount() > 1) {
-        note(fmt::format("drawn from the first of {} bands", source->GetRasterCount()));
-    }
-    double const unit = height_unit_of(*source);
-    if (unit != 1.0) {
-        note(fmt::format("its heights, in {}, are drawn in metres", words_for_unit(unit)));
-    }
-    double const scale = band.GetScale() * unit;
-    double const offset = band.GetOffset() * unit;
+}
 
-    std::optional<Frame> const placed = frame_of(*source);
-    OGRSpatialReference const* const reference = placed ? reference_of(*source) : nullptr;
+/// The raster as north-up squares of metres, where it is not that already; null where it is. Notes what was done.
+Dataset made_drawable(GDALDataset& source, std::int64_t most_side, std::vector<std::string>& notes,
+                      std::string const& what, Driver const& driver, Run const& run) {
+    std::optional<Frame> const placed = frame_of(source);
+    OGRSpatialReference const* const reference = placed ? reference_of(source) : nullptr;
     Dataset warped;
     if (placed && reference != nullptr && !is_projected_in_metres(*reference)) {
-        OGRSpatialReference const target = projection_for(*source, *placed, what);
-        Warped done = warp(*source, &target, most_side, what, driver, run);
+        OGRSpatialReference const target = projection_for(source, *placed, what);
+        Warped done = warp(source, &target, most_side, what, driver, run);
         char const* const name = target.GetName();
-        note(fmt::format("warped from {} into {}, cells of {:.4g} m",
-                         reference->GetName() == nullptr ? "its CRS" : reference->GetName(),
-                         name == nullptr ? "metres" : name, done.cell));
+        notes.push_back(fmt::format("warped from {} into {}, cells of {:.4g} m",
+                                    reference->GetName() == nullptr ? "its CRS" : reference->GetName(),
+                                    name == nullptr ? "metres" : name, done.cell));
         warped = std::move(done.dataset);
     } else if (placed && !is_square_and_north_up(*placed)) {
         Frame const& f = *placed;
-        Warped done = warp(*source, nullptr, most_side, what, driver, run);
+        Warped done = warp(source, nullptr, most_side, what, driver, run);
         bool const turned = f[2] != 0.0 || f[4] != 0.0 || f[1] < 0.0 || f[5] > 0.0;
-        note(turned ? fmt::format("turned north-up, cells of {:.6g} m", done.cell)
-                    : fmt::format("cells of {:.6g} x {:.6g} made squares of {:.6g} m", f[1], -f[5], done.cell));
+        notes.push_back(turned
+                            ? fmt::format("turned north-up, cells of {:.6g} m", done.cell)
+                            : fmt::format("cells of {:.6g} x {:.6g} made squares of {:.6g} m", f[1], -f[5], done.cell));
         warped = std::move(done.dataset);
     }
     if (reference == nullptr) {
-        note(placed ? "it has no CRS: its coordinates are drawn as metres"
-                    : "it has no position: its cells are drawn as 1 m");
+        notes.emplace_back(placed ? "it has no CRS: its coordinates are drawn as metres"
+                                  : "it has no position: its cells are drawn as 1 m");
     }
+    return warped;
+}
 
-    GDALDataset& ready = warped ? *warped : *source;
+/// The grid of a raster whose cells are taken k x k at a time. is_placed: whether what was read has a position.
+Grid grid_of_means(GDALDataset& ready, std::int64_t k, bool is_placed) {
     std::int64_t const width = ready.GetRasterXSize();
     std::int64_t const height = ready.GetRasterYSize();
-    std::int64_t const k = (std::max(width, height) + most_side - 1) / most_side;
     Grid grid;
     grid.width = std::max<std::int64_t>(1, width / k);
     grid.height = std::max<std::int64_t>(1, height / k);
@@ -283,11 +301,38 @@ Drawable read_drawable(std::string const& path, std::int64_t most_side, Run cons
         grid.cell_m = static_cast<double>(k);
         grid.north = static_cast<double>(grid.height * k);
     }
-    if (OGRSpatialReference const* const own = reference_of(ready); own != nullptr && placed) {
+    if (OGRSpatialReference const* const own = reference_of(ready); own != nullptr && is_placed) {
         grid.crs = name_of(*own);
     }
+    return grid;
+}
+
+} // namespace
+
+Drawable read_drawable(std::string const& path, std::int64_t most_side, Run const& run) {
+    std::string const what = "io.read_drawable: " + path;
+    require_in("io.read_drawable", "most_side", most_side, Range::between(16, 30000));
+    Driver const driver;
+    Dataset source = open_file(path, GDAL_OF_RASTER, what);
+    require_heights(*source, what);
+    Drawable out;
+    if (source->GetRasterCount() > 1) {
+        out.notes.push_back(fmt::format("drawn from the first of {} bands", source->GetRasterCount()));
+    }
+    double const unit = height_unit_of(*source);
+    if (unit != 1.0) {
+        out.notes.push_back(fmt::format("its heights, in {}, are drawn in metres", words_for_unit(unit)));
+    }
+    GDALRasterBand& band = *source->GetRasterBand(1);
+    double const scale = band.GetScale() * unit;
+    double const offset = band.GetOffset() * unit;
+    Dataset const warped = made_drawable(*source, most_side, out.notes, what, driver, run);
+    GDALDataset& ready = warped ? *warped : *source;
+    std::int64_t const longest = std::max(ready.GetRasterXSize(), ready.GetRasterYSize());
+    std::int64_t const k = (longest + most_side - 1) / most_side;
+    Grid const grid = grid_of_means(ready, k, frame_of(*source).has_value());
     if (k > 1) {
-        note(fmt::format("drawn from means of {}x{} cells", k, k));
+        out.notes.push_back(fmt::format("drawn from means of {}x{} cells", k, k));
     }
     out.dem = read_means(ready, grid, k, scale, offset, what, driver, run);
     return out;

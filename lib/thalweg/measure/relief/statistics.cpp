@@ -137,6 +137,46 @@ double first_height(Raster<float> const& dem) {
     return *first;
 }
 
+double total(std::vector<RowSums> const& rows, CompensatedSum RowSums::*member) {
+    CompensatedSum sum;
+    for (RowSums const& row : rows) {
+        sum.add((row.*member).value());
+    }
+    return sum.value();
+}
+
+/// Extremes, counts, mean, slopes and roughness: what one walk over the cells gives.
+Statistics first_figures(std::vector<RowSums> const& rows, std::int64_t cells, double datum) {
+    Statistics result;
+    std::int64_t row_pairs = 0;
+    std::int64_t column_pairs = 0;
+    for (RowSums const& row : rows) {
+        row_pairs += row.pairs_along_row;
+        column_pairs += row.pairs_along_column;
+        if (row.cells > 0) {
+            result.min = result.cells == 0 || row.min.z < result.min.z ? row.min : result.min;
+            result.max = result.cells == 0 || row.max.z > result.max.z ? row.max : result.max;
+            result.cells += row.cells;
+        }
+    }
+    result.nodata = cells - result.cells;
+    auto const n = static_cast<double>(result.cells);
+    result.mean = datum + total(rows, &RowSums::above_datum) / n;
+    result.slope_rad = total(rows, &RowSums::slope_cells) / n;
+    result.slope_true_deg = total(rows, &RowSums::slope_metres) / n * (180.0 / exact::pi);
+    result.roughness_m = mean_of_axes(total(rows, &RowSums::rises_along_row), row_pairs,
+                                      total(rows, &RowSums::rises_along_column), column_pairs);
+    return result;
+}
+
+void add_moments(Statistics& result, std::vector<RowSums> const& rows) {
+    auto const n = static_cast<double>(result.cells);
+    result.std = std::sqrt(total(rows, &RowSums::squares) / n);
+    double const variance = result.std * result.std;
+    result.skew = total(rows, &RowSums::cubes) / n / (variance * result.std);
+    result.kurtosis = total(rows, &RowSums::fourths) / n / (variance * variance) - 3.0;
+}
+
 } // namespace
 
 Statistics statistics(Raster<float> const& dem, Run const& run) {
@@ -155,45 +195,14 @@ Statistics statistics(Raster<float> const& dem, Run const& run) {
             }
         });
     };
-    auto const total = [&](CompensatedSum RowSums::*member) {
-        CompensatedSum sum;
-        for (RowSums const& row : rows) {
-            sum.add((row.*member).value());
-        }
-        return sum.value();
-    };
-
     for_rows([&](std::int64_t r, RowSums& sums) {
         add_heights(dem, r, datum, sums);
         add_slopes(dem, r, sums);
         add_rises(dem, r, sums);
     });
-    Statistics result;
-    std::int64_t row_pairs = 0;
-    std::int64_t column_pairs = 0;
-    for (RowSums const& row : rows) {
-        row_pairs += row.pairs_along_row;
-        column_pairs += row.pairs_along_column;
-        if (row.cells > 0) {
-            result.min = result.cells == 0 || row.min.z < result.min.z ? row.min : result.min;
-            result.max = result.cells == 0 || row.max.z > result.max.z ? row.max : result.max;
-            result.cells += row.cells;
-        }
-    }
-    result.nodata = dem.cells() - result.cells;
-    auto const n = static_cast<double>(result.cells);
-    result.mean = datum + total(&RowSums::above_datum) / n;
-    result.slope_rad = total(&RowSums::slope_cells) / n;
-    result.slope_true_deg = total(&RowSums::slope_metres) / n * (180.0 / exact::pi);
-
-    result.roughness_m =
-        mean_of_axes(total(&RowSums::rises_along_row), row_pairs, total(&RowSums::rises_along_column), column_pairs);
-
+    Statistics result = first_figures(rows, dem.cells(), datum);
     for_rows([&](std::int64_t r, RowSums& sums) { add_powers(dem, r, result.mean, sums); });
-    result.std = std::sqrt(total(&RowSums::squares) / n);
-    double const variance = result.std * result.std;
-    result.skew = total(&RowSums::cubes) / n / (variance * result.std);
-    result.kurtosis = total(&RowSums::fourths) / n / (variance * variance) - 3.0;
+    add_moments(result, rows);
     using solver::Axis;
     result.lx = solver::correlation_length(solver::correlogram(dem, result.mean, result.std, Axis::rows, run));
     result.ly = solver::correlation_length(solver::correlogram(dem, result.mean, result.std, Axis::columns, run));

@@ -3,10 +3,8 @@
 #include <thalweg/network/channels/side_valleys.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -18,105 +16,21 @@
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/meetings.hpp>
-#include <thalweg/geometry/segments_near.hpp>
-#include <thalweg/network/planform/internal/segment_grid.hpp>
+#include <thalweg/network/channels/internal/drawn_lines.hpp>
 
 namespace thalweg::network {
 
 namespace {
 
 constexpr double on_line_cells = 0.3; ///< a cell whose centre is as near to a drawn line is that river's
-constexpr double same_cells = 1e-3;   ///< places as near are one
 constexpr double least_fall_m = 1e-3;
-
-/// A place on a given arc.
-struct Place {
-    std::size_t arc = 0;
-    std::size_t segment = 0;
-    double along = 0.0; ///< [0, 1) on the segment
-    Vec2 at;
-
-    friend bool operator<(Place const& a, Place const& b) {
-        return std::tie(a.arc, a.segment, a.along) < std::tie(b.arc, b.segment, b.along);
-    }
-};
-
-/// The drawn lines of given rivers, to find what is near.
-class DrawnLines {
-public:
-    DrawnLines(StreamNetwork const& plan, Grid const& grid)
-        : plan_(plan), cell_m_(grid.cell_m),
-          segments_({grid.west, grid.south()}, {grid.east(), grid.north}, 4.0 * grid.cell_m, count(plan)) {
-        for (std::size_t a = 0; a < plan.arc_count(); ++a) {
-            std::vector<Vec2> const& line = plan.arc(a).line;
-            for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-                segments_.add(owners_.size(), {line[k], line[k + 1]});
-                owners_.emplace_back(a, k);
-            }
-        }
-    }
-
-    bool come_near(Segment const& s, double margin_cells) const {
-        double const margin = margin_cells * cell_m_;
-        return !segments_.near(s, margin,
-                               [&](std::size_t n) { return squared_distance(segments_[n], s) > margin * margin; });
-    }
-
-    /// The place nearest to p (ties: the first); none within a few cells.
-    std::optional<Place> nearest(Vec2 p) const {
-        for (double reach = 1.5; reach <= 12.0; reach *= 2.0) {
-            double best = reach * cell_m_;
-            std::optional<std::size_t> found;
-            segments_.near({p, p}, best, [&](std::size_t n) {
-                double const d = distance(p, geometry::foot_on(segments_[n].a, segments_[n].b, p).at);
-                if (d < best || (d == best && found && owners_[n] < owners_[*found])) {
-                    best = d;
-                    found = n;
-                }
-                return true;
-            });
-            if (found) {
-                auto const [arc, segment] = owners_[*found];
-                geometry::Foot const foot = geometry::foot_on(segments_[*found].a, segments_[*found].b, p);
-                return settled({arc, segment, foot.along, foot.at});
-            }
-        }
-        return std::nullopt;
-    }
-
-private:
-    static std::size_t count(StreamNetwork const& plan) {
-        std::size_t segments = 0;
-        for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
-            segments += plan.arc(arc).line.size() - 1;
-        }
-        return segments;
-    }
-
-    /// The place moved to the vertex it is next to.
-    Place settled(Place place) const {
-        std::vector<Vec2> const& line = plan_.arc(place.arc).line;
-        double const near = same_cells * cell_m_;
-        if (distance(place.at, line[place.segment + 1]) <= near) {
-            return {place.arc, place.segment + 1, 0.0, line[place.segment + 1]};
-        }
-        return distance(place.at, line[place.segment]) <= near
-                   ? Place{place.arc, place.segment, 0.0, line[place.segment]}
-                   : place;
-    }
-
-    StreamNetwork const& plan_;
-    double cell_m_;
-    SegmentGrid segments_;
-    std::vector<std::pair<std::size_t, std::size_t>> owners_; ///< by segment: arc and segment of it
-};
 
 enum Kind : std::uint8_t { nothing, valley, last, outlet };
 
 /// A valley that the land has grown, between nodes.
 struct Grown {
     std::vector<std::int64_t> cells; ///< downstream; the last is a node or, where it joins, the cell before the line
-    std::optional<Place> join;
+    std::optional<PlaceOnArc> join;
 };
 
 /// Where the water of a land runs.
@@ -223,7 +137,7 @@ private:
     }
 
     void cut_given(std::vector<Grown> const& grown) {
-        std::vector<Place> places;
+        std::vector<PlaceOnArc> places;
         for (Grown const& g : grown) {
             if (g.join) {
                 places.push_back(*g.join);
@@ -270,10 +184,10 @@ private:
     }
 
     using Key = std::tuple<std::size_t, std::size_t, double>;
-    static Key key_of(Place const& p) { return {p.arc, p.segment, p.along}; }
+    static Key key_of(PlaceOnArc const& p) { return {p.arc, p.segment, p.along}; }
 
     /// The node in which a valley joins an arc; from, the last one on it, where that is the same place.
-    NodeId node_at(Place const& place, std::size_t a, NodeId from, std::vector<double> const& z) {
+    NodeId node_at(PlaceOnArc const& place, std::size_t a, NodeId from, std::vector<double> const& z) {
         bool const at_source = place.segment == 0 && place.along == 0.0;
         auto const [entry, is_new] = nodes_.try_emplace(key_of(place), given_.plan.from(a));
         if (at_source || !is_new) {

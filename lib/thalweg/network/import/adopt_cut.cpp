@@ -64,6 +64,65 @@ std::vector<std::vector<std::size_t>> owners_of(Numbering const& numbering) {
     return owners;
 }
 
+/// The vertices of all lines, and how the lines meet there.
+struct Junctions {
+    Numbering numbering;
+    std::vector<std::vector<std::size_t>> owners;
+    std::vector<int> degree;  ///< by vertex: segments, each counted for the line that has it first
+    std::vector<char> is_end; ///< by vertex: whether a line ends there
+};
+
+Junctions junctions_of(std::vector<RiverLine> const& lines) {
+    Junctions j{number(lines), {}, {}, {}};
+    j.owners = owners_of(j.numbering);
+    j.degree.assign(j.numbering.at.size(), 0);
+    j.is_end.assign(j.numbering.at.size(), 0);
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        auto const& v = j.numbering.of_line[l];
+        j.is_end[v.front()] = j.is_end[v.back()] = 1;
+        for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+            if (j.owners[l][i] == no_owner) {
+                ++j.degree[v[i]];
+                ++j.degree[v[i + 1]];
+            }
+        }
+    }
+    return j;
+}
+
+/// Vertices first ... last of a line, up to where rivers meet or the line begins or ceases to repeat another.
+struct Part {
+    std::size_t first;
+    std::size_t last;
+    double length;
+};
+
+Part part_from(Junctions const& j, std::size_t line, std::size_t first) {
+    auto const& v = j.numbering.of_line[line];
+    auto const& owners = j.owners[line];
+    std::size_t i = first;
+    double length = 0.0;
+    do {
+        length += distance(j.numbering.at[v[i]], j.numbering.at[v[i + 1]]);
+        ++i;
+    } while (i + 1 < v.size() && owners[i] == owners[first] &&
+             (owners[first] != no_owner || (j.degree[v[i]] == 2 && j.is_end[v[i]] == 0)));
+    return {first, i, length};
+}
+
+void leave_out(RiverLine const& line, Part const& part, RiverLine const& owner, Left& left) {
+    auto const begin = line.vertices.begin();
+    auto const& from = line.vertices[part.first];
+    left.secondary.push_back(
+        {line.feature,
+         {begin + static_cast<std::ptrdiff_t>(part.first), begin + static_cast<std::ptrdiff_t>(part.last) + 1},
+         "duplicate",
+         line.feature});
+    left.repairs.push_back({"duplicate", line.feature, Vec2{from.x, from.y}, part.length,
+                            fmt::format("river {} repeats river {} for {:.6g} m; that part is left out", line.feature,
+                                        owner.feature, part.length)});
+}
+
 } // namespace
 
 void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::string const& name) {
@@ -123,59 +182,35 @@ void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::st
 }
 
 Pieces cut(std::vector<RiverLine> const& lines, Left& left) {
-    auto const numbering = number(lines);
-    auto const owners = owners_of(numbering);
-    std::vector<int> degree(numbering.at.size(), 0);
-    std::vector<char> is_end(numbering.at.size(), 0);
-    for (std::size_t l = 0; l < lines.size(); ++l) {
-        auto const& v = numbering.of_line[l];
-        is_end[v.front()] = is_end[v.back()] = 1;
-        for (std::size_t i = 0; i + 1 < v.size(); ++i) {
-            if (owners[l][i] == no_owner) {
-                ++degree[v[i]];
-                ++degree[v[i + 1]];
-            }
-        }
-    }
+    Junctions const junctions = junctions_of(lines);
+    std::vector<Vec2> const& at = junctions.numbering.at;
     Pieces p;
-    std::vector<std::size_t> node_of(numbering.at.size(), no_owner);
+    std::vector<std::size_t> node_of(at.size(), no_owner);
     auto const node = [&](std::size_t vertex) {
         if (node_of[vertex] == no_owner) {
             node_of[vertex] = p.nodes.size();
-            p.nodes.push_back(numbering.at[vertex]);
+            p.nodes.push_back(at[vertex]);
             p.at_node.emplace_back();
         }
         return node_of[vertex];
     };
     for (std::size_t l = 0; l < lines.size(); ++l) {
-        auto const& v = numbering.of_line[l];
+        auto const& v = junctions.numbering.of_line[l];
         for (std::size_t i = 0; i + 1 < v.size();) {
-            std::size_t const first = i;
-            std::size_t const owner = owners[l][i];
-            double length = 0.0;
-            do {
-                length += distance(numbering.at[v[i]], numbering.at[v[i + 1]]);
-                ++i;
-            } while (i + 1 < v.size() && owners[l][i] == owner &&
-                     (owner != no_owner || (degree[v[i]] == 2 && is_end[v[i]] == 0)));
-            Vec2 const at = numbering.at[v[i]];
+            Part const part = part_from(junctions, l, i);
+            std::size_t const owner = junctions.owners[l][i];
+            i = part.last;
             if (owner == no_owner) {
-                p.pieces.push_back({l, first, i, node(v[first]), node(v[i]), length});
+                std::size_t const from = node(v[part.first]);
+                p.pieces.push_back({l, part.first, part.last, from, node(v[part.last]), part.length});
             } else {
-                auto const begin = lines[l].vertices.begin();
-                left.secondary.push_back(
-                    {lines[l].feature,
-                     {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(i) + 1},
-                     "duplicate",
-                     lines[l].feature});
-                left.repairs.push_back({"duplicate", lines[l].feature, numbering.at[v[first]], length,
-                                        fmt::format("river {} repeats river {} for {:.6g} m; that part is left out",
-                                                    lines[l].feature, lines[owner].feature, length)});
+                leave_out(lines[l], part, lines[owner], left);
             }
-            if (i + 1 < v.size() && degree[v[i]] > 2) {
-                left.repairs.push_back({"split", lines[l].feature, at, static_cast<double>(degree[v[i]]),
+            if (i + 1 < v.size() && junctions.degree[v[i]] > 2) {
+                left.repairs.push_back({"split", lines[l].feature, at[v[i]],
+                                        static_cast<double>(junctions.degree[v[i]]),
                                         fmt::format("river {} is divided at ({:.6f}, {:.6f}), where rivers meet",
-                                                    lines[l].feature, at.x, at.y)});
+                                                    lines[l].feature, at[v[i]].x, at[v[i]].y)});
             }
         }
     }

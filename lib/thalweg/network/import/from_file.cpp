@@ -128,6 +128,54 @@ void require_downstream(NetworkFile const& file, std::vector<std::size_t> const&
     }
 }
 
+/// Adds an arc with its heights and what the file says of it.
+void add_arc(FileArc const& arc, NetworkFile const& file, Nodes const& nodes, NetworkDraft& drawing,
+             FileNetwork& made) {
+    bool const heights = file.says.heights;
+    require_line(arc, heights);
+    NodeId const from = nodes.of(arc.from_node, arc);
+    NodeId const to = nodes.of(arc.to_node, arc);
+    bool const own_height = heights && file.says.nodes;
+    require_end(arc, file.nodes[nodes.order()[from]], arc.line.front(), own_height);
+    require_end(arc, file.nodes[nodes.order()[to]], arc.line.back(), own_height);
+    Arc drawn{{}, arc.survives, arc.feature, arc.type, arc.given};
+    std::vector<double> z;
+    for (Vec3 const p : arc.line) {
+        drawn.line.push_back({p.x, p.y});
+        z.push_back(heights ? p.z : std::numeric_limits<double>::quiet_NaN());
+    }
+    z.front() = made.network.node_z[from];
+    z.back() = made.network.node_z[to];
+    drawing.add_arc(from, to, std::move(drawn));
+    made.network.arc_z.push_back(std::move(z));
+    made.us_area_m2.push_back(arc.us_area_m2);
+    made.ds_area_m2.push_back(arc.ds_area_m2);
+    made.braided.push_back(arc.braided ? 1 : 0);
+    made.arc_ids.push_back(arc.id);
+    made.records.push_back(arc.record);
+}
+
+/// By arc the stretches of features it was made of.
+std::vector<std::vector<Stretch>> stretches_of(NetworkFile const& file, std::vector<std::size_t> const& order,
+                                               StreamNetwork const& plan) {
+    std::vector<std::vector<Stretch>> stretches;
+    for (std::size_t a = 0; a < order.size(); ++a) {
+        FileArc const& arc = file.arcs[order[a]];
+        bool const is_whole = arc.sources.empty() && arc.feature != 0;
+        stretches.push_back(is_whole ? std::vector<Stretch>{{arc.feature, 0.0, plan.length_m(a)}} : arc.sources);
+    }
+    return stretches;
+}
+
+void require_arcs_at_nodes(NetworkFile const& file, Nodes const& nodes, StreamNetwork const& plan) {
+    for (NodeId n = 0; n < plan.node_count(); ++n) {
+        if (plan.out(n) == no_arc && plan.in(n).empty()) {
+            refuse(fmt::format("node {} at ({}, {}) has no arc", file.nodes[nodes.order()[n]].id, plan.node(n).at.x,
+                               plan.node(n).at.y));
+        }
+    }
+}
+
 } // namespace
 
 FileNetwork from_file(NetworkFile const& file) {
@@ -148,42 +196,12 @@ FileNetwork from_file(NetworkFile const& file) {
         made.network.node_z.push_back(heights ? at.z : std::numeric_limits<double>::quiet_NaN());
     }
     for (std::size_t const i : order) {
-        FileArc const& arc = file.arcs[i];
-        require_line(arc, heights);
-        NodeId const from = nodes.of(arc.from_node, arc);
-        NodeId const to = nodes.of(arc.to_node, arc);
-        bool const own_height = heights && file.says.nodes;
-        require_end(arc, file.nodes[nodes.order()[from]], arc.line.front(), own_height);
-        require_end(arc, file.nodes[nodes.order()[to]], arc.line.back(), own_height);
-        Arc drawn{{}, arc.survives, arc.feature, arc.type, arc.given};
-        std::vector<double> z;
-        for (Vec3 const p : arc.line) {
-            drawn.line.push_back({p.x, p.y});
-            z.push_back(heights ? p.z : std::numeric_limits<double>::quiet_NaN());
-        }
-        z.front() = made.network.node_z[from];
-        z.back() = made.network.node_z[to];
-        drawing.add_arc(from, to, std::move(drawn));
-        made.network.arc_z.push_back(std::move(z));
-        made.us_area_m2.push_back(arc.us_area_m2);
-        made.ds_area_m2.push_back(arc.ds_area_m2);
-        made.braided.push_back(arc.braided ? 1 : 0);
-        made.arc_ids.push_back(arc.id);
-        made.records.push_back(arc.record);
+        add_arc(file.arcs[i], file, nodes, drawing, made);
     }
     made.network.plan = std::move(drawing);
     StreamNetwork const& plan = made.network.plan;
-    for (std::size_t a = 0; a < order.size(); ++a) {
-        FileArc const& arc = file.arcs[order[a]];
-        bool const is_whole = arc.sources.empty() && arc.feature != 0;
-        made.stretches.push_back(is_whole ? std::vector<Stretch>{{arc.feature, 0.0, plan.length_m(a)}} : arc.sources);
-    }
-    for (NodeId n = 0; n < plan.node_count(); ++n) {
-        if (plan.out(n) == no_arc && plan.in(n).empty()) {
-            refuse(fmt::format("node {} at ({}, {}) has no arc", file.nodes[nodes.order()[n]].id, plan.node(n).at.x,
-                               plan.node(n).at.y));
-        }
-    }
+    made.stretches = stretches_of(file, order, plan);
+    require_arcs_at_nodes(file, nodes, plan);
     try {
         require_trees(plan, "network.from_file");
     } catch (BadInput const& fault) {

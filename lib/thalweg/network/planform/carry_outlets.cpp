@@ -3,263 +3,25 @@
 #include <thalweg/network/planform/carry_outlets.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <map>
 #include <numeric>
-#include <queue>
-#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/cells/cells_around.hpp>
 #include <thalweg/core/numbers/index.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
-#include <thalweg/network/planform/internal/segment_grid.hpp>
+#include <thalweg/network/planform/internal/carry_ground.hpp>
+#include <thalweg/network/planform/internal/way_out.hpp>
 
 namespace thalweg::network {
 
 namespace {
-
-/// a and b lie on one side of the line through s, farther from it than slack.
-bool on_one_side(Segment s, Vec2 a, Vec2 b, double slack) {
-    double const least = slack * distance(s.a, s.b);
-    double const left = cross(s.a, s.b, a);
-    double const right = cross(s.a, s.b, b);
-    return (left > least && right > least) || (left < -least && right < -least);
-}
-
-bool apart(double a, double b, double c, double d, double slack) {
-    return std::max(a, b) + slack < std::min(c, d) || std::max(c, d) + slack < std::min(a, b);
-}
-
-/// s and t do not meet; within slack [m] the answer is no.
-bool clear(Segment s, Segment t, double slack) {
-    return apart(s.a.x, s.b.x, t.a.x, t.b.x, slack) || apart(s.a.y, s.b.y, t.a.y, t.b.y, slack) ||
-           on_one_side(s, t.a, t.b, slack) || on_one_side(t, s.a, s.b, slack);
-}
-
-/// Two segments from one point meet only there; within slack the answer is no.
-bool fan_out(Vec2 from, Vec2 a, Vec2 b, double slack) {
-    double const dot = (a.x - from.x) * (b.x - from.x) + (a.y - from.y) * (b.y - from.y);
-    return dot < 0.0 || std::fabs(cross(from, a, b)) > slack * std::max(distance(from, a), distance(from, b));
-}
-
-/// A vertex at which a river may be joined.
-struct Confluence {
-    Vec2 at;
-    std::size_t basin = 0;
-};
-
-/// Where rivers run: their cells, the corners they cut diagonally, and the segments near each cell.
-class Ground {
-public:
-    Ground(Grid const& grid, CarryParams const& params)
-        : grid_(grid), params_(params), slack_m_(1e-9 * grid.cell_m), distance_(grid, far), corner_(grid, 0) {}
-
-    Grid const& grid() const { return grid_; }
-    double cost_of_joining() const { return params_.join_cells; }
-    bool has_river(Cell c) const { return distance_[c] == 0; }
-
-    /// basin: by whose number inner vertices may be joined.
-    void add(std::vector<Vec2> const& line, std::size_t basin, std::string const& what) {
-        for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-            Cell const cell = cells_along({line[i]}, grid_, what).front();
-            confluences_.try_emplace(grid_.index(cell), Confluence{line[i], basin});
-        }
-        trace(line, what);
-    }
-
-    /// What a river may run into in a cell, or null.
-    Confluence const* confluence_in(Cell c) const {
-        auto const found = confluences_.find(grid_.index(c));
-        return found == confluences_.end() ? nullptr : &found->second;
-    }
-
-    /// Whether a river may run from p, a point of cell `from`, to a vertex of the river in its neighbour `to`.
-    bool opens_to(Confluence const& confluence, Vec2 p, Cell from, Cell to) const {
-        if (is_diagonal(from, to) && (corner_[corner_cell(from, to)] & ~way(from, to)) != 0) {
-            return false;
-        }
-        Segment const step{p, confluence.at};
-        return all_near(from, to, [&](Segment s) {
-            return s.a == step.b   ? fan_out(step.b, p, s.b, slack_m_)
-                   : s.b == step.b ? fan_out(step.b, p, s.a, slack_m_)
-                   : s.a == p      ? fan_out(p, step.b, s.b, slack_m_)
-                   : s.b == p      ? fan_out(p, step.b, s.a, slack_m_)
-                                   : clear(step, s, slack_m_);
-        });
-    }
-
-private:
-    void trace(std::vector<Vec2> const& line, std::string const& what) {
-        std::vector<Cell> const cells = cells_along(line, grid_, what);
-        std::vector<Cell> changed;
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            if (distance_[cells[i]] != 0) {
-                distance_[cells[i]] = 0;
-                changed.push_back(cells[i]);
-            }
-            if (i > 0 && is_diagonal(cells[i - 1], cells[i])) {
-                corner_[corner_cell(cells[i - 1], cells[i])] |= way(cells[i - 1], cells[i]);
-            }
-        }
-        spread(std::move(changed));
-        for (std::size_t i = 1; i < line.size(); ++i) {
-            touch({line[i - 1], line[i]});
-        }
-    }
-
-public:
-    /// What it costs to enter a cell: rivers repel.
-    double cost(Cell c) const {
-        constexpr std::uint8_t beside = 2; // [cells] within which water takes the other river
-        double const d = static_cast<double>(distance_[c]) + 0.5;
-        return 1.0 + 10.0 / (d * d) + (distance_[c] <= beside ? params_.beside_cells : 0.0);
-    }
-
-    /// Whether a river may run from p, a point of cell `from`, to the centre of its neighbour `to`. A river that ends
-    /// in p may, too.
-    bool open(Vec2 p, Cell from, Cell to) const {
-        if (has_river(to) || (is_diagonal(from, to) && (corner_[corner_cell(from, to)] & ~way(from, to)) != 0)) {
-            return false;
-        }
-        Segment const step{p, grid_.centre(to)};
-        return all_near(from, to, [&](Segment s) {
-            return s.a == p   ? fan_out(p, step.b, s.b, slack_m_)
-                   : s.b == p ? fan_out(p, step.b, s.a, slack_m_)
-                              : clear(step, s, slack_m_);
-        });
-    }
-
-private:
-    static constexpr std::uint8_t far = 255;
-
-    /// Whether something holds for all segments that touch the cells around a step.
-    template <class Holds> bool all_near(Cell from, Cell to, Holds const& holds) const {
-        for (std::int64_t row = std::min(from.row, to.row); row <= std::max(from.row, to.row); ++row) {
-            for (std::int64_t col = std::min(from.col, to.col); col <= std::max(from.col, to.col); ++col) {
-                auto const near = touching_.find(grid_.index({col, row}));
-                if (near != touching_.end() && !std::all_of(near->second.begin(), near->second.end(),
-                                                            [&](std::size_t k) { return holds(segments_[k]); })) {
-                    return false;
-                }
-            }
-        }
-        return true;
-    }
-
-    static bool is_diagonal(Cell a, Cell b) { return a.col != b.col && a.row != b.row; }
-    /// The cell whose south-east corner a diagonal step cuts.
-    static Cell corner_cell(Cell a, Cell b) { return {std::min(a.col, b.col), std::min(a.row, b.row)}; }
-    static std::uint8_t way(Cell a, Cell b) { return (a.col < b.col) == (a.row < b.row) ? 1 : 2; }
-
-    /// Lowers the city-block distances around new river cells.
-    void spread(std::vector<Cell> front) {
-        for (std::uint8_t d = 1; d < far && !front.empty(); ++d) {
-            std::vector<Cell> next;
-            for (Cell const c : front) {
-                for (Cell const n :
-                     {Cell{c.col, c.row - 1}, Cell{c.col - 1, c.row}, Cell{c.col + 1, c.row}, Cell{c.col, c.row + 1}}) {
-                    if (grid_.contains(n) && distance_[n] > d) {
-                        distance_[n] = d;
-                        next.push_back(n);
-                    }
-                }
-            }
-            front = std::move(next);
-        }
-    }
-
-    /// Notes a segment with every cell it passes or touches.
-    void touch(Segment s) {
-        std::size_t const number = segments_.size();
-        segments_.push_back(s);
-        double const h = grid_.cell_m;
-        double const eps = 1e-6 * h;
-        auto const row_of = [&](double y) { return static_cast<std::int64_t>(std::floor((grid_.north - y) / h)); };
-        auto const col_of = [&](double x) { return static_cast<std::int64_t>(std::floor((x - grid_.west) / h)); };
-        for (std::int64_t row = row_of(std::max(s.a.y, s.b.y) + eps); row <= row_of(std::min(s.a.y, s.b.y) - eps);
-             ++row) {
-            double begin = 0.0;
-            double end = 1.0;
-            if (s.a.y != s.b.y) {
-                double const top = grid_.north - static_cast<double>(row) * h + eps;
-                double const t = (top - s.a.y) / (s.b.y - s.a.y);
-                double const u = (top - h - 2.0 * eps - s.a.y) / (s.b.y - s.a.y);
-                begin = std::clamp(std::min(t, u), 0.0, 1.0);
-                end = std::clamp(std::max(t, u), 0.0, 1.0);
-            }
-            double const x0 = s.a.x + begin * (s.b.x - s.a.x);
-            double const x1 = s.a.x + end * (s.b.x - s.a.x);
-            for (std::int64_t col = col_of(std::min(x0, x1) - eps); col <= col_of(std::max(x0, x1) + eps); ++col) {
-                if (grid_.contains({col, row})) {
-                    touching_[grid_.index({col, row})].push_back(number);
-                }
-            }
-        }
-    }
-
-    Grid grid_;
-    CarryParams params_;
-    double slack_m_;
-    Raster<std::uint8_t> distance_; ///< [cells] city-block, to the nearest river cell; 255: that far or farther
-    Raster<std::uint8_t> corner_;   ///< by cell, for its south-east corner: 1 where a river runs NW-SE, 2 NE-SW
-    std::vector<Segment> segments_;
-    std::unordered_map<std::int64_t, Confluence> confluences_;            ///< by cell; looked up only, never walked
-    std::unordered_map<std::int64_t, std::vector<std::size_t>> touching_; ///< looked up only, never walked
-};
-
-/// Where rivers may end: on the grid's border and beside the sea.
-class Ends {
-public:
-    explicit Ends(Grid const& grid) : grid_(grid) {}
-
-    explicit Ends(Mask const& land) : grid_(land.grid()), land_(land), steps_(land.grid(), unreached) {
-        std::vector<Cell> front;
-        for (std::int64_t i = 0; i < land.cells(); ++i) {
-            Cell const c = grid_.at(i);
-            bool at_sea = false;
-            cells_around(grid_, c, 1, [&](Cell n) { at_sea = at_sea || land[n] == 0; });
-            if (at_sea || grid_.on_border(c)) {
-                steps_[i] = 0;
-                front.push_back(c);
-            }
-        }
-        for (std::int32_t steps = 1; !front.empty(); ++steps) {
-            std::vector<Cell> next;
-            for (Cell const c : front) {
-                cells_around(grid_, c, 1, [&](Cell n) {
-                    if (steps_[n] == unreached) {
-                        steps_[n] = steps;
-                        next.push_back(n);
-                    }
-                });
-            }
-            front = std::move(next);
-        }
-    }
-
-    /// King's moves to the nearest end.
-    std::int64_t steps(Cell c) const {
-        return steps_.cells() > 0 ? steps_[c]
-                                  : std::min({c.col, c.row, grid_.width - 1 - c.col, grid_.height - 1 - c.row});
-    }
-    bool is_land(Cell c) const { return !grid_.contains(c) || land_.cells() == 0 || land_[c] != 0; }
-    bool at_border(Cell c) const { return grid_.on_border(c); }
-
-private:
-    static constexpr std::int32_t unreached = -1;
-    Grid grid_;
-    Mask land_;
-    Raster<std::int32_t> steps_;
-};
 
 /// Which basins have become one.
 class Basins {
@@ -277,83 +39,6 @@ public:
 private:
     std::vector<std::size_t> into_;
 };
-
-/// A way of cells, the river's own first; empty where there is none.
-struct Way {
-    std::vector<Cell> cells;
-    Confluence const* into = nullptr; ///< in the last cell; null: it ends where rivers may end
-};
-
-/// The cheapest way from a river's end to where rivers may end, or into a river that it may join.
-/// A* (Hart, Nilsson and Raphael 1968): each step costs at least one and comes at most one cell nearer; what is joined
-/// counts as the end.
-template <class MayJoin>
-Way way_out(Vec2 outlet, Cell start, Ground const& ground, Ends const& ends, MayJoin const& may_join) {
-    struct Reached {
-        double cost = 0.0;
-        std::int64_t from = -1;
-        bool settled = false;
-        Confluence const* into = nullptr;
-    };
-    constexpr double sqrt2 = 1.41421356237309504880;
-    Grid const& grid = ground.grid();
-    std::unordered_map<std::int64_t, Reached> reached;
-    using Entry = std::pair<double, std::int64_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    reached[grid.index(start)] = {};
-    queue.emplace(static_cast<double>(ends.steps(start)), grid.index(start));
-    while (!queue.empty()) {
-        std::int64_t const at = queue.top().second;
-        queue.pop();
-        if (reached[at].settled) {
-            continue;
-        }
-        reached[at].settled = true;
-        Reached const here = reached[at];
-        Cell const c = grid.at(at);
-        if (here.into != nullptr || ends.steps(c) == 0) {
-            Way way{{}, here.into};
-            for (std::int64_t i = at; i >= 0; i = reached[i].from) {
-                way.cells.push_back(grid.at(i));
-            }
-            std::reverse(way.cells.begin(), way.cells.end());
-            return way;
-        }
-        for (std::int64_t dr = -1; dr <= 1; ++dr) {
-            for (std::int64_t dc = -1; dc <= 1; ++dc) {
-                Cell const next{c.col + dc, c.row + dr};
-                Vec2 const here_at = c == start ? outlet : grid.centre(c);
-                if ((dr == 0 && dc == 0) || !grid.contains(next) || !ends.is_land(next)) {
-                    continue;
-                }
-                std::int64_t const to = grid.index(next);
-                if (Confluence const* const into = ground.confluence_in(next);
-                    into != nullptr && may_join(*into) && ground.opens_to(*into, here_at, c, next)) {
-                    double const cost = here.cost + ground.cost_of_joining();
-                    auto const [known, is_new] = reached.try_emplace(to);
-                    if (is_new || cost < known->second.cost) {
-                        known->second = {cost, at, false, into};
-                        queue.emplace(cost, to); // beside the border it may be dearer than it looks from afar
-                    }
-                    continue;
-                }
-                if (!ground.open(here_at, c, next)) {
-                    continue;
-                }
-                double const cost = here.cost + ground.cost(next) * (dr != 0 && dc != 0 ? sqrt2 : 1.0);
-                auto const [known, is_new] = reached.try_emplace(to);
-                // Of equally cheap ways the one that goes straight on.
-                bool const straight = here.from >= 0 && to - at == at - here.from;
-                if (is_new || cost < known->second.cost ||
-                    (straight && cost == known->second.cost && !known->second.settled)) {
-                    known->second = {cost, at, false, nullptr};
-                    queue.emplace(cost + static_cast<double>(ends.steps(next)), to);
-                }
-            }
-        }
-    }
-    return {};
-}
 
 /// A network in which rivers end in vertices of others: those become nodes.
 /// ends: nodes that lie on such a vertex.
@@ -392,23 +77,10 @@ NetworkDraft joined(StreamNetwork const& network, std::vector<NodeId> const& end
     return out;
 }
 
-Carried carry(StreamNetwork const& network, Grid const& grid, Ends const& ends, std::int64_t reach_cells,
-              CarryParams const& params) {
-    require_trees(network, "network.carry_outlets");
-    if (!(params.join_cells >= 0.0 && params.beside_cells >= 0.0)) {
-        throw BadParameter(
-            fmt::format("network.carry_outlets: joining costs {} cells, a cell beside a river {}; give 0 "
-                        "or more",
-                        params.join_cells, params.beside_cells));
-    }
-    Ground ground(grid, params);
-    for (std::size_t a = 0; a < network.arc_count(); ++a) {
-        ground.add(network.arc(a).line, as_index(network.basin(network.from(a))), fmt::format("arc {}", a + 1));
-    }
-    Basins basins(network.outlets().size() + 1); // 0: none
-    std::vector<NodeId> confluences;
-
-    // The nearest to an end go first: their short ways leave the others the most room.
+/// Outlets inside the grid, within reach of an end. The nearest to an end go first: their short ways leave the others
+/// the most room.
+std::vector<NodeId> outlets_inside(StreamNetwork const& network, Grid const& grid, RiverEnds const& ends,
+                                   std::int64_t reach_cells) {
     std::vector<std::pair<std::int64_t, NodeId>> inside;
     for (NodeId const outlet : network.outlets()) {
         Cell const cell = cells_along({network.node(outlet).at}, grid).front();
@@ -417,78 +89,138 @@ Carried carry(StreamNetwork const& network, Grid const& grid, Ends const& ends, 
         }
     }
     std::sort(inside.begin(), inside.end());
+    std::vector<NodeId> outlets;
+    for (auto const& [steps, outlet] : inside) {
+        outlets.push_back(outlet);
+    }
+    return outlets;
+}
 
-    Carried carried;
-    NetworkDraft longer = network.draft();
-    for (auto const& [cells_inside, outlet] : inside) {
-        Vec2 const at = network.node(outlet).at;
-        auto const last = network.in(outlet).front();
-        std::int64_t const feature = network.arc(last).feature;
+/// A network that is drawn on.
+class Carrying {
+public:
+    Carrying(StreamNetwork const& network, Grid const& grid, RiverEnds const& ends, CarryParams const& params)
+        : network_(network), ends_(ends), params_(params), ground_(grid, params), basins_(network.outlets().size() + 1),
+          longer_(network.draft()) {
+        for (std::size_t a = 0; a < network.arc_count(); ++a) {
+            ground_.add(network.arc(a).line, as_index(network.basin(network.from(a))), fmt::format("arc {}", a + 1));
+        }
+    }
+
+    /// Draws the river of an outlet on, and says so; or says that there is no way.
+    Finding carry(NodeId outlet) {
+        Vec2 const at = network_.node(outlet).at;
+        std::size_t const basin = as_index(network_.basin(outlet));
+        Way const way =
+            way_out(at, cells_along({at}, ground_.grid()).front(), ground_, ends_, [&](Confluence const& into) {
+                return params_.join && basins_.root(into.basin) != basins_.root(basin);
+            });
         Finding note;
+        auto const last = network_.in(outlet).front();
+        std::int64_t const feature = network_.arc(last).feature;
         note.feature = feature != 0 ? feature : static_cast<std::int64_t>(last) + 1;
         note.where = at;
-        std::size_t const basin = as_index(network.basin(outlet));
-        Way const way = way_out(at, cells_along({at}, grid).front(), ground, ends, [&](Confluence const& into) {
-            return params.join && basins.root(into.basin) != basins.root(basin);
-        });
         if (way.cells.empty()) {
             note.kind = "closed_basin";
             note.text = fmt::format("the outlet at ({:.3f}, {:.3f}) stays inside the grid: every way to its border "
                                     "meets a river",
                                     at.x, at.y);
-            carried.notes.push_back(std::move(note));
-            continue;
+            return note;
         }
-        std::vector<Vec2> line{at};
-        for (std::size_t i = 1; i < way.cells.size(); ++i) {
-            line.push_back(grid.centre(way.cells[i]));
+        bool const joins = way.into != nullptr;
+        std::vector<Vec2> line = line_of(way, at);
+        if (joins) {
+            basins_.join(basin, way.into->basin);
         }
-        if (way.into != nullptr) {
-            line.back() = way.into->at;
-            basins.join(basin, way.into->basin);
-        }
-        char const* const to = way.into != nullptr ? "river" : ends.at_border(way.cells.back()) ? "border" : "coast";
-        ground.add(line, basin, "a carried outlet"); // what is joined moves no more: way is done with
-        note.kind = std::string(to) == "river" ? "joined_outlet" : "carried_outlet";
+        char const* const to = joins ? "river" : ends_.at_border(way.cells.back()) ? "border" : "coast";
+        ground_.add(line, basin, "a carried outlet"); // what is joined moves no more: way is done with
+        note.kind = joins ? "joined_outlet" : "carried_outlet";
         note.amount = length_of(line);
         note.text = fmt::format("the outlet at ({:.3f}, {:.3f}) was carried {:.3f} m to the {} at ({:.3f}, {:.3f})",
                                 at.x, at.y, note.amount, to, line.back().x, line.back().y);
-        bool const joins = note.kind == "joined_outlet";
-        carried.notes.push_back(std::move(note));
-        if (network.in(outlet).size() == 1) {
-            std::vector<Vec2>& drawn = longer.arcs[last].arc.line;
+        NodeId const end = draw_on(outlet, std::move(line));
+        if (joins) {
+            confluences_.push_back(end);
+        }
+        return note;
+    }
+
+    /// The network with what was drawn; what is joined becomes two arcs.
+    StreamNetwork take() {
+        if (confluences_.empty()) {
+            return std::move(longer_);
+        }
+        return joined(std::move(longer_), confluences_);
+    }
+
+private:
+    std::vector<Vec2> line_of(Way const& way, Vec2 from) const {
+        std::vector<Vec2> line{from};
+        for (std::size_t i = 1; i < way.cells.size(); ++i) {
+            line.push_back(ground_.grid().centre(way.cells[i]));
+        }
+        if (way.into != nullptr) {
+            line.back() = way.into->at;
+        }
+        return line;
+    }
+
+    /// Lengthens the arc that ends in an outlet, or adds one where several do. Gives: the node at the end.
+    NodeId draw_on(NodeId outlet, std::vector<Vec2> line) {
+        auto const arriving = network_.in(outlet);
+        if (arriving.size() == 1) {
+            std::vector<Vec2>& drawn = longer_.arcs[arriving.front()].arc.line;
             drawn.insert(drawn.end(), line.begin() + 1, line.end());
-            longer.nodes[outlet].at = line.back();
-            if (joins) {
-                confluences.push_back(outlet);
-            }
-            continue;
+            longer_.nodes[outlet].at = line.back();
+            return outlet;
         }
         Arc trunk;
         trunk.survives = 0.0;
-        for (ArcId const a : network.in(outlet)) {
-            trunk.survives = std::max(trunk.survives, network.arc(a).survives);
+        for (ArcId const a : arriving) {
+            trunk.survives = std::max(trunk.survives, network_.arc(a).survives);
         }
-        NodeId const mouth = longer.add_node(line.back());
+        NodeId const mouth = longer_.add_node(line.back());
         trunk.line = std::move(line);
-        longer.add_arc(outlet, mouth, std::move(trunk));
-        if (joins) {
-            confluences.push_back(mouth);
-        }
+        longer_.add_arc(outlet, mouth, std::move(trunk));
+        return mouth;
     }
-    carried.network = confluences.empty() ? std::move(longer) : joined(std::move(longer), confluences);
+
+    StreamNetwork const& network_;
+    RiverEnds const& ends_;
+    CarryParams const& params_;
+    CarryGround ground_;
+    Basins basins_; // 0: none
+    NetworkDraft longer_;
+    std::vector<NodeId> confluences_;
+};
+
+Carried carry(StreamNetwork const& network, Grid const& grid, RiverEnds const& ends, std::int64_t reach_cells,
+              CarryParams const& params) {
+    require_trees(network, "network.carry_outlets");
+    if (!(params.join_cells >= 0.0 && params.beside_cells >= 0.0)) {
+        throw BadParameter(
+            fmt::format("network.carry_outlets: joining costs {} cells, a cell beside a river {}; give 0 "
+                        "or more",
+                        params.join_cells, params.beside_cells));
+    }
+    Carrying carrying(network, grid, ends, params);
+    Carried carried;
+    for (NodeId const outlet : outlets_inside(network, grid, ends, reach_cells)) {
+        carried.notes.push_back(carrying.carry(outlet));
+    }
+    carried.network = carrying.take();
     return carried;
 }
 
 } // namespace
 
 Carried carry_outlets(StreamNetwork const& network, Grid const& grid, CarryParams const& params) {
-    return carry(network, grid, Ends(grid), std::numeric_limits<std::int64_t>::max(), params);
+    return carry(network, grid, RiverEnds(grid), std::numeric_limits<std::int64_t>::max(), params);
 }
 
 Carried carry_outlets(StreamNetwork const& network, Mask const& land, std::int64_t reach_cells,
                       CarryParams const& params) {
-    return carry(network, land.grid(), Ends(land), reach_cells, params);
+    return carry(network, land.grid(), RiverEnds(land), reach_cells, params);
 }
 
 } // namespace thalweg::network

@@ -75,6 +75,24 @@ VectorXd least_on_sphere(MatrixXd const& s, VectorXd const& g, double tau) {
     return y * (tau / y.norm()); // what rounding left
 }
 
+/// The columns that are not bound to the sphere, in order.
+std::vector<Index> unbound_columns(std::size_t columns, std::vector<std::size_t> const& unknowns) {
+    std::vector<bool> bound(columns, false);
+    for (std::size_t const column : unknowns) {
+        if (column >= columns || bound[column]) {
+            throw BadParameter(fmt::format("solver.least_squares_on_sphere: column {} of {}", column, columns));
+        }
+        bound[column] = true;
+    }
+    std::vector<Index> others;
+    for (std::size_t c = 0; c < columns; ++c) {
+        if (!bound[c]) {
+            others.push_back(static_cast<Index>(c));
+        }
+    }
+    return others;
+}
+
 } // namespace
 
 Solution least_squares(Matrix const& a, std::vector<double> const& b) {
@@ -104,21 +122,10 @@ Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, 
     }
     MatrixXd const all = matrix_of(a);
     VectorXd const right = Eigen::Map<VectorXd const>(b.data(), static_cast<Index>(b.size()));
-    std::vector<bool> bound(a.columns, false);
+    std::vector<Index> const others = unbound_columns(a.columns, sphere.unknowns);
     MatrixXd with(all.rows(), p);
     for (Index i = 0; i < p; ++i) {
-        std::size_t const column = sphere.unknowns[static_cast<std::size_t>(i)];
-        if (column >= a.columns || bound[column]) {
-            throw BadParameter(fmt::format("solver.least_squares_on_sphere: column {} of {}", column, a.columns));
-        }
-        bound[column] = true;
-        with.col(i) = all.col(static_cast<Index>(column));
-    }
-    std::vector<Index> others;
-    for (std::size_t c = 0; c < a.columns; ++c) {
-        if (!bound[c]) {
-            others.push_back(static_cast<Index>(c));
-        }
+        with.col(i) = all.col(static_cast<Index>(sphere.unknowns[static_cast<std::size_t>(i)]));
     }
     MatrixXd const free = all(Eigen::all, others);
     Eigen::ColPivHouseholderQR<MatrixXd> qr;

@@ -20,7 +20,7 @@ namespace thalweg::network {
 namespace {
 
 constexpr std::uint64_t outlet_stage = 0x6f75746c65747331; // "outlets1"
-constexpr double nearest_cells = 3.0;
+constexpr double least_apart_cells = 3.0;
 
 /// Share of land in a window around a cell; beyond the grid it goes on as in the cell that is nearest.
 double land_around(Mask const& land, Cell c) {
@@ -74,7 +74,7 @@ public:
                 if (at != blocks_.end() && std::ranges::any_of(at->second, [&](Candidate const& o) {
                         auto const dx = static_cast<double>(o.cell.col - c.col);
                         auto const dy = static_cast<double>(o.cell.row - c.row);
-                        double const apart = std::max(mean * std::max(wanted.keeps, o.keeps), nearest_cells);
+                        double const apart = std::max(mean * std::max(wanted.keeps, o.keeps), least_apart_cells);
                         return dx * dx + dy * dy < apart * apart;
                     })) {
                     return false;
@@ -129,7 +129,7 @@ std::vector<Cell> spread_outlets(Mask const& land, std::vector<Cell> const& coas
     std::vector<Cell> outlets;
     // A pass takes what keeps its distance; where that leaves too few, the next asks for less.
     double mean = length / static_cast<double>(wanted);
-    Taken taken(std::max(mean, nearest_cells));
+    Taken taken(std::max(mean, least_apart_cells));
     for (;; mean *= 0.7) {
         run.check();
         for (Candidate const& c : all) {
@@ -141,7 +141,7 @@ std::vector<Cell> spread_outlets(Mask const& land, std::vector<Cell> const& coas
                 outlets.push_back(c.cell);
             }
         }
-        if (mean < nearest_cells) {
+        if (mean < least_apart_cells) {
             return outlets;
         }
     }
