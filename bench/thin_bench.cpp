@@ -51,7 +51,7 @@ void BM_trace(benchmark::State& state) {
     Mask const skeleton = skeleton_of_burrs(state.range(0));
     std::size_t arcs = 0;
     for (auto _ : state) {
-        arcs = network::trace(skeleton).arc_count();
+        arcs = network::trace(skeleton, {Vec2{}}).arc_count();
     }
     std::int64_t cells = 0;
     for (auto const v : skeleton.values()) {
@@ -64,7 +64,7 @@ void BM_trace(benchmark::State& state) {
 BENCHMARK(BM_trace)->Arg(512)->Arg(1024)->Unit(benchmark::kMillisecond);
 
 template <class Stage> void after_tracing(benchmark::State& state, Stage stage) {
-    StreamNetwork const network = network::trace(skeleton_of_burrs(state.range(0)));
+    StreamNetwork const network = network::trace(skeleton_of_burrs(state.range(0)), {Vec2{}});
     for (auto _ : state) {
         benchmark::DoNotOptimize(stage(network));
     }
@@ -72,7 +72,8 @@ template <class Stage> void after_tracing(benchmark::State& state, Stage stage) 
 }
 
 void BM_prune(benchmark::State& state) {
-    after_tracing(state, [](StreamNetwork const& network) { return network::prune(network); });
+    after_tracing(
+        state, [](StreamNetwork const& network) { return network::prune(network, {.length_m = 20.0, .cell_m = 1.0}); });
 }
 void BM_order(benchmark::State& state) {
     after_tracing(state, network::order);
@@ -82,7 +83,7 @@ void BM_set_heights(benchmark::State& state) {
 }
 void BM_rasterise(benchmark::State& state) {
     Grid const grid = test::grid_of(state.range(0), state.range(0));
-    auto const raised = network::set_heights(network::trace(skeleton_of_burrs(state.range(0)))).network;
+    auto const raised = network::set_heights(network::trace(skeleton_of_burrs(state.range(0)), {Vec2{}})).network;
     for (auto _ : state) {
         benchmark::DoNotOptimize(network::rasterise(raised, grid));
     }

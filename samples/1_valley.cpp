@@ -19,8 +19,11 @@
 using namespace thalweg;
 
 int main() {
-    // A verb takes its input and its parameters, and gives a value. Whatever is left out has a default.
+    //! [verb]
+    // A verb takes its input and its parameters, and gives a value. What is left out has a default, where one is right
+    // for all.
     network::Cluster const cluster = network::grow_dla({.particles = 20000, .sticking = 0.85, .visits = 3, .seed = 7});
+    //! [verb]
 
     // One arm of the cluster becomes a basin: its mouth is the seed of the cluster.
     network::Branch const branch = network::pick_branch(cluster, {network::BranchChoice::largest});
@@ -33,10 +36,11 @@ int main() {
     Mask const skeleton = network::thin(framed.mask);
     StreamNetwork const traced = network::trace(skeleton, {framed.mouth});
 
-    // Short leaves are burrs of the skeleton: none under 10 cells is left.
-    network::Pruned const pruned = network::prune(traced, {.length_cells = 10.0, .cell_m = 30.0});
+    // Short leaves are burrs of the skeleton: none under 300 m, ten cells, is left.
+    network::Pruned const pruned = network::prune(traced, {.length_m = 300.0, .cell_m = 30.0});
     NetworkOrders const orders = network::order(pruned.network);
 
+    //! [walk]
     // A stream begins where no arc of its own order flows in.
     std::map<int, int> streams;
     for (std::size_t arc = 0; arc < pruned.network.arc_count(); ++arc) {
@@ -46,6 +50,7 @@ int main() {
         }
         streams[orders.strahler[arc]] += begins ? 1 : 0;
     }
+    //! [walk]
 
     std::printf("%lld particles, %lld arcs traced, %zu kept\n", static_cast<long long>(cluster.cells.size()),
                 static_cast<long long>(pruned.arcs_before), pruned.network.arc_count());

@@ -35,6 +35,7 @@ int main(int count, char** words) try {
         {3, {at(3000, 2400), at(3300, 1200), at(3015, 15)}, "", 0},   // on to the south border
     };
 
+    //! [stages]
     // Lines become arcs of a tree. Whatever had to be mended is told; here nothing is.
     network::Adopted const adopted = network::adopt(drawn, {.orientation = network::Orientation::as_drawn});
     for (Finding const& repair : adopted.repairs) {
@@ -47,6 +48,7 @@ int main(int count, char** words) try {
     // The rivers' cells, and the land that rises from them: 400 m from the valley floor to the farthest crest.
     Valley const valley = network::rasterise(raised.network, grid).valley;
     surface::Dilated const land = surface::dilate(valley, {.increment = {.increment = "rise_fall"}, .relief_m = 400.0});
+    //! [stages]
 
     io::write_dem(land.dem, path);
     measure::Statistics const is = measure::statistics(land.dem);

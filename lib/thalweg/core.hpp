@@ -25,6 +25,7 @@
 #include <thalweg/core/numbers/value_noise.hpp>
 #include <thalweg/core/polygons.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/required.hpp>
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/run/error.hpp>

@@ -203,24 +203,24 @@ TEST(Diagram, FewerThanTwoSitesOrLabelsHaveNone) {
           Lines{{{{0, 0}, {1, 1}}, 1}}, Lines{{{{0, 0}, {1, 1}, {2, 0}}, 7}, {{{4, 4}, {5, 5}}, 7}},
           Lines{{{{0, 0}, {1, 1}}, 1}, {{{0, 0}, {1, 1}}, 2}}}) {
         EXPECT_TRUE(voronoi(lines, square).edges.empty());
-        EXPECT_TRUE(medial_lines(lines, square).edges.empty());
+        EXPECT_TRUE(medial_lines(lines, square, {0.1}).edges.empty());
     }
 }
 
 TEST(Diagram, RefusesWhatCannotBe) {
     Lines const bad{{{{0, 0}, {NAN, 1}}, 1}, {{{2, 2}}, 2}};
     EXPECT_THROW(voronoi(bad, square), BadInput);
-    EXPECT_THROW(medial_lines(bad, square), BadInput);
+    EXPECT_THROW(medial_lines(bad, square, {0.1}), BadInput);
     EXPECT_THROW(voronoi({}, {0, 0, 0, 1}), BadParameter);
-    EXPECT_THROW(medial_lines({}, {0, 2, 1, 1}), BadParameter);
+    EXPECT_THROW(medial_lines({}, {0, 2, 1, 1}, {0.1}), BadParameter);
     EXPECT_THROW(medial_lines({}, square, {0.0}), BadParameter);
-    EXPECT_THROW(medial_lines({{{{0, 0}, {4, 4}}, 1}, {{{0, 4}, {4, 0}}, 2}}, square), BadInput);
-    EXPECT_THROW(medial_lines({{{{0, 0}, {4, 0}}, 1}, {{{2, 0}, {2, 4}}, 2}}, square), BadInput);
+    EXPECT_THROW(medial_lines({{{{0, 0}, {4, 4}}, 1}, {{{0, 4}, {4, 0}}, 2}}, square, {0.1}), BadInput);
+    EXPECT_THROW(medial_lines({{{{0, 0}, {4, 0}}, 1}, {{{2, 0}, {2, 4}}, 2}}, square, {0.1}), BadInput);
 }
 
 TEST(Diagram, TwoPointsHaveOneLineFromBoundToBound) {
     Lines const lines{{{{2, 4}}, 1}, {{{6, 4}}, 2}};
-    for (Diagram const& d : {voronoi(lines, square), medial_lines(lines, square)}) {
+    for (Diagram const& d : {voronoi(lines, square), medial_lines(lines, square, {0.1})}) {
         ASSERT_EQ(d.edges.size(), 1U);
         auto const& edge = d.edges.front();
         EXPECT_NEAR(distance(edge.line.front(), edge.line.back()), 10.0, 1e-12);
@@ -236,7 +236,7 @@ TEST(Diagram, PointsOnALineHaveParallels) {
         lines.push_back({{{1.0 * i, 1.0 * i}}, i});
     }
     EXPECT_EQ(voronoi(lines, square).edges.size(), 6U);
-    EXPECT_EQ(medial_lines(lines, square).edges.size(), 6U);
+    EXPECT_EQ(medial_lines(lines, square, {0.1}).edges.size(), 6U);
 }
 
 TEST(Diagram, PointAndSegmentHaveAParabolaBetween) {
@@ -252,7 +252,7 @@ TEST(Diagram, PointAndSegmentHaveAParabolaBetween) {
 
 TEST(Diagram, FourPointsOnACircleShareAVertex) {
     Lines const lines{{{{2, 2}}, 1}, {{{6, 2}}, 2}, {{{6, 6}}, 3}, {{{2, 6}}, 4}};
-    for (Diagram const& d : {voronoi(lines, square), medial_lines(lines, square)}) {
+    for (Diagram const& d : {voronoi(lines, square), medial_lines(lines, square, {0.1})}) {
         ASSERT_EQ(d.edges.size(), 4U);
         std::set<std::size_t> centre;
         for (auto const& edge : d.edges) {
@@ -319,5 +319,5 @@ TEST(Diagram, CanBeStopped) {
     run.stop = stop.get_token();
     Lines const lines = lattice(1, 0.5, 0.5);
     EXPECT_THROW(voronoi(lines, square, run), Cancelled);
-    EXPECT_THROW(medial_lines(lines, square, {}, run), Cancelled);
+    EXPECT_THROW(medial_lines(lines, square, {0.1}, run), Cancelled);
 }

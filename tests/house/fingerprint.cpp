@@ -671,7 +671,7 @@ int main(int count, char** words) {
     StreamNetwork const traced = network::trace(skeleton, {framed.mouth}, run);
     print("trace", hash_of(traced));
     double const cell_m = skeleton.grid().cell_m;
-    StreamNetwork const pruned = network::prune(traced, {.length_cells = 8, .cell_m = cell_m}, run).network;
+    StreamNetwork const pruned = network::prune(traced, {.length_m = 8 * cell_m, .cell_m = cell_m}, run).network;
     print("prune", hash_of(pruned));
     print("order", hash_of(network::order(pruned)));
     network::Raised const raised = network::set_heights(pruned, {}, run);

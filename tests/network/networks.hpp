@@ -47,7 +47,7 @@ inline StreamNetwork random_skeleton(std::uint64_t seed, std::int64_t side) {
     for (std::int64_t row = side / 2; row < side; ++row) {
         skeleton[Cell{side / 2, row}] = 1;
     }
-    return network::trace(skeleton, {{static_cast<double>(seed % 7), 0.0}});
+    return network::trace(skeleton, {Vec2{static_cast<double>(seed % 7), 0.0}});
 }
 
 /// Trees of straight and bent arcs that pay no heed to where the others run; several basins, some pseudo nodes.

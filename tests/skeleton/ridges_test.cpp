@@ -62,7 +62,7 @@ Land dla(std::uint64_t seed) {
     pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});
     StreamNetwork const traced = network::trace(network::thin(framed.mask), {framed.mouth});
     Grid const& grid = framed.mask.grid();
-    return raised(network::prune(traced, {.length_cells = 4, .cell_m = grid.cell_m}).network, grid);
+    return raised(network::prune(traced, {.length_m = 4 * grid.cell_m, .cell_m = grid.cell_m}).network, grid);
 }
 
 std::vector<Land> const& lands() {

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <thalweg/core/required.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/geometry/diagram.hpp>
 
 namespace thalweg::geometry {
 
 struct MedialLinesParams {
-    double tolerance_m = 0.1; ///< [m] > 0, how far chords may leave a parabola
+    Required<double> tolerance_m; ///< [m] > 0, how far chords may leave a parabola
 };
 
 /// Segment Voronoi diagram of lines: the exact lines midway between labels.
@@ -18,7 +19,7 @@ struct MedialLinesParams {
 /// Throws: BadInput naming the place when lines meet elsewhere or a vertex is not finite; BadParameter; Cancelled.
 /// Source: Karavelas 2004, A robust and efficient implementation for the segment Voronoi diagram; CGAL, exact
 /// predicates.
-Diagram medial_lines(std::vector<LabelledLine> const& lines, Bounds const& bounds, MedialLinesParams const& params = {},
+Diagram medial_lines(std::vector<LabelledLine> const& lines, Bounds const& bounds, MedialLinesParams const& params,
                      Run const& run = {});
 
 } // namespace thalweg::geometry

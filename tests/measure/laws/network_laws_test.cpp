@@ -315,8 +315,10 @@ TEST(JunctionAngles, StairsOfCellsHaveTheDirectionOfTheirChord) {
 
 TEST(NetworkLaws, AreThoseOfTheirVerbs) {
     MadeToOrder const made(11);
-    EXPECT_THROW(network_laws(made.rivers, made.orders, made.areas, {.junction_reach_m = 60.0}), BadParameter);
-    EXPECT_THROW(network_laws(made.rivers, made.orders, made.areas, {.land_m2 = 1e6}), BadParameter);
+    EXPECT_THROW(network_laws(made.rivers, made.orders, made.areas, {.land_m2 = 0.0, .junction_reach_m = 60.0}),
+                 BadParameter);
+    EXPECT_THROW(network_laws(made.rivers, made.orders, made.areas, {.land_m2 = 1e6, .junction_reach_m = 0.0}),
+                 BadParameter);
     NetworkLaws const laws =
         network_laws(made.rivers, made.orders, made.areas,
                      {.land_m2 = 2e6, .junction_reach_m = 60.0, .head_m = {}, .side_branches = {1.0, 2.0, 4.0}});

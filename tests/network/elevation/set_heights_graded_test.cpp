@@ -71,29 +71,35 @@ TEST(SetHeightsGraded, RefusesBadParametersNetworksAndAreas) {
     StreamNetwork const net = test::chain(2);
     std::vector<double> const good{1.0, 2.0};
     for (GradedParams const& wrong :
-         {GradedParams{.slope = 0.0}, GradedParams{.slope = nan}, GradedParams{.slope = inf},
-          GradedParams{.theta = -0.1}, GradedParams{.theta = 1.1}, GradedParams{.theta = nan},
+         {GradedParams{.slope = 0.0, .least_area_m2 = 1.0}, GradedParams{.slope = nan, .least_area_m2 = 1.0},
+          GradedParams{.slope = inf, .least_area_m2 = 1.0}, GradedParams{.theta = -0.1, .least_area_m2 = 1.0},
+          GradedParams{.theta = 1.1, .least_area_m2 = 1.0}, GradedParams{.theta = nan, .least_area_m2 = 1.0},
           GradedParams{.least_area_m2 = 0.0}, GradedParams{.least_area_m2 = inf}, GradedParams{.least_area_m2 = nan}}) {
         EXPECT_THROW(set_heights_graded(net, good, good, wrong), BadParameter);
     }
     for (std::vector<double> const& wrong : {std::vector<double>{1.0}, {1.0, -1.0}, {1.0, nan}, {inf, 1.0}}) {
-        EXPECT_THROW(set_heights_graded(net, wrong, good), BadInput);
-        EXPECT_THROW(set_heights_graded(net, good, wrong), BadInput);
+        EXPECT_THROW(set_heights_graded(net, wrong, good, {.least_area_m2 = 1.0}), BadInput);
+        EXPECT_THROW(set_heights_graded(net, good, wrong, {.least_area_m2 = 1.0}), BadInput);
     }
-    EXPECT_THROW(set_heights_graded(test::network_of({{0, 0}, {1, 0}}, {{0, 1}, {1, 0}}), good, good), BadInput);
-    EXPECT_THROW(set_heights_graded(test::network_of({{0, 0}, {0, 0}}, {{1, 0}}), {1.0}, {1.0}), BadInput);
-    auto const none = set_heights_graded({}, {}, {});
+    EXPECT_THROW(
+        set_heights_graded(test::network_of({{0, 0}, {1, 0}}, {{0, 1}, {1, 0}}), good, good, {.least_area_m2 = 1.0}),
+        BadInput);
+    EXPECT_THROW(set_heights_graded(test::network_of({{0, 0}, {0, 0}}, {{1, 0}}), {1.0}, {1.0}, {.least_area_m2 = 1.0}),
+                 BadInput);
+    auto const none = set_heights_graded({}, {}, {}, {.least_area_m2 = 1.0});
     EXPECT_TRUE(none.network.node_z.empty());
     EXPECT_EQ(none.steepness, 0.0);
     // No area at all counts as the least one.
-    EXPECT_NEAR(set_heights_graded(test::chain(1), {0.0}, {0.0}).network.node_z[1], 0.087, 1e-15);
+    EXPECT_NEAR(set_heights_graded(test::chain(1), {0.0}, {0.0}, {.least_area_m2 = 1.0}).network.node_z[1], 0.087,
+                1e-15);
 }
 
 TEST(SetHeightsGraded, OneRiverIsTheIntegralOfItsLaw) {
     StreamNetwork const net = straight(50);
     for (double const theta : {0.0, 0.3, 0.45, 0.999999, 1.0}) {
         for (double const ds : {100.0, 100.0001, 149.0, 1e4, 1e10}) {
-            auto const graded = set_heights_graded(net, {100.0}, {ds}, {.slope = 0.02, .theta = theta});
+            auto const graded =
+                set_heights_graded(net, {100.0}, {ds}, {.slope = 0.02, .theta = theta, .least_area_m2 = 1.0});
             auto const& z = graded.network.arc_z[0];
             EXPECT_DOUBLE_EQ(z.front(), 20.0);
             EXPECT_EQ(z.back(), 0.0);
@@ -110,14 +116,15 @@ TEST(SetHeightsGraded, OneRiverIsTheIntegralOfItsLaw) {
         }
     }
     // Nearly level areas: slopes nearly level.
-    auto const z = set_heights_graded(net, {100.0}, {100.0001}, {.slope = 0.02, .theta = 1.0}).network.arc_z[0];
+    auto const z = set_heights_graded(net, {100.0}, {100.0001}, {.slope = 0.02, .theta = 1.0, .least_area_m2 = 1.0})
+                       .network.arc_z[0];
     for (std::size_t i = 1; i < z.size(); ++i) {
         EXPECT_NEAR(z[i - 1] - z[i], 0.4, 0.4 * 1e-6);
     }
 }
 
 TEST(SetHeightsGraded, WithinAnArcTheProfileIsConcave) {
-    auto const z = set_heights_graded(straight(40), {1.0}, {1e5}).network.arc_z[0];
+    auto const z = set_heights_graded(straight(40), {1.0}, {1e5}, {.least_area_m2 = 1.0}).network.arc_z[0];
     for (std::size_t i = 2; i < z.size(); ++i) {
         EXPECT_LT(z[i - 1] - z[i], z[i - 2] - z[i - 1]);
         EXPECT_LT(z[i], z[i - 1]);
@@ -128,7 +135,8 @@ TEST(SetHeightsGraded, WithoutConcavityItIsTheSlopeAlongTheStream) {
     ASSERT_TRUE(rc::check("theta 0 = along_stream", [] {
         StreamNetwork const net = any_network();
         Areas const areas = areas_of(net);
-        auto const graded = set_heights_graded(net, areas.us, areas.ds, {.slope = 0.05, .theta = 0.0});
+        auto const graded =
+            set_heights_graded(net, areas.us, areas.ds, {.slope = 0.05, .theta = 0.0, .least_area_m2 = 1.0});
         auto const stream = network::set_heights(net, {network::HeightMode::along_stream, 0.05}).network;
         RC_ASSERT(std::fabs(graded.steepness - 0.05) <= 1e-12);
         for (std::size_t n = 0; n < stream.node_z.size(); ++n) {
@@ -171,8 +179,8 @@ TEST(SetHeightsGraded, Laws) {
             RC_ASSERT(arc_z.size() == line.size());
             RC_ASSERT(arc_z.front() == z[net.from(a)]);
             RC_ASSERT(arc_z.back() == z[net.to(a)]);
-            double const greatest = std::pow(std::max(areas.us[a], params.least_area_m2), -params.theta);
-            double const least = std::pow(std::max(areas.ds[a], params.least_area_m2), -params.theta);
+            double const greatest = std::pow(std::max(areas.us[a], double{params.least_area_m2}), -params.theta);
+            double const least = std::pow(std::max(areas.ds[a], double{params.least_area_m2}), -params.theta);
             for (std::size_t i = 1; i < arc_z.size(); ++i) {
                 double const length = distance(line[i - 1], line[i]);
                 double const slope = (arc_z[i - 1] - arc_z[i]) / length / graded.steepness;
@@ -189,7 +197,7 @@ TEST(SetHeightsGraded, SlopeAndAreaGiveThetaBack) {
     for (double const theta : {0.1, 0.45, 0.9}) {
         StreamNetwork const net = test::random_forest(3, 60, 2);
         Areas const areas = areas_of(net);
-        auto const graded = set_heights_graded(net, areas.us, areas.us, {.theta = theta});
+        auto const graded = set_heights_graded(net, areas.us, areas.us, {.theta = theta, .least_area_m2 = 1.0});
         double sum_x = 0.0;
         double sum_y = 0.0;
         double sum_xx = 0.0;
@@ -212,7 +220,8 @@ TEST(SetHeightsGraded, SlopeAndAreaGiveThetaBack) {
 
 TEST(SetHeightsGraded, ALongChain) {
     std::vector<double> areas(200000, 4.0);
-    auto const graded = set_heights_graded(test::chain(200000), areas, areas, {.slope = 0.5, .theta = 0.5});
+    auto const graded =
+        set_heights_graded(test::chain(200000), areas, areas, {.slope = 0.5, .theta = 0.5, .least_area_m2 = 1.0});
     EXPECT_NEAR(graded.network.node_z.back(), 1e5, 1e-6);
     EXPECT_NEAR(graded.steepness, 1.0, 1e-12);
 }
@@ -220,7 +229,7 @@ TEST(SetHeightsGraded, ALongChain) {
 TEST(SetHeightsGraded, HeightsBeyondDoublesAreRefusedWithTheirPlace) {
     StreamNetwork const net = test::network_of({{0, 0}, {1e154, 0}}, {{1, 0}});
     try {
-        set_heights_graded(net, {1.0}, {1.0}, {.slope = 1e200});
+        set_heights_graded(net, {1.0}, {1.0}, {.slope = 1e200, .least_area_m2 = 1.0});
         ADD_FAILURE();
     } catch (BadInput const& e) {
         EXPECT_NE(std::string(e.what()).find("the node at (1e+154, 0)"), std::string::npos) << e.what();

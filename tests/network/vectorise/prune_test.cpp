@@ -201,8 +201,8 @@ std::string refusal(StreamNetwork const& net, network::PruneParams const& params
 
 TEST(Prune, RefusesBadParametersAndNetworks) {
     StreamNetwork const net = test::chain(3);
-    EXPECT_THROW(prune(StreamNetwork()), BadInput);
-    EXPECT_THROW(prune(test::network_of({{0, 0}, {1, 0}}, {{0, 1}, {1, 0}})), BadInput);
+    EXPECT_THROW(prune(StreamNetwork(), {1.0, 1.0}), BadInput);
+    EXPECT_THROW(prune(test::network_of({{0, 0}, {1, 0}}, {{0, 1}, {1, 0}}), {1.0, 1.0}), BadInput);
     EXPECT_THROW(prune(net, {-1.0, 1.0}), BadParameter);
     EXPECT_THROW(prune(net, {std::numeric_limits<double>::quiet_NaN(), 1.0}), BadParameter);
     EXPECT_THROW(prune(net, {1.0, 0.0}), BadParameter);
@@ -216,7 +216,7 @@ TEST(Prune, NamesTheLongestThatCanBeKept) {
     EXPECT_EQ(prune(net, {384.0, 1.0}).network.arc_count(), 1U); // the boundary is kept
     StreamNetwork const odd = test::network_of({{0, 0}, {1, 1}}, {{1, 0}});
     EXPECT_NE(refusal(odd, {2.0, 1.0}).find("Try 1.41 or less"), std::string::npos);
-    EXPECT_EQ(refusal(net, {12.9, 30.0}),
+    EXPECT_EQ(refusal(net, {12.9 * 30.0, 30.0}),
               "network.prune: pruning at 12.9 cells removes every arc (the longest is 12.8). Try 12.8 or less.");
 }
 
@@ -338,13 +338,24 @@ TEST(Prune, TheSameArcsWhateverTheCell) {
         StreamNetwork const coarse = network::trace(mask, {mouth});
         StreamNetwork const small = network::trace(fine, {fine.grid().centre({20, 39})});
         network::Pruned const a = prune(coarse, {3.0, 1.0});
-        network::Pruned const b = prune(small, {3.0, 0.1});
+        network::Pruned const b = prune(small, {3.0 * 0.1, 0.1});
         RC_ASSERT(a.network.from() == b.network.from());
         RC_ASSERT(a.network.to() == b.network.to());
         for (std::size_t k = 0; k < a.network.arc_count(); ++k) {
             RC_ASSERT(a.network.arc(k).survives == b.network.arc(k).survives);
         }
     }));
+}
+
+TEST(Prune, MetresMadeOfCellsAreThoseCells) {
+    for (double const cell_m : {0.1, 0.3, 1.0 / 3.0, 30.0, 92.6}) {
+        for (int cells = 1; cells <= 300; ++cells) {
+            double const length_m = cells * cell_m; // over cell_m, it may be a little more than the cells
+            StreamNetwork const net = test::network_of({{0, 0}, {length_m, 0}}, {{1, 0}});
+            EXPECT_EQ(prune(net, {.length_m = length_m, .cell_m = cell_m}).network.arc_count(), 1U);
+            EXPECT_THROW(prune(net, {.length_m = length_m + 1e-6 * cell_m, .cell_m = cell_m}), BadParameter);
+        }
+    }
 }
 
 TEST(Prune, ACombOfManyTeeth) {

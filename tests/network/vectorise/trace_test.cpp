@@ -111,14 +111,14 @@ Mask any_skeleton() {
 } // namespace
 
 TEST(Trace, NothingToTrace) {
-    EXPECT_THROW(trace(Mask()), BadInput);
-    EXPECT_THROW(trace(Mask(test::grid_of(5, 5))), BadInput);
-    EXPECT_THROW(trace(test::mask_of({"#....", "..#..", "....#"})), BadInput);
-    EXPECT_THROW(trace(test::mask_of({"##"}), {{NAN, 0.0}}), BadParameter);
+    EXPECT_THROW(trace(Mask(), {Vec2{}}), BadInput);
+    EXPECT_THROW(trace(Mask(test::grid_of(5, 5)), {Vec2{}}), BadInput);
+    EXPECT_THROW(trace(test::mask_of({"#....", "..#..", "....#"}), {Vec2{}}), BadInput);
+    EXPECT_THROW(trace(test::mask_of({"##"}), {Vec2{NAN, 0.0}}), BadParameter);
 }
 
 TEST(Trace, TwoCells) {
-    StreamNetwork const net = trace(test::mask_of({"##", "..", ".#"}), {{0.0, 3.0}});
+    StreamNetwork const net = trace(test::mask_of({"##", "..", ".#"}), {Vec2{0.0, 3.0}});
     ASSERT_EQ(net.arc_count(), 1U);
     ASSERT_EQ(net.node_count(), 2U); // the lone cell is left out
     EXPECT_EQ(net.arc(0).line, (std::vector<Vec2>{{1.5, 2.5}, {0.5, 2.5}}));
@@ -130,7 +130,7 @@ TEST(Trace, ArcsOfASmallTree) {
                                      "..#..", //
                                      "..#..", //
                                      "..#.."});
-    StreamNetwork const net = trace(mask, {{2.5, 0.0}});
+    StreamNetwork const net = trace(mask, {Vec2{2.5, 0.0}});
     ASSERT_EQ(net.arc_count(), 3U);
     EXPECT_EQ(net.arc(0).line, (std::vector<Vec2>{{0.5, 4.5}, {1.5, 3.5}, {2.5, 2.5}}));
     EXPECT_EQ(net.arc(1).line, (std::vector<Vec2>{{4.5, 4.5}, {3.5, 3.5}, {2.5, 2.5}}));
@@ -142,9 +142,9 @@ TEST(Trace, ArcsOfASmallTree) {
 
 TEST(Trace, TheMouthChoosesTheOutletAndTiesGoToTheLowerCell) {
     Mask const line = test::mask_of({"#####"});
-    EXPECT_EQ(trace(line, {{4.5, 0.5}}).node(1).at, (Vec2{4.5, 0.5}));
+    EXPECT_EQ(trace(line, {Vec2{4.5, 0.5}}).node(1).at, (Vec2{4.5, 0.5}));
     // Cells 1 and 2 are equally near to x = 2: the outlet is cell 1, in the middle of the river.
-    StreamNetwork const net = trace(line, {{2.0, 0.5}});
+    StreamNetwork const net = trace(line, {Vec2{2.0, 0.5}});
     ASSERT_EQ(net.outlets().size(), 1U);
     EXPECT_EQ(net.node(net.outlets()[0]).at, (Vec2{1.5, 0.5}));
     EXPECT_EQ(net.in(net.outlets()[0]).size(), 2U);
@@ -152,13 +152,13 @@ TEST(Trace, TheMouthChoosesTheOutletAndTiesGoToTheLowerCell) {
 
 TEST(Trace, CornersMakeNoFalseJunctions) {
     // With plain 8-adjacency the corner cell would have a short cut past it and hang as a leaf.
-    StreamNetwork const net = trace(test::mask_of({"##.", ".##", "..#"}), {{0.0, 3.0}});
+    StreamNetwork const net = trace(test::mask_of({"##.", ".##", "..#"}), {Vec2{0.0, 3.0}});
     EXPECT_EQ(net.arc_count(), 1U);
     EXPECT_EQ(net.arc(0).line.size(), 5U);
 }
 
 TEST(Trace, LoopsAreCutWhereTheWaysMeet) {
-    StreamNetwork const net = trace(test::mask_of({".#.", "#.#", ".#."}), {{1.5, 3.0}});
+    StreamNetwork const net = trace(test::mask_of({".#.", "#.#", ".#."}), {Vec2{1.5, 3.0}});
     // The southern cell is as far by the west as by the east: it drains to the western one, of lower net.
     ASSERT_EQ(net.arc_count(), 2U);
     EXPECT_EQ(net.arc(0).line, (std::vector<Vec2>{{2.5, 1.5}, {1.5, 2.5}}));
@@ -223,7 +223,7 @@ TEST(Trace, IsTheShortestPathTree) {
 
 TEST(Trace, InMetres) {
     Mask mask(Grid{3, 1, 30.0, 500000.0, 4000000.0, "EPSG:32611"}, 1);
-    StreamNetwork const net = trace(mask, {{500000.0, 4000000.0}});
+    StreamNetwork const net = trace(mask, {Vec2{500000.0, 4000000.0}});
     EXPECT_EQ(net.arc(0).line,
               (std::vector<Vec2>{{500075.0, 3999985.0}, {500045.0, 3999985.0}, {500015.0, 3999985.0}}));
 }

@@ -176,6 +176,19 @@ TEST(Recipe, PatchesAreSetByNumber) {
     EXPECT_TRUE(has(fault_of("[network]\n[surface]\n[[patch]]\nsorce = \"a\"\n"), "Did you mean 'patch.source'?"));
 }
 
+TEST(Recipe, HoldsNoFunction) {
+    Recipe recipe = default_recipe();
+    EXPECT_NO_THROW(check_recipe(recipe));
+    ASSERT_TRUE(recipe.surface);
+    recipe.surface->dilate.increment.function = [](double x) { return x; };
+    try {
+        check_recipe(recipe);
+        FAIL() << "a function is left out of recipe.toml without a word";
+    } catch (BadParameter const& fault) {
+        EXPECT_TRUE(has(fault.what(), "surface.increment is a function, which no recipe can hold")) << fault.what();
+    }
+}
+
 TEST(Recipe, EveryKeyHasAMeaning) {
     for (KeyHelp const& key : recipe_keys()) {
         EXPECT_FALSE(key.meaning.empty()) << key.path;

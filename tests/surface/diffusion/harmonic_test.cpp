@@ -90,10 +90,8 @@ Valley grown() {
     network::Branch const branch = network::pick_branch(network::grow_dla({.particles = 8000}));
     pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});
     StreamNetwork const traced = network::trace(network::thin(framed.mask), {framed.mouth});
-    network::PruneParams params;
-    params.length_cells = 8;
-    params.cell_m = framed.mask.grid().cell_m;
-    StreamNetwork const pruned = network::prune(traced, params).network;
+    double const cell_m = framed.mask.grid().cell_m;
+    StreamNetwork const pruned = network::prune(traced, {.length_m = 8 * cell_m, .cell_m = cell_m}).network;
     return network::rasterise(network::set_heights(pruned).network, framed.mask.grid()).valley;
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "valleys.hpp"
@@ -112,6 +113,28 @@ TEST(Increments, ANumberThatIsNotFiniteNamesItsX) {
     EXPECT_NE(refusal("1/(x-7)").find("not finite at x = 7"), std::string::npos) << refusal("1/(x-7)");
     EXPECT_NE(refusal("sqrt(3-x)").find("not finite at x = 4"), std::string::npos) << refusal("sqrt(3-x)");
     EXPECT_NO_THROW(increments(6, {"1/(x-7)"}));
+}
+
+TEST(Increments, AFunctionGivesTheBytesOfTheExpressionItComputes) {
+    IncrementParams const written{"x<=100 ? 0.03*x : 6.3-0.01*x", true};
+    IncrementParams given{.increment = "nonsense that is not read", .allow_negative = true};
+    given.function = [](double x) { return x <= 100.0 ? 0.03 * x : 6.3 - 0.01 * x; };
+    EXPECT_EQ(increments(700, given), increments(700, written));
+    auto const jumps = increment_jumps(700, given);
+    ASSERT_EQ(jumps.size(), 1U);
+    EXPECT_EQ(jumps[0].x, increment_jumps(700, written)[0].x);
+    given.allow_negative = false;
+    EXPECT_EQ(increments(700, given)[650], 0.0);
+}
+
+TEST(Increments, AFunctionThatIsNotFiniteOrThrows) {
+    IncrementParams given;
+    given.function = [](double x) { return 1.0 / (x - 7.0); };
+    EXPECT_NO_THROW(increments(6, given));
+    EXPECT_EQ(valleys::message<BadParameter>([&] { increments(10, given); }),
+              "surface.increments: the function is not finite at x = 7; choose one that is, for x = 1 to 10");
+    given.function = [](double) -> double { throw std::out_of_range("a table of its own"); };
+    EXPECT_THROW(increments(10, given), std::out_of_range);
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include <thalweg/core/required.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/measure/laws/horton.hpp>
@@ -27,8 +28,8 @@ struct NetworkLaws {
 };
 
 struct NetworkLawsParams {
-    double land_m2 = 0.0;                   ///< [m2] above 0: the land that the rivers drain
-    double junction_reach_m = 0.0;          ///< [m] above 0, as junction_angles
+    Required<double> land_m2;               ///< [m2] above 0: the land that the rivers drain
+    Required<double> junction_reach_m;      ///< [m] above 0, as junction_angles
     std::vector<double> head_m = {};        ///< [m] by node, as hack
     std::vector<double> side_branches = {}; ///< T_1, T_2, ..., as tokunaga
 };

@@ -125,12 +125,13 @@ Graded set_heights_graded(StreamNetwork const& network, std::vector<double> cons
     require_raisable(network, "network.set_heights_graded");
     require_areas(network, us_area_m2, ds_area_m2);
 
+    double const least_m2 = params.least_area_m2;
     std::vector<std::vector<double>> falls;
     std::vector<double> whole;
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
         run.check();
-        falls.push_back(fall_along(network.arc(a).line, std::max(us_area_m2[a], params.least_area_m2),
-                                   std::max(ds_area_m2[a], params.least_area_m2), params.theta));
+        falls.push_back(fall_along(network.arc(a).line, std::max(us_area_m2[a], least_m2),
+                                   std::max(ds_area_m2[a], least_m2), params.theta));
         whole.push_back(falls.back().back());
     }
 

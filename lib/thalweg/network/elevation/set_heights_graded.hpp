@@ -4,15 +4,16 @@
 
 #include <vector>
 
+#include <thalweg/core/required.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 namespace thalweg::network {
 
 struct GradedParams {
-    double slope = 0.087;       ///< [m/m] > 0, mean of the main stem: fall from its source over its length
-    double theta = 0.38;        ///< [0, 1], concavity; 0 makes every river equally steep
-    double least_area_m2 = 1.0; ///< [m2] > 0, such as a cell's: areas below it count as it
+    double slope = 0.087;           ///< [m/m] > 0, mean of the main stem: fall from its source over its length
+    double theta = 0.38;            ///< [0, 1], concavity; 0 makes every river equally steep
+    Required<double> least_area_m2; ///< [m2] > 0, such as a cell's: areas below it count as it
 };
 
 struct Graded {
@@ -29,6 +30,6 @@ struct Graded {
 /// arc, below 0 or no number.
 /// Source: Flint 1974, stream gradient as a function of order, magnitude and discharge.
 Graded set_heights_graded(StreamNetwork const& network, std::vector<double> const& us_area_m2,
-                          std::vector<double> const& ds_area_m2, GradedParams const& params = {}, Run const& run = {});
+                          std::vector<double> const& ds_area_m2, GradedParams const& params, Run const& run = {});
 
 } // namespace thalweg::network

@@ -11,6 +11,7 @@
 
 #include <thalweg/core/numbers/index.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 #include <thalweg/network/vectorise/internal/keep_arcs.hpp>
 
@@ -158,6 +159,15 @@ std::vector<std::int64_t> survival(StreamNetwork const& network, Remains remains
     return survives;
 }
 
+/// The least whole number of units that is no shorter than L. An L made as cells times cell_m, and so perhaps half a
+/// unit in the last place too long, is the cells it was made from.
+std::int64_t least_units(PruneParams const& params) {
+    constexpr double but_for_rounding = 1.0 - 0x1p-50;
+    constexpr double most = 0x1p62;
+    double const units = params.length_m / params.cell_m * units_per_cell * but_for_rounding;
+    return static_cast<std::int64_t>(std::ceil(std::min(units, most)));
+}
+
 /// A number a reader may copy, not above x.
 std::string readable_floor(double x) {
     double const hundredths = std::floor(x * 100.0) / 100.0;
@@ -167,12 +177,8 @@ std::string readable_floor(double x) {
 } // namespace
 
 Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const& run) {
-    if (!(params.length_cells >= 0.0) || !std::isfinite(params.length_cells)) {
-        throw BadParameter(fmt::format("network.prune: length is {} cells; it must be 0 or more", params.length_cells));
-    }
-    if (!(params.cell_m > 0.0) || !std::isfinite(params.cell_m)) {
-        throw BadParameter(fmt::format("network.prune: cell is {} m; it must be above 0", params.cell_m));
-    }
+    require_in("network.prune", "length", params.length_m, Range::at_least(0.0), "m");
+    require_in("network.prune", "cell", params.cell_m, Range::above(0.0), "m");
     require_trees(network, "network.prune");
     if (network.arc_count() == 0) {
         throw BadInput("network.prune: the network has no arcs; trace or read some rivers first");
@@ -185,21 +191,21 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
     pruned.arcs_before = static_cast<std::int64_t>(network.arc_count());
     NetworkDraft with_thresholds = network.draft();
     std::vector<std::uint8_t> kept;
+    std::int64_t const least = least_units(params);
     for (ArcId a = 0; a < with_thresholds.arcs.size(); ++a) {
-        double const cells = static_cast<double>(survives[a]) / units_per_cell;
-        with_thresholds.arcs[a].arc.survives = cells;
-        kept.push_back(cells >= params.length_cells ? 1 : 0);
+        with_thresholds.arcs[a].arc.survives = static_cast<double>(survives[a]) / units_per_cell;
+        kept.push_back(survives[a] >= least ? 1 : 0);
     }
     if (std::find(kept.begin(), kept.end(), 1) == kept.end()) {
         auto const longest = *std::max_element(survives.begin(), survives.end());
         std::string const most = readable_floor(static_cast<double>(longest) / units_per_cell);
-        throw BadParameter(fmt::format("network.prune: pruning at {} cells removes every arc (the longest is {}). "
+        throw BadParameter(fmt::format("network.prune: pruning at {:.12g} cells removes every arc (the longest is {}). "
                                        "Try {} or less.",
-                                       params.length_cells, most, most));
+                                       params.length_m / params.cell_m, most, most));
     }
     // L = 0 leaves a network as it is drawn, with the nodes between its features.
-    pruned.network = params.length_cells > 0.0 ? keep_arcs(std::move(with_thresholds), units, kept).network
-                                               : std::move(with_thresholds);
+    pruned.network =
+        least > 0 ? keep_arcs(std::move(with_thresholds), units, kept).network : std::move(with_thresholds);
     return pruned;
 }
 

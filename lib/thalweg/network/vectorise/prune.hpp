@@ -4,15 +4,16 @@
 
 #include <cstdint>
 
+#include <thalweg/core/required.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 namespace thalweg::network {
 
 struct PruneParams {
-    double length_cells = 20.0; ///< [cells] >= 0, L: no leaf arc shorter than this is left; 0 changes nothing but the
-                                ///< thresholds
-    double cell_m = 1.0;        ///< [m] > 0, one cell
+    Required<double> length_m; ///< [m] >= 0, L: no leaf arc shorter than this is left; 0 changes nothing but the
+                               ///< thresholds
+    Required<double> cell_m;   ///< [m] > 0, of the lattice on which the network was traced, or will be drawn
 };
 
 struct Pruned {
@@ -24,11 +25,11 @@ struct Pruned {
 /// than L. Of equal leaves the one with the northernmost source goes first, then the westernmost. A merged arc keeps
 /// the feature and type of its longest piece; a basin whose every arc is too short vanishes.
 /// Gives: no leaf arc shorter than L and no node of degree two but outlets; kept(L2) is a subset of kept(L1) for
-/// L1 < L2; survives = the running maximum of the removed lengths, so that an arc is kept exactly for L <= survives.
-/// Lengths are counted in whole 2^-24 cells a segment.
-/// Throws: BadParameter when L removes every arc; it names the longest that can be kept. BadInput for no arcs or no
-/// forest.
-/// Source: paper 000, equation 2, applied to leaves to a fixpoint (specification 0.2).
-Pruned prune(StreamNetwork const& network, PruneParams const& params = {}, Run const& run = {});
+/// L1 < L2; survives = the running maximum of the removed lengths [cells], so that an arc is kept exactly for
+/// L <= survives * cell_m. Lengths are counted in whole 2^-24 cells a segment, L is rounded up to a whole number of
+/// them (but for what a product of floats is too large by). Throws: BadParameter when L removes every arc; it names the
+/// longest that can be kept. BadInput for no arcs or no forest. Source: paper 000, equation 2, applied to leaves to a
+/// fixpoint (specification 0.2).
+Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const& run = {});
 
 } // namespace thalweg::network

@@ -155,7 +155,8 @@ void drain_to(std::int64_t outlet, SkeletonGraph const& graph, std::vector<std::
 } // namespace
 
 StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& run) {
-    if (!std::isfinite(params.mouth.x) || !std::isfinite(params.mouth.y)) {
+    Vec2 const asked = params.mouth;
+    if (!std::isfinite(asked.x) || !std::isfinite(asked.y)) {
         throw BadParameter("network.trace: the mouth is not a finite position; give it in metres");
     }
     SkeletonGraph const graph(skeleton);
@@ -165,7 +166,7 @@ StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& 
         throw BadInput("network.trace: the skeleton is empty; grow a larger cluster or choose another branch");
     }
 
-    Vec2 const mouth = in_cells(grid, params.mouth);
+    Vec2 const mouth = in_cells(grid, asked);
     auto const cells = static_cast<std::size_t>(count);
     std::vector<std::uint8_t> seen(cells, 0);
     std::vector<std::int64_t> downstream(cells, -1);

@@ -3,14 +3,15 @@
 #pragma once
 
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/required.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 namespace thalweg::network {
 
 struct TraceParams {
-    Vec2 mouth; ///< [m] each component drains to its cell nearest to this point (ties: lower cell index); rounded to
-                ///< 2^-16 of a cell
+    Required<Vec2> mouth; ///< [m] each component drains to its cell nearest to this point (ties: lower cell index);
+                          ///< rounded to 2^-16 of a cell
 };
 
 /// Traces a skeleton into a network of arcs.
@@ -20,6 +21,6 @@ struct TraceParams {
 /// arcs are numbered by cell index (arcs by that of their upstream end). A component of one cell is left out.
 /// Throws: BadInput for a skeleton without two neighbouring cells; BadParameter for a mouth that is no position.
 /// Source: paper 000, section 3.2; specification 0.2.
-StreamNetwork trace(Mask const& skeleton, TraceParams const& params = {}, Run const& run = {});
+StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& run = {});
 
 } // namespace thalweg::network

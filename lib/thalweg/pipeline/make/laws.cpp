@@ -23,9 +23,8 @@ constexpr double cells_of_junction = 10.0;
 measure::NetworkLaws laws_of(RaisedNetwork const& network, NetworkOrders const& orders,
                              flow::ContributingAreas const& areas, Grid const& grid, std::int64_t land_cells,
                              Raster<float> const* flow_length) {
-    measure::NetworkLawsParams params;
-    params.land_m2 = static_cast<double>(land_cells) * grid.cell_m * grid.cell_m;
-    params.junction_reach_m = cells_of_junction * grid.cell_m;
+    measure::NetworkLawsParams params{.land_m2 = static_cast<double>(land_cells) * grid.cell_m * grid.cell_m,
+                                      .junction_reach_m = cells_of_junction * grid.cell_m};
     params.side_branches = network::count_streams(network.plan).side;
     if (flow_length != nullptr) {
         for (NodeId n = 0; n < network.plan.node_count(); ++n) {

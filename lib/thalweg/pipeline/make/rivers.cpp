@@ -158,7 +158,7 @@ std::size_t vertices_of(StreamNetwork const& plan) {
 /// Rivers that run from cell to cell keep no corner where a branch was; what that shortens is measured again.
 network::Pruned prune(StreamNetwork const& plan, NetworkRecipe const& rivers, double length_cells, double cell_m,
                       Run const& run) {
-    network::Pruned pruned = network::prune(plan, {length_cells, cell_m}, run);
+    network::Pruned pruned = network::prune(plan, {length_cells * cell_m, cell_m}, run);
     if (rivers.source != Source::dla && rivers.source != Source::forest) {
         return pruned;
     }
@@ -166,7 +166,7 @@ network::Pruned prune(StreamNetwork const& plan, NetworkRecipe const& rivers, do
         StreamNetwork cut = network::cut_corners(std::move(pruned.network), cell_m, run);
         before = now;
         now = vertices_of(cut);
-        pruned.network = network::prune(cut, {length_cells, cell_m}, run).network;
+        pruned.network = network::prune(cut, {length_cells * cell_m, cell_m}, run).network;
     }
     return pruned;
 }

@@ -497,6 +497,11 @@ void check_recipe(Recipe const& recipe) {
     if (recipe.surface && recipe.surface->base == Base::tin && recipe.surface->method != Method::dilate) {
         faults.emplace_back("surface.base = \"tin\" goes with surface.method = \"dilate\"");
     }
+    if (recipe.surface && recipe.surface->dilate.increment.function) {
+        faults.emplace_back(
+            "surface.increment is a function, which no recipe can hold: write it as an expression in x, "
+            "or call surface::dilate with it");
+    }
     for (std::size_t i = 0; i < recipe.patches.size(); ++i) {
         if (recipe.patches[i].source.empty()) {
             faults.push_back(fmt::format("patch {}: source is missing: name the relief to paste", i + 1));

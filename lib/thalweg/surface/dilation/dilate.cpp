@@ -35,10 +35,10 @@ double metres_per_unit(double top, DilateParams const& params, Grid const& grid)
         return grid.cell_m;
     }
     if (!(top > 0.0)) {
-        throw BadParameter(
-            fmt::format("surface.dilate: the increments '{}' never rise above the valley, so no factor gives "
-                        "a relief of {} m; choose others, or relief 0",
-                        params.increment.increment, params.relief_m));
+        throw BadParameter(fmt::format(
+            "surface.dilate: the increments{} never rise above the valley, so no factor gives "
+            "a relief of {} m; choose others, or relief 0",
+            params.increment.function ? "" : fmt::format(" '{}'", params.increment.increment), params.relief_m));
     }
     return params.relief_m / top;
 }

@@ -18,7 +18,7 @@ enum class Metric : std::uint8_t {
 };
 
 struct DilateParams {
-    IncrementParams increment;
+    IncrementParams increment = {};
     Metric metric = Metric::cityblock;
     double relief_m =
         0.0; ///< [m] scales the increments so that their greatest sum on this grid is this; 0: papers' units x cell

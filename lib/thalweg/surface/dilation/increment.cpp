@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <string_view>
 
@@ -70,6 +71,22 @@ double tamed(double value) {
     return std::floor(value * scale + 0.5) / scale;
 }
 
+/// Values for x = 1 .. levels. Takes: at(x), and how messages name it and another of its kind.
+template <class At>
+std::vector<double> values_of(At const& at, std::string_view name, std::string_view another, std::int64_t levels) {
+    std::vector<double> values(static_cast<std::size_t>(levels));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        double const value = at(static_cast<double>(i + 1));
+        if (!std::isfinite(value)) {
+            throw BadParameter(
+                fmt::format("surface.increments: {} is not finite at x = {}; choose {} that is, for x = 1 to {}", name,
+                            i + 1, another, levels));
+        }
+        values[i] = tamed(value);
+    }
+    return values;
+}
+
 std::vector<double> tabulate(std::string const& text, std::int64_t levels) {
     if (text.size() > longest_expression) {
         throw BadParameter(fmt::format("surface.increments: the expression has {} characters; write it in at most {}",
@@ -84,7 +101,6 @@ std::vector<double> tabulate(std::string const& text, std::int64_t levels) {
     if (assigns(text)) {
         refuse(text, "it assigns; compare with ==");
     }
-    std::vector<double> values(static_cast<std::size_t>(levels));
     try {
         double x = 1.0;
         mu::Parser parser;
@@ -95,20 +111,50 @@ std::vector<double> tabulate(std::string const& text, std::int64_t levels) {
         if (results != 1) {
             refuse(text, "it has more than one value");
         }
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            x = static_cast<double>(i + 1);
-            double const value = parser.Eval();
-            if (!std::isfinite(value)) {
-                throw BadParameter(fmt::format(
-                    "surface.increments: '{}' is not finite at x = {}; choose an expression that is, for x = 1 to {}",
-                    text, i + 1, levels));
-            }
-            values[i] = tamed(value);
-        }
+        auto const at = [&](double where) {
+            x = where;
+            return parser.Eval();
+        };
+        return values_of(at, fmt::format("'{}'", text), "an expression", levels);
     } catch (mu::Parser::exception_type const& e) {
         refuse(text, e.GetMsg());
     }
+}
+
+Named const* in_table_1(std::string const& name) {
+    auto const named = std::find_if(table_1.begin(), table_1.end(), [&](Named const& row) { return row.name == name; });
+    return named == table_1.end() ? nullptr : &*named;
+}
+
+std::vector<double> signed_increments(std::int64_t levels, IncrementParams const& params) {
+    if (params.function) {
+        return values_of(params.function, "the function", "one", levels);
+    }
+    Named const* const named = in_table_1(params.increment);
+    if (named == nullptr) {
+        return tabulate(params.increment, levels);
+    }
+    std::vector<double> values;
+    values.reserve(static_cast<std::size_t>(levels));
+    for (std::int64_t x = 1; x <= levels; ++x) {
+        values.push_back(named->at(static_cast<double>(x)));
+    }
     return values;
+}
+
+/// What the values are made of, between whole x too. Takes: a function, or an expression that was read before.
+std::function<double(double)> anywhere(IncrementParams const& params) {
+    if (params.function) {
+        return params.function;
+    }
+    auto const x = std::make_shared<double>(1.0);
+    auto const parser = std::make_shared<mu::Parser>();
+    parser->DefineVar("x", x.get());
+    parser->SetExpr(params.increment);
+    return [x, parser](double where) {
+        *x = where;
+        return parser->Eval();
+    };
 }
 
 } // namespace
@@ -117,17 +163,7 @@ std::vector<double> increments(std::int64_t levels, IncrementParams const& param
     if (levels < 0) {
         throw BadParameter(fmt::format("surface.increments: {} levels; ask for none or more", levels));
     }
-    std::vector<double> values;
-    auto const named = std::find_if(table_1.begin(), table_1.end(),
-                                    [&](Named const& candidate) { return candidate.name == params.increment; });
-    if (named == table_1.end()) {
-        values = tabulate(params.increment, levels);
-    } else {
-        values.reserve(static_cast<std::size_t>(levels));
-        for (std::int64_t x = 1; x <= levels; ++x) {
-            values.push_back(named->at(static_cast<double>(x)));
-        }
-    }
+    std::vector<double> values = signed_increments(levels, params);
     if (!params.allow_negative) {
         for (double& value : values) {
             value = std::max(value, 0.0);
@@ -138,23 +174,18 @@ std::vector<double> increments(std::int64_t levels, IncrementParams const& param
 
 std::vector<IncrementJump> increment_jumps(std::int64_t levels, IncrementParams const& params) {
     std::vector<double> const values = increments(levels, params);
-    bool const named = std::any_of(table_1.begin(), table_1.end(),
-                                   [&](Named const& candidate) { return candidate.name == params.increment; });
     std::vector<IncrementJump> jumps;
-    if (named || values.size() < 2) { // those of the table are continuous
+    if ((!params.function && in_table_1(params.increment) != nullptr) ||
+        values.size() < 2) { // those of the table are continuous
         return jumps;
     }
     double greatest = 0.0;
     for (double const v : values) {
         greatest = std::max(greatest, std::fabs(v));
     }
-    double x = 1.0;
-    mu::Parser parser;
-    parser.DefineVar("x", &x);
-    parser.SetExpr(params.increment);
+    auto const value_at = anywhere(params);
     auto const at = [&](double where) {
-        x = where;
-        double const value = parser.Eval();
+        double const value = value_at(where);
         return params.allow_negative ? value : std::max(value, 0.0);
     };
     for (std::size_t i = 1; i < values.size(); ++i) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,15 @@ namespace thalweg::surface {
 struct IncrementParams {
     std::string increment = "rise_fall"; ///< uniform | decreasing | rise_fall | an expression in x such as 3-0.01*x
     bool allow_negative = false;         ///< without it increments below 0 count as 0
+    std::function<double(double x)> function = {}; ///< of the caller, instead of a name or an expression: a pure
+                                                   ///< function, called for x >= 1, by one thread at a time
 };
 
 /// The increment dh(x) of the x-th dilation, x = 1 .. levels, as values[x - 1], in the papers' units.
-/// Gives: Table 1 of paper 000 for the three names; an expression rounded to 2^-32 (from 16 up, to 36
-/// significant bits), the same on every machine.
-/// Throws: BadParameter: not a name (did you mean ...) and not an expression; a value that is not finite.
+/// Gives: Table 1 of paper 000 for the three names; an expression or a function rounded to 2^-32 (from 16 up, to 36
+/// significant bits), the same on every machine: a function gives the bytes of the expression it computes.
+/// Throws: BadParameter: not a name (did you mean ...) and not an expression; a value that is not finite; what the
+/// function throws.
 /// Source: paper 000, Table 1.
 std::vector<double> increments(std::int64_t levels, IncrementParams const& params = {});
 

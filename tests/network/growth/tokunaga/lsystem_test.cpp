@@ -118,7 +118,7 @@ TEST(DrawTurtle, DrawsWhatTheWordSays) {
     EXPECT_NEAR(lines[1][1].y, 2.0 + std::sqrt(3.0), 1e-12);
     EXPECT_NEAR(lines[2][1].x, -std::sqrt(3.0), 1e-12);
     EXPECT_NEAR(lines[2][1].y, 3.0, 1e-12);
-    EXPECT_THROW(network::draw_turtle({}, {.delta_deg = 91.0}), BadParameter);
+    EXPECT_THROW(network::draw_turtle({}, {.delta_deg = 91.0, .link_m = 1.0}), BadParameter);
     EXPECT_THROW(network::draw_turtle({}, {.link_m = 0.0}), BadParameter);
 }
 

@@ -80,7 +80,7 @@ TEST(Rewrite, SeveralRulesAreAsLikelyAndFollowTheSeed) {
 
 TEST(Rewrite, TheTurtleDrawsAsThatOfTrees) {
     std::string const word = "F[--G]F[-G][+G]";
-    auto const tree = draw_turtle(read_lsystem(word), {.delta_deg = 30.0});
+    auto const tree = draw_turtle(read_lsystem(word), {.delta_deg = 30.0, .link_m = 1.0});
     std::vector<std::vector<Vec2>> steps;
     for (auto const& line : draw_word(word, 30.0)) {
         for (std::size_t i = 1; i < line.size(); ++i) {

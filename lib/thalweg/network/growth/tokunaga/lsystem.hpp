@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include <thalweg/core/required.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 
@@ -29,12 +30,12 @@ TokunagaTree read_lsystem(std::string_view word);
 
 struct TurtleParams {
     double delta_deg = 30.0; ///< [deg] [0, 90] what one + or - turns
-    double link_m = 1.0;     ///< [m] > 0 what F and G draw
+    Required<double> link_m; ///< [m] > 0 what F and G draw
 };
 
 /// Draws a network as its word says, to the north from the origin.
 /// Takes: a tree. Gives: by link its lower and upper end. Links cross one another: for pictures, not for land.
 /// Throws: BadParameter. Source: paper 003, section 2.2, figure 1 (a).
-std::vector<std::vector<Vec2>> draw_turtle(TokunagaTree const& tree, TurtleParams const& params = {});
+std::vector<std::vector<Vec2>> draw_turtle(TokunagaTree const& tree, TurtleParams const& params);
 
 } // namespace thalweg::network
