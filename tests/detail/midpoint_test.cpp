@@ -358,7 +358,8 @@ TEST(Midpoint, RefusesWhatItCannotUse) {
               std::string::npos);
     EXPECT_NE(refusal(coarse, with(2, Stencil::sixteen, std::nan(""), 1.0)), "");
     EXPECT_NE(refusal(coarse, with(2, Stencil::sixteen, 0.5, -1.0)).find("sigma is -1 m"), std::string::npos);
-    EXPECT_NE(refusal(coarse, with(31, Stencil::sixteen, 0.5, 1.0)).find("levels is 31; it must be between 0 and 30"), std::string::npos);
+    EXPECT_NE(refusal(coarse, with(31, Stencil::sixteen, 0.5, 1.0)).find("levels is 31; it must be between 0 and 30"),
+              std::string::npos);
     EXPECT_NE(refusal(coarse, with(-1, Stencil::sixteen, 0.5, 1.0)), "");
     EXPECT_NE(refusal(Raster<float>(land::frame(3000, 1)), with(30, Stencil::four, 0.5, 1.0)).find("2^40"),
               std::string::npos);
