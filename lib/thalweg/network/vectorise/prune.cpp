@@ -11,6 +11,7 @@
 
 #include <thalweg/core/numbers/index.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 #include <thalweg/network/vectorise/internal/keep_arcs.hpp>
 
@@ -167,12 +168,8 @@ std::string readable_floor(double x) {
 } // namespace
 
 Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const& run) {
-    if (!(params.length_cells >= 0.0) || !std::isfinite(params.length_cells)) {
-        throw BadParameter(fmt::format("network.prune: length is {} cells; it must be 0 or more", params.length_cells));
-    }
-    if (!(params.cell_m > 0.0) || !std::isfinite(params.cell_m)) {
-        throw BadParameter(fmt::format("network.prune: cell is {} m; it must be above 0", params.cell_m));
-    }
+    require_in("network.prune", "length", params.length_cells, Range::at_least(0.0), "cells");
+    require_in("network.prune", "cell", params.cell_m, Range::above(0.0), "m");
     require_trees(network, "network.prune");
     if (network.arc_count() == 0) {
         throw BadInput("network.prune: the network has no arcs; trace or read some rivers first");
