@@ -10,7 +10,7 @@
 
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg::measure {
@@ -37,12 +37,10 @@ std::optional<PowerLaw> with_line(PowerLaw law, std::optional<LineFit> const& fi
 }
 
 std::optional<PowerLaw> fit_power_law(std::vector<AtArea> const& places, PowerLawParams const& params) {
-    if (params.bins_per_decade < 1 || params.bins_per_decade > 100 || params.least_places < 1 ||
-        params.least_bins < 2) {
-        throw BadParameter(fmt::format("measure.fit_power_law: {} bins a decade of at least {} places, at least {} of "
-                                       "them; they must be [1, 100], from 1 and from 2",
-                                       params.bins_per_decade, params.least_places, params.least_bins));
-    }
+    constexpr char const* self = "measure.fit_power_law";
+    require_in(self, "bins_per_decade", params.bins_per_decade, Range::between(1, 100));
+    require_in(self, "least_places", params.least_places, Range::at_least(1));
+    require_in(self, "least_bins", params.least_bins, Range::at_least(2));
     double const per_e_fold = params.bins_per_decade / exact::log(10.0);
     std::map<std::int64_t, Logarithms> bins;
     for (AtArea const& p : places) {

@@ -10,6 +10,7 @@
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/measure/laws/line_fit.hpp>
 
@@ -18,12 +19,11 @@ namespace thalweg::measure {
 namespace {
 
 void check(ChiParams const& params, Raster<float> const& dem, flow::FlowField const& drainage) {
-    if (!(params.theta >= 0.0 && params.theta <= 2.0) || params.support_cells < 1 || params.least_cells < 3 ||
-        params.most_stems < 1) {
-        throw BadParameter(fmt::format("measure.chi: theta {}, a support of {} cells, {} stems of at least {}; they "
-                                       "must be [0, 2], from 1, from 1 and from 3",
-                                       params.theta, params.support_cells, params.most_stems, params.least_cells));
-    }
+    constexpr char const* self = "measure.chi";
+    require_in(self, "theta", params.theta, Range::between(0.0, 2.0));
+    require_in(self, "support_cells", params.support_cells, Range::at_least(1));
+    require_in(self, "least_cells", params.least_cells, Range::at_least(3));
+    require_in(self, "most_stems", params.most_stems, Range::at_least(1));
     if (!(dem.grid() == drainage.direction.grid())) {
         throw BadInput("measure.chi: the DEM and its drainage have different grids; drain this DEM");
     }

@@ -13,6 +13,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::measure {
 
@@ -125,18 +126,10 @@ private:
 };
 
 void check(GeomorphonParams const& params, Grid const& grid) {
-    constexpr std::int64_t farthest = 10000;
-    if (params.search_cells < 2 || params.search_cells > farthest || params.skip_cells < 0 ||
-        params.skip_cells >= params.search_cells) {
-        throw BadParameter(
-            fmt::format("measure.geomorphons: a search distance of {} and {} skipped cells; they must be "
-                        "[2, {}] and [0, search distance)",
-                        params.search_cells, params.skip_cells, farthest));
-    }
-    if (!(params.flat_deg > 0.0 && params.flat_deg < 45.0)) {
-        throw BadParameter(
-            fmt::format("measure.geomorphons: a flatness of {} degrees; it must be in (0, 45)", params.flat_deg));
-    }
+    constexpr char const* self = "measure.geomorphons";
+    require_in(self, "search_cells", params.search_cells, Range::between(2, 10000));
+    require_in(self, "skip_cells", params.skip_cells, Range::between(0, static_cast<double>(params.search_cells - 1)));
+    require_in(self, "flat_deg", params.flat_deg, Range::inside(0.0, 45.0));
     if (grid.cells() > 0 && !(grid.cell_m > 0.0)) {
         throw BadInput(fmt::format(
             "measure.geomorphons: the DEM's cells have a side of {} m; it must be greater than 0", grid.cell_m));

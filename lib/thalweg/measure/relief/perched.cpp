@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::measure {
 
@@ -32,9 +33,7 @@ double lowest_of_second_ring(Raster<float> const& dem, Cell at) {
 } // namespace
 
 std::vector<std::int64_t> perched(Raster<float> const& dem, std::span<std::int64_t const> cells, double rise_m) {
-    if (!(rise_m >= 0.0 && std::isfinite(rise_m))) {
-        throw BadParameter(fmt::format("measure.perched: a rise of {} m; it must be a number from 0", rise_m));
-    }
+    require_in("measure.perched", "rise_m", rise_m, Range::at_least(0.0));
     std::vector<std::int64_t> found;
     for (std::int64_t const cell : cells) {
         if (cell < 0 || cell >= dem.cells()) {

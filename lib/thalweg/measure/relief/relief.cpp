@@ -8,6 +8,7 @@
 
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::measure {
 
@@ -37,10 +38,7 @@ Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statist
         throw BadInput(fmt::format("measure.relief: statistics of {} cells for a DEM of {}; measure this DEM",
                                    statistics.cells + statistics.nodata, dem.cells()));
     }
-    if (params.support_cells < 1) {
-        throw BadParameter(
-            fmt::format("measure.relief: a support of {} cells; it must be from 1", params.support_cells));
-    }
+    require_in("measure.relief", "support_cells", params.support_cells, Range::at_least(1));
     Relief found;
     found.slope_area = slope_area(dem, drainage, params.slope_area, run);
     found.chi = chi(dem, drainage, params.chi, run);

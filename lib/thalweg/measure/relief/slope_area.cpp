@@ -12,6 +12,7 @@
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/measure/laws/line_fit.hpp>
 
@@ -27,13 +28,11 @@ struct Reach {
 };
 
 void check(SlopeAreaParams const& params, Raster<float> const& dem, flow::FlowField const& drainage) {
-    if (params.support_cells < 1 || params.bins_per_decade < 1 || params.bins_per_decade > 100 ||
-        params.least_places < 1 || params.least_bins < 3) {
-        throw BadParameter(fmt::format("measure.slope_area: a support of {} cells, {} bins a decade of at least {} "
-                                       "cells, at least {} of them; they must be from 1, [1, 100], from 1 and from 3",
-                                       params.support_cells, params.bins_per_decade, params.least_places,
-                                       params.least_bins));
-    }
+    constexpr char const* self = "measure.slope_area";
+    require_in(self, "support_cells", params.support_cells, Range::at_least(1));
+    require_in(self, "bins_per_decade", params.bins_per_decade, Range::between(1, 100));
+    require_in(self, "least_places", params.least_places, Range::at_least(1));
+    require_in(self, "least_bins", params.least_bins, Range::at_least(3));
     if (!(dem.grid() == drainage.direction.grid())) {
         throw BadInput("measure.slope_area: the DEM and its drainage have different grids; drain this DEM");
     }

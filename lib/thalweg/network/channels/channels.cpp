@@ -16,6 +16,7 @@
 #include <thalweg/core/numbers/index.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
 namespace thalweg::network {
@@ -285,13 +286,8 @@ void take_short_cuts(Drawing& drawing, std::vector<std::uint8_t> const& begins, 
 }
 
 void check(ChannelsParams const& params) {
-    if (params.look_cells < 0 || params.look_cells > 64) {
-        throw BadParameter(
-            fmt::format("network.channels: look_cells is {}, it must lie in [0, 64]", params.look_cells));
-    }
-    if (params.stub_cells < 0) {
-        throw BadParameter(fmt::format("network.channels: stub_cells is {}, it must be at least 0", params.stub_cells));
-    }
+    require_in("network.channels", "look_cells", params.look_cells, Range::between(0, 64));
+    require_in("network.channels", "stub_cells", params.stub_cells, Range::at_least(0));
 }
 
 } // namespace

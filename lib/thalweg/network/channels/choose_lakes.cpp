@@ -19,6 +19,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/value_noise.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/network/channels/internal/lake_basins.hpp>
 
 namespace thalweg::network {
@@ -30,9 +31,7 @@ constexpr std::int64_t fewest_lake_cells = 16;
 constexpr std::int64_t lakes_apart = 3; // [cells]
 
 void check(ChannelsOfArcs const& drawn, std::vector<double> const& area_m2, ChooseLakesParams const& params) {
-    if (!(params.share >= 0.0 && params.share <= 1.0)) {
-        throw BadParameter(fmt::format("network.choose_lakes: share is {}, it must lie in [0, 1]", params.share));
-    }
+    require_in("network.choose_lakes", "share", params.share, Range::between(0.0, 1.0));
     if (!(params.min_area_cells >= 0.0) || params.max_cells < 4) {
         throw BadParameter(fmt::format("network.choose_lakes: min_area_cells is {} and max_cells {}; they must be at "
                                        "least 0 and 4",

@@ -15,6 +15,7 @@
 
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/geometry/meetings.hpp>
 #include <thalweg/network/channels/internal/drawn_lines.hpp>
 
@@ -313,10 +314,7 @@ void require_one_grid(Channels const& channels, LandWater const& water) {
 SideValleys side_valleys(RaisedNetwork const& given, Channels const& channels, Raster<float> const& dem,
                          flow::FlowField const& flow, SideValleysParams const& params, Run const& run) {
     LandWater const water{dem, flow};
-    if (params.support_cells < 1) {
-        throw BadParameter(
-            fmt::format("network.side_valleys: the support is {} cells; it must be at least 1", params.support_cells));
-    }
+    require_in("network.side_valleys", "the support", params.support_cells, Range::at_least(1), "cells");
     require_one_grid(channels, water);
     DrawnLines const lines(given.plan, water.dem.grid());
     Valleys valleys(channels, water, lines, params.support_cells, run);

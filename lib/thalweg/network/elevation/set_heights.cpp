@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/network/elevation/internal/raise.hpp>
 
 namespace thalweg::network {
@@ -70,10 +70,7 @@ void report_lift(std::vector<double> const& straight, std::vector<double> const&
 } // namespace
 
 Raised set_heights(StreamNetwork const& network, HeightParams const& params, Run const& run) {
-    if (!(params.slope > 0.0) || !std::isfinite(params.slope)) {
-        throw BadParameter(
-            fmt::format("network.set_heights: slope is {} m/m; it must be a number above 0", params.slope));
-    }
+    require_in("network.set_heights", "slope", params.slope, Range::above(0.0), "m/m");
     require_raisable(network, "network.set_heights");
     run.check();
 

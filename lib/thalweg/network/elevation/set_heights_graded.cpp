@@ -12,6 +12,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/network/elevation/internal/raise.hpp>
 
 namespace thalweg::network {
@@ -19,19 +20,10 @@ namespace thalweg::network {
 namespace {
 
 void require(GradedParams const& params) {
-    auto const wrong = [](char const* name, double value, char const* range) {
-        throw BadParameter(
-            fmt::format("network.set_heights_graded: {} is {}; it must be a number {}", name, value, range));
-    };
-    if (!(params.slope > 0.0) || !std::isfinite(params.slope)) {
-        wrong("slope", params.slope, "above 0");
-    }
-    if (!(params.theta >= 0.0 && params.theta <= 1.0)) {
-        wrong("theta", params.theta, "from 0 to 1");
-    }
-    if (!(params.least_area_m2 > 0.0) || !std::isfinite(params.least_area_m2)) {
-        wrong("least_area_m2", params.least_area_m2, "above 0");
-    }
+    constexpr char const* self = "network.set_heights_graded";
+    require_in(self, "slope", params.slope, Range::above(0.0));
+    require_in(self, "theta", params.theta, Range::between(0.0, 1.0));
+    require_in(self, "least_area_m2", params.least_area_m2, Range::above(0.0));
 }
 
 void require_areas(StreamNetwork const& network, std::vector<double> const& us_area_m2,

@@ -11,6 +11,7 @@
 
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/meetings.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
@@ -27,12 +28,8 @@ constexpr int rounds_of_halving = 48;
 
 void check(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
            MeanderParams const& params) {
-    if (!(params.gain >= 0.0 && params.gain <= 2.0)) {
-        throw BadParameter(fmt::format("network.meander: gain is {}, it must lie in [0, 2]", params.gain));
-    }
-    if (!(params.gap_cells >= 0.5 && params.gap_cells <= 4.0)) {
-        throw BadParameter(fmt::format("network.meander: gap_cells is {}, it must lie in [0.5, 4]", params.gap_cells));
-    }
+    require_in("network.meander", "gain", params.gain, Range::between(0.0, 2.0));
+    require_in("network.meander", "gap_cells", params.gap_cells, Range::between(0.5, 4.0));
     require_trees(network, "network.meander");
     if (area_m2.size() != network.arc_count()) {
         throw BadInput(fmt::format("network.meander: {} areas for {} arcs; give those of this network", area_m2.size(),

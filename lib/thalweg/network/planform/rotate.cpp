@@ -11,6 +11,7 @@
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
@@ -67,9 +68,7 @@ double turn_by_chance(std::uint64_t seed) {
 }
 
 Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams const& params) {
-    if (!(params.turn_deg >= -180.0 && params.turn_deg <= 180.0)) {
-        throw BadParameter(fmt::format("network.rotate: turn_deg is {}, it must lie in [-180, 180]", params.turn_deg));
-    }
+    require_in("network.rotate", "turn_deg", params.turn_deg, Range::between(-180.0, 180.0));
     if (network.arc_count() == 0) {
         throw BadInput("network.rotate: the network has no arcs; trace or read some rivers first");
     }

@@ -11,6 +11,7 @@
 
 #include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/segments_near.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
@@ -262,10 +263,7 @@ void require(SplitParams const& params, RaisedNetwork const& network) {
         throw BadParameter(fmt::format("network.split_confluences: max_upstream is {}; a confluence joins at least 2",
                                        params.max_upstream));
     }
-    if (!std::isfinite(params.distance_m) || params.distance_m < 0.0) {
-        throw BadParameter(
-            fmt::format("network.split_confluences: distance is {} m; it must be 0 or more", params.distance_m));
-    }
+    require_in("network.split_confluences", "distance", params.distance_m, Range::at_least(0.0), "m");
     require_trees(network.plan, "network.split_confluences");
     bool whole = network.node_z.size() == network.plan.node_count() && network.arc_z.size() == network.plan.arc_count();
     for (std::size_t a = 0; whole && a < network.plan.arc_count(); ++a) {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::network {
 
@@ -35,9 +35,7 @@ bool is_corner(Vec2 a, Vec2 b, Vec2 c, double cell_m) {
 } // namespace
 
 StreamNetwork cut_corners(StreamNetwork const& network, double cell_m, Run const& run) {
-    if (!(cell_m > 0.0) || !std::isfinite(cell_m)) {
-        throw BadParameter(fmt::format("network.cut_corners: cell is {} m; it must be above 0", cell_m));
-    }
+    require_in("network.cut_corners", "cell", cell_m, Range::above(0.0), "m");
     NetworkDraft shorter = network.draft();
     for (DraftArc& drawn : shorter.arcs) {
         run.check();

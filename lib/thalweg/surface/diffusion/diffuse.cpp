@@ -7,6 +7,7 @@
 #include <thalweg/core/numbers/value_noise.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/solver/grid/relax_explicit.hpp>
 #include <thalweg/surface/diffusion/internal/coarse_start.hpp>
@@ -27,27 +28,19 @@ constexpr int sweeps_after_smoothing = 20;
 constexpr double noise_reach_cells = 4.0;
 
 void demand(DiffuseParams const& params) {
-    auto const fail = [](std::string const& what) { throw BadParameter("surface.diffuse: " + what); };
-    if (!(params.tolerance > 0.0 && params.tolerance < 1.0)) {
-        fail(fmt::format("a tolerance of {}; give one between 0 and 1", params.tolerance));
-    }
+    constexpr char const* self = "surface.diffuse";
+    require_in(self, "tolerance", params.tolerance, Range::inside(0.0, 1.0));
     if (!(params.alpha > 0.0 && params.alpha <= 0.25)) {
-        fail(fmt::format("alpha is {}; give one above 0 and at most 1/4: beyond it a cell takes more from its four "
-                         "neighbours than the difference, and differences grow from sweep to sweep",
-                         params.alpha));
+        throw BadParameter(fmt::format(
+            "surface.diffuse: alpha is {}; give one above 0 and at most 1/4: beyond it a cell takes more from "
+            "its four neighbours than the difference, and differences grow from sweep to sweep",
+            params.alpha));
     }
-    if (params.iterations < 0 || params.passes < 0) {
-        fail(fmt::format("{} iterations and {} passes; neither can be less than 0", params.iterations, params.passes));
-    }
-    if (!(params.sigma_cells >= 0.0 && params.sigma_cells <= 100.0)) {
-        fail(fmt::format("a sigma of {} cells; give one from 0 to 100", params.sigma_cells));
-    }
-    if (!(params.noise_m >= 0.0 && std::isfinite(params.noise_m))) {
-        fail(fmt::format("noise of {} m; give 0 or more", params.noise_m));
-    }
-    if (!(params.noise_cells >= 1.0 && std::isfinite(params.noise_cells))) {
-        fail(fmt::format("noise over {} cells; give 1 or more", params.noise_cells));
-    }
+    require_in(self, "iterations", params.iterations, Range::at_least(0));
+    require_in(self, "passes", params.passes, Range::at_least(0));
+    require_in(self, "sigma", params.sigma_cells, Range::between(0.0, 100.0), "cells");
+    require_in(self, "noise_m", params.noise_m, Range::at_least(0.0), "m");
+    require_in(self, "noise_cells", params.noise_cells, Range::at_least(1.0));
 }
 
 solver::GridSolution spread(solver::GridProblem problem, DiffuseParams const& params, Run const& run) {

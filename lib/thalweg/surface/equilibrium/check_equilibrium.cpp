@@ -3,6 +3,7 @@
 #include <thalweg/surface/equilibrium/internal/check_equilibrium.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 #include <fmt/format.h>
 
@@ -22,25 +23,17 @@ std::string place(Grid const& grid, std::int64_t cell) {
     return fmt::format("column {}, row {}", c.col, c.row);
 }
 
-void check_range(std::string_view name, double value, double low, double high) {
-    if (!(value >= low && value <= high)) {
-        throw BadParameter(fmt::format("surface.equilibrium: {} is {}; give {} to {}", name, value, low, high));
-    }
-}
-
 void check_params(EquilibriumParams const& params) {
-    constexpr double endless = std::numeric_limits<double>::max();
-    check_range("theta", params.theta, 0.1, 0.9);
-    check_range("hillslope_cells", params.hillslope_cells, 0.5, 100.0);
-    check_range("floor_width", params.floor_width, 0.0, 1.0);
-    check_range("roughness", params.roughness, 0.0, 1.0);
-    check_range("longest_wave_cells", params.longest_wave_cells, 4.0, endless);
-    if (params.relief_m && !(*params.relief_m > 0.0 && *params.relief_m <= endless)) {
-        throw BadParameter(fmt::format("surface.equilibrium: relief_m is {}; give metres above 0", *params.relief_m));
-    }
-    if (!params.relief_m && !(params.mean_slope_deg > 0.0 && params.mean_slope_deg <= 60.0)) {
-        throw BadParameter(fmt::format("surface.equilibrium: mean_slope_deg is {}; give degrees above 0, 60 at most",
-                                       params.mean_slope_deg));
+    constexpr char const* self = "surface.equilibrium";
+    require_in(self, "theta", params.theta, Range::between(0.1, 0.9));
+    require_in(self, "hillslope_cells", params.hillslope_cells, Range::between(0.5, 100.0));
+    require_in(self, "floor_width", params.floor_width, Range::between(0.0, 1.0));
+    require_in(self, "roughness", params.roughness, Range::between(0.0, 1.0));
+    require_in(self, "longest_wave_cells", params.longest_wave_cells, Range::at_least(4.0));
+    if (params.relief_m) {
+        require_in(self, "relief_m", *params.relief_m, Range::above(0.0), "m");
+    } else {
+        require_in(self, "mean_slope_deg", params.mean_slope_deg, Range{0.0, 60.0, false, true}, "degrees");
     }
 }
 

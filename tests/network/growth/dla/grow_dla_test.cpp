@@ -82,7 +82,7 @@ TEST(GrowDla, refuses_parameters_out_of_range) {
         grow_dla(dla(10, 2.0, 1, 7));
     } catch (BadParameter const& e) {
         EXPECT_STREQ(e.where(), "network.grow_dla");
-        EXPECT_STREQ(e.what(), "sticking is 2, it must lie in (0, 1]");
+        EXPECT_STREQ(e.what(), "sticking is 2; it must be greater than 0 and at most 1");
     }
 }
 

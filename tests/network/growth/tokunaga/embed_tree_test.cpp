@@ -232,7 +232,7 @@ TEST(EmbedTree, RefusesParametersOutOfRange) {
     auto params = in_square(100);
     for (double const clearance : {not_a_number, 0.0, 0.0499, 0.3501, -1.0}) {
         params.clearance = clearance;
-        EXPECT_TRUE(has(refusal(params), "must lie in [0.05, 0.35]"));
+        EXPECT_TRUE(has(refusal(params), "it must be between 0.05 and 0.35"));
     }
     params = in_square(100);
     for (double const spacing : {not_a_number, -1.0, std::numeric_limits<double>::infinity()}) {

@@ -261,7 +261,7 @@ TEST(GrowStrokes, NumbersOutOfRangeAreRefused) {
         change(params);
         refused<BadParameter>(one, words, params);
     };
-    bad([](StrokesParams& p) { p.max_depth = 0; }, "max_depth is 0, it must lie in [1, 29]");
+    bad([](StrokesParams& p) { p.max_depth = 0; }, "max_depth is 0; it must be between 1 and 29");
     bad([](StrokesParams& p) { p.max_depth = 30; }, "max_depth is 30");
     for (double const reach : {0.0, -1.0, 2.001, unknown}) {
         bad([=](StrokesParams& p) { p.reach = reach; }, "reach is ");

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/network/growth/dla/internal/tiled_bytes.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
 
@@ -32,15 +33,9 @@ double least_arrivals(DlaParams const& params) {
 }
 
 void require_growth(DlaParams const& params) {
-    if (params.particles < 1) {
-        throw BadParameter(fmt::format("network.grow_dla: particles is {}, it must be at least 1", params.particles));
-    }
-    if (!(params.sticking > 0.0 && params.sticking <= 1.0)) {
-        throw BadParameter(fmt::format("network.grow_dla: sticking is {}, it must lie in (0, 1]", params.sticking));
-    }
-    if (params.visits < 1 || params.visits > 255) {
-        throw BadParameter(fmt::format("network.grow_dla: visits is {}, it must lie in [1, 255]", params.visits));
-    }
+    require_in("network.grow_dla", "particles", params.particles, Range::at_least(1));
+    require_in("network.grow_dla", "sticking", params.sticking, Range{0.0, 1.0, false, true});
+    require_in("network.grow_dla", "visits", params.visits, Range::between(1, 255));
     if (params.max_radius < 0) {
         throw BadParameter(fmt::format("network.grow_dla: max_radius is {}, it must be at least 1, or 0 for no limit",
                                        params.max_radius));

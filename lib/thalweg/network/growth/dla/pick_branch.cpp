@@ -10,6 +10,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::network {
 
@@ -24,10 +25,7 @@ void check(Cluster const& cluster, BranchParams const& params) {
                                        "1, or 0 for no limit",
                                        params.max_width, params.max_height));
     }
-    if (!(params.turn_deg >= -180.0 && params.turn_deg <= 180.0)) {
-        throw BadParameter(
-            fmt::format("network.pick_branch: turn_deg is {}, it must lie in [-180, 180]", params.turn_deg));
-    }
+    require_in("network.pick_branch", "turn_deg", params.turn_deg, Range::between(-180.0, 180.0));
     if (cluster.cells.empty() || cluster.parent.size() != cluster.cells.size() || cluster.parent[0] != -1) {
         throw BadInput("network.pick_branch: the cluster needs a seed and a parent for every other particle");
     }

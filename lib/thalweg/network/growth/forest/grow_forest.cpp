@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/network/growth/forest/internal/forest_growth.hpp>
 
 namespace thalweg::network {
@@ -18,21 +19,14 @@ constexpr std::uint64_t forest_stage = 0x666f726573743031; // "forest01"
 
 void check(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params) {
     constexpr std::int64_t longest = 1 << 20;
-    if (params.step_cells < 1 || params.step_cells > 100) {
-        throw BadParameter(
-            fmt::format("network.grow_forest: step_cells is {}, it must lie in [1, 100]", params.step_cells));
-    }
+    require_in("network.grow_forest", "step_cells", params.step_cells, Range::between(1, 100));
     if (params.particles < 0) {
         throw BadParameter(fmt::format("network.grow_forest: particles is {}, it must be at least 1, or 0 for all that "
                                        "find room",
                                        params.particles));
     }
-    if (!(params.sticking > 0.0 && params.sticking <= 1.0)) {
-        throw BadParameter(fmt::format("network.grow_forest: sticking is {}, it must lie in (0, 1]", params.sticking));
-    }
-    if (params.visits < 1 || params.visits > 255) {
-        throw BadParameter(fmt::format("network.grow_forest: visits is {}, it must lie in [1, 255]", params.visits));
-    }
+    require_in("network.grow_forest", "sticking", params.sticking, Range{0.0, 1.0, false, true});
+    require_in("network.grow_forest", "visits", params.visits, Range::between(1, 255));
     if (std::max(region.width(), region.height()) > longest) {
         throw BadInput(fmt::format("network.grow_forest: the region has {} x {} cells, at most {} a side are possible",
                                    region.width(), region.height(), longest));

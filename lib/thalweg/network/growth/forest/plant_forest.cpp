@@ -13,6 +13,7 @@
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/cells/cells_around.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
 #include <thalweg/network/growth/forest/internal/room_in.hpp>
 #include <thalweg/network/growth/forest/spread_outlets.hpp>
@@ -128,10 +129,7 @@ Finding finding(char const* kind, Grid const& grid, Cell c, double amount, std::
 void check(Mask const& land, std::vector<Cell> const& coast, std::vector<Cell> const& outlets,
            ForestParams const& params) {
     constexpr std::int64_t least_step = 4; // below, rivers of two trees could touch between their seeds and outlets
-    if (params.step_cells < least_step || params.step_cells > 100) {
-        throw BadParameter(fmt::format("network.plant_forest: step_cells is {}, it must lie in [{}, 100]",
-                                       params.step_cells, least_step));
-    }
+    require_in("network.plant_forest", "step_cells", params.step_cells, Range::between(least_step, 100));
     if (coast.empty()) {
         throw BadInput("network.plant_forest: there is no land, all cells are sea");
     }

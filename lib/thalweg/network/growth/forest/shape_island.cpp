@@ -14,6 +14,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
 
 namespace thalweg::network {
@@ -147,10 +148,7 @@ void tidy(Mask& land) {
 } // namespace
 
 Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) {
-    if (!(params.ruggedness >= 0.0 && params.ruggedness <= 1.0)) {
-        throw BadParameter(
-            fmt::format("network.shape_island: ruggedness is {}, it must lie in [0, 1]", params.ruggedness));
-    }
+    require_in("network.shape_island", "ruggedness", params.ruggedness, Range::between(0.0, 1.0));
     if (std::min(grid.width, grid.height) < 16) {
         throw BadInput(fmt::format("network.shape_island: the grid has {} x {} cells, an island needs 16 x 16",
                                    grid.width, grid.height));

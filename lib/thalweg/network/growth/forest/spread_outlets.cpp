@@ -14,6 +14,7 @@
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::network {
 
@@ -115,10 +116,7 @@ std::vector<Cell> spread_outlets(Mask const& land, std::vector<Cell> const& coas
                                        "as the coast is long",
                                        params.count));
     }
-    if (!(params.every_cells > 0.0) || !std::isfinite(params.every_cells)) {
-        throw BadParameter(
-            fmt::format("network.spread_outlets: every_cells is {}, it must be above 0", params.every_cells));
-    }
+    require_in("network.spread_outlets", "every_cells", params.every_cells, Range::above(0.0));
     if (coast.empty()) {
         throw BadInput("network.spread_outlets: there is no coast on which a river could end");
     }

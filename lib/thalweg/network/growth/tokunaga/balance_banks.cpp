@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/tokunaga/internal/balance_banks.hpp>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 #include <fmt/format.h>
 
@@ -42,9 +42,7 @@ std::vector<std::size_t> trunk_of(TokunagaTree const& tree) {
 }
 
 void balance_banks(TokunagaTree& tree, double share_left) {
-    if (!(share_left >= 0.0 && share_left <= 1.0)) {
-        throw BadParameter(fmt::format("network.balance_banks: share_left is {}, it must lie in [0, 1]", share_left));
-    }
+    require_in("network.balance_banks", "share_left", share_left, Range::between(0.0, 1.0));
     std::vector<std::int64_t> const sizes = sizes_of(tree);
     std::int64_t left = 0;
     std::int64_t right = 0;

@@ -10,6 +10,7 @@
 
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/growth/tokunaga/internal/join_links.hpp>
@@ -54,14 +55,8 @@ void check_ring(std::vector<Vec2> const& ring) {
 }
 
 void check(EmbedParams const& params, std::size_t links) {
-    if (!(params.clearance >= 0.05 && params.clearance <= 0.35)) {
-        throw BadParameter(
-            fmt::format("network.embed_tree: clearance is {}, it must lie in [0.05, 0.35]", params.clearance));
-    }
-    if (!(params.min_spacing_m >= 0.0) || !std::isfinite(params.min_spacing_m)) {
-        throw BadParameter(
-            fmt::format("network.embed_tree: min_spacing_m is {}, it must be at least 0", params.min_spacing_m));
-    }
+    require_in("network.embed_tree", "clearance", params.clearance, Range::between(0.05, 0.35));
+    require_in("network.embed_tree", "min_spacing_m", params.min_spacing_m, Range::at_least(0.0));
     if (!finite(params.direction) || !finite(params.mouth)) {
         throw BadParameter("network.embed_tree: mouth and direction must be finite numbers");
     }

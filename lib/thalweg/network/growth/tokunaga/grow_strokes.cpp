@@ -3,7 +3,7 @@
 #include <thalweg/network/growth/tokunaga/grow_strokes.hpp>
 
 #include <thalweg/core/numbers/chance.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/growth/tokunaga/internal/balance_banks.hpp>
 #include <thalweg/network/growth/tokunaga/internal/join_links.hpp>
@@ -27,21 +27,10 @@ namespace {
 constexpr std::uint64_t stroke_stage = 0x7374726f6b65; // "stroke"
 
 void check(StrokesParams const& params) {
-    if (params.max_depth < 1 || params.max_depth > 29) {
-        throw BadParameter(
-            fmt::format("network.grow_strokes: max_depth is {}, it must lie in [1, 29]", params.max_depth));
-    }
-    if (!(params.reach > 0.0 && params.reach <= 2.0)) {
-        throw BadParameter(fmt::format("network.grow_strokes: reach is {}, it must lie in (0, 2]", params.reach));
-    }
-    if (!(params.clearance >= 0.05 && params.clearance <= 0.35)) {
-        throw BadParameter(
-            fmt::format("network.grow_strokes: clearance is {}, it must lie in [0.05, 0.35]", params.clearance));
-    }
-    if (!(params.min_spacing_m >= 0.0) || !std::isfinite(params.min_spacing_m)) {
-        throw BadParameter(
-            fmt::format("network.grow_strokes: min_spacing_m is {}, it must be at least 0", params.min_spacing_m));
-    }
+    require_in("network.grow_strokes", "max_depth", params.max_depth, Range::between(1, 29));
+    require_in("network.grow_strokes", "reach", params.reach, Range{0.0, 2.0, false, true});
+    require_in("network.grow_strokes", "clearance", params.clearance, Range::between(0.05, 0.35));
+    require_in("network.grow_strokes", "min_spacing_m", params.min_spacing_m, Range::at_least(0.0));
 }
 
 /// Another stroke's beginning on a trunk.

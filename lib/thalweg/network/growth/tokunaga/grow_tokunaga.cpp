@@ -9,6 +9,7 @@
 
 #include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::network {
 
@@ -17,17 +18,9 @@ namespace {
 constexpr std::uint64_t tokunaga_stage = 0x746f6b756e616761; // "tokunaga"
 
 void check(TokunagaParams const& params) {
-    if (params.generator < 1 || params.generator > 50) {
-        throw BadParameter(
-            fmt::format("network.grow_tokunaga: generator is {}, it must lie in [1, 50]", params.generator));
-    }
-    if (params.order < 1 || params.order > 30) {
-        throw BadParameter(fmt::format("network.grow_tokunaga: order is {}, it must lie in [1, 30]", params.order));
-    }
-    if (params.max_links < 1) {
-        throw BadParameter(
-            fmt::format("network.grow_tokunaga: max_links is {}, it must be at least 1", params.max_links));
-    }
+    require_in("network.grow_tokunaga", "generator", params.generator, Range::between(1, 50));
+    require_in("network.grow_tokunaga", "order", params.order, Range::between(1, 30));
+    require_in("network.grow_tokunaga", "max_links", params.max_links, Range::at_least(1));
 }
 
 /// One refinement of a tree.

@@ -11,6 +11,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/index.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::network {
 
@@ -198,10 +199,7 @@ TokunagaTree read_lsystem(std::string_view word) {
 }
 
 std::vector<std::vector<Vec2>> draw_turtle(TokunagaTree const& tree, TurtleParams const& params) {
-    if (!(params.delta_deg >= 0.0 && params.delta_deg <= 90.0)) {
-        throw BadParameter(
-            fmt::format("network.draw_turtle: delta_deg is {}, it must lie in [0, 90]", params.delta_deg));
-    }
+    require_in("network.draw_turtle", "delta_deg", params.delta_deg, Range::between(0.0, 90.0));
     if (!(params.link_m > 0.0)) {
         throw BadParameter(fmt::format("network.draw_turtle: link_m is {}, it must be above 0", params.link_m));
     }

@@ -6,14 +6,12 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::network {
 
 TokunagaLaws tokunaga_laws(int lambda) {
-    if (lambda < 1 || lambda > 50) {
-        throw BadParameter(fmt::format("network.tokunaga_laws: the generator is {}, it must lie in [1, 50]", lambda));
-    }
+    require_in("network.tokunaga_laws", "the generator", lambda, Range::between(1, 50));
     TokunagaLaws laws;
     laws.a = lambda - 1;
     laws.c = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * lambda));
