@@ -219,7 +219,7 @@ private:
 /// Where rivers may end: on the grid's border and beside the sea.
 class Ends {
 public:
-    explicit Ends(Grid const& grid) : grid_(grid) {}
+    explicit Ends(Grid grid) : grid_(std::move(grid)) {}
 
     explicit Ends(Mask const& land) : grid_(land.grid()), land_(land), steps_(land.grid(), unreached) {
         std::vector<Cell> front;
