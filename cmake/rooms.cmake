@@ -23,6 +23,10 @@ if(THALWEG_SANITIZE)
     -fsanitize=${THALWEG_SANITIZE} -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-error=maybe-uninitialized>
     $<$<CXX_COMPILER_ID:GNU>:-Wno-error=uninitialized>)
   target_link_options(thalweg_options INTERFACE -fsanitize=${THALWEG_SANITIZE})
+  if(THALWEG_SANITIZE STREQUAL "thread")
+    target_compile_definitions(thalweg_options INTERFACE THALWEG_TSAN)
+    target_compile_options(thalweg_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>) # fences of Boost and oneTBB
+  endif()
 endif()
 if(THALWEG_COVERAGE)
   target_compile_options(thalweg_options INTERFACE --coverage)
@@ -32,6 +36,9 @@ endif()
 # thalweg_room(NAME [foreign libraries its .cpp files may use]): one folder of lib/thalweg, compiled apart, without the
 # files that THALWEG_LEFT_OUT names (regular expression).
 function(thalweg_room NAME)
+  if(THALWEG_ROOMS AND NOT NAME IN_LIST THALWEG_ROOMS)
+    return()
+  endif()
   file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/thalweg/${NAME}/*.cpp)
   if(THALWEG_LEFT_OUT)
     list(FILTER SOURCES EXCLUDE REGEX "${THALWEG_LEFT_OUT}")

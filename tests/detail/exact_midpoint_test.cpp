@@ -4,6 +4,8 @@
 #include <thalweg/detail/midpoint.hpp>
 
 #include "land.hpp"
+#include "message_of.hpp"
+#include "ordinary_kriging.hpp"
 
 #include <thalweg/core/run/error.hpp>
 
@@ -47,7 +49,6 @@ double variogram(Place const& a, Place const& b, double hurst) {
     return std::pow((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y), hurst);
 }
 
-/// The slow, obvious oracle: the whole system of ordinary kriging for one place, by Gauss and Jordan.
 struct OracleWeights {
     std::vector<double> weights;
     double variance = 0.0; ///< in units of sigma^2
@@ -55,31 +56,9 @@ struct OracleWeights {
 
 OracleWeights oracle_weights(std::vector<Place> const& data, Place const& here, double hurst) {
     std::size_t const n = data.size();
-    std::vector<std::vector<double>> m(n + 1, std::vector<double>(n + 2, 1.0));
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t k = 0; k < n; ++k) {
-            m[i][k] = variogram(data[i], data[k], hurst);
-        }
-        m[i][n + 1] = variogram(data[i], here, hurst);
-    }
-    m[n][n] = 0.0;
-    for (std::size_t c = 0; c <= n; ++c) {
-        std::size_t p = c;
-        for (std::size_t r = c; r <= n; ++r) {
-            p = std::fabs(m[r][c]) > std::fabs(m[p][c]) ? r : p;
-        }
-        std::swap(m[c], m[p]);
-        for (std::size_t r = 0; r <= n; ++r) {
-            double const f = r == c ? 0.0 : m[r][c] / m[c][c];
-            for (std::size_t k = c; k <= n + 1; ++k) {
-                m[r][k] -= f * m[c][k];
-            }
-        }
-    }
     OracleWeights out;
-    for (std::size_t i = 0; i < n; ++i) {
-        out.weights.push_back(m[i][n + 1] / m[i][i]);
-    }
+    out.weights =
+        ordinary_kriging(data, here, [hurst](Place const& a, Place const& b) { return variogram(a, b, hurst); });
     for (std::size_t i = 0; i < n; ++i) {
         out.variance += out.weights[i] * variogram(data[i], here, hurst);
         for (std::size_t k = 0; k < n; ++k) {
@@ -191,12 +170,7 @@ TEST(ExactMidpoint, IsTheSameOnAnyThreadsAndOtherForAnotherSeed) {
 }
 
 std::string refusal(Raster<float> const& coarse, MidpointParams const& params) {
-    try {
-        midpoint(coarse, params);
-    } catch (BadParameter const& error) {
-        return error.what();
-    }
-    return "";
+    return message_of<BadParameter>([&] { midpoint(coarse, params); });
 }
 
 TEST(ExactMidpoint, RefusesWhatItCannotUse) {

@@ -3,6 +3,8 @@
 #include <thalweg/detail/midpoint.hpp>
 
 #include "land.hpp"
+#include "message_of.hpp"
+#include "ordinary_kriging.hpp"
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/detail/estimate_fractal.hpp>
@@ -61,31 +63,7 @@ void oracle_kriging(std::vector<Point> const& at, Stencil stencil, double h, std
     if (stencil == Stencil::four || stencil == Stencil::four_exact) {
         weights.assign(n, 1.0 / static_cast<double>(n));
     } else {
-        std::vector<std::vector<double>> m(n + 1, std::vector<double>(n + 2, 1.0));
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t k = 0; k < n; ++k) {
-                m[i][k] = gamma(at[i], at[k]);
-            }
-            m[i][n + 1] = gamma(at[i], here);
-        }
-        m[n][n] = 0.0;
-        for (std::size_t c = 0; c <= n; ++c) { // Gauss and Jordan
-            std::size_t p = c;
-            for (std::size_t r = c; r <= n; ++r) {
-                p = std::fabs(m[r][c]) > std::fabs(m[p][c]) ? r : p;
-            }
-            std::swap(m[c], m[p]);
-            for (std::size_t r = 0; r <= n; ++r) {
-                double const f = r == c ? 0.0 : m[r][c] / m[c][c];
-                for (std::size_t k = c; k <= n + 1; ++k) {
-                    m[r][k] -= f * m[c][k];
-                }
-            }
-        }
-        weights.clear();
-        for (std::size_t i = 0; i < n; ++i) {
-            weights.push_back(m[i][n + 1] / m[i][i]);
-        }
+        weights = ordinary_kriging(at, here, gamma);
     }
     double variance = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -344,12 +322,7 @@ TEST(Midpoint, CentresStayWhereTheyAre) {
 }
 
 std::string refusal(Raster<float> const& coarse, MidpointParams const& params) {
-    try {
-        midpoint(coarse, params);
-    } catch (BadParameter const& error) {
-        return error.what();
-    }
-    return "";
+    return message_of<BadParameter>([&] { midpoint(coarse, params); });
 }
 
 TEST(Midpoint, RefusesWhatItCannotUse) {

@@ -263,33 +263,30 @@ TEST(Diagram, FourPointsOnACircleShareAVertex) {
     }
 }
 
+/// Of the diagram that make(lines, bounds) draws of a lattice by chance, anywhere.
+void check_laws(Kind kind, double error, auto const& make) {
+    auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+    double const jitter = *rc::gen::element(0.0, 0.5);
+    Vec2 const corner = *rc::gen::element(Vec2{}, Vec2{500000.0, 4500000.0});
+    Lines const lines = lattice(seed, jitter, 0.4, corner);
+    Bounds const bounds{corner.x - 1, corner.y - 1, corner.x + 9, corner.y + 9};
+    Diagram const diagram = make(lines, bounds);
+    check_edges(diagram, lines, bounds, kind, error);
+    check_vertices(diagram);
+    check_ends(diagram);
+    check_nothing_is_missing(diagram, lines, kind, corner, seed);
+}
+
 TEST(Diagram, VoronoiKeepsItsLaws) {
     ASSERT_TRUE(rc::check([] {
-        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
-        double const jitter = *rc::gen::element(0.0, 0.5);
-        Vec2 const corner = *rc::gen::element(Vec2{}, Vec2{500000.0, 4500000.0});
-        Lines const lines = lattice(seed, jitter, 0.4, corner);
-        Bounds const bounds{corner.x - 1, corner.y - 1, corner.x + 9, corner.y + 9};
-        Diagram const diagram = voronoi(lines, bounds);
-        check_edges(diagram, lines, bounds, Kind::points, 0.0);
-        check_vertices(diagram);
-        check_ends(diagram);
-        check_nothing_is_missing(diagram, lines, Kind::points, corner, seed);
+        check_laws(Kind::points, 0.0, [](Lines const& lines, Bounds const& bounds) { return voronoi(lines, bounds); });
     }));
 }
 
 TEST(Diagram, MedialLinesKeepTheirLaws) {
     ASSERT_TRUE(rc::check([] {
-        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
-        double const jitter = *rc::gen::element(0.0, 0.5);
-        Vec2 const corner = *rc::gen::element(Vec2{}, Vec2{500000.0, 4500000.0});
-        Lines const lines = lattice(seed, jitter, 0.4, corner);
-        Bounds const bounds{corner.x - 1, corner.y - 1, corner.x + 9, corner.y + 9};
-        Diagram const diagram = medial_lines(lines, bounds, {1e-3});
-        check_edges(diagram, lines, bounds, Kind::segments, 1e-3);
-        check_vertices(diagram);
-        check_ends(diagram);
-        check_nothing_is_missing(diagram, lines, Kind::segments, corner, seed);
+        check_laws(Kind::segments, 1e-3,
+                   [](Lines const& lines, Bounds const& bounds) { return medial_lines(lines, bounds, {1e-3}); });
     }));
 }
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pairs of places in lib and tools that share six or more equal lines of code. Prints one line a pair.
+"""Pairs of places in lib, tools and tests that share six or more equal lines of code. Prints one line a pair.
 Blank lines, comments, includes, pragmas and lines of punctuation alone do not count, nor do
 they end a run. White space is folded.
 Usage: twins.py [ROOT]"""
@@ -10,7 +10,7 @@ import re
 import sys
 
 LEAST = 6  # equal lines that make a pair
-FOLDERS = ("lib", "tools")
+FOLDERS = ("lib", "tools", "tests")
 SUFFIXES = (".cpp", ".hpp", ".inc")
 PASSED_OVER = re.compile(r"//|\*|/\*|#\s*(include|pragma)|[\W_]*$")
 

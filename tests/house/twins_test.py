@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds lib and tools to the pairs of equal places that have a reason, and twins.py to planted ones. Usage: twins_test.py"""
+"""Holds lib, tools and tests to the pairs of equal places that have a reason, and twins.py to planted ones. Usage: twins_test.py"""
 import pathlib
 import unittest
 
@@ -17,6 +17,14 @@ ALLOWED = {
         "XML 1.0 forbids control characters, HTML escapes apostrophes: two formats, five entities in common",
     ("lib/thalweg/pipeline/recipe/key_kinds.cpp", "lib/thalweg/pipeline/recipe/key_kinds.cpp"):
         "a key and an optional key store through fields of different types",
+    ("tests/blend/paste_tin_test.cpp", "tests/geometry/cotangents_test.cpp"):
+        "the two ways to halve a square, each in a lattice of its own module's",
+    ("tests/flow/catchments/areas_test.cpp", "tests/flow/catchments/catchments_test.cpp"):
+        "rivers by chance, with cells alone and with a land: rapidcheck draws inside the generator",
+    ("tests/network/growth/forest/grow_forest_test.cpp", "tests/network/growth/forest/plant_forest_test.cpp"):
+        "using declarations",
+    ("tests/tools/commands/points_test.cpp", "tests/tools/commands/tin_test.cpp"):
+        "a folder that make has left is what both commands begin with",
 }
 
 SIX = [f"step_{k}();" for k in range(6)]

@@ -18,6 +18,7 @@
 #include <thalweg/core/run/error.hpp>
 
 #include "fields.hpp"
+#include "message_of.hpp"
 
 using namespace thalweg;
 using skeleton::draw_skeleton;
@@ -33,15 +34,6 @@ Valley dry(std::int64_t width, std::int64_t height) {
 
 RidgeLines one_ridge(std::vector<Vec3> line) {
     return {{{std::move(line), 1, 2}}};
-}
-
-std::string message_of(auto&& act) {
-    try {
-        act();
-    } catch (Error const& error) {
-        return error.what();
-    }
-    return "";
 }
 
 bool same_bits(Raster<float> const& a, Raster<float> const& b) {

@@ -3,11 +3,8 @@
 #pragma once
 
 #include "command.hpp"
+#include "refused.hpp"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <iterator>
 #include <string>
 
 inline Outcome blend(Workplace const& place, std::string const& arguments) {
@@ -16,11 +13,5 @@ inline Outcome blend(Workplace const& place, std::string const& arguments) {
 
 /// Exit 2, the words in the message, nothing written.
 inline void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
-    auto const before = std::distance(std::filesystem::directory_iterator(place.path()), {});
-    Outcome const o = blend(place, arguments);
-    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
-    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
-    EXPECT_NE(("\n" + o.err).find("\nerror: "), std::string::npos) << o.err;
-    EXPECT_EQ(o.out, "") << arguments;
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(place.path()), {}), before) << arguments;
+    expect_refused(place, "blend " + arguments, words);
 }

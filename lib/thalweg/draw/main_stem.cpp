@@ -8,16 +8,16 @@ namespace thalweg::draw {
 
 MainStem main_stem(StreamNetwork const& network, NetworkOrders const& orders) {
     MainStem stem;
-    std::int64_t arc = -1;
+    ArcId arc = no_arc;
     double longest = -1.0;
     for (std::size_t k = 0; k < network.arc_count() && k < orders.arc_basin.size(); ++k) {
         double const far = orders.arc_basin[k] > 0 ? orders.node_dist_out_m[network.from(k)] : -1.0;
         if (far > longest) {
             longest = far;
-            arc = static_cast<std::int64_t>(k);
+            arc = k;
         }
     }
-    while (arc >= 0) {
+    while (arc != no_arc) {
         std::vector<Vec2> const& line = network.arc(arc).line;
         bool const joins = !stem.line.empty() && !line.empty() && stem.line.back() == line.front();
         stem.line.insert(stem.line.end(), line.begin() + (joins ? 1 : 0), line.end());

@@ -8,6 +8,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/write_network.hpp>
 
+#include "message_of.hpp"
 #include "sample_networks.hpp"
 #include "vector_files.hpp"
 
@@ -157,12 +158,7 @@ testing::AssertionResult hangs_together(NetworkFile const& file) {
 }
 
 std::string refusal(std::string const& path, io::ReadNetworkParams const& params = {}) {
-    try {
-        io::read_network(path, params);
-    } catch (BadInput const& error) {
-        return error.what();
-    }
-    return "";
+    return message_of<BadInput>([&] { io::read_network(path, params); });
 }
 
 testing::AssertionResult says(std::string const& message, std::string const& words) {

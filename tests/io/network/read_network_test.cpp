@@ -13,6 +13,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/write_network.hpp>
 
+#include "message_of.hpp"
 #include "sample_networks.hpp"
 #include "scratch_folder.hpp"
 
@@ -21,12 +22,7 @@ using namespace thalweg;
 namespace {
 
 std::string refusal(std::string const& path) {
-    try {
-        io::read_network(path);
-    } catch (BadInput const& error) {
-        return error.what();
-    }
-    return "";
+    return message_of<BadInput>([&] { io::read_network(path); });
 }
 
 testing::AssertionResult says(std::string const& message, std::string const& words) {

@@ -17,6 +17,7 @@
 #include <thalweg/io/network/read_network.hpp>
 
 #include "full_disk.hpp"
+#include "message_of.hpp"
 #include "sample_networks.hpp"
 #include "scratch_folder.hpp"
 
@@ -32,15 +33,6 @@ using Opened = std::unique_ptr<GDALDataset, Close>;
 Opened open(std::string const& path) {
     GDALAllRegister();
     return Opened(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR));
-}
-
-std::string message_of(auto&& act) {
-    try {
-        act();
-    } catch (Error const& error) {
-        return error.what();
-    }
-    return "";
 }
 
 // A network in both formats, its layers by name.

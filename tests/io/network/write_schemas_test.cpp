@@ -19,6 +19,7 @@
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
 
+#include "message_of.hpp"
 #include "sample_networks.hpp"
 #include "scratch_folder.hpp"
 
@@ -50,15 +51,6 @@ Rows rows_of(std::string const& path) {
         row["first_y"] = std::to_string(line.getY(0));
     }
     return rows;
-}
-
-std::string message_of(auto&& act) {
-    try {
-        act();
-    } catch (Error const& error) {
-        return error.what();
-    }
-    return "";
 }
 
 std::string name_of_format(NetworkFormat format) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.hpp"
+#include "refused.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -13,15 +14,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Exit 2, the words in the message, nothing written.
 void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
-    auto const before = std::distance(fs::directory_iterator(place.path()), {});
-    Outcome const o = thalweg_run("tin " + arguments, place.path());
-    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
-    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
-    EXPECT_NE(("\n" + o.err).find("\nerror: "), std::string::npos) << o.err;
-    EXPECT_EQ(o.out, "") << arguments;
-    EXPECT_EQ(std::distance(fs::directory_iterator(place.path()), {}), before) << arguments;
+    expect_refused(place, "tin " + arguments, words);
 }
 
 /// A DEM of 5 x 4 cells with a hole in its corner and a peak.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.hpp"
+#include "refused.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,94 +32,83 @@ std::string lines_recipe(std::string const& path, std::string const& more = "") 
            "[surface]\n";
 }
 
-/// Exit 2, the words in the message, nothing written.
-void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
-    auto const before = std::distance(fs::directory_iterator(place.path()), {});
-    Outcome const o = thalweg_run(arguments, place.path());
-    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
-    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
-    EXPECT_NE(("\n" + o.err).find("\nerror: "), std::string::npos) << o.err;
-    EXPECT_EQ(o.out, "") << arguments;
-    EXPECT_EQ(std::distance(fs::directory_iterator(place.path()), {}), before) << arguments;
-}
-
 } // namespace
 
 TEST(BadInput, CommandLine) {
     Workplace const place;
-    refused(place, "mak", "thalweg has no command 'mak'. Did you mean 'make'?");
-    refused(place, "wombat", "Its commands are make, check");
-    refused(place, "make --overwrit", "thalweg make has no option '--overwrit'. Did you mean '--overwrite'?");
-    refused(place, "make --theads=3", "Did you mean '--threads'? See thalweg make --help.");
-    refused(place, "make -seed 3", "thalweg make has no option '-seed'. Did you mean '--seed'?");
-    refused(place, "make -Q", "Did you mean '-q'?");
-    refused(place, "--seed 3 make", "Options follow the command.");
-    refused(place, "--sed 3 make", "thalweg has no option '--sed'.");
-    refused(place, "make -o make --overwrit", "'--overwrit'");
-    refused(place, "make --seed", "thalweg make --seed is missing its N");
-    refused(place, "completion bsh", "not 'bsh'. Did you mean 'bash'?");
-    refused(place, "help maek", "Did you mean 'make'?");
-    refused(place, "recipe all", "unknown key 'all'.");
-    refused(place, "recipe grid network", "'network' is one word too many for thalweg recipe");
-    refused(place, "make --threads -1", "--threads");
-    refused(place, "make --device nonsense",
-            "--device is one of cpu, opencl, not 'nonsense'. See thalweg make --help.");
-    refused(place, "make --device opncl", "Did you mean 'opencl'?");
-    refused(place, "make nowhere.toml", "nowhere.toml");
-    refused(place, "make .", "");
-    refused(place, "check nowhere.gpkg", "nowhere.gpkg");
-    refused(place, "stats nowhere.tif", "nowhere.tif");
-    refused(place, "replay nowhere", "nowhere");
-    refused(place, "make --set nothing", "section.key=value");
+    expect_refused(place, "mak", "thalweg has no command 'mak'. Did you mean 'make'?");
+    expect_refused(place, "wombat", "Its commands are make, check");
+    expect_refused(place, "make --overwrit", "thalweg make has no option '--overwrit'. Did you mean '--overwrite'?");
+    expect_refused(place, "make --theads=3", "Did you mean '--threads'? See thalweg make --help.");
+    expect_refused(place, "make -seed 3", "thalweg make has no option '-seed'. Did you mean '--seed'?");
+    expect_refused(place, "make -Q", "Did you mean '-q'?");
+    expect_refused(place, "--seed 3 make", "Options follow the command.");
+    expect_refused(place, "--sed 3 make", "thalweg has no option '--sed'.");
+    expect_refused(place, "make -o make --overwrit", "'--overwrit'");
+    expect_refused(place, "make --seed", "thalweg make --seed is missing its N");
+    expect_refused(place, "completion bsh", "not 'bsh'. Did you mean 'bash'?");
+    expect_refused(place, "help maek", "Did you mean 'make'?");
+    expect_refused(place, "recipe all", "unknown key 'all'.");
+    expect_refused(place, "recipe grid network", "'network' is one word too many for thalweg recipe");
+    expect_refused(place, "make --threads -1", "--threads");
+    expect_refused(place, "make --device nonsense",
+                   "--device is one of cpu, opencl, not 'nonsense'. See thalweg make --help.");
+    expect_refused(place, "make --device opncl", "Did you mean 'opencl'?");
+    expect_refused(place, "make nowhere.toml", "nowhere.toml");
+    expect_refused(place, "make .", "");
+    expect_refused(place, "check nowhere.gpkg", "nowhere.gpkg");
+    expect_refused(place, "stats nowhere.tif", "nowhere.tif");
+    expect_refused(place, "replay nowhere", "nowhere");
+    expect_refused(place, "make --set nothing", "section.key=value");
 }
 
 TEST(BadInput, OpenClDevices) {
     Workplace const place;
     setenv("THALWEG_OPENCL_DEVICE", "9:9", 1);
-    refused(place, small + "--device opencl",
-            "THALWEG_OPENCL_DEVICE='9:9' names no device: write platform:device as in 0:0");
+    expect_refused(place, small + "--device opencl",
+                   "THALWEG_OPENCL_DEVICE='9:9' names no device: write platform:device as in 0:0");
     unsetenv("THALWEG_OPENCL_DEVICE");
     setenv("OCL_ICD_VENDORS", "/nonexistent", 1); // where the loader looks for platforms
-    refused(place, small + "--device opencl",
-            "no OpenCL platform with a device was found; install an OpenCL driver (Debian: "
-            "pocl-opencl-icd) or leave --device out");
+    expect_refused(place, small + "--device opencl",
+                   "no OpenCL platform with a device was found; install an OpenCL driver (Debian: "
+                   "pocl-opencl-icd) or leave --device out");
     EXPECT_EQ(thalweg_run(small + "-q --device cpu", place.path()).code, 0) << "the processor needs no platform";
     unsetenv("OCL_ICD_VENDORS");
 }
 
 TEST(BadInput, RecipeKeys) {
     Workplace const place;
-    refused(place, small + "--set network.prun=3", "Did you mean 'network.prune'?");
-    refused(place, small + "--set surface.increment=rise_fal", "Did you mean 'rise_fall'?");
-    refused(place, small + "--set network.dla.sticking=0", "network.dla.sticking");
-    refused(place, small + "--set network.dla.sticking=1.5", "network.dla.sticking");
-    refused(place, small + "--set network.dla.visits=0", "network.dla.visits");
-    refused(place, small + "--set network.dla.particles=0", "network.dla.particles");
-    refused(place, small + "--set network.dla.particles=many", "an integer is required");
-    refused(place, small + "--set grid.width=0", "grid.width");
-    refused(place, small + "--set grid.cell=0", "grid.cell");
-    refused(place, small + "--set grid.cell=-3", "grid.cell");
-    refused(place, small + "--set grid.crs=EPSG:4326", "EPSG:4326");
-    refused(place, small + "--set grid.crs=nonsense", "nonsense");
-    refused(place, "make --set grid.width=900000 --set grid.height=900000", "GB are free");
+    expect_refused(place, small + "--set network.prun=3", "Did you mean 'network.prune'?");
+    expect_refused(place, small + "--set surface.increment=rise_fal", "Did you mean 'rise_fall'?");
+    expect_refused(place, small + "--set network.dla.sticking=0", "network.dla.sticking");
+    expect_refused(place, small + "--set network.dla.sticking=1.5", "network.dla.sticking");
+    expect_refused(place, small + "--set network.dla.visits=0", "network.dla.visits");
+    expect_refused(place, small + "--set network.dla.particles=0", "network.dla.particles");
+    expect_refused(place, small + "--set network.dla.particles=many", "an integer is required");
+    expect_refused(place, small + "--set grid.width=0", "grid.width");
+    expect_refused(place, small + "--set grid.cell=0", "grid.cell");
+    expect_refused(place, small + "--set grid.cell=-3", "grid.cell");
+    expect_refused(place, small + "--set grid.crs=EPSG:4326", "EPSG:4326");
+    expect_refused(place, small + "--set grid.crs=nonsense", "nonsense");
+    expect_refused(place, "make --set grid.width=900000 --set grid.height=900000", "GB are free");
     place.write("bad.toml", "[grid]\ncell = \"wide\"\n[network]\nprun = 3\n");
-    refused(place, "make bad.toml", "line 2: grid.cell: a number is required");
-    refused(place, "make bad.toml", "line 4: unknown key 'network.prun'");
+    expect_refused(place, "make bad.toml", "line 2: grid.cell: a number is required");
+    expect_refused(place, "make bad.toml", "line 4: unknown key 'network.prun'");
 }
 
 TEST(BadInput, PruningBeyondEveryPathNamesTheLongest) {
     Workplace const place;
-    refused(place, small + "--set network.prune=5000", "the longest is");
+    expect_refused(place, small + "--set network.prune=5000", "the longest is");
 }
 
 TEST(BadInput, FolderThatIsTaken) {
     Workplace const place;
     fs::create_directory(place / "out");
     place.write("out/precious.txt", "mine");
-    refused(place, small, "--overwrite");
+    expect_refused(place, small, "--overwrite");
     EXPECT_EQ(file_bytes(place / "out/precious.txt"), "mine");
     place.write("file", "mine");
-    refused(place, "make -o file", "file");
+    expect_refused(place, "make -o file", "file");
     EXPECT_EQ(file_bytes(place / "file"), "mine");
 }
 
@@ -129,25 +119,25 @@ TEST(BadInput, LineFiles) {
         place.write("r.toml", lines_recipe("rivers.geojson", more));
     };
     place.write("r.toml", lines_recipe("missing.gpkg"));
-    refused(place, "make r.toml -o out", "missing.gpkg");
+    expect_refused(place, "make r.toml -o out", "missing.gpkg");
     with(geojson(""));
-    refused(place, "make r.toml -o out", "rivers.geojson");
+    expect_refused(place, "make r.toml -o out", "rivers.geojson");
     with("{not json");
-    refused(place, "make r.toml -o out", "rivers.geojson");
+    expect_refused(place, "make r.toml -o out", "rivers.geojson");
     with(geojson(R"({"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[500000,5000000]}})"));
-    refused(place, "make r.toml -o out", "line");
+    expect_refused(place, "make r.toml -o out", "line");
     with(geojson(river(1, "[500000,5000000],[500100,5000100]")), "layer = \"streams\"\n");
-    refused(place, "make r.toml -o out", "streams");
+    expect_refused(place, "make r.toml -o out", "streams");
     with(geojson(river(3, "[500000,5000000,9],[500050,5000000,12.1],[500100,5000000,12.9],[500200,5000000,1]")),
          "orientation = \"as_drawn\"\n");
-    refused(place, "make r.toml -o out", "runs uphill");
+    expect_refused(place, "make r.toml -o out", "runs uphill");
     with(geojson(river(1, "[500000,5000000],[500100,5000000]") + "," + river(2, "[500100,5000000],[500100,5000100]") +
                  "," + river(3, "[500100,5000100],[500000,5000000]")));
-    refused(place, "make r.toml -o out", "closed rings");
+    expect_refused(place, "make r.toml -o out", "closed rings");
     with(geojson(river(1, "[500000,5000000],[500300,5000000]")));
-    refused(place, "make r.toml -o out --set grid.width=10 --set grid.height=10", "outside the grid");
-    refused(place, "make r.toml -o out --set network.heights=file", "Z");
-    refused(place, "make r.toml -o out --set grid.crs=EPSG:4258", "EPSG:4258");
+    expect_refused(place, "make r.toml -o out --set grid.width=10 --set grid.height=10", "outside the grid");
+    expect_refused(place, "make r.toml -o out --set network.heights=file", "Z");
+    expect_refused(place, "make r.toml -o out --set grid.crs=EPSG:4258", "EPSG:4258");
 }
 
 TEST(BadInput, NotANumberInAShapefile) {
@@ -170,5 +160,5 @@ open('in/r.shp', 'wb').write(shape.replace(struct.pack('<d', 500010.25), struct.
     place.write("in/make.py", script);
     ASSERT_EQ(std::system(("cd '" + place.path().string() + "' && /usr/bin/python3 in/make.py").c_str()), 0);
     place.write("r.toml", lines_recipe("in/r.shp"));
-    refused(place, "make r.toml -o out", "vertex");
+    expect_refused(place, "make r.toml -o out", "vertex");
 }

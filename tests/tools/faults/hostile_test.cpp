@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recipes and files from strangers: they make thalweg neither connect nor open what lies elsewhere.
 #include "command.hpp"
+#include "listening.hpp"
 
 #include <gtest/gtest.h>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <sys/inotify.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -28,37 +27,27 @@ namespace {
 /// A server on this machine that counts who comes and turns everyone away.
 class Door {
 public:
-    Door() : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
-        sockaddr_in at{};
-        at.sin_family = AF_INET;
-        at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        socklen_t size = sizeof at;
-        if (bind(socket_, reinterpret_cast<sockaddr*>(&at), size) != 0 || listen(socket_, 64) != 0 ||
-            getsockname(socket_, reinterpret_cast<sockaddr*>(&at), &size) != 0) {
-            throw std::runtime_error("no socket");
-        }
-        port_ = ntohs(at.sin_port);
+    Door() {
         thread_ = std::thread([this] {
-            for (int guest = accept(socket_, nullptr, nullptr); guest >= 0; guest = accept(socket_, nullptr, nullptr)) {
+            for (int guest = accept(listening_.descriptor(), nullptr, nullptr); guest >= 0;
+                 guest = accept(listening_.descriptor(), nullptr, nullptr)) {
                 ++guests_;
                 close(guest);
             }
         });
     }
     ~Door() {
-        shutdown(socket_, SHUT_RDWR);
+        shutdown(listening_.descriptor(), SHUT_RDWR);
         thread_.join();
-        close(socket_);
     }
     Door(Door const&) = delete;
     Door& operator=(Door const&) = delete;
 
-    std::string port() const { return std::to_string(port_); }
+    std::string const& port() const { return listening_.port(); }
     int take_guests() { return guests_.exchange(0); }
 
 private:
-    int socket_;
-    int port_ = 0;
+    Listening listening_;
     std::atomic<int> guests_{0};
     std::thread thread_;
 };

@@ -87,6 +87,9 @@ std::vector<std::string> files_below(fs::path const& folder) {
 // Moves that can be taken back.
 class Moves {
 public:
+    Moves() = default;
+    Moves(Moves const&) = delete;
+    Moves& operator=(Moves const&) = delete;
     ~Moves() {
         std::error_code ignored;
         for (auto move = done_.rbegin(); move != done_.rend(); ++move) {

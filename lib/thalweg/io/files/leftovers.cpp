@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <signal.h>
+#include <signal.h> // NOLINT(modernize-deprecated-headers): kill is of POSIX
 #include <unistd.h>
 
 namespace thalweg::io {

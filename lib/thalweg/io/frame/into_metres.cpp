@@ -72,7 +72,7 @@ std::string zone_of(FileBox const& box, OGRSpatialReference const& from, std::st
 } // namespace
 
 bool is_missing(OGRSpatialReference const* reference) {
-    return reference == nullptr || reference->IsEmpty() != 0 ||
+    return reference == nullptr || reference->IsEmpty() ||
            (reference->GetName() != nullptr && std::string_view(reference->GetName()).starts_with("Undefined"));
 }
 

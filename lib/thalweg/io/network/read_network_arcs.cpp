@@ -126,8 +126,8 @@ private:
         }
         FileArc arc = numbers_of(feature);
         note_shape(drawn, arc.id - file.id_shift);
-        for (std::size_t k = 0; k < drawn.parts.size(); ++k) {
-            arc.line = std::move(drawn.parts[k]);
+        for (auto& part : drawn.parts) {
+            arc.line = std::move(part);
             file.arcs.push_back(arc);
             if (columns_.has(Q::key)) {
                 keys_.push_back(key_);

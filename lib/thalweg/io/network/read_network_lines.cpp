@@ -93,7 +93,8 @@ void join(std::vector<std::vector<Vec3>>& parts) {
         auto const& part = parts[order[k]];
         line.insert(line.end(), part.begin() + 1, part.end());
     }
-    parts.assign(1, std::move(line));
+    parts.clear();
+    parts.push_back(std::move(line));
 }
 
 } // namespace

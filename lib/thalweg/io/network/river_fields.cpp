@@ -125,11 +125,11 @@ RiverFields::RiverFields(OGRLayer& layer) {
     fcode_ = numeric(find("fcode"));
 }
 
-std::string RiverFields::text(OGRFeature const& feature, int field) const {
+std::string RiverFields::text(OGRFeature const& feature, int field) {
     return field >= 0 && feature.IsFieldSetAndNotNull(field) != 0 ? as_utf8(feature.GetFieldAsString(field)) : "";
 }
 
-double RiverFields::number(OGRFeature const& feature, int field) const {
+double RiverFields::number(OGRFeature const& feature, int field) {
     double const value = field >= 0 && feature.IsFieldSetAndNotNull(field) != 0 ? feature.GetFieldAsDouble(field) : 0.0;
     return std::isfinite(value) ? value : 0.0;
 }

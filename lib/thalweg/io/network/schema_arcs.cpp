@@ -35,7 +35,7 @@ public:
         longest_up_m_.assign(arcs, 0.0);
         std::int64_t key = 0;
         for (NodeId const n : tables.network.plan.upstream_order()) { // outlets first
-            if (std::int64_t const a = tables.network.plan.out(n); a >= 0) {
+            if (auto const a = static_cast<std::int64_t>(tables.network.plan.out(n)); a >= 0) {
                 std::int64_t const below = down(a);
                 key_[as_index(a)] = ++key;
                 outlet_[as_index(a)] = below < 0 ? a : outlet_[as_index(below)];
@@ -44,7 +44,7 @@ public:
         }
         for (auto n = tables.network.plan.upstream_order().rbegin(); n != tables.network.plan.upstream_order().rend();
              ++n) { // sources first
-            if (std::int64_t const a = tables.network.plan.out(*n); a >= 0) {
+            if (auto const a = static_cast<std::int64_t>(tables.network.plan.out(*n)); a >= 0) {
                 for (ArcId const above : tables.network.plan.in(*n)) {
                     length_up_m_[as_index(a)] += length_up_m_[above];
                     longest_up_m_[as_index(a)] = std::max(longest_up_m_[as_index(a)], longest_up_m_[above]);
@@ -165,7 +165,7 @@ private:
     /// The arc upstream on the same main stem.
     std::int64_t main_up(std::int64_t a) const {
         auto const found = std::ranges::find_if(above(a), [&](std::int64_t b) { return hack(b) == hack(a); });
-        return found == above(a).end() ? -1 : *found;
+        return found == above(a).end() ? -1 : static_cast<std::int64_t>(*found);
     }
 
     NetworkTables const& tables_;

@@ -60,8 +60,8 @@ HortonLaws horton(StreamNetwork const& network, NetworkOrders const& orders, std
     for (std::size_t a = 0; a < arcs; ++a) {
         auto const k = static_cast<std::size_t>(orders.strahler[a]) - 1;
         length[k].add(network.length_m(a));
-        std::int64_t const next = network.out(network.to(a));
-        bool const ends = next < 0 || orders.strahler[static_cast<std::size_t>(next)] != orders.strahler[a];
+        ArcId const next = network.out(network.to(a));
+        bool const ends = next == no_arc || orders.strahler[next] != orders.strahler[a];
         if (ends) {
             ++laws.orders[k].streams;
             area[k].add(ds_area_m2[a]);

@@ -33,7 +33,7 @@ NetworkFile as_file(RaisedNetwork const& network, NetworkOrders const& orders) {
         arc.id = static_cast<std::int64_t>(a) + 1;
         arc.from_node = static_cast<std::int64_t>(network.plan.from(a)) + 1;
         arc.to_node = static_cast<std::int64_t>(network.plan.to(a)) + 1;
-        arc.ds_arc = network.plan.out(network.plan.to(a)) + 1;
+        arc.ds_arc = static_cast<std::int64_t>(network.plan.out(network.plan.to(a)) + 1); // 0 for none
         arc.strahler = orders.strahler[a];
         arc.shreve = orders.shreve[a];
         arc.basin = orders.arc_basin[a];

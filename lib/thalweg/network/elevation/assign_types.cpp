@@ -32,7 +32,7 @@ namespace {
 Rosgen of_order(int order, int highest, std::vector<Rosgen> const& types) {
     auto const last = static_cast<std::int64_t>(types.size()) - 1;
     std::int64_t const steps = std::int64_t{highest} - 1;
-    std::int64_t const place = steps > 0 ? (2 * (order - 1) * last + steps) / (2 * steps) : last;
+    std::int64_t const place = steps > 0 ? (std::int64_t{2} * (order - 1) * last + steps) / (2 * steps) : last;
     return types[static_cast<std::size_t>(place)];
 }
 

@@ -33,11 +33,10 @@ RaisedNetwork keep_heights(StreamNetwork const& network, RaisedNetwork const& kn
         out.node_z.push_back(height_at(network.node(n).at));
     }
     for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) { // sources first
-        std::int64_t const leaving = network.out(*n);
-        if (leaving < 0) {
+        ArcId const a = network.out(*n);
+        if (a == no_arc) {
             continue;
         }
-        auto const a = static_cast<std::size_t>(leaving);
         auto const& line = network.arc(a).line;
         auto& z = out.arc_z[a];
         z.push_back(out.node_z[*n]);

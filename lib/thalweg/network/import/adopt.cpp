@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -101,8 +102,8 @@ std::vector<std::size_t> upstream_order(Flow const& flow) {
 std::vector<double> node_heights(Flow const& flow, std::vector<Finding>& repairs) {
     std::vector<double> z(flow.leaves.size(), 0.0);
     for (std::size_t const n : upstream_order(flow)) {
-        double low = INFINITY;
-        double high = -INFINITY;
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
         for (std::size_t const k : flow.pieces.at_node[n]) {
             auto const& piece = flow.pieces.pieces[k];
             double const end = flow.lines[piece.line].vertices[piece.from == n ? piece.first : piece.last].z;

@@ -207,7 +207,7 @@ Mask land_behind_outlets(StreamNetwork const& network, Grid const& grid, Run con
 Mask land_along_rivers(Mask land, StreamNetwork const& network) {
     Grid const grid = land.grid();
     for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
-        bool const ends = network.out_arcs(network.to(arc)).size() == 0;
+        bool const ends = network.out_arcs(network.to(arc)).empty();
         std::vector<Cell> const cells = cells_along(network.arc(arc).line, grid, "a river");
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (ends && i + 1 == cells.size()) {

@@ -100,6 +100,7 @@ bool overlap(Grid const& source, blend::SourceWindow const& w, Grid const& targe
 // As near to the middle as lets centres of equal cells fall on centres.
 Vec2 target_middle(Grid const& target, blend::SourceWindow const& w) {
     auto const cells = [](std::int64_t of_target, std::int64_t of_source) {
+        // NOLINTNEXTLINE(bugprone-integer-division): whole halves
         return static_cast<double>(of_target / 2) + (of_source % 2 != 0 ? 0.5 : 0.0);
     };
     return {target.west + cells(target.width, w.width) * target.cell_m,

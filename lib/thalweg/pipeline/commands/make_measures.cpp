@@ -66,7 +66,7 @@ std::set<std::string> wanted_of(MakeMeasuresParams const& params, Measured const
             wanted.insert(outlines);
         }
     }
-    if (wanted.count(outlines) != 0 && source.network.empty()) {
+    if (wanted.contains(outlines) && source.network.empty()) {
         throw BadInput("pipeline.make_measures: catchments need rivers: name a network after the DEM");
     }
     return wanted;
@@ -133,7 +133,7 @@ private:
                                             {directions, "direction_d8.tif"},
                                             {directions, "direction_dinf.tif"},
                                             {outlines, "catchments.gpkg"}}) {
-            if (wanted.count(measure) != 0 && fs::exists(fs::symlink_status(fs::path(folder) / name))) {
+            if (wanted.contains(measure) && fs::exists(fs::symlink_status(fs::path(folder) / name))) {
                 names.emplace_back(name);
             }
         }
@@ -201,7 +201,7 @@ MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& 
     Raster<float> const dem = io::read_dem(source.dem, run);
     require_metres(dem.grid(), source.dem, "pipeline.make_measures");
     NetworkFile network;
-    if (wanted.count(outlines) != 0) {
+    if (wanted.contains(outlines)) {
         io::ReadNetworkParams how = params.read;
         how.crs = dem.grid().crs;
         network = io::read_network(source.network, how, run);
@@ -218,26 +218,26 @@ MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& 
     made.cells = std::count_if(drainage.direction.values().begin(), drainage.direction.values().end(),
                                [](flow::Direction way) { return way != flow::Direction::no_data; });
     made.area_m2 = static_cast<double>(made.cells) * dem.grid().cell_m * dem.grid().cell_m;
-    if (wanted.count(d8) != 0) {
+    if (wanted.contains(d8)) {
         Raster<double> const areas = areas_m2(drainage);
         made.d8_m2 = greatest(areas);
         io::write_field(areas, out.path("area_d8.tif"), run);
     }
-    if (wanted.count(directions) != 0) {
+    if (wanted.contains(directions)) {
         io::write_codes(d8_codes(drainage.direction), out.path("direction_d8.tif"), run);
     }
-    if (wanted.count(dinf) + wanted.count(directions) != 0) {
+    if (wanted.contains(dinf) || wanted.contains(directions)) {
         flow::DinfFlow const parted = flow::route_dinf(dem, drainage, run);
-        if (wanted.count(dinf) != 0) {
+        if (wanted.contains(dinf)) {
             Raster<double> const areas = areas_m2(parted.area_cells);
             made.dinf_m2 = greatest(areas);
             io::write_field(areas, out.path("area_dinf.tif"), run);
         }
-        if (wanted.count(directions) != 0) {
+        if (wanted.contains(directions)) {
             io::write_field(dinf_angles(parted.bearing), out.path("direction_dinf.tif"), run);
         }
     }
-    if (wanted.count(outlines) != 0) {
+    if (wanted.contains(outlines)) {
         made.catchments = write_catchments(network, drainage, out.path("catchments.gpkg"), run);
         made.notes = notes_on(network, *made.catchments);
     }

@@ -121,7 +121,7 @@ public:
             say("turned", arc.id, plan(line.front()), length_in_plan(line),
                 fmt::format("arc {}: is reversed to run downstream", arc.id));
         }
-        if (looped_.count(arc.id) > 0) {
+        if (looped_.contains(arc.id)) {
             network::CutLine cut = network::cut_loops(line, near_m_);
             if (length_in_plan(cut.line) <= 0.0) {
                 put_aside(arc, std::move(line), "closed ring");

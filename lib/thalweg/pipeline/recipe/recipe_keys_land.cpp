@@ -148,10 +148,10 @@ void add_surface_keys(std::vector<Key>& keys) {
                                 in_surface<Base>([](SurfaceRecipe& s) -> Base& { return s.base; })));
     {
         Key key = text(
-            "surface.increment", "uniform | decreasing | rise_fall | an expression in x",
-            "height increment dh of the x-th dilation",
+            "surface.increment", "", "height increment dh of the x-th dilation",
             in_surface<std::string>([](SurfaceRecipe& s) -> std::string& { return s.dilate.increment.increment; }));
-        key.help.choices = {"uniform", "decreasing", "rise_fall"};
+        key.help.choices = surface::increment_names();
+        key.help.range = fmt::format("{} | an expression in x", fmt::join(key.help.choices, " | "));
         auto const put = key.put;
         key.put = [put](Recipe& r, Value const& v) {
             surface::increments(1, {as_text(v)}); // says what is wrong with it

@@ -23,6 +23,8 @@ public:
     /// Throws: BadInput naming an entry that is above the diagonal, outside or not finite; NotConverged when the matrix
     /// is not positive definite.
     SparseFactor(std::size_t size, std::vector<SparseEntry> const& entries);
+    SparseFactor(SparseFactor const&) = delete;
+    SparseFactor& operator=(SparseFactor const&) = delete;
     SparseFactor(SparseFactor&& other) noexcept;
     SparseFactor& operator=(SparseFactor&& other) noexcept;
     ~SparseFactor();

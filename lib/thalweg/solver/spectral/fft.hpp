@@ -28,6 +28,7 @@ public:
     LineTransform(LineTransform const& other);
     LineTransform(LineTransform&& other) noexcept;
     LineTransform& operator=(LineTransform const&) = delete;
+    LineTransform& operator=(LineTransform&&) = delete;
     ~LineTransform();
 
     /// Takes: in and out of the transform's length; they do not overlap.

@@ -33,14 +33,11 @@ constexpr std::array<Named, 3> table_1{{
 constexpr int halvings = 40;
 constexpr double least_jump = 0.01; // of the greatest increment
 constexpr std::size_t longest_expression = 1000;
-constexpr std::string_view choices = "(uniform, decreasing, rise_fall, or an expression in x such as 3-0.01*x)";
+std::string const choices =
+    fmt::format("({}, or an expression in x such as 3-0.01*x)", fmt::join(increment_names(), ", "));
 
 [[noreturn]] void refuse(std::string const& text, std::string_view why) {
-    std::vector<std::string> names;
-    for (Named const& named : table_1) {
-        names.emplace_back(named.name);
-    }
-    std::string hint = did_you_mean(text, names);
+    std::string hint = did_you_mean(text, increment_names());
     if (hint.empty() && !why.empty()) {
         hint = fmt::format(" As an expression: {}.", why);
     }
@@ -213,6 +210,14 @@ std::vector<double> heights_above_valley(std::vector<double> const& increments) 
     std::vector<double> sums(increments.size() + 1, 0.0);
     std::partial_sum(increments.begin(), increments.end(), sums.begin() + 1);
     return sums;
+}
+
+std::vector<std::string> increment_names() {
+    std::vector<std::string> names;
+    for (Named const& named : table_1) {
+        names.emplace_back(named.name);
+    }
+    return names;
 }
 
 } // namespace thalweg::surface

@@ -37,6 +37,9 @@ struct IncrementJump {
 /// increments in two parts meet where they change.
 std::vector<IncrementJump> increment_jumps(std::int64_t levels, IncrementParams const& params = {});
 
+/// The increments that have a name, in the order of messages.
+std::vector<std::string> increment_names();
+
 /// Sums H(d) = dh(1) + ... + dh(d), d = 0 .. levels.
 std::vector<double> heights_above_valley(std::vector<double> const& increments);
 

@@ -35,8 +35,8 @@ public:
     void link(std::vector<RiverLine>& lines) const;
 
 private:
-    std::string text(OGRFeature const& feature, int field) const;
-    double number(OGRFeature const& feature, int field) const;
+    static std::string text(OGRFeature const& feature, int field);
+    static double number(OGRFeature const& feature, int field);
 
     int id_ = -1;
     int down_ = -1;

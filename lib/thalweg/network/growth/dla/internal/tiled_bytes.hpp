@@ -18,11 +18,12 @@ namespace thalweg::network {
 class TiledBytes {
 public:
     static constexpr std::int32_t tile = 16;
+    static constexpr std::size_t sites = 256; ///< of a tile
 
     /// half: [16, ...] a multiple of 16; the sites are -half <= x, y < half.
     explicit TiledBytes(std::int32_t half)
         : half_(half), across_(static_cast<std::size_t>(2 * half / tile)),
-          bytes_(static_cast<std::uint8_t*>(std::calloc(across_ * across_, tile * tile))) {
+          bytes_(static_cast<std::uint8_t*>(std::calloc(across_ * across_, sites))) {
         if (bytes_ == nullptr) {
             throw std::bad_alloc();
         }
@@ -60,7 +61,7 @@ private:
     std::size_t index(Site s) const {
         auto const x = static_cast<std::size_t>(s.x + half_);
         auto const y = static_cast<std::size_t>(s.y + half_);
-        return ((y / tile) * across_ + x / tile) * (tile * tile) + (y % tile) * tile + x % tile;
+        return ((y / tile) * across_ + x / tile) * sites + (y % tile) * tile + x % tile;
     }
 
     std::int32_t half_;
