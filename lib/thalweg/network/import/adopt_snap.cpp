@@ -34,7 +34,7 @@ struct Ends {
     std::vector<RiverLine> const& lines;
     std::vector<char> settled; // two a line
 
-    static std::size_t number(std::size_t line, std::size_t vertex) const { return 2 * line + (vertex == 0 ? 0 : 1); }
+    static std::size_t number(std::size_t line, std::size_t vertex) { return 2 * line + (vertex == 0 ? 0 : 1); }
     bool is_end(std::size_t line, std::size_t vertex) const {
         return vertex == 0 || vertex + 1 == lines[line].vertices.size();
     }
