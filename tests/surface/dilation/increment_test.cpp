@@ -42,12 +42,6 @@ TEST(Increments, SumsOfTable1) {
     EXPECT_NEAR(rise_fall[600], 1350.0, 1e-9);
 }
 
-TEST(Increments, SumOfTheParabola) {
-    auto const parabola = sums(1000, {"parabola"});
-    EXPECT_NEAR(parabola[600], 1799.995, 1e-9); // (600 * 180300 - 72180100) / 20000
-    EXPECT_EQ(parabola[1000], parabola[600]);
-}
-
 TEST(Increments, FallOnlyWhereAllowed) {
     EXPECT_EQ(sums(700, {"rise_fall"})[700], sums(700, {"rise_fall"})[600]);
     EXPECT_NEAR(sums(700, {"rise_fall", true})[700], 1299.5, 1e-9);
@@ -97,7 +91,7 @@ TEST(Increments, ExpressionsAreRoundedTo32Bits) {
 TEST(Increments, DidYouMean) {
     EXPECT_EQ(refusal("rise_fal"),
               "surface.increments: 'rise_fal' is not an increment. Did you mean 'rise_fall'? (uniform, "
-              "decreasing, rise_fall, parabola, or an expression in x such as 3-0.01*x)");
+              "decreasing, rise_fall, or an expression in x such as 3-0.01*x)");
     EXPECT_NE(refusal("rise-fall").find("Did you mean 'rise_fall'?"), std::string::npos);
     EXPECT_NE(refusal("Uniform").find("Did you mean 'uniform'?"), std::string::npos);
     EXPECT_EQ(refusal("3-0.01*y").find("Did you mean"), std::string::npos);

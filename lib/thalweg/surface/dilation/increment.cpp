@@ -24,11 +24,10 @@ struct Named {
 };
 
 // Hundredths are divided once, so that each value is the double nearest to the paper's.
-constexpr std::array<Named, 4> table_1{{
+constexpr std::array<Named, 3> table_1{{
     {"uniform", [](double) { return 0.1; }},
     {"decreasing", [](double x) { return x < 300.0 ? (300.0 - x) / 100.0 : 0.0; }},
     {"rise_fall", [](double x) { return x <= 150.0 ? 3.0 * x / 100.0 : (600.0 - x) / 100.0; }},
-    {"parabola", [](double x) { return x < 600.0 ? x * (600.0 - x) / 20000.0 : 0.0; }},
 }};
 
 constexpr int halvings = 40;

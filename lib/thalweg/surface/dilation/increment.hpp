@@ -10,9 +10,8 @@
 namespace thalweg::surface {
 
 struct IncrementParams {
-    std::string increment =
-        "rise_fall";             ///< uniform | decreasing | rise_fall | parabola | an expression in x such as 3-0.01*x
-    bool allow_negative = false; ///< without it increments below 0 count as 0
+    std::string increment = "rise_fall"; ///< uniform | decreasing | rise_fall | an expression in x such as 3-0.01*x
+    bool allow_negative = false;         ///< without it increments below 0 count as 0
     std::function<double(double x)> function = {}; ///< of the caller, instead of a name or an expression: a pure
                                                    ///< function, called for x >= 1, by one thread at a time
 };
