@@ -13,7 +13,7 @@ namespace thalweg::network {
 
 struct ChooseLakesParams {
     double share = 0.1;             ///< [0, 1] of the reaches with enough area that get a lake
-    double min_area_cells = 2000.0; ///< [0, ...] drainage area of a reach, from which it may have one
+    double min_area_cells = 2000.0; ///< [0, ...] drainage area from which a reach may have one: lakes are cells
     std::int64_t max_cells = 2000;  ///< [4, ...] largest lake; none is larger than a fiftieth of its drainage area,
                                     ///< nor smaller than 16 cells
     std::uint64_t seed = 7;

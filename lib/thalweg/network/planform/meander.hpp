@@ -14,7 +14,7 @@ namespace thalweg::network {
 struct MeanderParams {
     double gain = 1.0;      ///< [0, 2] how far rivers wander; 0: corners and lattice steps are rounded within half a
                             ///< cell, nodes stay
-    double gap_cells = 1.5; ///< [0.5, 4] rivers that are farther apart than this stay so
+    double gap_cells = 1.5; ///< [0.5, 4] rivers farther apart stay so: cells, for they are drawn into those
     std::uint64_t seed = 7;
 };
 

@@ -12,7 +12,7 @@
 namespace thalweg::network {
 
 struct ForestParams {
-    std::int64_t step_cells = 5; ///< [1, 100] s: from a particle to the one it hangs on it is s to s + 1
+    std::int64_t step_cells = 5; ///< [1, 100] s: on the lattice, a particle is s to s + 1 from the one it hangs on
     std::int64_t particles = 0;  ///< [0, ...] stop at so many, the seeds included; 0: when the region is full
     double sticking = 1.0;       ///< (0, 1] chance with which an arrival holds; else the walker walks on
     int visits = 1;              ///< [1, 255] arrivals a cell needs before it may hold: more make straighter rivers

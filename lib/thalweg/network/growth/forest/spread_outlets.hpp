@@ -16,7 +16,7 @@ std::vector<Cell> coast_cells(Mask const& land);
 
 struct SpreadOutletsParams {
     std::int64_t count = 0;    ///< [0, ...] of outlets; 0: one for every every_cells of the coast
-    double every_cells = 60.0; ///< [cells] > 0
+    double every_cells = 60.0; ///< [cells] > 0, for the coast is cells
     std::uint64_t seed = 7;
 };
 
