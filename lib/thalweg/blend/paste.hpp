@@ -22,6 +22,7 @@ enum class Holes : std::uint8_t {
     fill   ///< they get the target's relief, bent to the land around them
 };
 
+/// Options of paste().
 struct PasteParams {
     Relief relief = Relief::source;
     Holes holes = Holes::leave;
@@ -43,16 +44,24 @@ struct Pasted {
 };
 
 /// Sets a patch into a target without a seam: the patch's relief, at the height of what is around it.
-/// Takes: a target, NaN where it has no data; a patch on its grid, whose level does not matter.
-/// Gives: outside the mask, in kept cells and in holes left the target's heights bit for bit. Elsewhere the heights f
+/// \pre a target, NaN where it has no data; a patch on its grid, whose level does not matter.
+/// \param target [m] the DEM that is changed; NaN: no data
+/// \param patch the patch
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return outside the mask, in kept cells and in holes left the target's heights bit for bit. Elsewhere the heights f
 /// with lap f = div g, g the differences of the patch (where it has none across the seam, the target's own), and f the
 /// target's in the mask's 4-neighbours: where the patch has heights there too, the patch and the harmonic extension of
 /// what the target differs from it by. Nothing flows across the target's edge and into cells without data. Of a patch
 /// equal to the target (or higher by a constant) the target. With feather the differences are mixed by a smoothstep of
 /// the distance from cells that keep their height. The same bits for any number of threads.
-/// Throws: BadParameter; BadInput naming a cell when patch or keep are on another grid, a height is infinite, no cell
-/// would change, or a part of the patch touches no cell that keeps a height; NotConverged; Cancelled.
-/// Source: paper 003, algorithm 1 and eqs 14 to 16; Perez, Gangnet and Blake 2003, Poisson image editing.
+/// \throws BadParameter
+/// \throws BadInput naming a cell when patch or keep are on another grid, a height is infinite, no cell would change,
+/// or a part of the patch touches no cell that keeps a height
+/// \throws NotConverged
+/// \throws Cancelled
+///
+/// Source: \cite nenu2015, algorithm 1 and eqs 14 to 16; \cite perez2003, Poisson image editing.
 Pasted paste(Raster<float> const& target, Patch const& patch, PasteParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::blend

@@ -14,6 +14,7 @@ struct AttributeTable {
     enum class Type : std::uint8_t { integer, integer64, real, text, date, time, datetime };
     /// Nothing stands for NULL; dates and times are texts as ISO 8601 has them.
     using Value = std::variant<std::monostate, std::int64_t, double, std::string>;
+    /// A column of a table.
     struct Column {
         std::string name;
         Type type = Type::text;

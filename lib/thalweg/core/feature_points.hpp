@@ -9,8 +9,8 @@
 
 namespace thalweg {
 
-/// Points whose heights the land shall have: surveyed, read from a file, or drawn at random (paper 001).
-/// Law: coordinates and heights are finite.
+/// Points whose heights the land shall have: surveyed, read from a file, or drawn at random (paper 001). Law:
+/// coordinates and heights are finite.
 struct FeaturePoints {
     std::vector<Vec3> points; ///< [m]
     std::string crs;          ///< as in Grid; "" for none

@@ -38,7 +38,8 @@ struct Grid {
         return {west + (static_cast<double>(c.col) + 0.5) * cell_m,
                 north - (static_cast<double>(c.row) + 0.5) * cell_m};
     }
-    /// The cell that holds a position; it may lie outside the grid.
+    /// \param p [m] a position
+    /// \return the cell that holds a position; it may lie outside the grid.
     Cell cell_of(Vec2 p) const {
         return {static_cast<std::int64_t>(std::floor((p.x - west) / cell_m)),
                 static_cast<std::int64_t>(std::floor((north - p.y) / cell_m))};

@@ -16,7 +16,8 @@ constexpr double metres_in(HeightUnit unit) {
     return unit == HeightUnit::foot ? 0.3048 : 1.0;
 }
 
-/// "m" or "ft", as in files.
+/// \param unit the unit
+/// \return "m" or "ft", as in files.
 constexpr char const* name_of(HeightUnit unit) {
     return unit == HeightUnit::foot ? "ft" : "m";
 }

@@ -9,7 +9,8 @@
 
 namespace thalweg {
 
-/// The length [m] of a line on the ground; its heights may be NaN.
+/// \param line the vertices
+/// \return the length [m] of a line on the ground; its heights may be NaN.
 inline double length_in_plan(std::vector<Vec3> const& line) {
     double sum = 0.0;
     for (std::size_t i = 1; i < line.size(); ++i) {

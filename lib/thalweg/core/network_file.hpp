@@ -28,6 +28,7 @@ struct NetworkFile {
         double dist_out_m = untold;
         double area_m2 = untold;
     };
+    /// A node as a file has it.
     struct FileNode {
         std::int64_t id = 0;
         Vec3 at; ///< [m]
@@ -46,6 +47,7 @@ struct NetworkFile {
         double dist_out_m = untold;
         double slope = untold;
     };
+    /// An arc as a file has it.
     struct FileArc {
         std::int64_t id = 0;
         std::int64_t from_node = 0;

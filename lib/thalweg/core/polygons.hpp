@@ -17,6 +17,7 @@ struct Polygon {
     double value = 0.0;                   ///< of the field that was asked for
 };
 
+/// Polygons with their features.
 struct Polygons {
     std::vector<Polygon> polygons;
     std::string crs;  ///< of the coordinates; "" for none

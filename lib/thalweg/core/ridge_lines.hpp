@@ -16,8 +16,7 @@ struct RidgeLine {
     std::int64_t right = 0; ///< label of the stream on the right, another than left
 };
 
-/// The ridges between streams.
-/// Law: no ridge meets a river; ridges meet only in their ends.
+/// The ridges between streams. Law: no ridge meets a river; ridges meet only in their ends.
 struct RidgeLines {
     std::vector<RidgeLine> lines;
 };

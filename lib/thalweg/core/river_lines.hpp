@@ -39,6 +39,7 @@ struct SecondaryLine {
     bool is_coast = false;      ///< a coastline, as its fields say
 };
 
+/// Drawn lines and what their file says of them.
 struct RiverLines {
     std::vector<RiverLine> lines;
     std::string crs;                           ///< of the coordinates

@@ -50,19 +50,20 @@ struct NetworkDraft {
 /// A river network in plan: nodes, and arcs directed downstream, both numbered in the order in which they were added.
 /// Without heights. Everything parallel to the network (orders, heights, areas) is a vector by number. It does not
 /// change; stages that change networks make new ones from drafts. Boost.Graph's algorithms take it where
-/// core/stream_network_graph.hpp is included.
-/// Law: the ends of every line equal the positions of the arc's nodes bit for bit.
-/// What a stage gives is a forest besides (network::require_trees): at most one arc leaves a node, each component
-/// (basin) is a tree that ends in one outlet, arcs meet only in shared nodes.
+/// core/stream_network_graph.hpp is included. Law: the ends of every line equal the positions of the arc's nodes bit
+/// for bit. What a stage gives is a forest besides (network::require_trees): at most one arc leaves a node, each
+/// component (basin) is a tree that ends in one outlet, arcs meet only in shared nodes.
 class StreamNetwork {
 public:
     StreamNetwork() = default;
 
     /// Sets the ends of lines to the positions of their nodes; a line of fewer than two vertices becomes straight.
-    /// Throws BadInput where an arc names a node that is not there.
+    /// \param draft nodes and arcs
+    /// \throws BadInput where an arc names a node that is not there
     StreamNetwork(NetworkDraft draft); // implicit: a function that builds a network returns its draft
 
     /// A copy to change.
+    /// \return the copy
     NetworkDraft draft() const;
 
     std::size_t node_count() const { return nodes_.size(); }
@@ -74,25 +75,34 @@ public:
 
     NodeId from(ArcId a) const { return from_[a]; }
     NodeId to(ArcId a) const { return to_[a]; }
-    double length_m(ArcId a) const { return length_m_[a]; }   ///< length of its line
-    std::vector<NodeId> const& from() const { return from_; } ///< by arc
-    std::vector<NodeId> const& to() const { return to_; }     ///< by arc
+    /// \param a the first
+    /// \return length of its line
+    double length_m(ArcId a) const { return length_m_[a]; }
+    /// \return by arc
+    std::vector<NodeId> const& from() const { return from_; }
+    /// \return by arc
+    std::vector<NodeId> const& to() const { return to_; }
     std::vector<double> const& length_m() const { return length_m_; }
 
-    /// Numbers of the arcs that end in a node, ascending.
+    /// \param n the node
+    /// \return numbers of the arcs that end in a node, ascending.
     std::span<ArcId const> in(NodeId n) const { return in_.of(n); }
-    /// Numbers of the arcs that leave a node, ascending; in a forest at most one.
+    /// \param n the node
+    /// \return numbers of the arcs that leave a node, ascending; in a forest at most one.
     std::span<ArcId const> out_arcs(NodeId n) const { return out_.of(n); }
-    /// The arc that leaves a node (of several the last), no_arc for none.
+    /// \param n the node
+    /// \return the arc that leaves a node (of several the last), no_arc for none.
     ArcId out(NodeId n) const { return out_.of(n).empty() ? no_arc : out_.of(n).back(); }
 
-    /// Nodes with arcs in and none out, ascending.
+    /// \return nodes with arcs in and none out, ascending.
     std::vector<NodeId> const& outlets() const { return outlets_; }
-    /// Every node that reaches an outlet, after the node downstream of it.
+    /// \return every node that reaches an outlet, after the node downstream of it.
     std::vector<NodeId> const& upstream_order() const { return upstream_order_; }
-    /// 1, 2, ... as in outlets(); 0 where a node reaches none.
+    /// \param n the node
+    /// \return 1, 2, ... as in outlets(); 0 where a node reaches none.
     std::int64_t basin(NodeId n) const { return basin_[n]; }
-    std::vector<std::int64_t> const& basin() const { return basin_; } ///< by node
+    /// \return by node
+    std::vector<std::int64_t> const& basin() const { return basin_; }
 
 private:
     /// The arcs at each node, one node after the other.
@@ -124,7 +134,8 @@ enum class NodeKind : std::uint8_t { source, confluence, outlet, pseudo, sink };
 NodeKind kind_of(StreamNetwork const& net, NodeId node);
 char const* name_of(NodeKind kind);
 
-/// Length of a polyline [m].
+/// \param line the vertices
+/// \return length of a polyline [m].
 double length_of(std::vector<Vec2> const& line);
 
 /// A network with heights: another type, so that heights cannot be asked before they are set.

@@ -51,6 +51,8 @@ constexpr Vec3 cross(Vec3 const& a, Vec3 const& b) {
 }
 
 /// Length. Only the square root is used: std::hypot has other bits on other machines.
+/// \param a a vector
+/// \return the length
 inline double norm(Vec2 a) {
     return std::sqrt(dot(a, a));
 }
@@ -58,12 +60,14 @@ inline double norm(Vec3 const& a) {
     return std::sqrt(dot(a, a));
 }
 
-/// The place on the ground, without its height.
+/// \param p [m] a position
+/// \return the place on the ground, without its height.
 constexpr Vec2 plan(Vec3 const& p) {
     return {p.x, p.y};
 }
 
-/// Rounded to 1e-6 m, what files hold and nobody can measure; never -0.
+/// \param v [m] a value
+/// \return rounded to 1e-6 m, what files hold and nobody can measure; never -0.
 inline double rounded(double v) {
     return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0;
 }
@@ -71,17 +75,24 @@ inline Vec2 rounded(Vec2 p) {
     return {rounded(p.x), rounded(p.y)};
 }
 
-/// The order by x, then by y.
+/// \param a [m] a position
+/// \param b [m] a position
+/// \return the order by x, then by y.
 constexpr bool before(Vec2 a, Vec2 b) {
     return a.x < b.x || (!(b.x < a.x) && a.y < b.y);
 }
 
-/// Twice the area [m2] of the triangle o, a, b: positive where b lies to the left of the line from o to a.
+/// \param o [m] the first corner
+/// \param a [m] the second corner
+/// \param b [m] the third corner
+/// \return twice the area [m2] of the triangle o, a, b: positive where b lies to the left of the line from o to a.
 constexpr double cross(Vec2 o, Vec2 a, Vec2 b) {
     return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
-/// Distance [m].
+/// \param a [m] a position
+/// \param b [m] a position
+/// \return distance [m].
 inline double distance(Vec2 a, Vec2 b) {
     return norm(a - b);
 }

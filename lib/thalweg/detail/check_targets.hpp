@@ -9,11 +9,17 @@
 
 namespace thalweg::detail {
 
-/// Whether some land can have the statistics at all. Throws: BadParameter with the numbers, as project.
+/// Whether some land can have the statistics at all.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param targets the target statistics
+/// \throws BadParameter with the numbers, as project
 void check_targets(Raster<float> const& dem, Targets const& targets);
 
-/// The heights to keep, extremes first, each cell once.
-/// Throws: BadInput as project.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param targets the target statistics
+/// \param fixed what keeps its place or height
+/// \return the heights to keep, extremes first, each cell once.
+/// \throws BadInput as project
 std::vector<FixedHeight> kept_heights(Raster<float> const& dem, Targets const& targets,
                                       std::vector<FixedHeight> const& fixed);
 

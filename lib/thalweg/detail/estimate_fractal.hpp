@@ -19,6 +19,7 @@ enum class Differences : std::uint8_t {
     absolute ///< mean absolute values, as of normal differences: E|dz| = sqrt(2/pi) sigma k^H
 };
 
+/// Options of estimate_fractal().
 struct EstimateParams {
     Differences differences = Differences::squares;
     std::optional<double> hurst; ///< [0.05, 0.95] held, so that only sigma is estimated; empty: estimated
@@ -41,15 +42,23 @@ struct CellWindow {
 };
 
 /// H and sigma of a raster by a straight line through ln S(k) over ln k, k = 1 .. 4 cells, by least squares.
-/// Takes: NaN cells are left out, with every pair they belong to. S(k) is the mean of its values along rows and along
-/// columns, or the one of them there is.
-/// Gives: H clamped to [0.05, 0.95], then sigma at that H. From one lag: H = 0.5 (unless held) and sigma. From none, as
-/// of a flat raster: sigma = 0. The same bits for any number of threads.
-/// Throws: BadInput: an infinite height; BadParameter: H held outside [0.05, 0.95]; Cancelled.
-/// Source: paper 001, section on fractal interpolation (H and sigma of the initial grid); specification 1.6.
+/// \param dem NaN cells are left out, with every pair they belong to. S(k) is the mean of its values along rows and
+/// along columns, or the one of them there is
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return H clamped to [0.05, 0.95], then sigma at that H. From one lag: H = 0.5 (unless held) and sigma. From none,
+/// as of a flat raster: sigma = 0. The same bits for any number of threads.
+/// \throws BadInput an infinite height
+/// \throws BadParameter H held outside [0.05, 0.95]
+/// \throws Cancelled
+///
+/// Source: \cite zhang, section on fractal interpolation (H and sigma of the initial grid); specification 1.6.
 Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params = {}, Run const& run = {});
 
-/// The same from the pairs inside a window, which lies inside the raster.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param window the cells that count
+/// \param params options, each with its default, unit and range
+/// \return the same from the pairs inside a window, which lies inside the raster.
 Fractal estimate_fractal(Raster<float> const& dem, CellWindow const& window, EstimateParams const& params = {});
 
 } // namespace thalweg::detail

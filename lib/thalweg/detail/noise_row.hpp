@@ -26,9 +26,14 @@ struct NoisePlace {
 inline constexpr std::int64_t noise_batch = 32;
 
 /// Numbers of mean 0 and variance 1, independent from place to place: a hash of seed, level, row and column.
-/// Takes: first: a multiple of noise_batch; out: as many numbers as wanted, a multiple of noise_batch and 4096 at most.
-/// Gives: out[i] for column 2 (first + i) + odd. The same bytes for any split of a row, and from any Lanes.
-/// Source: Philox4x32-10 (Salmon et al. 2011), of which vector registers hold eight; Box and Muller 1958 (normal).
+/// \post out[i] for column 2 (first + i) + odd. The same bytes for any split of a row, and from any Lanes.
+/// \param noise its distribution
+/// \param place seed, level, row and column
+/// \param first a multiple of noise_batch
+/// \param out as many numbers as wanted, a multiple of noise_batch and 4096 at most
+/// \param lanes width of the vector registers; any gives the same bytes
+///
+/// Source: Philox4x32-10 (\cite salmon2011), of which vector registers hold eight; \cite box1958 (normal).
 void noise_row(Noise noise, NoisePlace const& place, std::int64_t first, std::span<float> out, Lanes lanes);
 
 } // namespace thalweg::detail

@@ -31,6 +31,7 @@ struct Targets {
     std::optional<double> dimension{}; ///< in (2, 3)
 };
 
+/// Options of project().
 struct ProjectParams {
     solver::StableCovariance prior{}; ///< how changes at two places go together; best that of the land handed in
     int iterations = 60;              ///< [0, 1000]
@@ -46,6 +47,7 @@ struct Residual {
     double error = 0.0; ///< of the value asked for; of the deviation for mean, max and min
 };
 
+/// What project() returns.
 struct Projection {
     Raster<float> dem;
     std::vector<Residual> residuals; ///< one for each target named
@@ -59,15 +61,24 @@ struct Projection {
 inline constexpr std::size_t most_fixed = 2000;
 
 /// Changes a land as little as it takes to have all the statistics asked for at once, extremes and fixed heights
-/// exactly. Takes: a DEM, NaN where there shall be none: such cells do not count and stay; targets; heights to keep, at
-/// most most_fixed with the extremes; params, of which the prior says what "little" means. Gives: Gauss-Newton steps of
-/// least energy in the prior's covariance, conditioned on the fixed heights; heights near an extreme are bent so that
-/// none reaches it. The best of all steps, with what is left in residuals: targets that contradict one another or the
-/// fixed heights are met as far as they can be, and converged says so. The same bits for any number of threads. Holds
-/// about 150 bytes a cell. Throws: BadParameter when a target is out of its range, the mean is not between the
-/// extremes, std^2 exceeds (max - mean) (mean - min), both extremes are asked of one cell, or an extreme lies off the
-/// grid or in a hole; BadInput when a fixed height does, contradicts another at its cell, or there are too many;
-/// Cancelled. Source: paper 001, table 4; Bhatia and Davis 2000 for the bound.
+/// exactly.
+/// \pre a DEM, NaN where there shall be none: such cells do not count and stay; targets; heights to keep, at most
+/// most_fixed with the extremes; params, of which the prior says what "little" means.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param targets the target statistics
+/// \param fixed what keeps its place or height
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return Gauss-Newton steps of least energy in the prior's covariance, conditioned on the fixed heights; heights near
+/// an extreme are bent so that none reaches it. The best of all steps, with what is left in residuals: targets that
+/// contradict one another or the fixed heights are met as far as they can be, and converged says so. The same bits for
+/// any number of threads. Holds about 150 bytes a cell.
+/// \throws BadParameter when a target is out of its range, the mean is not between the extremes, std^2 exceeds (max -
+/// mean) (mean - min), both extremes are asked of one cell, or an extreme lies off the grid or in a hole
+/// \throws BadInput when a fixed height does, contradicts another at its cell, or there are too many
+/// \throws Cancelled
+///
+/// Source: \cite zhang, table 4; \cite bhatia2000 for the bound.
 Projection project(Raster<float> const& dem, Targets const& targets, std::vector<FixedHeight> const& fixed = {},
                    ProjectParams const& params = {}, Run const& run = {});
 

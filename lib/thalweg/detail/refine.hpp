@@ -38,14 +38,19 @@ struct Refinement {
 
 /// Lattices between the coarse raster and the result, to be used again.
 using Floor = std::vector<float, LargePages<float>>;
+/// Scratch space of refine().
 struct Floors {
     Floor odd;
     Floor even;
 };
 
 /// Writes a level 2^levels finer than the coarse raster, from its north-western corner.
-/// Takes: dem: no more columns and rows than (coarse columns - 1) 2^levels + 1, any content.
-/// Gives: every byte of dem. Throws: Cancelled.
+/// \post every byte of dem.
+/// \param refinement what to refine, and how
+/// \param dem no more columns and rows than (coarse columns - 1) 2^levels + 1, any content
+/// \param floors scratch space
+/// \param run progress, log, stop token and number of threads
+/// \throws Cancelled
 void refine(Refinement const& refinement, Raster<float>& dem, Floors& floors, Run const& run);
 
 } // namespace thalweg::detail

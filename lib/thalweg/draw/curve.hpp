@@ -9,6 +9,7 @@
 
 namespace thalweg::draw {
 
+/// Options of curve().
 struct CurveParams {
     std::string increment; ///< its name or expression, for the title
     int width_px = 1000;   ///< [200, 8000]
@@ -16,9 +17,11 @@ struct CurveParams {
     Format format = Format::svg;
 };
 
-/// The increment dh(x) and its sum H(d), as in Table 1 of paper 000, in two diagrams.
-/// Takes: increments [m] of x = 1, 2, ...; none give empty axes that say so.
-/// Throws: BadParameter; BadInput when an increment is not finite.
+/// \param increments increments [m] of x = 1, 2, ...; none give empty axes that say so
+/// \param params options, each with its default, unit and range
+/// \return the increment dh(x) and its sum H(d), as in Table 1 of paper 000, in two diagrams.
+/// \throws BadParameter
+/// \throws BadInput when an increment is not finite
 Picture curve(std::vector<double> const& increments, CurveParams const& params = {});
 
 } // namespace thalweg::draw

@@ -22,13 +22,22 @@ struct Section {
 
 /// Cuts across the main stem, square to it at evenly spaced places between a tenth and nine tenths of its length, from
 /// the upper to the lower; each reaches to the DEM's edge, but no further than a quarter of the stem's length or 12
-/// cells. Takes: a network and its orders, or none: then the middle row and column are cut. count >= 1. Gives: nothing
-/// for places off the DEM. Throws: BadInput when the DEM has no cells.
+/// cells.
+/// \pre a network and its orders, or none: then the middle row and column are cut. count >= 1.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param network the network
+/// \param orders the network's orders
+/// \param count how many
+/// \return nothing for places off the DEM.
+/// \throws BadInput when the DEM has no cells
 std::vector<Section> cut_sections(Raster<float> const& dem, RaisedNetwork const* network, NetworkOrders const* orders,
                                   int count);
 
 /// Height at a position [m], bilinear between the four centres of cells around it, level beyond the outermost; NaN off
 /// the grid or where a cell that counts has no height.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param position [m] the position
+/// \return the height
 double height_at(Raster<float> const& dem, Vec2 position);
 
 } // namespace thalweg::draw

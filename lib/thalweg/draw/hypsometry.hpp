@@ -10,6 +10,7 @@
 
 namespace thalweg::draw {
 
+/// Options of hypsometry().
 struct HypsometryParams {
     std::string title;   ///< what the land is, before the integral; "" for none
     int width_px = 1000; ///< [200, 8000]
@@ -17,11 +18,15 @@ struct HypsometryParams {
     Format format = Format::svg;
 };
 
-/// The hypsometric curve: height over the share of the area that lies above it, with its integral.
-/// Takes: curve: x = share of the area above [0, 1], y = height [m], by rising or falling height; none gives empty axes
-/// that say so. integral: [0, 1], or NaN where it is not defined (one height).
-/// Throws: BadParameter; BadInput when a number is not finite or a share lies outside [0, 1].
-/// Source: Strahler 1952.
+/// \param curve x = share of the area above [0, 1], y = height [m], by rising or falling height; none gives empty axes
+/// that say so
+/// \param integral [0, 1], or NaN where it is not defined (one height)
+/// \param params options, each with its default, unit and range
+/// \return the hypsometric curve: height over the share of the area that lies above it, with its integral.
+/// \throws BadParameter
+/// \throws BadInput when a number is not finite or a share lies outside [0, 1]
+///
+/// Source: \cite strahler1952.
 Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryParams const& params = {});
 
 } // namespace thalweg::draw

@@ -10,6 +10,7 @@
 
 namespace thalweg::draw {
 
+/// Options of lines().
 struct LinesParams {
     std::string title;    ///< UTF-8; "" for none
     int width_px = 1000;  ///< [200, 8000]
@@ -17,8 +18,11 @@ struct LinesParams {
     Format format = Format::svg;
 };
 
-/// Polylines in plan, as large as the sheet lets them be, north up.
-/// Takes: lines; none give an empty sheet. Throws: BadParameter; BadInput when a coordinate is not finite.
+/// \param lines lines; none give an empty sheet
+/// \param params options, each with its default, unit and range
+/// \return polylines in plan, as large as the sheet lets them be, north up.
+/// \throws BadParameter
+/// \throws BadInput when a coordinate is not finite
 Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& params = {});
 
 } // namespace thalweg::draw

@@ -14,6 +14,7 @@
 
 namespace thalweg::draw {
 
+/// Options of map().
 struct MapParams {
     std::string title;               ///< UTF-8; "" for none
     int width_px = 1400;             ///< [200, 8000] of the whole sheet; its height follows
@@ -31,11 +32,13 @@ struct MapSheet {
     RidgeLines const* ridges = nullptr;                         ///< null or empty: none
 };
 
-/// A map: hillshade under a hypsometric tint, contours, ridges as thin brown lines, rivers whose width and colour
-/// follow Strahler order, scale bar, legend, title, frame with coordinates.
-/// Takes: a DEM of one cell or more; cells without a height are light grey, cells without a shade lie level.
-/// Throws: BadParameter; BadInput when hillshade or orders are of another grid or network, or a line has a coordinate
-/// that is not finite.
+/// \param sheet a DEM of one cell or more; cells without a height are light grey, cells without a shade lie level
+/// \param params options, each with its default, unit and range
+/// \return a map: hillshade under a hypsometric tint, contours, ridges as thin brown lines, rivers whose width and
+/// colour follow Strahler order, scale bar, legend, title, frame with coordinates.
+/// \throws BadParameter
+/// \throws BadInput when hillshade or orders are of another grid or network, or a line has a coordinate that is not
+/// finite
 Picture map(MapSheet const& sheet, MapParams const& params = {});
 
 } // namespace thalweg::draw

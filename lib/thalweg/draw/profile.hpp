@@ -9,6 +9,7 @@
 
 namespace thalweg::draw {
 
+/// Options of profile().
 struct ProfileParams {
     int width_px = 1000; ///< [200, 8000]
     int height_px = 560; ///< [200, 8000]
@@ -16,9 +17,14 @@ struct ProfileParams {
     std::string title; ///< "" for none
 };
 
-/// Long profiles: height against distance from the outlet along the water of every arc, main stems (Hack 1) emphasised.
-/// Takes: a network and its orders; arcs that reach no outlet are left out. Without any, empty axes that say so.
-/// Throws: BadParameter; BadInput when orders or heights are not those of the network, or a number is not finite.
+/// \pre a network and its orders; arcs that reach no outlet are left out. Without any, empty axes that say so.
+/// \param network the network
+/// \param orders the network's orders
+/// \param params options, each with its default, unit and range
+/// \return long profiles: height against distance from the outlet along the water of every arc, main stems (Hack 1)
+/// emphasised.
+/// \throws BadParameter
+/// \throws BadInput when orders or heights are not those of the network, or a number is not finite
 Picture profile(RaisedNetwork const& network, NetworkOrders const& orders, ProfileParams const& params = {});
 
 } // namespace thalweg::draw

@@ -10,6 +10,7 @@
 
 namespace thalweg::draw {
 
+/// Options of sections().
 struct SectionsParams {
     std::string title;   ///< "" for none
     int count = 5;       ///< [1, 9] across the main stem
@@ -17,11 +18,16 @@ struct SectionsParams {
     Format format = Format::svg;
 };
 
-/// Cross-sections of the valley, one below the other from the upper to the lower, all on the same scales, with a key
-/// map that shows where each lies.
-/// Takes: a DEM, and its network with orders or nullptr for both: then the middle row and column are cut. Where heights
+/// \pre a DEM, and its network with orders or nullptr for both: then the middle row and column are cut. Where heights
 /// are missing the line is broken.
-/// Throws: BadParameter; BadInput when the DEM has no cells or orders are of another network.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param network the network
+/// \param orders the network's orders
+/// \param params options, each with its default, unit and range
+/// \return Cross-sections of the valley, one below the other from the upper to the lower, all on the same scales, with
+/// a key map that shows where each lies.
+/// \throws BadParameter
+/// \throws BadInput when the DEM has no cells or orders are of another network
 Picture sections(Raster<float> const& dem, RaisedNetwork const* network, NetworkOrders const* orders,
                  SectionsParams const& params = {});
 

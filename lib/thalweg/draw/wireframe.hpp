@@ -10,6 +10,7 @@
 
 namespace thalweg::draw {
 
+/// Options of wireframe().
 struct WireframeParams {
     std::string title;           ///< UTF-8; "" for none
     double azimuth_deg = 30.0;   ///< any; the bearing one looks along, clockwise from north
@@ -27,14 +28,20 @@ struct WireframeScene {
     NetworkOrders const* orders = nullptr; ///< of the network; needed where there is one
 };
 
-/// A net of lines over the land in parallel projection, hidden lines removed, with a skirt along the front; rivers,
-/// laid on the net, where they are seen. The caption says from where, with which exaggeration and how wide the meshes
-/// are. Takes: a DEM of one cell or more. Cells without a height are holes in the net. Throws: BadParameter; BadInput
-/// when the grid is unusable or orders are of another network. Source: paper 001, its perspective figures.
+/// The caption says from where, with which exaggeration and how wide the meshes are.
+/// \param scene a DEM of one cell or more. Cells without a height are holes in the net
+/// \param params options, each with its default, unit and range
+/// \return a net of lines over the land in parallel projection, hidden lines removed, with a skirt along the front;
+/// rivers, laid on the net, where they are seen.
+/// \throws BadParameter
+/// \throws BadInput when the grid is unusable or orders are of another network
+///
+/// Source: \cite zhang, its perspective figures.
 Picture wireframe(WireframeScene const& scene, WireframeParams const& params = {});
 
-/// The bearing [degrees, 0 to 360] from the outlet of the longest stream to the middle of the land, turned where
-/// needed so that neither family of lines is seen end on; 30 without streams.
+/// \param scene what is drawn
+/// \return the bearing [degrees, 0 to 360] from the outlet of the longest stream to the middle of the land, turned
+/// where needed so that neither family of lines is seen end on; 30 without streams.
 double azimuth_up_valley(WireframeScene const& scene);
 
 } // namespace thalweg::draw

@@ -24,17 +24,20 @@ enum class Direction : std::uint8_t {
     leaves = 255   ///< water leaves the grid, enters no data or ends in a sink, in this cell
 };
 
-/// Whether water goes on to a neighbour.
+/// \param d the direction
+/// \return whether water goes on to a neighbour.
 constexpr bool goes_on(Direction d) {
     return d <= Direction::north_east;
 }
 
-/// Place in d8_steps. Takes: a direction in which water goes on.
+/// \param d a direction in which water goes on
+/// \return place in d8_steps.
 constexpr std::size_t index_of(Direction d) {
     return static_cast<std::size_t>(d);
 }
 
-/// The direction with this place in d8_steps.
+/// \param k [0, 7] place in d8_steps
+/// \return the direction with this place in d8_steps.
 constexpr Direction direction_of(std::size_t k) {
     return static_cast<Direction>(k);
 }
@@ -47,7 +50,10 @@ constexpr bool is_diagonal(Direction d) {
     return index_of(d) % 2 != 0;
 }
 
-/// The cell to which the water of a cell goes, -1 where it goes to none. Takes: directions that stay on the grid.
+/// \pre directions that stay on the grid.
+/// \param direction a direction
+/// \param cell index of the cell
+/// \return the cell to which the water of a cell goes, -1 where it goes to none.
 inline std::int64_t receiver(Raster<Direction> const& direction, std::int64_t cell) {
     Direction const d = direction[cell];
     if (!goes_on(d)) {

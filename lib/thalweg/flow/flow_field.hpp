@@ -28,7 +28,8 @@ struct FlowField {
     std::vector<Depression> depressions = {}; ///< by their first cell
 
     Grid const& grid() const { return direction.grid(); }
-    /// The cell to which the water of a cell goes, -1 where it goes to none.
+    /// \param cell index of the cell
+    /// \return the cell to which the water of a cell goes, -1 where it goes to none.
     std::int64_t receiver(std::int64_t cell) const { return flow::receiver(direction, cell); }
 };
 

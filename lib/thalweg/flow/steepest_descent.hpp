@@ -17,8 +17,12 @@ struct Descent {
     double slope = 0.0;                      ///< fall [unit of heights] a cell
 };
 
-/// Takes: a height, and height_of(k), that of the neighbour d8_steps[k], NaN where there is none. Gives: the neighbour
-/// down the steepest slope, ties to the lowest direction. Source: O'Callaghan and Mark 1984.
+/// \pre a height, and height_of(k), that of the neighbour d8_steps[k], NaN where there is none.
+/// \param here [m] height of the cell
+/// \param height_of gives the height of a neighbour
+/// \return the neighbour down the steepest slope, ties to the lowest direction.
+///
+/// Source: \cite ocallaghan1984.
 template <class HeightOf> Descent steepest_descent(float here, HeightOf height_of) {
     Descent best;
     for (std::size_t k = 0; k < d8_steps.size(); ++k) {
@@ -30,7 +34,9 @@ template <class HeightOf> Descent steepest_descent(float here, HeightOf height_o
     return best;
 }
 
-/// The same of a cell of a DEM, among its neighbours on the grid.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param c the cell
+/// \return the same of a cell of a DEM, among its neighbours on the grid.
 inline Descent steepest_descent(Raster<float> const& dem, Cell c) {
     return steepest_descent(dem[c], [&](std::size_t k) {
         Cell const n{c.col + d8_steps[k].col, c.row + d8_steps[k].row};

@@ -17,12 +17,15 @@ enum class Measured : std::uint8_t {
 };
 
 /// Half the cotangents of the angles of every triangle.
-/// Takes: triangles that have area where they are measured, in either direction.
-/// Gives: for the angle at a triangle's k-th corner number k, which is the triangle's share in the weight of the edge
+/// \pre triangles that have area where they are measured, in either direction.
+/// \param tin the TIN
+/// \param measured in plan or in space
+/// \return for the angle at a triangle's k-th corner number k, which is the triangle's share in the weight of the edge
 /// across. Of a grid's squares halved along either diagonal the weights of the sides are 1 and those of the diagonals
 /// exactly 0, so that the stiffness row of an inner vertex is 4, -1, -1, -1, -1.
-/// Throws: BadInput naming triangle or vertex when one has no area, is not there or is not finite.
-/// Source: paper 003, eq. 16; Pinkall and Polthier 1993.
+/// \throws BadInput naming triangle or vertex when one has no area, is not there or is not finite
+///
+/// Source: \cite nenu2015, eq. 16; \cite pinkall1993.
 std::vector<std::array<double, 3>> half_cotangents(Tin const& tin, Measured measured = Measured::in_plan);
 
 } // namespace thalweg::geometry

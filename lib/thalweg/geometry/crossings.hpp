@@ -21,12 +21,16 @@ struct Crossing {
 };
 
 /// Every point where polylines meet: proper crossings, touching ends and vertices, ends of overlaps.
-/// Takes: polylines of finite coordinates. A repeated vertex counts once; a polyline that is one repeated point is that
-/// point; one of fewer than two vertices is passed over.
-/// Gives: for each such point one entry for each polyline and segment it lies on, sorted by line, segment and place;
+/// \param lines polylines of finite coordinates. A repeated vertex counts once; a polyline that is one repeated point
+/// is that point; one of fewer than two vertices is passed over
+/// \param run progress, log, stop token and number of threads
+/// \return for each such point one entry for each polyline and segment it lies on, sorted by line, segment and place;
 /// neighbouring segments of one line meeting at their common vertex do not count (folding back on each other does).
 /// Entries of the same point have the same `at`, bit for bit.
-/// Throws: BadInput when a coordinate is not finite; Cancelled. Source: CGAL, exact predicates and constructions.
+/// \throws BadInput when a coordinate is not finite
+/// \throws Cancelled
+///
+/// Source: CGAL, exact predicates and constructions.
 std::vector<Crossing> crossings(std::vector<std::vector<Vec2>> const& lines, Run const& run = {});
 
 } // namespace thalweg::geometry

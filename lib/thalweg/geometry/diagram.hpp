@@ -34,10 +34,12 @@ struct Diagram {
         Vec2 a;
         Vec2 b;
     };
+    /// A vertex of the diagram.
     struct Vertex {
         Vec2 at;                        ///< [m]
         std::vector<std::size_t> sites; ///< those it is equally far from, ascending; two where bounds end an edge
     };
+    /// An edge of the diagram.
     struct Edge {
         std::size_t from = 0;   ///< vertex
         std::size_t to = 0;     ///< vertex
@@ -50,12 +52,20 @@ struct Diagram {
     std::vector<Edge> edges;
 };
 
-/// Distance from p to a site [m].
+/// \param site the site
+/// \param p [m] a position
+/// \return distance from p to a site [m].
 double distance_to(Diagram::Site const& site, Vec2 p);
 
-/// The point equally far from two sites on the straight line through p along a direction, or across their distances
-/// where that is (0, 0).
-/// Takes: a place near to such a point. Source: Newton's method.
+/// \pre a place near to such a point.
+/// \param s the first site
+/// \param t the second site
+/// \param p [m] a place near such a point
+/// \param direction direction of the line; (0, 0): across the distances
+/// \return the point equally far from two sites on the straight line through p along a direction, or across their
+/// distances where that is (0, 0).
+///
+/// Source: Newton's method.
 Vec2 midway(Diagram::Site const& s, Diagram::Site const& t, Vec2 p, Vec2 direction = {});
 
 } // namespace thalweg::geometry

@@ -28,10 +28,15 @@ struct Meeting {
 using EndNodes = std::array<std::size_t, 2>;
 
 /// Where polylines of a network meet though they should not: everywhere but in their common nodes.
-/// Takes: polylines without repeated vertices; those of fewer than two are passed over. nodes: by polyline.
-/// Gives: one entry for each two segments that meet, exactly, sorted; not where both polylines end in the point and
+/// \pre polylines without repeated vertices; those of fewer than two are passed over.
+/// \param lines the polylines
+/// \param nodes by polyline
+/// \param run progress, log, stop token and number of threads
+/// \return one entry for each two segments that meet, exactly, sorted; not where both polylines end in the point and
 /// have the same node there, nor where a segment goes on as the next (it counts that it folds back on itself).
-/// Throws: BadInput when a coordinate is not finite or nodes are not one pair a polyline; Cancelled.
+/// \throws BadInput when a coordinate is not finite or nodes are not one pair a polyline
+/// \throws Cancelled
+///
 /// Source: CGAL, exact predicates; rational arithmetic only where two segments cross inside both.
 std::vector<Meeting> meetings(std::vector<std::vector<Vec2>> const& lines, std::vector<EndNodes> const& nodes,
                               Run const& run = {});

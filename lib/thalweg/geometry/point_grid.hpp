@@ -13,11 +13,14 @@ namespace thalweg::geometry {
 /// Points by the cells of a grid they lie in, to find the one nearest to a place.
 class PointGrid {
 public:
-    /// Takes: one finite point at least; the side of a cell, > 0, best about the distance between points. Cells are
-    /// made larger where there would be more than 2000 along a side.
+    /// \pre one finite point at least; the side of a cell, > 0, best about the distance between points. Cells are made
+    /// larger where there would be more than 2000 along a side.
+    /// \param points the points
+    /// \param cell_m [m] > 0, side of a cell
     PointGrid(std::vector<Vec2> points, double cell_m);
 
-    /// The number of the point nearest to a place anywhere, the lowest among equals.
+    /// \param p [m] a position
+    /// \return the number of the point nearest to a place anywhere, the lowest among equals.
     std::size_t nearest(Vec2 p) const;
 
 private:

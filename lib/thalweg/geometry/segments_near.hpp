@@ -26,8 +26,15 @@ struct Foot {
 Foot foot_on(Vec2 a, Vec2 b, Vec2 p);
 
 /// For every point the segments within a distance of it.
-/// Takes: points, polylines and a distance [m] >= 0. Gives: by point, sorted by line and segment.
-/// Throws: Cancelled. Source: CGAL, streamed segment trees.
+/// \pre points, polylines and a distance [m] >= 0.
+/// \param points the points
+/// \param lines the polylines
+/// \param distance_m [m] >= 0, distance
+/// \param run progress, log, stop token and number of threads
+/// \return by point, sorted by line and segment.
+/// \throws Cancelled
+///
+/// Source: CGAL, streamed segment trees.
 std::vector<std::vector<NearSegment>> segments_near(std::vector<Vec2> const& points,
                                                     std::vector<std::vector<Vec2>> const& lines, double distance_m,
                                                     Run const& run = {});

@@ -10,6 +10,7 @@
 
 namespace thalweg::geometry {
 
+/// Options of tin_of_dem().
 struct TinOfDemParams {
     double error_m = 1.0; ///< [m] > 0: greatest vertical distance of a cell from the TIN
 };
@@ -22,15 +23,20 @@ struct SimplifiedDem {
 };
 
 /// The DEM's land as few triangles as greedy insertion finds, within a vertical error.
-/// Takes: heights, NaN where there is no data; any size. The land is made of the squares between four neighbouring
+/// \param dem heights, NaN where there is no data; any size. The land is made of the squares between four neighbouring
 /// centres with data, and of the halves of those with three: triangles are only there, the outline of every hole is
-/// kept. A cell with no such square (a lone one, one in a line) lies in no triangle and is counted.
-/// Gives: vertices are centres of cells with their heights, row by row; at every other cell's centre the triangle's
+/// kept. A cell with no such square (a lone one, one in a line) lies in no triangle and is counted
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return vertices are centres of cells with their heights, row by row; at every other cell's centre the triangle's
 /// plane, computed in double, lies within error_m of the cell. Always the worst cell goes in next (of equals that of
 /// the lowest index), beginning with the corners of the outline.
-/// Throws: BadParameter when error_m is not > 0; BadInput when a height is infinite, a side has more than 2^20 cells,
-/// or no three neighbouring cells have data; Cancelled. Source: Garland and Heckbert 1995, Fast polygonal approximation
-/// of terrains and height fields, algorithm III.
+/// \throws BadParameter when error_m is not > 0
+/// \throws BadInput when a height is infinite, a side has more than 2^20 cells, or no three neighbouring cells have
+/// data
+/// \throws Cancelled
+///
+/// Source: \cite garland1995, Fast polygonal approximation of terrains and height fields, algorithm III.
 SimplifiedDem tin_of_dem(Raster<float> const& dem, TinOfDemParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::geometry

@@ -23,13 +23,18 @@ struct Triangulation {
 };
 
 /// Delaunay triangulation of points, constrained by breaklines: each of their segments is an edge or a chain of edges.
-/// Takes: points and breaklines in any order, finite, coordinates within 1e15 m. Where several lie at the same place in
+/// \pre points and breaklines in any order, finite, coordinates within 1e15 m. Where several lie at the same place in
 /// plan the first stands: points before breaklines, in their order. Where breaklines cross away from any vertex one is
 /// added, its height interpolated along the first of them; a line that runs through a vertex takes its height.
-/// Gives: vertices in the order of the input, points, then line vertices, then added ones; triangles as put_in_order()
-/// has them. Four points on a circle take the same diagonal in any order of the input. Throws: BadInput when something
-/// is not finite, fewer than three places are left, or all lie on one line; Cancelled. Source: CGAL, exact predicates,
-/// spatial sorting, symbolic perturbation.
+/// \param points the points
+/// \param breaklines lines that triangles do not cross
+/// \param run progress, log, stop token and number of threads
+/// \return vertices in the order of the input, points, then line vertices, then added ones; triangles as put_in_order()
+/// has them. Four points on a circle take the same diagonal in any order of the input.
+/// \throws BadInput when something is not finite, fewer than three places are left, or all lie on one line
+/// \throws Cancelled
+///
+/// Source: CGAL, exact predicates, spatial sorting, symbolic perturbation.
 Triangulation triangulate(std::vector<Vec3> const& points, std::vector<std::vector<Vec3>> const& breaklines = {},
                           Run const& run = {});
 

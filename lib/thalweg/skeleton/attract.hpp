@@ -10,6 +10,7 @@ namespace thalweg::skeleton {
 /// there.
 enum class Falloff { continuous, literal };
 
+/// A height that the terrain around a cell is pulled to.
 struct Attraction {
     Cell centre;
     double z = 0.0;            ///< [m] the highest or lowest height wanted
@@ -18,9 +19,13 @@ struct Attraction {
 };
 
 /// Pulls the land around a cell towards a highest or lowest height.
-/// Gives: within the radius R of the centre h + w (z - h), w = exp(-d^2/R^2) (literal) or (exp(-d^2/R^2) - 1/e)/(1 -
-/// 1/e); the centre becomes z. It does not see to it that no other cell lies beyond z. Holes stay holes. Throws:
-/// BadParameter when the centre is off the grid or the radius not positive. Source: paper 001, equation 4.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param attraction place, height and radius
+/// \return within the radius R of the centre h + w (z - h), w = exp(-d^2/R^2) (literal) or (exp(-d^2/R^2) - 1/e)/(1 -
+/// 1/e); the centre becomes z. It does not see to it that no other cell lies beyond z. Holes stay holes.
+/// \throws BadParameter when the centre is off the grid or the radius not positive
+///
+/// Source: \cite zhang, equation 4.
 Raster<float> attract(Raster<float> dem, Attraction const& attraction);
 
 } // namespace thalweg::skeleton

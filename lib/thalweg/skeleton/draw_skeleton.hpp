@@ -13,6 +13,7 @@
 
 namespace thalweg::skeleton {
 
+/// Options of draw_skeleton().
 struct DrawSkeletonParams {
     NoiseAlongParams noise; ///< of ridges; it counts from the grid's north-western corner
 };
@@ -28,12 +29,20 @@ struct DrawnSkeleton {
 };
 
 /// Draws ridges and points into the cells that rivers leave free.
-/// Takes: a valley; ridges and points on its grid, whose outer edges belong to its outermost cells.
-/// Gives: the valley's cells bit for bit; elsewhere the highest point of a cell; elsewhere the highest of the ridges
+/// \pre a valley; ridges and points on its grid, whose outer edges belong to its outermost cells.
+/// \param valley [m] heights of the river cells
+/// \param ridges the ridge lines
+/// \param points the points
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return the valley's cells bit for bit; elsewhere the highest point of a cell; elsewhere the highest of the ridges
 /// that run through (Bresenham between vertices, height linear from vertex to vertex, and noise by the share of the
-/// ridge's length). The order of ridges and points does not matter. Throws: BadInput, naming feature and place: outside
-/// the grid, without a finite height, of another coordinate system; BadParameter; Cancelled.
-/// Source: paper 003, section 3.1 and equation 11 (begun at the height of the ridge's start); specification 3.5.
+/// ridge's length). The order of ridges and points does not matter.
+/// \throws BadInput naming feature and place: outside the grid, without a finite height, of another coordinate system
+/// \throws BadParameter
+/// \throws Cancelled
+///
+/// Source: \cite nenu2015, section 3.1 and equation 11 (begun at the height of the ridge's start); specification 3.5.
 DrawnSkeleton draw_skeleton(Valley const& valley, RidgeLines const& ridges, FeaturePoints const& points,
                             DrawSkeletonParams const& params = {}, Run const& run = {});
 

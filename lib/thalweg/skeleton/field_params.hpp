@@ -15,8 +15,9 @@ struct FieldParams {
     std::uint64_t seed = 0;
 };
 
-/// Takes: the name of the stage that asks, for the message.
-/// Throws: BadParameter when a field is out of range or not finite.
+/// \param params options, each with its default, unit and range
+/// \param stage the name of the stage that asks, for the message
+/// \throws BadParameter when a field is out of range or not finite
 void check(FieldParams const& params, char const* stage);
 
 } // namespace thalweg::skeleton

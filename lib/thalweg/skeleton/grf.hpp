@@ -10,6 +10,7 @@
 
 namespace thalweg::skeleton {
 
+/// Options of grf().
 struct GrfParams {
     double mean = 0.0; ///< [m]
     double std = 1.0;  ///< [m] >= 0
@@ -19,6 +20,7 @@ struct GrfParams {
         4; ///< [1, 64] the torus is at least so many times max(N, 5 L) wide; less memory, more negative_share
 };
 
+/// What grf() returns.
 struct RandomField {
     Raster<float> dem;
     std::int64_t torus_width = 0;  ///< [cells]
@@ -28,12 +30,16 @@ struct RandomField {
 };
 
 /// A stationary Gaussian land with correlation lengths and fractal dimension.
-/// Takes: a grid; params.
-/// Gives: normal heights whose correlation at (dx, dy) cells is exp(-((dx/lx)^2 + (dy/ly)^2)^(3 - dimension)), exact
+/// \param grid a grid; params
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return normal heights whose correlation at (dx, dy) cells is exp(-((dx/lx)^2 + (dy/ly)^2)^(3 - dimension)), exact
 /// but for negative_share; where that is above 1e-6 the torus is doubled once. The same bits for any number of threads.
 /// Holds about 8 bytes a cell of half the torus (embedding 4: 64 bytes a cell of a grid much wider than L).
-/// Throws: BadParameter, also for a torus of more than 2^32 cells; Cancelled.
-/// Source: paper 001, section 2; circulant embedding by Dietrich and Newsam 1997.
+/// \throws BadParameter also for a torus of more than 2^32 cells
+/// \throws Cancelled
+///
+/// Source: \cite zhang, section 2; circulant embedding by \cite dietrich1997.
 RandomField grf(Grid const& grid, GrfParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::skeleton

@@ -9,12 +9,18 @@
 namespace thalweg::skeleton {
 
 /// The paper's recursion, for comparison: each height from its neighbours to the west and the north.
-/// Takes: a grid; params, of whose lengths the mean L = (lx + ly)/2 counts.
-/// Gives: h(i,j) = A (h(i,j-1) + h(i-1,j)) + sqrt(1 - 2 rho^2/(1 + rho1)) R, A = rho/(1 + rho1), rho = exp(-1/L), rho1
+/// \param grid a grid; params, of whose lengths the mean L = (lx + ly)/2 counts
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return h(i,j) = A (h(i,j-1) + h(i-1,j)) + sqrt(1 - 2 rho^2/(1 + rho1)) R, A = rho/(1 + rho1), rho = exp(-1/L), rho1
 /// = exp(-sqrt(2)/L), after a lead of 5 L rows and columns and times the factor that makes its deviation std; the mean
 /// is added at the end, where the equation as printed would multiply it. Its correlation length along rows and columns
 /// is not L but that of ((1 - sqrt(1 - 4 A^2))/(2 A))^k, 5.7 cells for L = 20, and it differs between the diagonals:
-/// use grf or separable_ar where it matters. Throws: BadParameter; Cancelled. Source: paper 001, equations 1 to 3.
+/// use grf or separable_ar where it matters.
+/// \throws BadParameter
+/// \throws Cancelled
+///
+/// Source: \cite zhang, equations 1 to 3.
 Raster<float> markov3(Grid const& grid, FieldParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::skeleton

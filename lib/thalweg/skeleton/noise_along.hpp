@@ -10,6 +10,7 @@
 
 namespace thalweg::skeleton {
 
+/// Options of noise_along().
 struct NoiseAlongParams {
     std::uint64_t seed = 7;
     double amplitude_m = 0.0;     ///< [m] >= 0, bound of the noise
@@ -24,11 +25,17 @@ struct PlaceOnLine {
 
 /// Noise on a line that leaves its ends where they are: F(at) 4 share (1 - share), F fractal Perlin noise of four
 /// octaves (gain 0.5, lacunarity 2).
-/// Takes: places, and an origin near them from which coordinates count.
-/// Gives: [m] a value a place, within the amplitude, 0 in the ends; F is a field of the plane: lines that come near
-/// each other get alike noise. Throws: BadParameter; BadInput, naming the place: a share outside [0, 1], or farther
-/// than 2^20 wavelengths from the origin.
-/// Source: paper 003, equation 11; specification 3.5; Perlin 1985 by libnoise.
+/// \pre places, and an origin near them from which coordinates count.
+/// \param places the places
+/// \param origin [m] a place near the line
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return [m] a value a place, within the amplitude, 0 in the ends; F is a field of the plane: lines that come near
+/// each other get alike noise.
+/// \throws BadParameter
+/// \throws BadInput naming the place: a share outside [0, 1], or farther than 2^20 wavelengths from the origin
+///
+/// Source: \cite nenu2015, equation 11; specification 3.5; \cite perlin1985 by libnoise.
 std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 origin,
                                 NoiseAlongParams const& params = {}, Run const& run = {});
 

@@ -22,6 +22,7 @@ enum class SlopeMode : std::uint8_t {
 /// The eighth term: the paper's text lost an exponent. x2y2 completes the products {1, x, x^2} {1, y, y^2}.
 enum class EighthTerm : std::uint8_t { x2y2, x3y };
 
+/// Options of regress().
 struct RegressParams {
     double length_x = 20.0;   ///< [cells] > 0, correlation length along rows, of the terms around the middle
     double length_y = 20.0;   ///< [cells] > 0, along columns
@@ -45,12 +46,18 @@ struct Regression {
 };
 
 /// The surface of twelve linear terms that comes nearest to the points, with or without a given slope.
-/// Takes: at least as many points as terms; those outside the grid count too. Gives: the least sum of squared
-/// residuals (with a slope: among all surfaces that have it, to 1e-10). Lost rank is reported, and the surface is then
-/// that of a small ridge.
-/// Throws: BadParameter; BadInput: too few points, a coordinate that is not finite, or (under centre) terms beside x
-/// and y that the points do not tell apart.
-/// Source: paper 001, equations 12 and 13 (specification 1.4); c_a, which cannot be told from c_0 to c_2, is 1.
+/// \pre at least as many points as terms; those outside the grid count too.
+/// \param points the points
+/// \param grid the grid
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return the least sum of squared residuals (with a slope: among all surfaces that have it, to 1e-10). Lost rank is
+/// reported, and the surface is then that of a small ridge.
+/// \throws BadParameter
+/// \throws BadInput too few points, a coordinate that is not finite, or (under centre) terms beside x and y that the
+/// points do not tell apart
+///
+/// Source: \cite zhang, equations 12 and 13 (specification 1.4); c_a, which cannot be told from c_0 to c_2, is 1.
 Regression regress(FeaturePoints const& points, Grid const& grid, RegressParams const& params = {},
                    Run const& run = {});
 

@@ -12,6 +12,7 @@
 
 namespace thalweg::skeleton {
 
+/// Options of ridges().
 struct RidgesParams {
     /// What ridges lie midway between: points set along the rivers, or the rivers themselves.
     enum class Method : std::uint8_t { voronoi, segments };
@@ -24,12 +25,20 @@ struct RidgesParams {
 };
 
 /// Ridges midway between streams, as high as the rivers beside them and more with distance.
-/// Takes: a label for every arc, the stream it belongs to; the grid whose ground bounds the ridges.
-/// Gives: lines inside the grid between streams whose labels differ; none meets a river; they meet only in their ends,
+/// \pre a label for every arc, the stream it belongs to; the grid whose ground bounds the ridges.
+/// \param network the network
+/// \param stream_of_arc by arc, the stream it belongs to
+/// \param grid the grid
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return lines inside the grid between streams whose labels differ; none meets a river; they meet only in their ends,
 /// where three streams are equally far or the ground ends. Each vertex stands at max z + gain d over the places of
 /// rivers nearest to it, d away. left < right; sorted by left, right and place. None for fewer than two labels.
-/// Throws: BadParameter; BadInput when labels or heights are not the network's, or (segments) arcs meet away from their
-/// vertices; Cancelled. Source: paper 003, section 3.1 and equation 10; specification 3.4.
+/// \throws BadParameter
+/// \throws BadInput when labels or heights are not the network's, or (segments) arcs meet away from their vertices
+/// \throws Cancelled
+///
+/// Source: \cite nenu2015, section 3.1 and equation 10; specification 3.4.
 RidgeLines ridges(RaisedNetwork const& network, std::vector<std::int64_t> const& stream_of_arc, Grid const& grid,
                   RidgesParams const& params = {}, Run const& run = {});
 

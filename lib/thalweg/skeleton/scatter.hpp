@@ -21,6 +21,7 @@ enum class Deviation : std::uint8_t {
     printed ///< as equation 8 has it: heights are mean + deviation (2 u - 1), or mean + deviation n by the normal law
 };
 
+/// Options of scatter().
 struct ScatterParams {
     std::uint64_t seed = 7;
     std::int64_t count = 200;   ///< [1, ...] points, the extremes included
@@ -35,6 +36,7 @@ struct ScatterParams {
     Falloff falloff = Falloff::literal; ///< of that pull
 };
 
+/// What scatter() returns.
 struct Scattered {
     FeaturePoints points;     ///< extremes first: highest, then lowest
     std::int64_t missing = 0; ///< of the wanted count: no more room was found
@@ -42,11 +44,15 @@ struct Scattered {
 };
 
 /// Points at random on a grid's ground, no two nearer than a given distance, with heights of given mean and deviation.
-/// Takes: extremes inside the grid, apart by the spacing or more. Gives: distances >= spacing exactly; exactly count
-/// points or how many are missing; heights of mean and deviation before they are drawn to the extremes
-/// (Deviation::exact; as printed uniform ones deviate by std / sqrt 3, in the mean), then strictly between these.
-/// Throws: BadParameter, with the density, when no packing could hold the points. Source: paper 001, equations 6 to 11;
-/// up to a density of 0.62 darts, above it Bridson 2007 (denser).
+/// \param grid extremes inside the grid, apart by the spacing or more
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return distances >= spacing exactly; exactly count points or how many are missing; heights of mean and deviation
+/// before they are drawn to the extremes (Deviation::exact; as printed uniform ones deviate by std / sqrt 3, in the
+/// mean), then strictly between these.
+/// \throws BadParameter with the density, when no packing could hold the points
+///
+/// Source: \cite zhang, equations 6 to 11; up to a density of 0.62 darts, above it \cite bridson2007 (denser).
 Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run = {});
 
 } // namespace thalweg::skeleton

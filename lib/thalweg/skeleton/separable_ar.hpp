@@ -9,11 +9,16 @@
 namespace thalweg::skeleton {
 
 /// A Gaussian land with exponential, separable correlation, by autoregression along rows and columns.
-/// Takes: a grid; params.
-/// Gives: normal heights whose correlation at (dx, dy) cells is exp(-dx/lx) exp(-dy/ly), exactly and from the first
+/// \param grid a grid; params
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return normal heights whose correlation at (dx, dy) cells is exp(-dx/lx) exp(-dy/ly), exactly and from the first
 /// cell on: h(i,j) = a h(i,j-1) + b h(i-1,j) - a b h(i-1,j-1) + std sqrt((1-a^2)(1-b^2)) e, a = exp(-1/lx), b =
-/// exp(-1/ly). Its fractal dimension is 2.5. The same bits for any number of threads. Throws: BadParameter; Cancelled.
-/// Source: paper 001, section 2 ("approximately exponential and separable").
+/// exp(-1/ly). Its fractal dimension is 2.5. The same bits for any number of threads.
+/// \throws BadParameter
+/// \throws Cancelled
+///
+/// Source: \cite zhang, section 2 ("approximately exponential and separable").
 Raster<float> separable_ar(Grid const& grid, FieldParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::skeleton

@@ -10,6 +10,10 @@
 namespace thalweg {
 
 /// Calls visit(cell), row by row, for the cells of the grid that lie at most `reach` columns and rows from one.
+/// \param grid the grid
+/// \param c the cell
+/// \param reach [cells] >= 0
+/// \param visit the function to call
 template <class Visit> void cells_around(Grid const& grid, Cell c, std::int64_t reach, Visit visit) {
     std::int64_t const north = std::max<std::int64_t>(c.row - reach, 0);
     std::int64_t const south = std::min(c.row + reach, grid.height - 1);
@@ -22,7 +26,9 @@ template <class Visit> void cells_around(Grid const& grid, Cell c, std::int64_t 
     }
 }
 
-/// [cells^2]
+/// \param a a cell
+/// \param b a cell
+/// \return [cells^2]
 inline std::int64_t squared_cells(Cell a, Cell b) {
     return (a.col - b.col) * (a.col - b.col) + (a.row - b.row) * (a.row - b.row);
 }

@@ -18,7 +18,8 @@ inline constexpr std::array<Cell, 8> d8_steps = {
 inline constexpr std::array<double, 8> d8_per_length = {1.0, 0.70710678118654752440, 1.0, 0.70710678118654752440,
                                                         1.0, 0.70710678118654752440, 1.0, 0.70710678118654752440};
 
-/// Distance in a raster's values from a cell to its neighbour in each direction.
+/// \param grid the grid
+/// \return distance in a raster's values from a cell to its neighbour in each direction.
 inline std::array<std::int64_t, 8> d8_offsets(Grid const& grid) {
     std::array<std::int64_t, 8> offsets{};
     for (std::size_t k = 0; k < offsets.size(); ++k) {

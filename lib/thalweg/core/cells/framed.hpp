@@ -11,8 +11,10 @@
 
 namespace thalweg {
 
-/// A raster in a frame of no data, one cell wide: then leaving the grid is entering no data, and every cell that has
-/// data has eight neighbours.
+/// \param inner the raster
+/// \param no_data the value of the frame
+/// \return a raster in a frame of no data, one cell wide: then leaving the grid is entering no data, and every cell
+/// that has data has eight neighbours.
 template <class T> Raster<T> framed(Raster<T> const& inner, T no_data) {
     Grid grid = inner.grid();
     grid.width += 2;
@@ -27,12 +29,15 @@ template <class T> Raster<T> framed(Raster<T> const& inner, T no_data) {
     return outer;
 }
 
-/// A raster of heights in such a frame.
+/// \param inner the raster
+/// \return a raster of heights in such a frame.
 inline Raster<float> framed(Raster<float> const& inner) {
     return framed(inner, std::numeric_limits<float>::quiet_NaN());
 }
 
-/// What a frame holds.
+/// \param outer the framed raster
+/// \param grid the grid
+/// \return what a frame holds.
 template <class T> Raster<T> unframed(Raster<T> const& outer, Grid const& grid) {
     Raster<T> inner(grid);
     for (std::int64_t r = 0; r < grid.height; ++r) {

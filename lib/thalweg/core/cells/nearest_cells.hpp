@@ -10,9 +10,11 @@
 namespace thalweg {
 
 /// Index of the marked cell nearest to each cell, by exact Euclidean distance in cells.
-/// Takes: a mask with at least one cell that is not 0.
-/// Gives: squared distances are compared as integers; of equally near cells the one with the lowest index.
-/// Source: Meijster, Roerdink & Hesselink 2000, with the tie made part of the order.
+/// \param marked a mask with at least one cell that is not 0
+/// \param run progress, log, stop token and number of threads
+/// \return squared distances are compared as integers; of equally near cells the one with the lowest index.
+///
+/// Source: \cite meijster2000, with the tie made part of the order.
 Raster<std::int64_t> nearest_cells(Mask const& marked, Run const& run);
 
 } // namespace thalweg

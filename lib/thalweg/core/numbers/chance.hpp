@@ -8,18 +8,29 @@
 namespace thalweg {
 
 /// Chance as a hash of seed and place: Philox4x64-10 (Salmon et al. 2011), the same words on every machine.
-/// Takes: the seed and up to four numbers that name the place (stage, row, column, ...).
-/// Gives: four independent uniform 64-bit words.
+/// \pre the seed and up to four numbers that name the place (stage, row, column, ...).
+/// \param seed random seed
+/// \param a first number of the place
+/// \param b second number of the place
+/// \param c third number of the place
+/// \param d fourth number of the place
+/// \return four independent uniform 64-bit words.
 std::array<std::uint64_t, 4> chance_block(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0,
                                           std::uint64_t d = 0);
 
-/// First word of chance_block.
+/// \param seed random seed
+/// \param a first number of the place
+/// \param b second number of the place
+/// \param c third number of the place
+/// \param d fourth number of the place
+/// \return first word of chance_block.
 inline std::uint64_t chance(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0,
                             std::uint64_t d = 0) {
     return chance_block(seed, a, b, c, d)[0];
 }
 
-/// A word as a real number in [0,1), a multiple of 2^-53.
+/// \param word a random word
+/// \return a word as a real number in [0,1), a multiple of 2^-53.
 inline double unit(std::uint64_t word) {
     return static_cast<double>(word >> 11) * 0x1p-53;
 }

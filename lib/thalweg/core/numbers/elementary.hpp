@@ -8,11 +8,25 @@ namespace thalweg::exact {
 
 inline constexpr double pi = 3.14159265358979323846;
 
-double exp(double x);             ///< infinity above 709.78, 0 below -745.13
-double log(double x);             ///< x > 0; -infinity at 0, NaN below
-double pow(double x, double y);   ///< x >= 0; NaN below
-double sin(double x);             ///< |x| <= 1e5 [rad]; NaN beyond
-double cos(double x);             ///< |x| <= 1e5 [rad]; NaN beyond
-double atan2(double y, double x); ///< [rad] in [-pi, pi]
+/// \param x x
+/// \return infinity above 709.78, 0 below -745.13
+double exp(double x);
+/// \param x x
+/// \return x > 0; -infinity at 0, NaN below
+double log(double x);
+/// \param x x
+/// \param y y
+/// \return x >= 0; NaN below
+double pow(double x, double y);
+/// \param x x
+/// \return |x| <= 1e5 [rad]; NaN beyond
+double sin(double x);
+/// \param x x
+/// \return |x| <= 1e5 [rad]; NaN beyond
+double cos(double x);
+/// \param y y
+/// \param x x
+/// \return [rad] in [-pi, pi]
+double atan2(double y, double x);
 
 } // namespace thalweg::exact

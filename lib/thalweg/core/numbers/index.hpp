@@ -7,7 +7,8 @@
 
 namespace thalweg {
 
-/// The index in a vector of what has this number. Takes: a number that is not negative.
+/// \param number a number that is not negative
+/// \return the index in a vector of what has this number.
 constexpr std::size_t as_index(std::int64_t number) {
     return static_cast<std::size_t>(number);
 }

@@ -8,8 +8,11 @@
 namespace thalweg {
 
 /// Two independent normal deviates of mean 0 and deviation 1 from two words of chance.
-/// Gives: sqrt(-2 ln u) cos(2 pi v) and the same with sin, u in (0, 1], v in [0, 1); both are at most 8.6.
-/// Source: Box and Muller 1958; paper 001, equation 3.
+/// \param first first random word
+/// \param second second random word
+/// \return sqrt(-2 ln u) cos(2 pi v) and the same with sin, u in (0, 1], v in [0, 1); both are at most 8.6.
+///
+/// Source: \cite box1958; \cite zhang, equation 3.
 std::array<double, 2> normal_pair(std::uint64_t first, std::uint64_t second);
 
 } // namespace thalweg

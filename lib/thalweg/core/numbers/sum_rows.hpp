@@ -11,8 +11,12 @@
 namespace thalweg {
 
 /// Sum of what term(row) gives for the rows [0, rows), of any type with operator+=.
-/// Gives: the same bits for any number of threads: the rows are added in their order, whichever thread made them.
-/// Throws: what term throws; Cancelled.
+/// \param run progress, log, stop token and number of threads
+/// \param rows number of rows
+/// \param term gives the value of a row
+/// \return the same bits for any number of threads: the rows are added in their order, whichever thread made them.
+/// \throws Error what term throws
+/// \throws Cancelled
 template <class Term> auto sum_rows(Run const& run, std::int64_t rows, Term const& term) {
     using Sum = decltype(term(rows));
     std::vector<Sum> parts(static_cast<std::size_t>(rows));

@@ -13,11 +13,12 @@ public:
     /// Takes "module.function: what is wrong, where, what to do" and keeps the two parts apart. Without a module of
     /// thalweg in front (core, geometry, solver, ...) the whole text is the message. A message of several lines may
     /// repeat the prefix at the beginning of each; every repetition is removed.
+    /// \param text the text
     explicit Error(std::string const& text);
 
     // what() gives the message, for users of a program.
 
-    /// The function that threw, "module.function", for users of the library; "" when it is not known.
+    /// \return the function that threw, "module.function", for users of the library; "" when it is not known.
     char const* where() const noexcept { return where_.what(); }
 
 private:

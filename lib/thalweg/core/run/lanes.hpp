@@ -12,7 +12,7 @@ enum class Lanes : std::uint8_t {
     avx2
 };
 
-/// The widest that this processor has.
+/// \return the widest that this processor has.
 Lanes widest_lanes();
 
 } // namespace thalweg

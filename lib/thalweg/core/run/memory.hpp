@@ -6,10 +6,11 @@
 
 namespace thalweg {
 
-/// Memory [bytes] that can still be taken: what the system has available, or what is left of the control group's limit.
+/// \return memory [bytes] that can still be taken: what the system has available, or what is left of the control
+/// group's limit.
 std::int64_t free_memory_bytes();
 
-/// Most memory [bytes] this process has held so far.
+/// \return most memory [bytes] this process has held so far.
 std::int64_t peak_memory_bytes();
 
 } // namespace thalweg

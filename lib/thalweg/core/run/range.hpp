@@ -11,11 +11,22 @@ namespace thalweg {
 
 /// An interval of numbers. NaN lies in none.
 struct Range {
-    static constexpr Range finite();                         ///< every finite number
-    static constexpr Range above(double low);                ///< finite numbers greater than low
-    static constexpr Range at_least(double low);             ///< finite numbers from low
-    static constexpr Range between(double low, double high); ///< numbers from low to high
-    static constexpr Range inside(double low, double high);  ///< numbers greater than low and less than high
+    /// \return every finite number
+    static constexpr Range finite();
+    /// \param low low
+    /// \return finite numbers greater than low
+    static constexpr Range above(double low);
+    /// \param low low
+    /// \return finite numbers from low
+    static constexpr Range at_least(double low);
+    /// \param low low
+    /// \param high high
+    /// \return numbers from low to high
+    static constexpr Range between(double low, double high);
+    /// \param low low
+    /// \param high high
+    /// \return numbers greater than low and less than high
+    static constexpr Range inside(double low, double high);
 
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
@@ -26,7 +37,7 @@ struct Range {
         return (value > low && value < high) || (has_low && value == low) || (has_high && value == high);
     }
 
-    /// The same with infinity, for parameters where it means "no limit".
+    /// \return the same with infinity, for parameters where it means "no limit".
     constexpr Range or_infinite() const noexcept { return {low, high, has_low, true}; }
 };
 
@@ -46,10 +57,14 @@ constexpr Range Range::inside(double low, double high) {
     return {low, high, false, false};
 }
 
-/// Checks one parameter.
-/// Takes the function that checks ("module.function"), the parameter's name for users, its value and its unit ("" for
-/// a number without).
-/// Throws BadParameter, "module.function: NAME is VALUE UNIT; it must be RANGE", unless the range contains the value.
+/// Checks one parameter. Takes the function that checks ("module.function"), the parameter's name for users, its value
+/// and its unit ("" for a number without).
+/// \param function the function that checks, "module.function"
+/// \param name the parameter's name for users
+/// \param value the value
+/// \param range the range
+/// \param unit its unit; "": none
+/// \throws BadParameter "module.function: NAME is VALUE UNIT; it must be RANGE", unless the range contains the value
 void require_in(std::string_view function, std::string_view name, double value, Range const& range,
                 std::string_view unit = {});
 

@@ -26,11 +26,16 @@ struct Run {
     std::function<void(std::string_view)> log; ///< one finished line, without its newline
     std::stop_token stop;
 
-    /// Reports progress. Throws Cancelled when the work shall stop.
+    /// Reports progress.
+    /// \param share [0, 1] share of the work
+    /// \param what what is being done
+    /// \throws Cancelled when the work shall stop
     void at(double share, char const* what) const;
-    /// Throws Cancelled when the work shall stop.
+    /// \throws Cancelled when the work shall stop
     void check() const;
     /// Logs a line about a stage, its name in a column of its own: "grow       100000 particles".
+    /// \param stage name of the stage
+    /// \param words what to say
     void tell(std::string_view stage, std::string_view words) const;
     void say(std::string_view line) const {
         if (log) {

@@ -12,8 +12,14 @@
 
 namespace thalweg::flow {
 
-/// By cell, the place in cells of the river cell that its water meets first by D8; -1 where it leaves the grid without
-/// meeting one, or without data. Takes: cells as river_cells gives them. Throws: BadInput at 2^31 of them; Cancelled.
+/// \pre cells as river_cells gives them.
+/// \param cells the cells
+/// \param drainage the flow field of the DEM
+/// \param run progress, log, stop token and number of threads
+/// \return by cell, the place in cells of the river cell that its water meets first by D8; -1 where it leaves the grid
+/// without meeting one, or without data.
+/// \throws BadInput at 2^31 of them
+/// \throws Cancelled
 Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField const& drainage, Run const& run = {});
 
 /// The area that each reach drains by itself.
@@ -25,8 +31,14 @@ struct Catchments {
 };
 
 /// Incremental catchments of reaches: a cell belongs to the one that owns the first river cell its water meets by D8.
-/// Gives: each cell with data in exactly one catchment, or in none when its water leaves the grid without meeting a
-/// river; upstream as areas_d8 has ds_area, in cells. Throws: as river_cells; BadInput at 2^31 reaches; Cancelled.
+/// \param reaches the reaches
+/// \param drainage the flow field of the DEM
+/// \param run progress, log, stop token and number of threads
+/// \return each cell with data in exactly one catchment, or in none when its water leaves the grid without meeting a
+/// river; upstream as areas_d8 has ds_area, in cells.
+/// \throws Error as river_cells
+/// \throws BadInput at 2^31 reaches
+/// \throws Cancelled
 Catchments catchments(std::vector<Reach> const& reaches, FlowField const& drainage, Run const& run = {});
 
 } // namespace thalweg::flow

@@ -21,11 +21,14 @@ struct Reach {
     std::int64_t id = 0;                  ///< by which messages name it
 };
 
-/// The arcs of a network, by number, with their arc_id. Throws: BadInput naming the node where a river parts.
+/// \param network the network
+/// \return the arcs of a network, by number, with their arc_id.
+/// \throws BadInput naming the node where a river parts
 std::vector<Reach> reaches_of(StreamNetwork const& network);
 
-/// By reach: the reaches to the outlet, itself included: 1 for those that run into none.
-/// Throws: BadInput naming a reach when its ds is the number of none, or rivers run in a circle.
+/// \param reaches the reaches
+/// \return by reach: the reaches to the outlet, itself included: 1 for those that run into none.
+/// \throws BadInput naming a reach when its ds is the number of none, or rivers run in a circle
 std::vector<std::int64_t> steps_to_outlet(std::vector<Reach> const& reaches);
 
 /// A cell under rivers and the reach that owns it.
@@ -34,9 +37,14 @@ struct RiverCell {
     std::size_t reach = 0;
 };
 
-/// The cells under reaches (cells_along), ascending, each once. One under several belongs to the reach with the fewest
-/// steps to the outlet (ties: lower number): the cell of a confluence to the reach that leaves it.
-/// Throws: BadInput naming a reach with a line outside the grid; as steps_to_outlet; Cancelled.
+/// One under several belongs to the reach with the fewest steps to the outlet (ties: lower number): the cell of a
+/// confluence to the reach that leaves it.
+/// \param reaches the reaches
+/// \param grid the grid
+/// \param run progress, log, stop token and number of threads
+/// \return the cells under reaches (cells_along), ascending, each once.
+/// \throws BadInput naming a reach with a line outside the grid; as steps_to_outlet
+/// \throws Cancelled
 std::vector<RiverCell> river_cells(std::vector<Reach> const& reaches, Grid const& grid, Run const& run = {});
 
 } // namespace thalweg::flow

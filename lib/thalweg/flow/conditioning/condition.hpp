@@ -13,10 +13,12 @@ namespace thalweg::flow {
 
 enum class Conditioning : std::uint8_t { none, fill, carve };
 
+/// Options of condition().
 struct ConditionParams {
     Conditioning method = Conditioning::carve;
 };
 
+/// What condition() returns.
 struct ConditionedDem {
     Raster<float> dem;
     DemChange banks;       ///< raised so that rivers keep their water (raise_banks)
@@ -24,10 +26,15 @@ struct ConditionedDem {
 };
 
 /// Conditions a DEM hydrologically: its rivers drain it, in the very floats that are written, after the least change.
-/// Takes: a DEM whose river cells stand at the valley's heights; a valley without any where there are no rivers, or
-/// none to be honoured.
-/// Gives: river cells keep their heights bit for bit; otherwise as raise_banks, then fill or carve. Method none changes
-/// nothing. Throws: as those.
+/// \pre a DEM whose river cells stand at the valley's heights; a valley without any where there are no rivers, or none
+/// to be honoured.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param valley [m] heights of the river cells
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return river cells keep their heights bit for bit; otherwise as raise_banks, then fill or carve. Method none
+/// changes nothing.
+/// \throws Error as those
 ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParams const& params = {},
                          Run const& run = {});
 

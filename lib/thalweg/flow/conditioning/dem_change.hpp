@@ -20,7 +20,11 @@ struct DemChange {
     double volume_m3() const { return raised_m3 + cut_m3; }
 };
 
-/// Cells without data in either count for nothing. Takes: two rasters of one size.
+/// Cells without data in either count for nothing.
+/// \pre two rasters of one size.
+/// \param before [m] heights before
+/// \param after [m] heights after
+/// \return how many cells differ, and by how much
 DemChange change_between(Raster<float> const& before, Raster<float> const& after);
 
 } // namespace thalweg::flow

@@ -8,8 +8,13 @@
 
 namespace thalweg::flow {
 
-/// By cell: the longest way that water runs down to it by D8, from a divide [m]; 0 where none arrives or without data.
-/// Throws: Cancelled. Source: the length of Hack 1957 on a grid.
+/// \param drainage the flow field of the DEM
+/// \param run progress, log, stop token and number of threads
+/// \return by cell: the longest way that water runs down to it by D8, from a divide [m]; 0 where none arrives or
+/// without data.
+/// \throws Cancelled
+///
+/// Source: the length of \cite hack1957 on a grid.
 Raster<float> flow_lengths(FlowField const& drainage, Run const& run = {});
 
 } // namespace thalweg::flow

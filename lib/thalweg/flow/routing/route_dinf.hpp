@@ -19,13 +19,20 @@ struct DinfFlow {
 };
 
 /// D-infinity bearings and contributing areas of a DEM of which D8 is known.
-/// Takes: the DEM and what route made of it. Gives: of a cell with a lower neighbour on the filled DEM, the steepest of
-/// the eight triangular facets around it (ties: lowest bearing), its water shared between the facet's two neighbours
-/// by angle; a neighbour without data leaves the other edge of its facet. Any other cell drains as by D8, and water
-/// leaves where it leaves by D8. No water is lost: what leaves adds up to the cells with data. There is no cycle: each
-/// step leads to a lower level, or along D8 on the same level. The filled DEM follows from D8: a cell stands at its own
-/// height or at the level of the cell it drains to, whichever is higher. Throws: BadInput when the directions are of
-/// another grid or other cells, lead to no data or in a circle; Cancelled. Source: Tarboton 1997, eq. 1-6.
+/// \pre the DEM and what route made of it.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param d8 the D8 flow field of the DEM
+/// \param run progress, log, stop token and number of threads
+/// \return of a cell with a lower neighbour on the filled DEM, the steepest of the eight triangular facets around it
+/// (ties: lowest bearing), its water shared between the facet's two neighbours by angle; a neighbour without data
+/// leaves the other edge of its facet. Any other cell drains as by D8, and water leaves where it leaves by D8. No water
+/// is lost: what leaves adds up to the cells with data. There is no cycle: each step leads to a lower level, or along
+/// D8 on the same level. The filled DEM follows from D8: a cell stands at its own height or at the level of the cell it
+/// drains to, whichever is higher.
+/// \throws BadInput when the directions are of another grid or other cells, lead to no data or in a circle
+/// \throws Cancelled
+///
+/// Source: \cite tarboton1997, eq. 1-6.
 DinfFlow route_dinf(Raster<float> const& dem, FlowField const& d8, Run const& run = {});
 
 } // namespace thalweg::flow

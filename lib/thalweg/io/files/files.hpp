@@ -18,11 +18,12 @@ enum class Existing {
 /// An output folder that appears whole or not at all: files are written into staging() and moved by commit(); without
 /// it nothing is left, and what killed processes left in the same place goes. Only files that thalweg wrote before are
 /// ever replaced or removed. Takes: folder, which need not exist; old_files: every file an earlier run left in it,
-/// report.json included, by its name relative to it
-/// ("inputs/rivers.gpkg"); an empty list when it holds no report. Throws: BadParameter when folder is ""; BadInput when
-/// it is no folder, holds something and existing is refuse, holds something and old_files is empty under replace, or
-/// when an old name is absolute, climbs out with "..", is no plain file, or passes through a link; IoError with the
-/// path and the system's reason.
+/// report.json included, by its name relative to it ("inputs/rivers.gpkg"); an empty list when it holds no report.
+/// \throws BadParameter when folder is ""
+/// \throws BadInput when it is no folder, holds something and existing is refuse, holds something and old_files is
+/// empty under replace, or when an old name is absolute, climbs out with "..", is no plain file, or passes through a
+/// link
+/// \throws IoError with the path and the system's reason
 class OutputFolder {
 public:
     explicit OutputFolder(std::string const& folder, Existing existing = Existing::refuse,
@@ -32,18 +33,20 @@ public:
     OutputFolder(OutputFolder const&) = delete;
     OutputFolder& operator=(OutputFolder const&) = delete;
 
-    /// Where to write: beside a new folder (FOLDER.thalweg-tmp-HOST-PID), or in an existing one
+    /// \return where to write: beside a new folder (FOLDER.thalweg-tmp-HOST-PID), or in an existing one
     /// (.thalweg-tmp-HOST-PID).
     std::string const& staging() const { return staging_; }
-    /// The path of a file to be written, "dem.tif" or "inputs/rivers.gpkg"; makes the folders it is in.
+    /// \param name relative name, "dem.tif"
+    /// \return the path of a file to be written, "dem.tif" or "inputs/rivers.gpkg"; makes the folders it is in.
     std::string path(std::string const& name) const;
 
-    /// Every file written so far, relative names, sorted.
+    /// \return every file written so far, relative names, sorted.
     std::vector<std::string> files() const;
 
     /// Puts the files in place, the old ones removed, when all of them are on the disk. When it fails everything is as
     /// it was before.
-    /// Throws: BadInput when a file would replace one that is not among old_files; IoError.
+    /// \throws BadInput when a file would replace one that is not among old_files
+    /// \throws IoError
     void commit();
 
 private:
@@ -56,19 +59,33 @@ private:
     bool committed_ = false;
 };
 
-/// Whether a path is a pipe, a socket or a terminal, of which opening or reading may wait for ever.
+/// \param path path of the file
+/// \return whether a path is a pipe, a socket or a terminal, of which opening or reading may wait for ever.
 bool is_pipe_or_device(std::string const& path);
 
-/// Throws: BadInput where is_pipe_or_device.
+/// \param path path of the file
+/// \param what what it is, for messages
+/// \throws BadInput where is_pipe_or_device
 void refuse_pipe(std::string const& path, std::string const& what);
 
-/// The bytes of a file. Throws: BadInput when there is none, it is a folder, a pipe or larger than max_bytes; IoError.
+/// \param path path of the file
+/// \param max_bytes most bytes to read
+/// \return the bytes of a file.
+/// \throws BadInput when there is none, it is a folder, a pipe or larger than max_bytes
+/// \throws IoError
 std::string read_text(std::string const& path, std::int64_t max_bytes);
 
-/// Writes a new file. Throws: IoError with the path and the system's reason, also when the file exists.
+/// Writes a new file.
+/// \param path path of the file
+/// \param text the text
+/// \throws IoError with the path and the system's reason, also when the file exists
 void write_text(std::string const& path, std::string const& text);
 
-/// Copies a file's bytes into a new file. Throws: BadInput when there is no such file; IoError like write_text.
+/// Copies a file's bytes into a new file.
+/// \param from the file to copy
+/// \param to path of the copy
+/// \throws BadInput when there is no such file
+/// \throws IoError like write_text
 void copy_file(std::string const& from, std::string const& to);
 
 } // namespace thalweg::io

@@ -9,8 +9,10 @@
 namespace thalweg::io {
 
 /// An output file that appears whole or not at all: it is written at staging() and moved by commit(); without it
-/// nothing is left. Throws: BadParameter when path is ""; BadInput when it exists and existing is refuse, is no plain
-/// file, or its folder does not exist; IoError with the system's reason.
+/// nothing is left.
+/// \throws BadParameter when path is ""
+/// \throws BadInput when it exists and existing is refuse, is no plain file, or its folder does not exist
+/// \throws IoError with the system's reason
 class OutputFile {
 public:
     explicit OutputFile(std::string const& path, Existing existing = Existing::refuse);
@@ -19,7 +21,7 @@ public:
     OutputFile(OutputFile const&) = delete;
     OutputFile& operator=(OutputFile const&) = delete;
 
-    /// Where to write: a new file in the same folder, with the same ending.
+    /// \return where to write: a new file in the same folder, with the same ending.
     std::string const& staging() const { return staging_; }
     /// Puts the file in place when it is on the disk.
     void commit();

@@ -11,7 +11,8 @@ namespace thalweg::io {
 /// those of processes that were killed go, too.
 class TemporaryFolder {
 public:
-    /// Takes: the beginning of its name. Throws: IoError with the reason, naming TMPDIR where that is to blame.
+    /// \param name the beginning of its name
+    /// \throws IoError with the reason, naming TMPDIR where that is to blame
     explicit TemporaryFolder(std::string const& name);
     ~TemporaryFolder();
     TemporaryFolder(TemporaryFolder const&) = delete;

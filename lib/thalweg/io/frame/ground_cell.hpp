@@ -17,6 +17,7 @@ enum class GridUnit : std::uint8_t {
     unknown  ///< there is no CRS
 };
 
+/// What ground_cell() returns.
 struct GroundCell {
     GridUnit unit = GridUnit::unknown;
     double side_m = 0.0; ///< [m]
@@ -24,9 +25,10 @@ struct GroundCell {
 };
 
 /// How large a grid's cells are on the ground.
-/// Takes: any grid with cells above 0. Gives: of a geographic grid the side of the square as large as a cell in the
-/// middle row on the CRS's ellipsoid; else the cell's own side, in metres where the CRS tells them.
-/// Throws: BadInput when the CRS is none, or the middle of a geographic grid is not between the poles.
+/// \param grid any grid with cells above 0
+/// \return of a geographic grid the side of the square as large as a cell in the middle row on the CRS's ellipsoid;
+/// else the cell's own side, in metres where the CRS tells them.
+/// \throws BadInput when the CRS is none, or the middle of a geographic grid is not between the poles
 GroundCell ground_cell(Grid const& grid);
 
 } // namespace thalweg::io

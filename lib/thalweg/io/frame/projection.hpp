@@ -8,15 +8,20 @@
 namespace thalweg::io {
 
 /// Reads a user's CRS: "EPSG:32633" or WKT; never a URL or file.
-/// Gives: "EPSG:n" where it has a code, else WKT; of a CRS with heights its horizontal part.
-/// Throws BadInput when it is none, is geographic, or is not in metres.
+/// \param text the text
+/// \return "EPSG:n" where it has a code, else WKT; of a CRS with heights its horizontal part.
+/// \throws BadInput when it is none, is geographic, or is not in metres
 std::string projected_crs(std::string const& text);
 
-/// The UTM zone (WGS 84) of a geographic position, as "EPSG:326zz" or "EPSG:327zz".
-/// Takes: latitude within [-80, 84]; zones are 6 degrees wide everywhere. Throws BadInput elsewhere.
+/// \pre latitude within [-80, 84]; zones are 6 degrees wide everywhere.
+/// \param longitude_deg [degrees] longitude
+/// \param latitude_deg [degrees] latitude
+/// \return the UTM zone (WGS 84) of a geographic position, as "EPSG:326zz" or "EPSG:327zz".
+/// \throws BadInput elsewhere
 std::string utm_zone(double longitude_deg, double latitude_deg);
 
-/// The number of a UTM zone (WGS 84), 1 to 60, of "EPSG:326zz" or "EPSG:327zz"; nothing of another CRS.
+/// \param crs "EPSG:n" or WKT; "": none
+/// \return the number of a UTM zone (WGS 84), 1 to 60, of "EPSG:326zz" or "EPSG:327zz"; nothing of another CRS.
 std::optional<int> utm_number(std::string const& crs);
 
 /// A box of longitudes and latitudes [degrees], west <= east, south <= north.
@@ -27,8 +32,11 @@ struct DegreeBox {
     double north = 0.0;
 };
 
-/// By how much a UTM zone lengthens a line at most, anywhere in a box: 0.01 is 1 %; another CRS by 0. Source: Snyder
-/// 1987, Map Projections, eq. 8-4 (of the sphere).
+/// \param crs "EPSG:n" or WKT; "": none
+/// \param box [degrees] longitudes and latitudes
+/// \return by how much a UTM zone lengthens a line at most, anywhere in a box: 0.01 is 1 %; another CRS by 0.
+///
+/// Source: \cite snyder1987, Map Projections, eq. 8-4 (of the sphere).
 double utm_stretch(std::string const& crs, DegreeBox const& box);
 
 } // namespace thalweg::io

@@ -6,7 +6,8 @@
 
 namespace thalweg::io {
 
-/// Whether a name makes GDAL connect to a server: a database (PG:, postgresql:) or a file behind an address
+/// \param path path of the file
+/// \return whether a name makes GDAL connect to a server: a database (PG:, postgresql:) or a file behind an address
 /// (/vsicurl/, /vsis3/, ...). /vsistdin/ counts as one.
 bool names_connection(std::string const& path);
 
@@ -22,13 +23,15 @@ public:
     RecipeFiles& operator=(RecipeFiles const&) = delete;
 };
 
-/// Whether a RecipeFiles lives.
+/// \return whether a RecipeFiles lives.
 bool reads_recipe_files();
 
-/// Throws: BadInput while a RecipeFiles lives and the path names a connection, or is neither a file nor a folder.
+/// \param path path of the file
+/// \throws BadInput while a RecipeFiles lives and the path names a connection, or is neither a file nor a folder
 void require_allowed(std::string const& path);
 
-/// Whether a recipe may name this source.
+/// \param path path of the file
+/// \return whether a recipe may name this source.
 bool is_recipe_file(std::string const& path);
 
 } // namespace thalweg::io

@@ -16,8 +16,11 @@ struct FileContent {
 };
 
 /// Looks into a file: a raster, text or a layer of points, or lines; where there are both, lines. A folder stands for
-/// its network.gpkg. Throws: BadInput when there is none, GDAL cannot read it or it holds neither; IoError when
-/// features cannot be read.
+/// its network.gpkg.
+/// \param path path of the file
+/// \return what it holds
+/// \throws BadInput when there is none, GDAL cannot read it or it holds neither
+/// \throws IoError when features cannot be read
 FileContent content_of(std::string const& path);
 
 } // namespace thalweg::io

@@ -7,10 +7,13 @@
 
 namespace thalweg::io {
 
-/// What of a file changes when it is read into a grid's CRS in metres, each as a sentence: coordinates of another CRS
-/// are reprojected, heights in another unit are converted, heights of a CRS in feet that have no unit of their own are
-/// taken for metres. Text, and a file that GDAL does not read, change in nothing. Takes: layer: "" for the one with
-/// rivers, or the first.
+/// Text, and a file that GDAL does not read, change in nothing.
+/// \param path path of the file
+/// \param layer "" for the one with rivers, or the first
+/// \param crs "EPSG:n" or WKT; "": none
+/// \return what of a file changes when it is read into a grid's CRS in metres, each as a sentence: coordinates of
+/// another CRS are reprojected, heights in another unit are converted, heights of a CRS in feet that have no unit of
+/// their own are taken for metres.
 std::vector<std::string> conversions_of(std::string const& path, std::string const& layer, std::string const& crs);
 
 } // namespace thalweg::io

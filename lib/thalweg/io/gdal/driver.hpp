@@ -16,10 +16,11 @@ public:
     ~Driver();
     Driver(Driver const&) = delete;
     Driver& operator=(Driver const&) = delete;
-    /// Throws IoError with GDAL's words when an error came since the last call, BadInput when a file wanted a
-    /// connection. what: "io.write_dem: out/dem.tif".
+    /// \param what what was done, for messages
+    /// \throws IoError with GDAL's words when an error came since the last call, BadInput when a file wanted a
+    /// connection. what: "io.write_dem: out/dem.tif"
     void check(std::string const& what) const;
-    /// GDAL's words for the errors since the last call, "" for none: for messages of one's own.
+    /// \return GDAL's words for the errors since the last call, "" for none: for messages of one's own.
     std::string take() const;
 
 private:
@@ -27,7 +28,7 @@ private:
     std::unique_ptr<Log> log_;
 };
 
-/// The name and version of GDAL, for reports.
+/// \return the name and version of GDAL, for reports.
 std::string gdal_version();
 
 } // namespace thalweg::io

@@ -6,8 +6,10 @@
 
 namespace thalweg::io {
 
-/// Whether a file that OGR reads has a layer of this name; false where there is no file. Throws: BadInput when GDAL
-/// cannot read it.
+/// \param path path of the file
+/// \param layer name of the layer
+/// \return whether a file that OGR reads has a layer of this name; false where there is no file.
+/// \throws BadInput when GDAL cannot read it
 bool has_layer(std::string const& path, std::string const& layer);
 
 } // namespace thalweg::io

@@ -16,6 +16,7 @@ enum class PointHeights : std::uint8_t {
     passed_over ///< points lie in plan: whatever heights they have count as 0, and text needs no third column
 };
 
+/// Options of read_points().
 struct ReadPointsParams {
     std::string path = {};     ///< text (.csv, .txt, .xyz) or anything OGR opens
     std::string layer = {};    ///< "" takes the only layer of points
@@ -28,12 +29,18 @@ struct ReadPointsParams {
 /// Reads points with heights. Text: one a line, x y z in the first three columns or in those a first line names (x, y,
 /// z in any case and order), parted by commas, semicolons or blanks; empty lines and those that begin with # are passed
 /// over. OGR: points and multi-points, their Z or the field z, reprojected and rounded to 1e-6 m as read_rivers does.
-/// Throws: BadInput naming file and line or feature: missing file, layer or height, several layers of points, no
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return the points
+/// \throws BadInput naming file and line or feature: missing file, layer or height, several layers of points, no
 /// points, something that is no point or no number, NaN or infinite values, no CRS (not in text), coordinates that
-/// cannot be reprojected; IoError when the file cannot be read to its end; Cancelled.
+/// cannot be reprojected
+/// \throws IoError when the file cannot be read to its end
+/// \throws Cancelled
 FeaturePoints read_points(ReadPointsParams const& params, Run const& run = {});
 
-/// Whether a path's ending is that of text with points.
+/// \param path path of the file
+/// \return whether a path's ending is that of text with points.
 bool is_text_of_points(std::string const& path);
 
 } // namespace thalweg::io

@@ -15,13 +15,19 @@ struct TinFile {
     std::string crs; ///< of the comment that write_tin leaves; "" for none
 };
 
-/// Whether a file's name ends in that of a mesh that read_tin reads: .2dm, .obj or .off.
+/// \param path path of the file
+/// \return whether a file's name ends in that of a mesh that read_tin reads: .2dm, .obj or .off.
 bool holds_tin(std::string const& path);
 
 /// Reads a mesh of triangles: 2DM (E3T, ND), Wavefront OBJ (v, f) or OFF; other words of 2DM and OBJ are passed over.
-/// Gives: vertices and triangles in the file's order; of what write_tin writes in these formats the same TIN.
-/// Throws: BadInput naming file and line: a number that is none, a face that is not a triangle or names a vertex that
-/// is not there, heights that are not in metres, more than 2^30 bytes, no triangle; IoError; Cancelled.
+/// \param path path of the file
+/// \param run progress, log, stop token and number of threads
+/// \return vertices and triangles in the file's order; of what write_tin writes in these formats the same TIN.
+/// \throws BadInput naming file and line: a number that is none, a face that is not a triangle or names a vertex that
+/// is not there, heights that are not in metres, more than 2^30 bytes, no triangle
+/// \throws IoError
+/// \throws Cancelled
+///
 /// Source: Aquaveo, 2DM files; Wavefront OBJ; Geomview OFF.
 TinFile read_tin(std::string const& path, Run const& run = {});
 

@@ -20,6 +20,7 @@ enum class PointFormat : std::uint8_t {
     xyz, ///< text, x y z of one a line
 };
 
+/// A point format name.
 struct PointFormatName {
     PointFormat format;
     char const* name;   ///< "las"
@@ -27,8 +28,10 @@ struct PointFormatName {
 };
 std::vector<PointFormatName> const& point_formats();
 
-/// The format of a name, or where it is "" of a path's ending, in any case of letters.
-/// Throws: BadParameter that lists the names there are.
+/// \param name its name
+/// \param path path of the file
+/// \return the format of a name, or where it is "" of a path's ending, in any case of letters.
+/// \throws BadParameter that lists the names there are
 PointFormat point_format(std::string const& name, std::string const& path);
 
 /// What LAS says of a point (its classification).
@@ -38,19 +41,28 @@ enum class PointClass : std::uint8_t {
     water = 9      ///< rivers of a skeleton
 };
 
+/// Options of write_points().
 struct WritePointsParams {
     PointFormat format = PointFormat::las;
     std::int64_t every = 1; ///< [1, ...] of so many points one, of so many rows and columns one: the first
 };
 
 /// Writes points, or the centres of all cells with a height, as a new file; gives how many there are.
-/// Takes: crs as in Grid, kept by ply (comment) and las (EPSG code); rivers: a mask in the skeleton's frame.
-/// Gives: points in their order, cells row by row from the north-west. Coordinates read back bit for bit, in text a
+/// \pre crs as in Grid, kept by ply (comment) and las (EPSG code); rivers: a mask in the skeleton's frame.
+/// \param points the points
+/// \param path path of the file
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return points in their order, cells row by row from the north-west. Coordinates read back bit for bit, in text a
 /// cell's height as a float; in LAS within half a millimetre, or half a thousandth of a cell below a metre (of extents
 /// that need more than 32 bits: half the least power of ten that fits). The same bytes on any day.
-/// Throws: BadParameter; BadInput, naming point or cell, for a number that is not finite, when there is no point, LAS
-/// cannot count so many or the mask is of another frame; IoError, also when the file exists; Cancelled.
-/// Source: ASPRS LAS 1.2; Turk 1994, The PLY polygon file format.
+/// \throws BadParameter
+/// \throws BadInput naming point or cell, for a number that is not finite, when there is no point, LAS cannot count so
+/// many or the mask is of another frame
+/// \throws IoError also when the file exists
+/// \throws Cancelled
+///
+/// Source: ASPRS LAS 1.2; \cite turk1994, The PLY polygon file format.
 std::uint64_t write_points(FeaturePoints const& points, std::string const& path, WritePointsParams const& params = {},
                            Run const& run = {});
 std::uint64_t write_points(Raster<float> const& land, std::string const& path, WritePointsParams const& params = {},

@@ -25,6 +25,7 @@ enum class TinFormat : std::uint8_t {
     xyz,        ///< the vertices as text, one a line
 };
 
+/// A tin format name.
 struct TinFormatName {
     TinFormat format;
     char const* name;   ///< "2dm", "ply-points"
@@ -32,20 +33,31 @@ struct TinFormatName {
 };
 std::vector<TinFormatName> const& tin_formats();
 
-/// The format of a name, or where it is "" of a path's ending, in any case of letters.
-/// Throws: BadParameter that lists the names there are.
+/// \param name its name
+/// \param path path of the file
+/// \return the format of a name, or where it is "" of a path's ending, in any case of letters.
+/// \throws BadParameter that lists the names there are
 TinFormat tin_format(std::string const& name, std::string const& path);
 
 /// Writes a TIN as a new file.
-/// Takes: a TIN; crs as in Grid, kept by ply, obj, off (comment), geopackage, landxml and las (EPSG code), "" for none;
-/// the unit of its heights, which 2dm (name of the mesh), ply, obj and off (comment) keep: other formats hold metres.
-/// Gives: coordinates that read back bit for bit, in LAS within half a millimetre (of extents beyond 4000 km: half the
+/// \post coordinates that read back bit for bit, in LAS within half a millimetre (of extents beyond 4000 km: half the
 /// least power of ten that fits); vertex i of the TIN is number i of the file, from 1 in 2dm, obj, landxml and the
 /// fields of geopackage, from 0 in ply and off. The same bytes for the same TIN, on any day.
-/// Throws: BadParameter when the format does not keep the unit; BadInput naming the vertex or triangle when a
-/// coordinate is not finite, a vertex is not there or the format cannot number so many; IoError, also when the file
-/// exists; Cancelled. Source: Aquaveo, 2DM files; Turk 1994, The PLY polygon file format; ASPRS LAS 1.2;
-/// LandXML-1.2.xsd.
+/// \pre a TIN; crs as in Grid, kept by ply, obj, off (comment), geopackage, landxml and las (EPSG code), "" for none;
+/// the unit of its heights, which 2dm (name of the mesh), ply, obj and off (comment) keep: other formats hold metres.
+/// \param tin the TIN
+/// \param crs "EPSG:n" or WKT; "": none
+/// \param path path of the file
+/// \param format the format
+/// \param unit the unit
+/// \param run progress, log, stop token and number of threads
+/// \throws BadParameter when the format does not keep the unit
+/// \throws BadInput naming the vertex or triangle when a coordinate is not finite, a vertex is not there or the format
+/// cannot number so many
+/// \throws IoError also when the file exists
+/// \throws Cancelled
+///
+/// Source: Aquaveo, 2DM files; \cite turk1994, The PLY polygon file format; ASPRS LAS 1.2; LandXML-1.2.xsd.
 void write_tin(Tin const& tin, std::string const& crs, std::string const& path, TinFormat format,
                HeightUnit unit = HeightUnit::metre, Run const& run = {});
 

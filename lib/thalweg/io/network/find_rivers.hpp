@@ -13,10 +13,12 @@ struct RiverSource {
 };
 
 /// Looks for rivers.
-/// Takes: a file that OGR reads, a zip archive of one, a folder of shapefiles, the folder that `make` or `convert`
-/// wrote (its network.gpkg, else its only NAME_arcs file or its only GeoPackage), or a database ("PG:..."). Throws:
-/// BadInput that says what is there instead: nothing, an empty file or folder, a raster, no layer with lines, a file
-/// that GDAL cannot read; IoError.
+/// \param path a file that OGR reads, a zip archive of one, a folder of shapefiles, the folder that `make` or `convert`
+/// wrote (its network.gpkg, else its only NAME_arcs file or its only GeoPackage), or a database ("PG:...")
+/// \return where the rivers are
+/// \throws BadInput that says what is there instead: nothing, an empty file or folder, a raster, no layer with lines, a
+/// file that GDAL cannot read
+/// \throws IoError
 RiverSource find_rivers(std::string const& path);
 
 } // namespace thalweg::io

@@ -12,6 +12,7 @@
 
 namespace thalweg::io {
 
+/// Options of read_network().
 struct ReadNetworkParams {
     std::optional<Schema> schema = {};              ///< without it, it is recognised by the fields
     std::map<std::string, std::string> fields = {}; ///< a quantity (name_of), or node_id, to the field that holds it
@@ -22,37 +23,39 @@ struct ReadNetworkParams {
 };
 
 /// Reads anyone's network as it stands: ids may repeat, links lead nowhere, lines be empty or wrong.
-///
-/// Takes: anything OGR reads: a GeoPackage, FlatGeobuf, GeoJSON, a shapefile, a file geodatabase, a database
+/// \param path anything OGR reads: a GeoPackage, FlatGeobuf, GeoJSON, a shapefile, a file geodatabase, a database
 /// ("PG:dbname=..."), the folder of network.gpkg or of NAME_arcs.shp; with a NAME_arcs file its NAME_nodes (given
 /// either). Fields are those of the schema in any case of letters, but for those that params.fields names; when these
 /// tell arc_id and ds_arc, or arc_id, from_node and to_node, no schema is needed. Nor is one under any_lines: arcs have
 /// the numbers of their features, from 1, and the links that docs/river_files.md lists, if any. A column that is the
-/// feature id of its format is found like a field. The source is opened to be read only, and nothing is left beside it.
-///
-/// Gives: arcs drawn downstream (where the lines of most linked arcs are drawn up, all are turned), in metres (what is
+/// feature id of its format is found like a field. The source is opened to be read only, and nothing is left beside it
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return arcs drawn downstream (where the lines of most linked arcs are drawn up, all are turned), in metres (what is
 /// not in a projected CRS in metres is brought into its UTM zone, to 1e-6 m), areas in m2; NetworkFile::says tells
 /// which columns there were. Without a layer of nodes a node is made for each id of an end, at the place that most of
 /// these ends have, or, where ends have no ids, for each place in plan. Without ds_arc it is the arc that begins where
 /// an arc ends. What had to be bent or passed over is in NetworkFile::findings, each where its arc begins and by the
-/// number that the file has; whatever is wrong is left for a check to find.
-///
-/// Kinds of finding (feature; amount), the first thousand of a kind and how many more there are: missing_field (none;
-/// fields), missing_nodes (none; 0), text_number (none; 0), null_number and not_a_number (arc; 0), which stand as 0;
-/// not_a_line (none; features passed over), multi_part (arc; parts: when they join end to end they are one line, else
-/// each is an arc of the same id), curve (arc; vertices of its line), measures (none; arcs whose M is left out),
-/// no_heights (none; arcs), no_crs (none; 0), reprojected (none; 0), heights_converted (none; metres of a unit), turned
-/// (none; arcs), by_feature (none; arcs of a file taken so under any_lines), as_text (none; columns of a type that is
-/// kept as texts), not_utf8 (none; texts of which bytes are kept as \xNN), cut_below (arc; the number of the arc
-/// downstream, which the file does not hold: an outlet).
-///
-/// Throws: BadInput: no such file or layer, several layers, a schema that is not recognised (lists what was looked
-/// for), no field of arc ids, a field without numbers, arcs and nodes in different CRS; IoError: the file is damaged,
-/// locked, or left in the middle of a change; Cancelled.
+/// number that the file has; whatever is wrong is left for a check to find. Kinds of finding (feature; amount), the
+/// first thousand of a kind and how many more there are: missing_field (none; fields), missing_nodes (none; 0),
+/// text_number (none; 0), null_number and not_a_number (arc; 0), which stand as 0; not_a_line (none; features passed
+/// over), multi_part (arc; parts: when they join end to end they are one line, else each is an arc of the same id),
+/// curve (arc; vertices of its line), measures (none; arcs whose M is left out), no_heights (none; arcs), no_crs (none;
+/// 0), reprojected (none; 0), heights_converted (none; metres of a unit), turned (none; arcs), by_feature (none; arcs
+/// of a file taken so under any_lines), as_text (none; columns of a type that is kept as texts), not_utf8 (none; texts
+/// of which bytes are kept as \\xNN), cut_below (arc; the number of the arc downstream, which the file does not hold:
+/// an outlet).
+/// \throws BadInput no such file or layer, several layers, a schema that is not recognised (lists what was looked for),
+/// no field of arc ids, a field without numbers, arcs and nodes in different CRS
+/// \throws IoError the file is damaged, locked, or left in the middle of a change
+/// \throws Cancelled
 NetworkFile read_network(std::string const& path, ReadNetworkParams const& params, Run const& run = {});
 
 /// Reads a network in the native schema with all its layers and fields, lines with Z, numbers that are there and whole.
-/// Throws: like the other, and BadInput instead of every finding.
+/// \param path path of the file
+/// \param run progress, log, stop token and number of threads
+/// \return the network as its file has it
+/// \throws Error like the other, and BadInput instead of every finding
 NetworkFile read_network(std::string const& path, Run const& run = {});
 
 } // namespace thalweg::io

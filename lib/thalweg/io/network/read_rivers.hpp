@@ -16,6 +16,7 @@ enum class LineFilter : std::uint8_t {
     none     ///< all of them
 };
 
+/// Options of read_rivers().
 struct ReadRiversParams {
     std::string path = {};             ///< anything OGR opens: GeoPackage, Shapefile, GeoJSON, FlatGeobuf, ...
     std::string layer = {};            ///< "" takes the only line layer
@@ -27,15 +28,19 @@ struct ReadRiversParams {
 };
 
 /// Reads the lines of any OGR source, multi-part lines part by part, curves as OGR linearises them, reprojected and
-/// rounded to 1e-6 m. Heights are kept (in metres), measures ignored. Field names are found in any case of letters.
-/// The feature of a line is its number in the layer's order, from 1. Fields of NHDPlus, HydroRIVERS, EU-Hydro,
+/// rounded to 1e-6 m. Heights are kept (in metres), measures ignored. Field names are found in any case of letters. The
+/// feature of a line is its number in the layer's order, from 1. Fields of NHDPlus, HydroRIVERS, EU-Hydro,
 /// OpenStreetMap and of networks say which line is downstream, which channel is a minor one and how great a river is.
-/// Features without a line of some length (null, empty, points that are all one) are left out: findings.
-/// has_z: every vertex has a height, and not all are the same (files that fill Z with 0 have none).
-/// Throws: BadInput naming file, layer and feature: missing file, layer or named field, no or several line layers, no
-/// features, something that is no line, no CRS, coordinates that are not finite or cannot be reprojected, nothing
-/// left, a lambda that is no whole number from 1 to 50; IoError when the file cannot be read to its
-/// end; Cancelled.
+/// Features without a line of some length (null, empty, points that are all one) are left out: findings. has_z: every
+/// vertex has a height, and not all are the same (files that fill Z with 0 have none).
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return the lines
+/// \throws BadInput naming file, layer and feature: missing file, layer or named field, no or several line layers, no
+/// features, something that is no line, no CRS, coordinates that are not finite or cannot be reprojected, nothing left,
+/// a lambda that is no whole number from 1 to 50
+/// \throws IoError when the file cannot be read to its end
+/// \throws Cancelled
 RiverLines read_rivers(ReadRiversParams const& params, Run const& run = {});
 
 } // namespace thalweg::io

@@ -74,11 +74,14 @@ enum class Quantity : std::uint8_t {
     constant,    ///< nothing: the field's value or text, always
 };
 
-/// The name by which a user names a quantity: of the columns of the network schema theirs.
+/// \param quantity the quantity
+/// \return the name by which a user names a quantity: of the columns of the network schema theirs.
 std::string_view name_of(Quantity quantity);
-/// Nothing where there is none of this name.
+/// \param name its name
+/// \return nothing where there is none of this name.
 std::optional<Quantity> quantity_of(std::string_view name);
 
+/// A field of a schema.
 struct SchemaField {
     Quantity quantity = Quantity::constant;
     std::string_view name = {}; ///< as its owner writes it; found in any case of letters
@@ -108,9 +111,13 @@ struct SchemaTable {
 
 SchemaTable const& table_of(Schema schema);
 std::span<SchemaTable const> all_schemas();
-/// "native, taudem, ..." are the names. Throws: BadInput with a suggestion when it is none.
+/// \param name its name
+/// \return "native, taudem, ..." are the names.
+/// \throws BadInput with a suggestion when it is none
 Schema schema_named(std::string const& name);
-/// The field of a quantity; null when the schema has none.
+/// \param table the table
+/// \param quantity the quantity
+/// \return the field of a quantity; null when the schema has none.
 SchemaField const* field_of(SchemaTable const& table, Quantity quantity);
 
 } // namespace thalweg::io

@@ -41,19 +41,43 @@ struct Table {
 };
 
 /// Writes tables as the layers of a new GeoPackage, those without shape as attribute tables.
-/// Gives: the same bytes for the same tables. Throws: BadInput naming table, row and column when a number is not finite
-/// or does not fit its column; IoError, also when the file exists.
+/// \post the same bytes for the same tables.
+/// \param tables the values of the tables
+/// \param crs "EPSG:n" or WKT; "": none
+/// \param path path of the file
+/// \param run progress, log, stop token and number of threads
+/// \throws BadInput naming table, row and column when a number is not finite or does not fit its column
+/// \throws IoError also when the file exists
 void write_tables(std::vector<Table> const& tables, std::string const& crs, std::string const& path,
                   Run const& run = {});
 
-/// Writes a table with shapes as a new shapefile PATH (ends in .shp), UTF-8. Gives and throws: like write_tables.
+/// Writes a table with shapes as a new shapefile PATH (ends in .shp), UTF-8.
+/// \post like write_tables.
+/// \param table the table
+/// \param crs "EPSG:n" or WKT; "": none
+/// \param path path of the file
+/// \param run progress, log, stop token and number of threads
+/// \throws Error like write_tables
 void write_shapefile(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
 
-/// Writes a table with shapes as a new FlatGeobuf, with its spatial index. Gives and throws: like write_tables.
+/// Writes a table with shapes as a new FlatGeobuf, with its spatial index.
+/// \post like write_tables.
+/// \param table the table
+/// \param crs "EPSG:n" or WKT; "": none
+/// \param path path of the file
+/// \param run progress, log, stop token and number of threads
+/// \throws Error like write_tables
 void write_flatgeobuf(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
 
 /// Writes a table with shapes as new GeoJSON in its own coordinates, the CRS named as GeoJSON of 2008 does: RFC 7946
-/// would round them to degrees. Gives and throws: like write_tables; BadInput also when the CRS has no EPSG code.
+/// would round them to degrees.
+/// \post like write_tables; BadInput also when the CRS has no EPSG code.
+/// \param table the table
+/// \param crs "EPSG:n" or WKT; "": none
+/// \param path path of the file
+/// \param run progress, log, stop token and number of threads
+/// \throws Error like write_tables
+/// \throws BadInput also when the CRS has no EPSG code
 void write_geojson(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
 
 } // namespace thalweg::io

@@ -47,21 +47,29 @@ struct NetworkTables {
 /// fields of the network schema and five more by arc: survives (real [cells]; -1 for infinity), feature (integer), type
 /// (text; none where there is none), braided (integer, 1 or 0) and given (integer, 0 for a side valley that the land
 /// has grown, else 1). dist_out of an arc counts from its downstream end, as NHDPlus (Pathlength) and HydroRIVERS
-/// (DIST_DN_KM) have it. arc_id is the arc's number + 1, node_id the node's
-/// + 1. Where there are ridges, also the layer ridges (LineStringZ): ridge_id, the ridge's number + 1; left and right,
-/// the labels of its streams; length [m] in plan; z_min and z_max [m]. Where there are lines that are not in the
-/// network, also the layer secondary (LineString): feature, reason (text) and length [m]. Shapefiles have neither.
-/// With user data: its columns in arcs and secondary, those with a name of ours as u_NAME, and the table sources:
-/// arc_id, feature, from_m and to_m [m] along the arc from its upstream end.
-/// Gives: the same bytes for the same network, on any day. Throws: BadInput naming the arc or node when the values do
-/// not belong to the network, an arc's end is not its node, a node reaches no outlet, a ridge has fewer than two
-/// vertices, a number is not finite or, in a shapefile, has more digits than its field; IoError, also when the file
-/// exists.
+/// (DIST_DN_KM) have it. arc_id is the arc's number + 1, node_id the node's + 1. Where there are ridges, also the layer
+/// ridges (LineStringZ): ridge_id, the ridge's number + 1; left and right, the labels of its streams; length [m] in
+/// plan; z_min and z_max [m]. Where there are lines that are not in the network, also the layer secondary (LineString):
+/// feature, reason (text) and length [m]. Shapefiles have neither. With user data: its columns in arcs and secondary,
+/// those with a name of ours as u_NAME, and the table sources: arc_id, feature, from_m and to_m [m] along the arc from
+/// its upstream end.
+/// \post the same bytes for the same network, on any day.
+/// \param tables the values of the tables
+/// \param path path of the file
+/// \param run progress, log, stop token and number of threads
+/// \throws BadInput naming the arc or node when the values do not belong to the network, an arc's end is not its node,
+/// a node reaches no outlet, a ridge has fewer than two vertices, a number is not finite or, in a shapefile, has more
+/// digits than its field
+/// \throws IoError also when the file exists
 void write_geopackage(NetworkTables const& tables, std::string const& path, Run const& run = {});
 
 /// Writes the shapefiles PATH_arcs.* and PATH_nodes.* with the same fields, UTF-8: reals of 24 characters (9 decimals
-/// for lengths, 6 for areas, 15 for slopes); user columns as shortened_names has them. Gives and throws: like
-/// write_geopackage.
+/// for lengths, 6 for areas, 15 for slopes); user columns as shortened_names has them.
+/// \post like write_geopackage.
+/// \param tables the values of the tables
+/// \param path path of the file
+/// \param run progress, log, stop token and number of threads
+/// \throws Error like write_geopackage
 void write_shapefiles(NetworkTables const& tables, std::string const& path, Run const& run = {});
 
 /// A column of a user, and its name in shapefiles, where that differs from the one in other formats: names have at most
@@ -84,6 +92,7 @@ enum class NetworkFormat : std::uint8_t {
     mask     ///< a raster of bytes, 1 in the cells that rivers run through
 };
 
+/// A network format name.
 struct NetworkFormatName {
     NetworkFormat format;
     char const* name;   ///< "gpkg"
@@ -91,26 +100,36 @@ struct NetworkFormatName {
 };
 std::vector<NetworkFormatName> const& network_formats();
 
-/// The format of a name, or where it is "" of a path's ending, in any case of letters.
-/// Throws: BadParameter that lists the names there are.
+/// \param name its name
+/// \param path path of the file
+/// \return the format of a name, or where it is "" of a path's ending, in any case of letters.
+/// \throws BadParameter that lists the names there are
 NetworkFormat network_format(std::string const& name, std::string const& path);
 
+/// Options of network_files().
 struct WriteNetworkParams {
     NetworkFormat format = NetworkFormat::geopackage;
     Schema schema = Schema::native;
     Grid grid = {}; ///< of the mask
 };
 
-/// The files that a network written to a path has, PATH's folder left out: PATH itself, or in the network schema
-/// NAME_arcs and NAME_nodes of shapefile, FlatGeobuf and GeoJSON; of a shapefile all it may have, .shp first.
+/// \param path path of the file
+/// \param params options, each with its default, unit and range
+/// \return the files that a network written to a path has, PATH's folder left out: PATH itself, or in the network
+/// schema NAME_arcs and NAME_nodes of shapefile, FlatGeobuf and GeoJSON; of a shapefile all it may have, .shp first.
 std::vector<std::string> network_files(std::string const& path, WriteNetworkParams const& params);
 
 /// Writes a network in any format and anyone's schema: in the network schema both layers as write_geopackage has them,
 /// in another its layer of arcs alone (nodes too where it is a graph).
-/// Gives: the same bytes for the same network, on any day. Lines are bit for bit those of the network; numbers
-/// in text (GraphML, CSV, edge lists) are the shortest that read back the same. Quantities that are not known are
-/// what the schema has for them (schema.hpp). Throws: as write_geopackage; BadInput, naming the place, also when more
-/// arcs meet than the schema can name, or GeoJSON cannot name the CRS.
+/// \post the same bytes for the same network, on any day. Lines are bit for bit those of the network; numbers in text
+/// (GraphML, CSV, edge lists) are the shortest that read back the same. Quantities that are not known are what the
+/// schema has for them (schema.hpp).
+/// \param tables the values of the tables
+/// \param path path of the file
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \throws Error as write_geopackage
+/// \throws BadInput naming the place, also when more arcs meet than the schema can name, or GeoJSON cannot name the CRS
 void write_network(NetworkTables const& tables, std::string const& path, WriteNetworkParams const& params = {},
                    Run const& run = {});
 

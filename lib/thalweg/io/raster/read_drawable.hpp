@@ -22,10 +22,15 @@ struct Drawable {
 /// in metres is warped (bilinear) into the UTM zone of its centre, or, wider than 12 degrees or near a pole, into an
 /// equal-area projection centred on it; cells that are no squares, rotated or south-up are made north-up squares; of
 /// several bands the first is taken; without a CRS coordinates count as metres.
-/// Gives: notes, one for each such change; no-data and masked cells as NaN, scale and offset applied.
-/// Takes: most_side: [16, 30000] cells.
-/// Throws: BadParameter; BadInput: no such file, not a raster, complex numbers, no heights at all, a height beyond
-/// 1e30, a place without projection; IoError; Cancelled.
+/// \param path path of the file
+/// \param most_side [16, 30000] cells
+/// \param run progress, log, stop token and number of threads
+/// \return notes, one for each such change; no-data and masked cells as NaN, scale and offset applied.
+/// \throws BadParameter
+/// \throws BadInput no such file, not a raster, complex numbers, no heights at all, a height beyond 1e30, a place
+/// without projection
+/// \throws IoError
+/// \throws Cancelled
 Drawable read_drawable(std::string const& path, std::int64_t most_side = 4000, Run const& run = {});
 
 } // namespace thalweg::io

@@ -9,24 +9,36 @@
 
 namespace thalweg::io {
 
-/// Whether a file is one that OGR reads and has a layer of polygons. Throws: BadInput when there is none or GDAL
-/// cannot read it.
+/// \param path path of the file
+/// \return whether a file is one that OGR reads and has a layer of polygons.
+/// \throws BadInput when there is none or GDAL cannot read it
 bool holds_polygons(std::string const& path);
 
-/// The CRS in metres in which a file's polygons are read where none is asked for: the file's own when it is projected
-/// in metres, else the UTM zone of the middle of its box. Throws: BadInput as read_polygons, and for a file without
-/// CRS.
+/// \param path path of the file
+/// \return the CRS in metres in which a file's polygons are read where none is asked for: the file's own when it is
+/// projected in metres, else the UTM zone of the middle of its box.
+/// \throws BadInput as read_polygons, and for a file without CRS
 std::string crs_for_polygons(std::string const& path);
 
 /// Reads the polygons of any OGR source, multi-part ones part by part, curves as OGR linearises them.
-/// Takes: the CRS of the result as in Grid, "" for none. Gives: vertices reprojected and rounded to 1e-6 of a unit.
-/// Throws: BadInput naming file, layer and feature: missing file, no or several layers of polygons, no features,
+/// \pre the CRS of the result as in Grid, "" for none.
+/// \param path path of the file
+/// \param crs "EPSG:n" or WKT; "": none
+/// \param run progress, log, stop token and number of threads
+/// \return vertices reprojected and rounded to 1e-6 of a unit.
+/// \throws BadInput naming file, layer and feature: missing file, no or several layers of polygons, no features,
 /// something that is no polygon, coordinates that are not finite or cannot be reprojected, a CRS on one side only
-/// (naming both); IoError when the file cannot be read to its end; Cancelled.
+/// (naming both)
+/// \throws IoError when the file cannot be read to its end
+/// \throws Cancelled
 Polygons read_polygons(std::string const& path, std::string const& crs, Run const& run = {});
 
-/// The same, each with the value of a numeric field. Throws: also BadInput when the layer has no such field, or a
-/// feature no finite value in it.
+/// \param path path of the file
+/// \param crs "EPSG:n" or WKT; "": none
+/// \param field name of a numeric field
+/// \param run progress, log, stop token and number of threads
+/// \return the same, each with the value of a numeric field.
+/// \throws Error also BadInput when the layer has no such field, or a feature no finite value in it
 Polygons read_polygons(std::string const& path, std::string const& crs, std::string const& field, Run const& run = {});
 
 } // namespace thalweg::io

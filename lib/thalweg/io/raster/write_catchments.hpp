@@ -36,9 +36,15 @@ struct CatchmentCount {
 /// Writes a new GeoPackage of outlines along the edges of cells (MultiPolygon), in the grid's CRS. Layer catchments:
 /// arc_id, ds_arc, basin_id, cells (integer), area and ds_area [m2] (real): of the catchment, and of all that drains to
 /// the arc's lower end, as arcs have it; an arc without cells has no catchment. Layer basins: basin_id, arcs, cells
-/// (integer), area. Gives: polygons that tile the cells with a number, valid and without gaps or overlaps; the same
-/// bytes for the same tables. Throws: BadInput when the cells of a row are not as many as it says; IoError, also when
-/// the file exists; Cancelled.
+/// (integer), area.
+/// \param tables the values of the tables
+/// \param path path of the file
+/// \param run progress, log, stop token and number of threads
+/// \return polygons that tile the cells with a number, valid and without gaps or overlaps; the same bytes for the same
+/// tables.
+/// \throws BadInput when the cells of a row are not as many as it says
+/// \throws IoError also when the file exists
+/// \throws Cancelled
 CatchmentCount write_catchments(CatchmentTables const& tables, std::string const& path, Run const& run = {});
 
 } // namespace thalweg::io

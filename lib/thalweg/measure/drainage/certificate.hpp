@@ -47,7 +47,7 @@ struct Certificate {
     double max_area_difference = 0.0; ///< greatest relative difference of it from that of the DEM
     std::vector<Finding> findings;    ///< feature: the reach's id
 
-    /// What holds for a network that the DEM drains; the rest is told.
+    /// \return what holds for a network that the DEM drains; the rest is told.
     std::vector<Check> checks() const;
 };
 
@@ -65,10 +65,16 @@ struct Claims {
 /// Kinds of finding (amount): depression (depth [m]), water_leaves: a river cell whose water leaves its river (drop to
 /// where it goes [m]), source_astray (straight distance from its water's end to its outlet [m]), border_cell (0),
 /// outside_dem: a reach that leaves the DEM's data (its cells without). Lists of each kind end with the thousandth.
-/// Takes: reaches with their parts in the DEM's grid; drainage of that DEM, to its sinks where there are any.
-/// Gives: the certificate, of the DEM's own steepest descent (flow::route) and the reaches' own cells (cells_along),
-/// without corners, which a diagonal step of the reach passes. Throws: BadInput: drainage or claims are not of this DEM
-/// or these reaches; as river_cells; Cancelled.
+/// \pre reaches with their parts in the DEM's grid; drainage of that DEM, to its sinks where there are any.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param drainage the flow field of the DEM
+/// \param reaches the reaches
+/// \param claims what the network claims
+/// \param run progress, log, stop token and number of threads
+/// \return the certificate, of the DEM's own steepest descent (flow::route) and the reaches' own cells (cells_along),
+/// without corners, which a diagonal step of the reach passes.
+/// \throws BadInput drainage or claims are not of this DEM or these reaches; as river_cells
+/// \throws Cancelled
 Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, std::vector<flow::Reach> const& reaches,
                     Claims const& claims = {}, Run const& run = {});
 

@@ -19,9 +19,16 @@ struct ExtractedRidges {
 };
 
 /// Extracts ridges as the streams of the DEM upside down, and compares them with given ones as certify compares
-/// streams. Takes: a DEM; ridges on its grid. Gives: the agreement at the best of the thresholds that certify tries;
-/// all 0 without ridges. Throws: BadInput: as flow::route and cells_along do; Cancelled. Source: the thesis of 2015,
-/// figure 8, whose ridges are extracted so by a GIS; O'Callaghan and Mark 1984.
+/// streams.
+/// \pre a DEM; ridges on its grid.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param ridges the ridge lines
+/// \param run progress, log, stop token and number of threads
+/// \return the agreement at the best of the thresholds that certify tries; all 0 without ridges.
+/// \throws BadInput as flow::route and cells_along do
+/// \throws Cancelled
+///
+/// Source: \cite nenu2015, figure 8, whose ridges are extracted so by a GIS; \cite ocallaghan1984.
 ExtractedRidges extract_ridges(Raster<float> const& dem, RidgeLines const& ridges, Run const& run = {});
 
 } // namespace thalweg::measure

@@ -34,13 +34,17 @@ struct HortonLaws {
 };
 
 /// Counts, lengths and areas of streams by Strahler order, and their ratios.
-/// Takes: a network of trees with its Strahler orders; ds_area_m2: by arc, the area at its downstream end.
-/// Gives: a ratio is e to the slope (R_B: to its negative) of the straight line fitted by least squares to the natural
+/// \pre a network of trees with its Strahler orders
+/// \param network the network
+/// \param orders the network's orders
+/// \param ds_area_m2 by arc, the area at its downstream end
+/// \return a ratio is e to the slope (R_B: to its negative) of the straight line fitted by least squares to the natural
 /// logarithm over the order, with every order counting once, the highest and so perhaps cut one too. An order of mean 0
-/// has no logarithm and is left out; with fewer than two orders there is no ratio. Throws: BadInput when orders or
-/// areas are not one an arc, or an order is below 1.
-/// Source: Horton 1945 (laws of stream numbers and lengths); Schumm 1956 (areas); Strahler 1957 (streams as chains of
-/// equal order; the regression).
+/// has no logarithm and is left out; with fewer than two orders there is no ratio.
+/// \throws BadInput when orders or areas are not one an arc, or an order is below 1
+///
+/// Source: \cite horton1945 (laws of stream numbers and lengths); \cite schumm1956 (areas); \cite strahler1957 (streams
+/// as chains of equal order; the regression).
 HortonLaws horton(StreamNetwork const& network, NetworkOrders const& orders, std::vector<double> const& ds_area_m2);
 
 } // namespace thalweg::measure

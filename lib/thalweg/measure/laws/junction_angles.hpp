@@ -9,6 +9,7 @@
 
 namespace thalweg::measure {
 
+/// What junction_angles() returns.
 struct JunctionAngles {
     double reach_m = 0.0;       ///< over which directions were taken
     std::int64_t junctions = 0; ///< measured
@@ -18,12 +19,17 @@ struct JunctionAngles {
 };
 
 /// The angle between the two rivers that meet at a confluence.
-/// Takes: a network of trees; reach_m, above 0: how far up each river its direction is taken, on the chord from the
-/// confluence. Gives: angles in [0, 180] degrees, of all confluences of two rivers both of which go on for half the
-/// reach before they part again or begin; a shorter one is left out. On rivers drawn from cell to cell every angle
-/// over a step or two is a multiple of 45 degrees: a reach of ten cells tells directions 6 degrees apart. Where
-/// a DEM's D8 holds to one of eight directions for longer, that stays in the angles. Throws: BadParameter.
-/// Source: the angle as in Devauchelle et al. 2012 and Seybold, Rothman and Kirchner 2017, over a fixed reach.
+/// \pre a network of trees; reach_m, above 0: how far up each river its direction is taken, on the chord from the
+/// confluence.
+/// \param network the network
+/// \param reach_m [m] > 0, length of the chord
+/// \return angles in [0, 180] degrees, of all confluences of two rivers both of which go on for half the reach before
+/// they part again or begin; a shorter one is left out. On rivers drawn from cell to cell every angle over a step or
+/// two is a multiple of 45 degrees: a reach of ten cells tells directions 6 degrees apart. Where a DEM's D8 holds to
+/// one of eight directions for longer, that stays in the angles.
+/// \throws BadParameter
+///
+/// Source: the angle as in \cite devauchelle2012 and \cite seybold2017, over a fixed reach.
 JunctionAngles junction_angles(StreamNetwork const& network, double reach_m);
 
 } // namespace thalweg::measure

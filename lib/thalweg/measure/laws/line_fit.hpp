@@ -21,8 +21,10 @@ struct LineFit {
     std::int64_t points = 0;
 };
 
-/// The straight line of least squares; none through fewer than two different x.
-/// Takes: weights, one a point and above 0; or none: every point counts once.
+/// \pre weights, one a point and above 0; or none: every point counts once.
+/// \param points the points
+/// \param weights the weights
+/// \return the straight line of least squares; none through fewer than two different x.
 std::optional<LineFit> fit_line(std::vector<Vec2> const& points, std::vector<double> const& weights = {});
 
 } // namespace thalweg::measure

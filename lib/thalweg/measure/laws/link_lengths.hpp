@@ -18,14 +18,17 @@ struct LengthSpread {
     double cv = std::numeric_limits<double>::quiet_NaN();       ///< [-] population deviation over mean
 };
 
+/// What link_lengths() returns.
 struct LinkLengths {
     LengthSpread exterior;       ///< from a source to the first confluence
     LengthSpread interior;       ///< from a confluence to the next, or to the outlet
     std::optional<double> ratio; ///< mean of exterior over mean of interior links
 };
 
-/// Lengths of the links between sources, confluences and outlets; arcs that meet one to one are one link.
-/// Takes: a network of trees. Source: Shreve 1967 (links); Smart 1972 (their lengths).
+/// \param network a network of trees
+/// \return lengths of the links between sources, confluences and outlets; arcs that meet one to one are one link.
+///
+/// Source: \cite shreve1967 (links); \cite smart1972 (their lengths).
 LinkLengths link_lengths(StreamNetwork const& network);
 
 } // namespace thalweg::measure

@@ -27,6 +27,7 @@ struct NetworkLaws {
     JunctionAngles junctions;
 };
 
+/// Options of network_laws().
 struct NetworkLawsParams {
     Required<double> land_m2;               ///< [m2] above 0: the land that the rivers drain
     Required<double> junction_reach_m;      ///< [m] above 0, as junction_angles
@@ -34,8 +35,13 @@ struct NetworkLawsParams {
     std::vector<double> side_branches = {}; ///< T_1, T_2, ..., as tokunaga
 };
 
-/// Every law of a network, drawn or drained, by the verbs beside this one.
-/// Throws: BadParameter when the land or the reach is not above 0; BadInput as the verbs do.
+/// \param network the network
+/// \param orders the network's orders
+/// \param areas contributing areas
+/// \param params options, each with its default, unit and range
+/// \return every law of a network, drawn or drained, by the verbs beside this one.
+/// \throws BadParameter when the land or the reach is not above 0
+/// \throws BadInput as the verbs do
 NetworkLaws network_laws(RaisedNetwork const& network, NetworkOrders const& orders,
                          flow::ContributingAreas const& areas, NetworkLawsParams const& params);
 

@@ -34,10 +34,14 @@ struct PowerLaw {
     std::int64_t left_out = 0;   ///< without a logarithm, or in bins of too few
 };
 
-/// A law whose bins are there and whose numbers come from the line through their logarithms; nothing where there is no
-/// line, or one through fewer than least_bins points.
+/// \param law the law
+/// \param fit the fitted line
+/// \param least_bins least number of bins
+/// \return a law whose bins are there and whose numbers come from the line through their logarithms; nothing where
+/// there is no line, or one through fewer than least_bins points.
 std::optional<PowerLaw> with_line(PowerLaw law, std::optional<LineFit> const& fit, std::int64_t least_bins);
 
+/// Options of fit_power_law().
 struct PowerLawParams {
     int bins_per_decade = 4;       ///< [1, 100] of area
     std::int64_t least_places = 3; ///< [1, ...] a bin with fewer is left out
@@ -45,10 +49,14 @@ struct PowerLawParams {
 };
 
 /// The power of area by which something changes, on logarithmic bins of area.
-/// Gives: the line of least squares through the means of the logarithms in bins of equal width, every bin counting
+/// \param places the places
+/// \param params options, each with its default, unit and range
+/// \return the line of least squares through the means of the logarithms in bins of equal width, every bin counting
 /// once: small areas, of which there are most, do not outvote large ones. Places whose area or value is not above 0
 /// have no logarithm and are counted as left out. An exact power law is recovered exactly, up to rounding.
-/// Throws: BadParameter. Source: Tarboton, Bras and Rodriguez-Iturbe 1991 (bins of area).
+/// \throws BadParameter
+///
+/// Source: \cite tarboton1991 (bins of area).
 std::optional<PowerLaw> fit_power_law(std::vector<AtArea> const& places, PowerLawParams const& params = {});
 
 } // namespace thalweg::measure

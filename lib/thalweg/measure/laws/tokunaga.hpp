@@ -18,9 +18,11 @@ struct TokunagaLaw {
 };
 
 /// Tokunaga's law as drawn rivers have it.
-/// Takes: side_branches: T_1, T_2, ..., means over the streams of all orders. Gives: the line of least squares through
-/// ln T_k over k - 1; a T_k of 0 has no logarithm and is left out, with fewer than two others there is no law.
-/// Source: Tokunaga 1978; Peckham 1995; the regression: Zanardo, Zaliapin and Foufoula-Georgiou 2013.
+/// \param side_branches T_1, T_2, ..., means over the streams of all orders
+/// \return the line of least squares through ln T_k over k - 1; a T_k of 0 has no logarithm and is left out, with fewer
+/// than two others there is no law.
+///
+/// Source: \cite tokunaga1978; \cite peckham1995; the regression: \cite zanardo2013.
 std::optional<TokunagaLaw> tokunaga(std::vector<double> const& side_branches);
 
 } // namespace thalweg::measure

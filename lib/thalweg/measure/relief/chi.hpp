@@ -11,6 +11,7 @@
 
 namespace thalweg::measure {
 
+/// Options of chi().
 struct ChiParams {
     double theta = 0.45;              ///< [0, 2] concavity
     std::int64_t support_cells = 200; ///< [1, ...] cells that drain through the first cell of a river
@@ -29,10 +30,19 @@ struct Chi {
 };
 
 /// Heights along main stems against chi, the integral of (1 m2 / A)^theta along the river from its outlet.
-/// Takes: a DEM and its drainage. Gives: stems of the largest basins, from where water leaves the DEM up along the
-/// greatest area (ties: lowest direction) to the support; none shorter than least_cells. A river in equilibrium with
-/// even uplift is a straight line: r2 = 1. None where no stem is long enough or falls.
-/// Throws: BadParameter; BadInput when DEM and drainage have not one grid; Cancelled. Source: Perron and Royden 2013.
+/// \pre a DEM and its drainage.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param drainage the flow field of the DEM
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return stems of the largest basins, from where water leaves the DEM up along the greatest area (ties: lowest
+/// direction) to the support; none shorter than least_cells. A river in equilibrium with even uplift is a straight
+/// line: r2 = 1. None where no stem is long enough or falls.
+/// \throws BadParameter
+/// \throws BadInput when DEM and drainage have not one grid
+/// \throws Cancelled
+///
+/// Source: \cite perron2013.
 std::optional<Chi> chi(Raster<float> const& dem, flow::FlowField const& drainage, ChiParams const& params = {},
                        Run const& run = {});
 

@@ -15,12 +15,14 @@ enum class Form : std::uint8_t { none, flat, peak, ridge, shoulder, spur, slope,
 
 inline constexpr std::size_t form_count = 10;
 
+/// Options of geomorphons().
 struct GeomorphonParams {
     std::int64_t search_cells = 15; ///< [2, 10000] how far a cell looks; what stands there is no longer seen
     std::int64_t skip_cells = 0;    ///< [0, search) that it looks over
     double flat_deg = 1.0;          ///< (0, 45) what is less steep is level
 };
 
+/// What geomorphons() returns.
 struct Geomorphons {
     Raster<std::uint8_t> form;                    ///< by cell, a Form
     std::array<std::int64_t, form_count> cells{}; ///< of each form, from flat to pit
@@ -28,13 +30,19 @@ struct Geomorphons {
 };
 
 /// Which form each cell of a DEM has to somebody who stands there and looks in eight directions: how many rise, how
-/// many fall. Takes: NaN for no data. Gives: in each direction the steepest sight upwards and downwards of the cells
-/// nearer than the search distance (true distance: diagonals reach less far); it rises where the way up is steeper,
-/// falls where the way down is, both beyond the flatness; a direction whose first cell has no data, or with both as
-/// steep, is level. Cells nearer to the border than the search distance have no form, nor have cells without data. What
-/// GRASS's r.geomorphon (skip=0, no flat distance, its default comparison) writes, but for rounding. The same bytes for
-/// any number of threads. Throws: BadParameter; Cancelled. Source: Jasiewicz and Stepinski 2013, table of forms,
-/// figure 3.
+/// many fall.
+/// \param dem NaN for no data
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return in each direction the steepest sight upwards and downwards of the cells nearer than the search distance
+/// (true distance: diagonals reach less far); it rises where the way up is steeper, falls where the way down is, both
+/// beyond the flatness; a direction whose first cell has no data, or with both as steep, is level. Cells nearer to the
+/// border than the search distance have no form, nor have cells without data. What GRASS's r.geomorphon (skip=0, no
+/// flat distance, its default comparison) writes, but for rounding. The same bytes for any number of threads.
+/// \throws BadParameter
+/// \throws Cancelled
+///
+/// Source: \cite jasiewicz2013, table of forms, figure 3.
 Geomorphons geomorphons(Raster<float> const& dem, GeomorphonParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::measure

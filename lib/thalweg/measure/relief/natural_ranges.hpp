@@ -16,9 +16,11 @@ struct NaturalRange {
 };
 
 /// One entry a law for which a range was published; a law without one has none here.
+/// \return the published ranges
 std::span<NaturalRange const> natural_ranges();
 
-/// The range of a law, or null.
+/// \param law name of the law
+/// \return the range of a law, or null.
 NaturalRange const* natural_range(std::string_view law);
 
 } // namespace thalweg::measure

@@ -25,9 +25,10 @@ struct RealLand {
 };
 
 /// The lands beside which others are shown: a steep, dissected range, and a plateau with dendritic and trellis valleys.
+/// \return the reference DEMs
 std::span<RealLand const> real_lands();
 
-/// Shares of geomorphons, the mean of the real lands.
+/// \return Shares of geomorphons, the mean of the real lands.
 std::array<double, form_count> mean_forms();
 
 /// How far a figure of a land may be from those of real land.
@@ -38,7 +39,8 @@ struct ReliefRange {
 
 inline constexpr double land_tolerance = 1.25; ///< two lands are not all
 
-/// From the lesser of the real lands' figures over land_tolerance to the greater times it.
+/// \param figure place of the metric in relief_figures()
+/// \return from the lesser of the real lands' figures over land_tolerance to the greater times it.
 ReliefRange relief_range(std::size_t figure);
 
 } // namespace thalweg::measure

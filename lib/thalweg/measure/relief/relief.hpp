@@ -36,6 +36,7 @@ struct Relief {
     double scaled_density = std::numeric_limits<double>::quiet_NaN();   ///< [-] times the root of the support's area
 };
 
+/// Options of relief().
 struct ReliefParams {
     GeomorphonParams geomorphons = {};
     SlopeAreaParams slope_area = {};
@@ -43,13 +44,23 @@ struct ReliefParams {
     std::int64_t support_cells = 200; ///< [1, ...] for the drainage density
 };
 
-/// Takes: a DEM with its drainage and statistics. Gives: all the same figures that the parts give; hollows: hollow,
-/// footslope, valley and pit; noses: peak, ridge, shoulder and spur. The same bits for any number of threads.
-/// Throws: BadParameter; BadInput when the three are not of one DEM; Cancelled.
+/// \pre a DEM with its drainage and statistics.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param drainage the flow field of the DEM
+/// \param statistics its statistics
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return all the same figures that the parts give; hollows: hollow, footslope, valley and pit; noses: peak, ridge,
+/// shoulder and spur. The same bits for any number of threads.
+/// \throws BadParameter
+/// \throws BadInput when the three are not of one DEM
+/// \throws Cancelled
 Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
               ReliefParams const& params = {}, Run const& run = {});
 
-/// Half the sum of the differences of shares: 0 where they are alike, 1 where they have nothing in common.
+/// \param a shares by form
+/// \param b shares by form
+/// \return half the sum of the differences of shares: 0 where they are alike, 1 where they have nothing in common.
 double total_variation(std::array<double, form_count> const& a, std::array<double, form_count> const& b);
 
 } // namespace thalweg::measure

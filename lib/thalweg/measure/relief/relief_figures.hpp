@@ -24,7 +24,7 @@ struct ReliefFigure {
 
 inline constexpr std::size_t relief_figure_count = 19;
 
-/// The figures by which land is held against real land, always the same in the same order.
+/// \return the figures by which land is held against real land, always the same in the same order.
 std::array<ReliefFigure, relief_figure_count> const& relief_figures();
 
 } // namespace thalweg::measure

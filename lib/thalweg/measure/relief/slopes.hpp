@@ -28,10 +28,15 @@ struct Slopes {
 };
 
 /// Slopes of a DEM by Horn's eight neighbours.
-/// Gives: as gdaldem's slope, borders and cells beside holes left out. Aspects: of the cells that are not level, the
+/// \param dem [m] heights by cell; NaN: no data
+/// \param run progress, log, stop token and number of threads
+/// \return as gdaldem's slope, borders and cells beside holes left out. Aspects: of the cells that are not level, the
 /// share that faces within 11.25 (along) or 2.5 degrees (on) of one of the grid's eight directions, over the share that
 /// would if all aspects were as frequent, 1/2 or 1/9. The same bits for any number of threads.
-/// Throws: BadInput when the cell size is not positive; Cancelled. Source: Horn 1981.
+/// \throws BadInput when the cell size is not positive
+/// \throws Cancelled
+///
+/// Source: \cite horn1981.
 Slopes slopes(Raster<float> const& dem, Run const& run = {});
 
 } // namespace thalweg::measure

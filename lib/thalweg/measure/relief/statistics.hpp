@@ -10,11 +10,13 @@
 
 namespace thalweg::measure {
 
+/// A height and its place.
 struct Extreme {
     double z = 0.0; ///< [m]
     Cell cell;      ///< the first such cell by index
 };
 
+/// What statistics() returns.
 struct Statistics {
     std::int64_t cells = 0; ///< cells with data
     std::int64_t nodata = 0;
@@ -36,12 +38,18 @@ struct Statistics {
 };
 
 /// Mean, deviation, extremes, slope, correlation and fractal dimension of a DEM; NaN cells are left out, and so are
-/// pairs with them. Gives: slopes by central differences along columns and rows; one-sided at the border and beside a
-/// hole; an axis along which a cell has no neighbour counts as level. Correlation lengths where the correlation of all
-/// pairs of cells along an axis falls to 1/e within half the extent, else of a fit (extrapolated). The same bits for
-/// any number of threads; memory for some rows beside the DEM. Throws: BadInput when no cell has data, a height is
-/// infinite or the cell size is not positive; Cancelled. Source: paper 001, table 4 (slope in radians on unit cells;
-/// population deviation; roughness is not defined there) and sections 2 and 3.4.
+/// pairs with them.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param run progress, log, stop token and number of threads
+/// \return slopes by central differences along columns and rows; one-sided at the border and beside a hole; an axis
+/// along which a cell has no neighbour counts as level. Correlation lengths where the correlation of all pairs of cells
+/// along an axis falls to 1/e within half the extent, else of a fit (extrapolated). The same bits for any number of
+/// threads; memory for some rows beside the DEM.
+/// \throws BadInput when no cell has data, a height is infinite or the cell size is not positive
+/// \throws Cancelled
+///
+/// Source: \cite zhang, table 4 (slope in radians on unit cells; population deviation; roughness is not defined there)
+/// and sections 2 and 3.4.
 Statistics statistics(Raster<float> const& dem, Run const& run = {});
 
 } // namespace thalweg::measure

@@ -12,6 +12,7 @@
 
 namespace thalweg::measure {
 
+/// Options of check_topology().
 struct TopologyParams {
     double near_m = 0.0; ///< [m] >= 0: ends closer than this should have met, a line that comes back closer is a
                          ///< spike; 0 takes 1e-6 of the box's diagonal, which is where adopt joins ends
@@ -41,19 +42,26 @@ struct TopologyReport {
 };
 
 /// Checks a network as it stands in its file: ends, direction, trees, orders, heights, geometry, meetings.
-/// Gives: no finding exactly when the file keeps every law of the network schema, of what it says (NetworkFile::says).
+/// \param file the network as its file has it
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return no finding exactly when the file keeps every law of the network schema, of what it says (NetworkFile::says).
 /// Meetings are exact (CGAL). A fault is named once: what can be known in spite of it is checked as if it were mended.
 /// So an arc on an earlier one's vertices is only that; an end that misses its node belongs to the node in its place;
 /// an end that dangles to what it nearly meets. Orders and basins are not checked below a cycle or where a river
 /// divides, since they are those of trees. Nothing in the file is believed: whatever it holds becomes findings, never
-/// an error. Throws: BadParameter; Cancelled.
+/// an error.
+/// \throws BadParameter
+/// \throws Cancelled
 TopologyReport check_topology(NetworkFile const& file, TopologyParams const& params = {}, Run const& run = {});
 
-/// The kinds of finding, in the order of the checks.
+/// \return the kinds of finding, in the order of the checks.
 std::vector<std::string> topology_kinds();
 
-/// What a network will be in its file: arc_id is the arc's number and node_id the node's, both from 1.
-/// Throws: BadInput when the orders are not those of the network.
+/// \param network the network
+/// \param orders the network's orders
+/// \return what a network will be in its file: arc_id is the arc's number and node_id the node's, both from 1.
+/// \throws BadInput when the orders are not those of the network
 NetworkFile as_file(RaisedNetwork const& network, NetworkOrders const& orders);
 
 } // namespace thalweg::measure

@@ -12,6 +12,7 @@
 
 namespace thalweg::network {
 
+/// Options of channels().
 struct ChannelsParams {
     std::int64_t look_cells = 8; ///< [0, 64] a cell runs into the farthest of so many downstream that is its neighbour
     std::int64_t stub_cells = 8; ///< [0, ...] shorter ways that begin where rivers share cells are left out
@@ -27,15 +28,21 @@ struct ChannelsOfArcs {
 };
 
 /// Draws a network into cells and says where the water of each goes.
-/// Takes: a network inside the grid (cells_along; the grid's outer edges belong to its outermost cells).
-/// Gives: channels that keep their law, without heights. A cell under several arcs belongs to that with the fewest arcs
-/// to its outlet (ties: the lower number). Loops within cells are left out. An arc that meets cells of another, or
+/// \pre a network inside the grid (cells_along; the grid's outer edges belong to its outermost cells).
+/// \param network the network
+/// \param grid the grid
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return channels that keep their law, without heights. A cell under several arcs belongs to that with the fewest
+/// arcs to its outlet (ties: the lower number). Loops within cells are left out. An arc that meets cells of another, or
 /// would step across its diagonal, flows into it there; that is noted where the other is not downstream of it. No two
 /// diagonal steps cross. Then a cell flows into the farthest cell of the next look_cells downstream that is its
 /// neighbour, and cells left without water from above that are no sources are left out, until nothing changes: no cell
 /// has a neighbour among those look_cells but the next, unless a diagonal lies between. Sources stay. Outlets inside
-/// the grid are roots too. Throws: BadParameter; BadInput for a vertex outside the grid or a network that is no forest;
-/// Cancelled.
+/// the grid are roots too.
+/// \throws BadParameter
+/// \throws BadInput for a vertex outside the grid or a network that is no forest
+/// \throws Cancelled
 ChannelsOfArcs channels(StreamNetwork const& network, Grid const& grid, ChannelsParams const& params = {},
                         Run const& run = {});
 

@@ -11,6 +11,7 @@
 
 namespace thalweg::network {
 
+/// Options of choose_lakes().
 struct ChooseLakesParams {
     double share = 0.1;             ///< [0, 1] of the reaches with enough area that get a lake
     double min_area_cells = 2000.0; ///< [0, ...] drainage area from which a reach may have one: lakes are cells
@@ -20,10 +21,16 @@ struct ChooseLakesParams {
 };
 
 /// Chooses reaches that run through a lake, and its shape: grown from a cell of the river by noise, faster along it.
-/// Takes: channels and by arc its drainage area [m2].
-/// Gives: labels for flood_lakes, from 1 in the order of arcs; lakes keep three cells from one another and from the
+/// \pre channels and by arc its drainage area [m2].
+/// \param drawn what was drawn
+/// \param area_m2 [m2] drainage area by arc
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return labels for flood_lakes, from 1 in the order of arcs; lakes keep three cells from one another and from the
 /// grid's edge, so that some find less room. Chance is the hash of (seed, arc).
-/// Throws: BadParameter; BadInput for areas of other arcs; Cancelled.
+/// \throws BadParameter
+/// \throws BadInput for areas of other arcs
+/// \throws Cancelled
 Raster<std::int32_t> choose_lakes(ChannelsOfArcs const& drawn, std::vector<double> const& area_m2,
                                   ChooseLakesParams const& params = {}, Run const& run = {});
 

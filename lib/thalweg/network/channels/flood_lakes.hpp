@@ -19,6 +19,7 @@ struct Lake {
     std::int64_t cells = 0;  ///< level ones
 };
 
+/// What flood_lakes() returns.
 struct Flooded {
     ChannelsOfArcs drawn; ///< with the lakes' cells, and level set
     std::vector<Lake> lakes;
@@ -30,14 +31,18 @@ struct Flooded {
 };
 
 /// Lays lakes into channels: every cell of a lake drains to its one outlet, and stands as high.
-/// Takes: channels and a raster of labels on their grid, 0 for none; parts of a label that do not touch are lakes of
+/// \pre channels and a raster of labels on their grid, 0 for none; parts of a label that do not touch are lakes of
 /// their own.
-/// Gives: channels that keep their law; of each lake the cells that hang together by sides or corners, each flowing to
+/// \param drawn what was drawn
+/// \param labels labels by cell; 0: none
+/// \param run progress, log, stop token and number of threads
+/// \return channels that keep their law; of each lake the cells that hang together by sides or corners, each flowing to
 /// the next on a shortest way to the outlet. The outlet: of the river cells from which water leaves the lake for good,
 /// the one with the most river cells above it. Lakes keep a cell away from the grid's edge and from each other (the
 /// greater label gives way), and but for the outlet from rivers that do not flow into them. Heights that are given:
 /// lakes take the outlet's, what flows into them is raised to it.
-/// Throws: BadInput for a raster on another grid or a label below 0; Cancelled.
+/// \throws BadInput for a raster on another grid or a label below 0
+/// \throws Cancelled
 Flooded flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& labels, Run const& run = {});
 
 } // namespace thalweg::network

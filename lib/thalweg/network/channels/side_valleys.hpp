@@ -12,10 +12,12 @@
 
 namespace thalweg::network {
 
+/// Options of side_valleys().
 struct SideValleysParams {
     std::int64_t support_cells = 200; ///< [1, ...] cells that must drain through a cell for a valley to run there
 };
 
+/// What side_valleys() returns.
 struct SideValleys {
     RaisedNetwork network;
     std::int64_t grown = 0;    ///< arcs that the land has grown
@@ -24,13 +26,22 @@ struct SideValleys {
 };
 
 /// Adds to given rivers the valleys that the land around them has grown.
-/// Takes: given rivers with heights, their channels, and the water of a land that honours these.
-/// Gives: given arcs first, cut where valleys join them, their vertices kept bit for bit; then the grown ones
+/// \pre given rivers with heights, their channels, and the water of a land that honours these.
+/// \param given the rivers of the input, with heights
+/// \param channels the channels
+/// \param dem [m] heights by cell; NaN: no data
+/// \param flow its flow field
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return given arcs first, cut where valleys join them, their vertices kept bit for bit; then the grown ones
 /// (Arc::given is false), from cell centre to cell centre along the steepest descent through every cell outside the
-/// channels with the support, to the nearest point of a given line beside the channel its water enters, or to the
-/// first cell of the border. Heights are those of the cells, not below what lies downstream. No two arcs meet but in
-/// nodes. Throws: BadParameter when the support is below 1; BadInput for rasters on another grid; Cancelled. Source:
-/// O'Callaghan and Mark 1984.
+/// channels with the support, to the nearest point of a given line beside the channel its water enters, or to the first
+/// cell of the border. Heights are those of the cells, not below what lies downstream. No two arcs meet but in nodes.
+/// \throws BadParameter when the support is below 1
+/// \throws BadInput for rasters on another grid
+/// \throws Cancelled
+///
+/// Source: \cite ocallaghan1984.
 SideValleys side_valleys(RaisedNetwork const& given, Channels const& channels, Raster<float> const& dem,
                          flow::FlowField const& flow, SideValleysParams const& params = {}, Run const& run = {});
 

@@ -17,6 +17,7 @@ enum class TypeChoice : std::uint8_t {
     by_order ///< its Strahler order
 };
 
+/// Options of assign_types().
 struct AssignTypesParams {
     TypeChoice choice = TypeChoice::by_order;
     Rosgen one = Rosgen::c; ///< under one
@@ -32,12 +33,19 @@ struct RiverTypes {
 };
 
 /// Gives every arc a type of river: the one it brings (Arc::type; "none" is none), or one by choice.
-/// Takes: a network whose components are trees; its orders.
-/// Gives: under by_order, of n types and orders 1 to W, order w has the type of the place nearest to
-/// (w - 1) / (W - 1) (n - 1) counted from 0, halves upwards; the highest order, also where it is 1, has the last.
-/// Braided are D, DA and what lies near the coast; that changes no type. Throws: BadParameter; BadInput naming the arc,
-/// its feature and place for a type nobody knows, or when the orders are another network's. Source: paper 003, section
-/// 3 and table 2; specification 3.3.
+/// \pre a network whose components are trees; its orders.
+/// \param network the network
+/// \param orders the network's orders
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return under by_order, of n types and orders 1 to W, order w has the type of the place nearest to (w - 1) / (W - 1)
+/// (n - 1) counted from 0, halves upwards; the highest order, also where it is 1, has the last. Braided are D, DA and
+/// what lies near the coast; that changes no type.
+/// \throws BadParameter
+/// \throws BadInput naming the arc, its feature and place for a type nobody knows, or when the orders are another
+/// network's
+///
+/// Source: \cite nenu2015, section 3 and table 2; specification 3.3.
 RiverTypes assign_types(StreamNetwork const& network, NetworkOrders const& orders, AssignTypesParams const& params = {},
                         Run const& run = {});
 

@@ -10,9 +10,12 @@
 namespace thalweg::network {
 
 /// Heights of the cells in which rivers run, from those of the rivers.
-/// Takes: a network with heights and the channels of its plan. Gives: by number what rasterise draws there, lowered
-/// where the way of the water rises: no cell stands below its receiver; NaN where no arc of the network runs.
-/// Throws: as rasterise.
+/// \pre a network with heights and the channels of its plan.
+/// \param network the network
+/// \param channels the channels
+/// \return by number what rasterise draws there, lowered where the way of the water rises: no cell stands below its
+/// receiver; NaN where no arc of the network runs.
+/// \throws Error as rasterise
 std::vector<float> channel_heights(RaisedNetwork const& network, Channels const& channels);
 
 } // namespace thalweg::network

@@ -8,8 +8,12 @@ namespace thalweg::network {
 
 /// Gives a network the heights that another with the same vertices has; vertices that only this one has (an outlet
 /// carried on) fall with a slope from the last known one.
-/// Takes: known, with every vertex of network but those downstream of its last known ones. slope: [m/m] > 0.
-/// Throws: BadInput when a vertex without a height has none upstream either.
+/// \pre known, with every vertex of network but those downstream of its last known ones.
+/// \param network the network
+/// \param known a network with heights
+/// \param slope [m/m] > 0
+/// \return the network with heights
+/// \throws BadInput when a vertex without a height has none upstream either
 RaisedNetwork keep_heights(StreamNetwork const& network, RaisedNetwork const& known, double slope);
 
 } // namespace thalweg::network

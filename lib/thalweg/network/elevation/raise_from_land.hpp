@@ -9,13 +9,16 @@
 namespace thalweg::network {
 
 /// Gives rivers the heights of the land that was made around them.
-/// Takes: a network, the channels of it, and the land on their grid.
-/// Gives: the network bit for bit, with heights that never rise downstream. The first vertex of a way in each channel
+/// \pre a network, the channels of it, and the land on their grid.
+/// \param network the network
+/// \param channels the channels
+/// \param land [m] the DEM on the channels' grid
+/// \return the network bit for bit, with heights that never rise downstream. The first vertex of a way in each channel
 /// cell stands as high as that cell, a source and an outlet as high as the cell they lie in, what lies between linear
 /// by length, and so does what would rise. Where the land falls along every channel, each arc falls, but those of a
 /// basin within one cell; where it is level, they are.
-/// Throws: BadInput for a network that is no forest, a vertex outside the grid, a land on another grid or without a
-/// height where a river runs.
+/// \throws BadInput for a network that is no forest, a vertex outside the grid, a land on another grid or without a
+/// height where a river runs
 RaisedNetwork raise_from_land(StreamNetwork const& network, Channels const& channels, Raster<float> const& land);
 
 } // namespace thalweg::network

@@ -15,11 +15,13 @@ enum class HeightMode : std::uint8_t {
     along_stream       ///< slope times the distance along the stream
 };
 
+/// Options of set_heights().
 struct HeightParams {
     HeightMode mode = HeightMode::straight_repaired;
     double slope = 0.087; ///< [m/m] > 0, s: tan 5 degrees in paper 000
 };
 
+/// What set_heights() changed.
 struct HeightReport {
     std::int64_t uphill_arcs = 0; ///< arcs that do not fall under straight, before any repair
     double uphill_length_m = 0.0; ///< their length
@@ -29,15 +31,21 @@ struct HeightReport {
     double rms_lift_m = 0.0; ///< over the lifted nodes
 };
 
+/// What set_heights() returns.
 struct Raised {
     RaisedNetwork network;
     HeightReport report;
 };
 
 /// Gives every node its height above the outlet (z = 0) and every vertex the linear interpolation by arc length.
-/// Gives: under straight_repaired and along_stream every arc falls strictly; no node is lowered below straight.
-/// Throws: BadParameter; BadInput for an arc of no length or a network that is no forest.
-/// Source: paper 000, section 3.3, figure 5; specification 0.3 (majorant with least slope 0.01 s).
+/// \param network the network
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return under straight_repaired and along_stream every arc falls strictly; no node is lowered below straight.
+/// \throws BadParameter
+/// \throws BadInput for an arc of no length or a network that is no forest
+///
+/// Source: \cite cao2009, section 3.3, figure 5; specification 0.3 (majorant with least slope 0.01 s).
 Raised set_heights(StreamNetwork const& network, HeightParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

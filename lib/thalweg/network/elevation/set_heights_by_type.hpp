@@ -16,17 +16,24 @@ enum class SlopeDraw : std::uint8_t {
     uniform ///< one by chance, every slope of the range alike
 };
 
+/// Options of set_heights_by_type().
 struct HeightsByTypeParams {
     SlopeDraw draw = SlopeDraw::middle;
     std::uint64_t seed = 0; ///< of uniform
 };
 
 /// Gives every node its height above the outlet (z = 0) by the slopes of its rivers' types.
-/// Takes: a network whose components are trees; the types of its arcs.
-/// Gives: z_up = z_down + slope of the arc's type times its length, the slope within the type's range; under uniform it
-/// belongs to the seed and the place of the arc's upper end. Every arc falls strictly; vertices are linear by length.
-/// Throws: BadInput for an arc of no length, a network that is no forest, or types of another network.
-/// Source: paper 003, section 3 and table 2; specification 3.3.
+/// \pre a network whose components are trees; the types of its arcs.
+/// \param network the network
+/// \param types by arc, type of river
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return z_up = z_down + slope of the arc's type times its length, the slope within the type's range; under uniform
+/// it belongs to the seed and the place of the arc's upper end. Every arc falls strictly; vertices are linear by
+/// length.
+/// \throws BadInput for an arc of no length, a network that is no forest, or types of another network
+///
+/// Source: \cite nenu2015, section 3 and table 2; specification 3.3.
 RaisedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,
                                   HeightsByTypeParams const& params = {}, Run const& run = {});
 

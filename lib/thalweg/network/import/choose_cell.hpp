@@ -9,6 +9,7 @@
 
 namespace thalweg::network {
 
+/// Options of choose_cell().
 struct ChooseCellParams {
     std::int64_t width = 0;             ///< [cells] of a grid into which the rivers must fit; 0: none is given
     std::int64_t height = 0;            ///< [cells] likewise
@@ -28,13 +29,16 @@ struct ChosenCell {
 };
 
 /// Chooses the side of a grid's cells for rivers.
-/// Takes: lines in metres.
-/// Gives: a round number (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 7.5 or 9 times a power of ten): the smallest with which the
-/// rivers' box and 5 % around it have at most usual_cells, unless the lines are drawn more coarsely: not below a tenth
-/// of the median distance of vertices, as long as the longer side has 1000 cells. Where crowded_share would
-/// be more than 0.2 %, it is smaller, as far as most_cells allow. Of a given grid the
-/// smallest with which the rivers fit into it.
-/// Throws: BadInput without lines or where all vertices lie at one place; Cancelled.
+/// \param rivers lines in metres
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return a round number (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 7.5 or 9 times a power of ten): the smallest with which
+/// the rivers' box and 5 % around it have at most usual_cells, unless the lines are drawn more coarsely: not below a
+/// tenth of the median distance of vertices, as long as the longer side has 1000 cells. Where crowded_share would be
+/// more than 0.2 %, it is smaller, as far as most_cells allow. Of a given grid the smallest with which the rivers fit
+/// into it.
+/// \throws BadInput without lines or where all vertices lie at one place
+/// \throws Cancelled
 ChosenCell choose_cell(RiverLines const& rivers, ChooseCellParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

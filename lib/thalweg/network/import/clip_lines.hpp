@@ -8,7 +8,9 @@
 namespace thalweg::network {
 
 /// Cuts lines at the edge of a grid.
-/// Gives: the parts inside, in their order; a line that leaves and returns becomes several with the same feature.
+/// \param lines the polylines
+/// \param grid the grid
+/// \return the parts inside, in their order; a line that leaves and returns becomes several with the same feature.
 /// Vertices inside are kept bit for bit; those on the edge lie on it exactly, with Z interpolated.
 RiverLines clip_lines(RiverLines const& lines, Grid const& grid);
 

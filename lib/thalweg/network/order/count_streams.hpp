@@ -20,13 +20,15 @@ struct StreamCounts {
 };
 
 /// Counts streams and their side branches.
-/// Takes: for every link the one it flows into, a lower number, or -1.
-/// Gives: counts by Strahler's rule; where three or more links meet, all but one of the highest are branches.
-/// Throws: BadInput when a link flows into one of a higher number.
-/// Source: Strahler 1957; Tokunaga 1978; Peckham 1995.
+/// \param down for every link the one it flows into, a lower number, or -1
+/// \return counts by Strahler's rule; where three or more links meet, all but one of the highest are branches.
+/// \throws BadInput when a link flows into one of a higher number
+///
+/// Source: \cite strahler1957; \cite tokunaga1978; \cite peckham1995.
 StreamCounts count_streams(std::vector<std::int64_t> const& down);
 
-/// The same of a network of trees: its arcs are the links, whatever their order.
+/// \param network the network
+/// \return the same of a network of trees: its arcs are the links, whatever their order.
 StreamCounts count_streams(StreamNetwork const& network);
 
 } // namespace thalweg::network

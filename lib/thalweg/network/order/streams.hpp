@@ -10,10 +10,14 @@
 namespace thalweg::network {
 
 /// Which stream each arc belongs to: a stream is a chain of arcs of one Strahler order.
-/// Takes: a network whose components are trees, and its orders.
-/// Gives: by arc number labels from 1, numbered by the streams' last arcs: where an arc flows into one of its own order
-/// both have one label, elsewhere they differ.
-/// Throws: BadInput when the orders are of another network, or a component is no tree. Source: Strahler 1957.
+/// \pre a network whose components are trees, and its orders.
+/// \param network the network
+/// \param orders the network's orders
+/// \return by arc number labels from 1, numbered by the streams' last arcs: where an arc flows into one of its own
+/// order both have one label, elsewhere they differ.
+/// \throws BadInput when the orders are of another network, or a component is no tree
+///
+/// Source: \cite strahler1957.
 std::vector<std::int64_t> streams(StreamNetwork const& network, NetworkOrders const& orders);
 
 } // namespace thalweg::network

@@ -11,6 +11,7 @@
 
 namespace thalweg::network {
 
+/// Options of carry_outlets().
 struct CarryParams {
     bool join = true;           ///< rivers of other basins may be joined; else an outlet without a way out stays
     double join_cells = 20.0;   ///< [cells] >= 0, what joining costs
@@ -18,6 +19,7 @@ struct CarryParams {
                                 ///< leaves for the other river
 };
 
+/// What carry_outlets() returns.
 struct Carried {
     StreamNetwork network;
     std::vector<Finding> notes; ///< one an outlet that was carried, or that could not be
@@ -26,17 +28,24 @@ struct Carried {
 /// Carries every outlet that lies inside the grid to its border by the least-cost path of cells that meets no other
 /// river, or into a vertex of a river of another basin where that costs less: the last arc is drawn on (a new arc, the
 /// last by number, where several end in the outlet), and the river that is joined becomes two arcs.
-/// Takes: a network inside the grid. Entering a cell costs the step's length times 1 + 10 / (d + 1/2)^2, d: city-block
+/// \pre a network inside the grid. Entering a cell costs the step's length times 1 + 10 / (d + 1/2)^2, d: city-block
 /// distance to the rivers [cells], and what params say. Of equal ways the straighter.
-/// Gives: drawn vertices kept bit for bit; no crossing added, neither of lines nor of the cells they are drawn into.
+/// \param network the network
+/// \param grid the grid
+/// \param params options, each with its default, unit and range
+/// \return drawn vertices kept bit for bit; no crossing added, neither of lines nor of the cells they are drawn into.
 /// notes: "carried_outlet" or "joined_outlet" (amount: metres), or "closed_basin", an outlet without a way out, left
 /// where it is; feature: the line's id in its file, or the number of the arc, from 1.
-/// Throws: BadInput for a vertex outside the grid or a network that is no forest.
+/// \throws BadInput for a vertex outside the grid or a network that is no forest
 Carried carry_outlets(StreamNetwork const& network, Grid const& grid, CarryParams const& params = {});
 
-/// The same, to the border or a cell that touches the sea by a side or corner, whichever costs less, over land alone.
-/// Takes: land, 0 for sea; every cell of a river is land. reach_cells: outlets farther away from both, in steps of
-/// king's moves, are left where they are, without a note.
+/// \pre land, 0 for sea; every cell of a river is land.
+/// \param network the network
+/// \param land the cells of land; 0: sea
+/// \param reach_cells outlets farther away from both, in steps of king's moves, are left where they are, without a note
+/// \param params options, each with its default, unit and range
+/// \return the same, to the border or a cell that touches the sea by a side or corner, whichever costs less, over land
+/// alone.
 Carried carry_outlets(StreamNetwork const& network, Mask const& land, std::int64_t reach_cells,
                       CarryParams const& params = {});
 

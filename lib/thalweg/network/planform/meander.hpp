@@ -11,6 +11,7 @@
 
 namespace thalweg::network {
 
+/// Options of meander().
 struct MeanderParams {
     double gain = 1.0;      ///< [0, 2] how far rivers wander; 0: corners and lattice steps are rounded within half a
                             ///< cell, nodes stay
@@ -18,6 +19,7 @@ struct MeanderParams {
     std::uint64_t seed = 7;
 };
 
+/// What meander() returns.
 struct Meandered {
     StreamNetwork network;
     std::int64_t rounds = 0;   ///< in which bends were eased because rivers came too close
@@ -28,19 +30,33 @@ struct Meandered {
 
 /// Lets rivers wander: rounds corners and lattice steps, bends the plain by long waves and each river by noise along
 /// it, whose wavelength and amplitude grow with drainage area.
-/// Takes: a network inside the grid whose arcs meet only in nodes; by arc its drainage area [m2] at its lower end.
-/// Gives: the same arcs between the same nodes, with a vertex a cell; nodes move with the larger river, an outlet on
+/// \pre a network inside the grid whose arcs meet only in nodes; by arc its drainage area [m2] at its lower end.
+/// \param network the network
+/// \param grid the grid
+/// \param area_m2 [m2] drainage area by arc
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return the same arcs between the same nodes, with a vertex a cell; nodes move with the larger river, an outlet on
 /// the grid's edge stays. Arcs meet only in nodes (CGAL). On the bent plain, what is gap_cells or more from a segment
 /// of a river (along one river: and eight cells on) stays so, what is nearer keeps a third of its distance: where it
 /// would not, the shift is halved there until it does. Wave: 12 widths of a valley floor, 0.08 * area [cells] ^ 0.4, at
-/// least 10 cells. Coordinates are rounded to 1e-6 m. Chance is the hash of (seed, node). Throws: BadParameter;
-/// BadInput for areas of other arcs, a vertex outside the grid, arcs that meet elsewhere, or a network that is no
-/// forest; Cancelled. Source: wavelengths of 10 to 14 widths, Leopold and Wolman 1960.
+/// least 10 cells. Coordinates are rounded to 1e-6 m. Chance is the hash of (seed, node).
+/// \throws BadParameter
+/// \throws BadInput for areas of other arcs, a vertex outside the grid, arcs that meet elsewhere, or a network that is
+/// no forest
+/// \throws Cancelled
+///
+/// Source: wavelengths of 10 to 14 widths, \cite leopold1960.
 Meandered meander(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
                   MeanderParams const& params = {}, Run const& run = {});
 
-/// The same where there is sea (0): what is on land (1) stays there, and moves the less the nearer the sea is.
-/// Takes: a mask on the network's grid.
+/// \pre a mask on the network's grid.
+/// \param network the network
+/// \param land the cells of land; 0: sea
+/// \param area_m2 [m2] drainage area by arc
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return the same where there is sea (0): what is on land (1) stays there, and moves the less the nearer the sea is.
 Meandered meander(StreamNetwork const& network, Mask const& land, std::vector<double> const& area_m2,
                   MeanderParams const& params = {}, Run const& run = {});
 

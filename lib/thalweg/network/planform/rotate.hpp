@@ -9,6 +9,7 @@
 
 namespace thalweg::network {
 
+/// Options of rotate().
 struct RotateParams {
     double turn_deg = 0.0; ///< [-180, 180] counter-clockwise
 };
@@ -19,15 +20,20 @@ struct Rotated {
     Grid grid;
 };
 
-/// A turn by chance that takes a lattice's axes and diagonals far from the grid's: 12 to 33 degrees either way.
+/// \param seed random seed
+/// \return a turn by chance that takes a lattice's axes and diagonals far from the grid's: 12 to 33 degrees either way.
 double turn_by_chance(std::uint64_t seed);
 
 /// Turns a network and puts it into the middle of a grid.
-/// Takes: a network; the grid, of which width and height may be 0: then it is a twentieth of the network's longer side
+/// \pre a network; the grid, of which width and height may be 0: then it is a twentieth of the network's longer side
 /// larger than the network, all around, two cells at least, its north-western corner as given.
-/// Gives: the same network, turned, its box in the middle of the grid; distances are kept but for coordinates rounded
+/// \param network the network
+/// \param frame the grid; a size of 0 is chosen
+/// \param params options, each with its default, unit and range
+/// \return the same network, turned, its box in the middle of the grid; distances are kept but for coordinates rounded
 /// to 1e-6 m. A turn of 0 only moves it.
-/// Throws: BadParameter; BadInput for no arcs, a coordinate that is not a number, or a network that does not fit.
+/// \throws BadParameter
+/// \throws BadInput for no arcs, a coordinate that is not a number, or a network that does not fit
 Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams const& params = {});
 
 } // namespace thalweg::network

@@ -10,6 +10,7 @@
 
 namespace thalweg::network {
 
+/// Options of split_confluences().
 struct SplitParams {
     int max_upstream = 2;    ///< [2, ...] arcs that may end in one node
     double distance_m = 0.0; ///< [m] >= 0: how far a confluence is moved; 0: the median length of the segments
@@ -22,6 +23,7 @@ struct SplitPiece {
     bool upstream = false; ///< the new node lies upstream of the confluence, not downstream
 };
 
+/// What split_confluences() returns.
 struct Split {
     RaisedNetwork network;
     std::vector<SplitPiece> pieces; ///< in the order in which they were cut, as arcs and nodes are numbered
@@ -29,12 +31,16 @@ struct Split {
 
 /// Splits nodes in which more arcs end than may: one tributary after the other is led beside the river to a node of its
 /// own, a distance downstream; at an outlet, or where there is no room downstream, upstream instead.
-/// Takes: a network whose components are trees and whose heights do not rise downstream.
-/// Gives: a network of the same laws with at most max_upstream arcs ending in a node. Arcs and nodes keep their
+/// \param network a network whose components are trees and whose heights do not rise downstream
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return a network of the same laws with at most max_upstream arcs ending in a node. Arcs and nodes keep their
 /// numbers; the new ones follow, one of each a piece, which has what the arc it was cut off has. Lines are drawn anew
 /// within a distance times the tributaries to be moved of the node; nothing meets that did not meet before (exact), no
 /// arc is without length, and where heights did not rise they do not. Where an arc is short the distance is, too.
-/// Throws: BadParameter; BadInput, naming the place, when a component is no tree or lines leave no room; Cancelled.
+/// \throws BadParameter
+/// \throws BadInput naming the place, when a component is no tree or lines leave no room
+/// \throws Cancelled
 Split split_confluences(RaisedNetwork const& network, SplitParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

@@ -9,6 +9,7 @@
 
 namespace thalweg::network {
 
+/// What rasterise() returns.
 struct Rasterised {
     Valley valley;
     std::int64_t lowered_cells = 0; ///< cells shared by several reaches that were lowered to keep each path falling
@@ -17,10 +18,13 @@ struct Rasterised {
 
 /// Draws the arcs into cells (Bresenham between vertices, height linear along the arc); where several cover a cell the
 /// lowest counts, and what lies downstream of it is lowered to it.
-/// Takes: a network inside the grid; the grid's outer edges belong to its outermost cells.
-/// Gives: heights that never rise along any arc's cells downstream, compared as the floats they are.
-/// Throws: BadInput, naming the arc and the place, when a vertex lies outside the grid or a height is not a number.
-/// Source: paper 000, section 3.3; specification 0.3.
+/// \pre a network inside the grid; the grid's outer edges belong to its outermost cells.
+/// \param network the network
+/// \param grid the grid
+/// \return heights that never rise along any arc's cells downstream, compared as the floats they are.
+/// \throws BadInput naming the arc and the place, when a vertex lies outside the grid or a height is not a number
+///
+/// Source: \cite cao2009, section 3.3; specification 0.3.
 Rasterised rasterise(RaisedNetwork const& network, Grid const& grid);
 
 } // namespace thalweg::network

@@ -8,11 +8,13 @@
 namespace thalweg::network {
 
 /// Thins a mask to its skeleton.
-/// Takes: 0 outside, anything else inside; what lies beyond the grid counts as outside.
-/// Gives: a subset one cell wide with as many components (8 neighbours) and holes (4 neighbours) as the mask, without
+/// \param mask 0 outside, anything else inside; what lies beyond the grid counts as outside
+/// \param run progress, log, stop token and number of threads
+/// \return a subset one cell wide with as many components (8 neighbours) and holes (4 neighbours) as the mask, without
 /// L-shaped corners; thinning it again changes nothing. Four branches may still meet in a block of 2 x 2 cells.
-/// Throws: Cancelled.
-/// Source: Guo and Hall 1989, algorithm A1, 64 cells a word.
+/// \throws Cancelled
+///
+/// Source: \cite guo1989, algorithm A1, 64 cells a word.
 Mask thin(Mask const& mask, Run const& run = {});
 
 } // namespace thalweg::network

@@ -9,18 +9,23 @@
 
 namespace thalweg::network {
 
+/// Options of trace().
 struct TraceParams {
     Required<Vec2> mouth; ///< [m] each component drains to its cell nearest to this point (ties: lower cell index);
                           ///< rounded to 2^-16 of a cell
 };
 
 /// Traces a skeleton into a network of arcs.
-/// Takes: a skeleton; a diagonal step counts only where neither orthogonal cell between is set (m-adjacency).
-/// Gives: the shortest-path tree from the outlet cell (steps 1 and sqrt 2, ties by cell index): nodes are outlets and
+/// \param skeleton a skeleton; a diagonal step counts only where neither orthogonal cell between is set (m-adjacency)
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return the shortest-path tree from the outlet cell (steps 1 and sqrt 2, ties by cell index): nodes are outlets and
 /// cells with no or several cells upstream, arcs the paths between, with one vertex in each cell's centre; nodes and
 /// arcs are numbered by cell index (arcs by that of their upstream end). A component of one cell is left out.
-/// Throws: BadInput for a skeleton without two neighbouring cells; BadParameter for a mouth that is no position.
-/// Source: paper 000, section 3.2; specification 0.2.
+/// \throws BadInput for a skeleton without two neighbouring cells
+/// \throws BadParameter for a mouth that is no position
+///
+/// Source: \cite cao2009, section 3.2; specification 0.2.
 StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& run = {});
 
 } // namespace thalweg::network

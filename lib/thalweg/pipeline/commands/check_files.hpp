@@ -25,6 +25,7 @@ struct CheckJob {
     bool overwrite = false;          ///< replace fix and findings where they are there
 };
 
+/// What check_files() returns.
 struct CheckedFiles {
     std::int64_t arcs = 0;
     std::int64_t nodes = 0;
@@ -36,17 +37,25 @@ struct CheckedFiles {
     std::vector<std::string> written;
     std::optional<measure::Certificate> certificate = {}; ///< with a DEM
 
-    bool ok() const; ///< every check is
+    /// \return every check is
+    bool ok() const;
 };
 
 /// Checks a network's files, and a DEM with them; writes the findings, and a mended copy in the native schema when it
 /// passes the check of the topology itself. For a mended copy lines of no known schema are taken as they are. The input
 /// is never touched.
-/// Throws: BadInput when a file cannot be read as a network or DEM, or an output is there already; BadParameter, also
-/// for an output that is the input or no .gpkg or .shp; IoError; Cancelled.
+/// \param job the files and options
+/// \param run progress, log, stop token and number of threads
+/// \return findings, and the files written
+/// \throws BadInput when a file cannot be read as a network or DEM, or an output is there already
+/// \throws BadParameter also for an output that is the input or no .gpkg or .shp
+/// \throws IoError
+/// \throws Cancelled
 CheckedFiles check_files(CheckJob const& job, Run const& run = {});
 
 /// As one JSON object: ok, arcs, nodes, schema, checks, findings, notes, mended, written; certificate with a DEM.
+/// \param checked the result of a check
+/// \return the text
 std::string as_json(CheckedFiles const& checked);
 
 } // namespace thalweg::pipeline

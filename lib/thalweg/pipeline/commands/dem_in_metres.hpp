@@ -17,7 +17,12 @@ struct MetricDem {
 };
 
 /// Reads a DEM; one in degrees is warped into the UTM zone of its middle, onto cells as large as its own there.
-/// Throws: BadInput like read_dem, and where a geographic DEM lies in no UTM zone; IoError; Cancelled.
+/// \param path path of the file
+/// \param run progress, log, stop token and number of threads
+/// \return the DEM, and the cell size it had
+/// \throws BadInput like read_dem, and where a geographic DEM lies in no UTM zone
+/// \throws IoError
+/// \throws Cancelled
 MetricDem dem_in_metres(std::string const& path, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -11,6 +11,7 @@
 
 namespace thalweg::pipeline {
 
+/// Options of draw_files().
 struct DrawParams {
     std::vector<std::string> what;    ///< names of kinds, or page; none takes all pictures that can be drawn
     std::vector<std::string> formats; ///< png, svg, pdf; none takes the ending of the output, else png
@@ -19,17 +20,25 @@ struct DrawParams {
     Look look;                        ///< its format is not used
 };
 
+/// What draw_files() returns.
 struct Drawn {
     std::vector<std::string> files; ///< as they were written, folder included
     std::vector<std::string> notes; ///< what was changed or chosen, in words
 };
 
 /// Draws pictures of a folder that make left, or of a raster, into files, whole or not at all.
-/// Takes: output: a folder, which may hold other things, for WHAT.FORMAT each and page.html; or the name of one
-/// picture, ending in .png, .svg or .pdf, or of a report page, ending in .html. existing: under replace a picture file
-/// of the same name is replaced, and nothing else. Throws: BadParameter: an unknown kind or format (did you mean),
-/// several pictures for one name; BadInput: a picture that cannot be drawn, a file that is there already; what
-/// read_scene and the pictures throw; IoError; Cancelled.
+/// \param source the file or DEM to take from
+/// \param output a folder, which may hold other things, for WHAT.FORMAT each and page.html; or the name of one picture,
+/// ending in .png, .svg or .pdf, or of a report page, ending in .html
+/// \param params options, each with its default, unit and range
+/// \param existing under replace a picture file of the same name is replaced, and nothing else
+/// \param run progress, log, stop token and number of threads
+/// \return the files written
+/// \throws BadParameter an unknown kind or format (did you mean), several pictures for one name
+/// \throws BadInput a picture that cannot be drawn, a file that is there already; what read_scene and the pictures
+/// throw
+/// \throws IoError
+/// \throws Cancelled
 Drawn draw_files(std::string const& source, std::string const& output, DrawParams const& params,
                  io::Existing existing = io::Existing::refuse, Run const& run = {});
 

@@ -12,6 +12,7 @@
 
 namespace thalweg::pipeline {
 
+/// Options of make_blend().
 struct MakeBlendParams {
     std::string target = {};     ///< a DEM
     std::string source = {};     ///< a DEM, in any CRS and of any cell size
@@ -44,16 +45,25 @@ struct MadeBlend {
 };
 
 /// Reads two DEMs and sets a patch of the one into the other: place_patch, then paste.
-/// Takes: files. Gives: as the stages do. A source in another CRS or with other cells is warped first, a window cut
-/// out of it before: into the target's CRS where both lie on the same part of the earth; else it is measured in its own
-/// CRS or, where that is not in metres, in its UTM zone. Of lines to keep those parts count that cross the target.
-/// Throws: BadParameter; BadInput: as the stages and doors do, also when keep is neither a raster nor lines, none of
-/// whose cells are the target's, or a target in degrees is asked to take a turned patch; NotConverged; IoError;
-/// Cancelled.
+/// \param params files
+/// \param run progress, log, stop token and number of threads
+/// \return as the stages do. A source in another CRS or with other cells is warped first, a window cut out of it
+/// before: into the target's CRS where both lie on the same part of the earth; else it is measured in its own CRS or,
+/// where that is not in metres, in its UTM zone. Of lines to keep those parts count that cross the target.
+/// \throws BadParameter
+/// \throws BadInput as the stages and doors do, also when keep is neither a raster nor lines, none of whose cells are
+/// the target's, or a target in degrees is asked to take a turned patch
+/// \throws NotConverged
+/// \throws IoError
+/// \throws Cancelled
 MadeBlend make_blend(MakeBlendParams const& params, Run const& run = {});
 
-/// The same with a target at hand and the cells of it that are kept; params.target names it in messages, params.keep is
-/// not read.
+/// \param target [m] the DEM that is changed; NaN: no data
+/// \param keep receives intermediate rasters
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return the same with a target at hand and the cells of it that are kept; params.target names it in messages,
+/// params.keep is not read.
 MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -12,6 +12,7 @@
 
 namespace thalweg::pipeline {
 
+/// Options of make_blend_tin().
 struct MakeBlendTinParams {
     std::string target = {};     ///< a mesh that read_tin reads
     std::string source = {};     ///< the patch, another
@@ -30,10 +31,15 @@ struct MadeBlendTin {
 };
 
 /// Reads two meshes and pastes the one into the other: moved, turned and scaled, then fuse_tin.
-/// Takes: files. Without a place the patch stays at its own coordinates, bit for bit where it is neither turned nor
-/// scaled; where its box does not meet the target's it comes into the middle of the target's box.
-/// Throws: BadParameter; BadInput: as read_tin and fuse_tin do, meshes in two different CRS; NotConverged; IoError;
-/// Cancelled.
+/// \param params files. Without a place the patch stays at its own coordinates, bit for bit where it is neither turned
+/// nor scaled; where its box does not meet the target's it comes into the middle of the target's box
+/// \param run progress, log, stop token and number of threads
+/// \return the mesh, and what was done
+/// \throws BadParameter
+/// \throws BadInput as read_tin and fuse_tin do, meshes in two different CRS
+/// \throws NotConverged
+/// \throws IoError
+/// \throws Cancelled
 MadeBlendTin make_blend_tin(MakeBlendTinParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -11,6 +11,7 @@
 
 namespace thalweg::pipeline {
 
+/// Options of make_deform().
 struct MakeDeformParams {
     std::string target = {};        ///< a DEM
     std::string mask = {};          ///< the region: a raster on the target's grid, or polygons
@@ -18,9 +19,15 @@ struct MakeDeformParams {
     std::vector<Vec3> handles = {}; ///< [m] places in the region and the heights to which they are pulled
 };
 
-/// Reads a DEM and bends a region of it. Takes: files. Gives: as blend::deform.
-/// Throws: BadParameter; BadInput: as the stage and the doors do, also when a handle lies outside the target or nothing
-/// is asked for; NotConverged; IoError; Cancelled.
+/// Reads a DEM and bends a region of it.
+/// \param params files
+/// \param run progress, log, stop token and number of threads
+/// \return as blend::deform.
+/// \throws BadParameter
+/// \throws BadInput as the stage and the doors do, also when a handle lies outside the target or nothing is asked for
+/// \throws NotConverged
+/// \throws IoError
+/// \throws Cancelled
 blend::Deformed make_deform(MakeDeformParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

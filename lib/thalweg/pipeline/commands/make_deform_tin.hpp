@@ -12,6 +12,7 @@
 
 namespace thalweg::pipeline {
 
+/// Options of make_deform_tin().
 struct MakeDeformTinParams {
     std::string target = {};        ///< a mesh: 2DM, OBJ or OFF
     std::string mask = {};          ///< polygons around the vertices that move
@@ -21,6 +22,7 @@ struct MakeDeformTinParams {
     std::vector<Vec3> handles = {}; ///< [m] places whose nearest vertex in the region is pulled to the height
 };
 
+/// What make_deform_tin() returns.
 struct DeformedTin {
     Tin tin;
     std::string crs;
@@ -30,9 +32,16 @@ struct DeformedTin {
 
 /// Reads a mesh and bends a region of it: the gradients of the triangles whose corners all lie in the region are turned
 /// and scaled, and the mesh is put together again around the vertices outside and the handles, which are fixed.
-/// Gives: vertices outside the region bit for bit; without a rotation all x and y too; as blend::paste_tin.
-/// Throws: BadParameter: nothing is asked for; BadInput: as read_tin, read_polygons and paste_tin do, no vertex in the
-/// region; NotConverged; IoError; Cancelled. Source: the thesis of 2015, section 4.2; Yu et al. 2004.
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return vertices outside the region bit for bit; without a rotation all x and y too; as blend::paste_tin.
+/// \throws BadParameter nothing is asked for
+/// \throws BadInput as read_tin, read_polygons and paste_tin do, no vertex in the region
+/// \throws NotConverged
+/// \throws IoError
+/// \throws Cancelled
+///
+/// Source: \cite nenu2015, section 4.2; \cite yu2004.
 DeformedTin make_deform_tin(MakeDeformTinParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -14,6 +14,7 @@
 
 namespace thalweg::pipeline {
 
+/// Options of make_measures().
 struct MakeMeasuresParams {
     std::string dem;               ///< a folder that make left, or any raster of heights
     std::string network;           ///< "" takes that of the folder, if there is one
@@ -21,7 +22,7 @@ struct MakeMeasuresParams {
     std::vector<std::string> what; ///< names of measures; none takes d8, dinf and, with a network, catchments
 };
 
-/// The measures that can be asked for: d8, dinf, directions, catchments.
+/// \return the measures that can be asked for: d8, dinf, directions, catchments.
 std::vector<std::string> measure_names();
 
 /// How water leaves catchments aside.
@@ -34,6 +35,7 @@ struct MeasuredCatchments {
     std::int64_t cells_without = 0; ///< whose water leaves the DEM before it meets a river
 };
 
+/// What make_measures() returns.
 struct MadeMeasures {
     std::vector<std::string> files; ///< as they were written, folder included
     std::vector<std::string> notes; ///< what was left out, in words
@@ -49,10 +51,16 @@ struct MadeMeasures {
 /// (contributing areas [m2], the cell itself included), direction_d8.tif (Byte: 1 2 4 8 16 32 64 128 from the east
 /// clockwise, 0 where water leaves, 255 without data) and direction_dinf.tif ([rad] counterclockwise from the east, -1
 /// where water leaves), catchments.gpkg (of anyone's network). Depressions stay: water is led through them.
-/// Takes: output: a folder, which may hold other things. existing: under replace a file of the same name is replaced,
-/// and nothing else. Throws: BadParameter: a name that is none (did you mean); BadInput: catchments without a network,
-/// a DEM that is not in metres or has no CRS where the network has one, a network beside the DEM or whose rivers run
-/// in a circle, a file that is there already; IoError; Cancelled.
+/// \param params options, each with its default, unit and range
+/// \param output a folder, which may hold other things
+/// \param existing under replace a file of the same name is replaced, and nothing else
+/// \param run progress, log, stop token and number of threads
+/// \return the files written
+/// \throws BadParameter a name that is none (did you mean)
+/// \throws BadInput catchments without a network, a DEM that is not in metres or has no CRS where the network has one,
+/// a network beside the DEM or whose rivers run in a circle, a file that is there already
+/// \throws IoError
+/// \throws Cancelled
 MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& output,
                            io::Existing existing = io::Existing::refuse, Run const& run = {});
 

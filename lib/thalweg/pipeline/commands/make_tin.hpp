@@ -11,6 +11,7 @@
 
 namespace thalweg::pipeline {
 
+/// Options of make_tin().
 struct MakeTinParams {
     std::string path = {};              ///< a DEM, points, lines with heights, or a folder that make wrote
     std::string breaklines = {};        ///< lines with heights, for points and lines; "" for none
@@ -32,9 +33,13 @@ struct MadeTin {
 };
 
 /// Reads a file and makes a TIN of what it holds: a DEM within an error; points, with breaklines; lines as breaklines.
-/// Takes: files; breaklines are brought into the CRS of the points. Gives: as the stages do.
-/// Throws: BadParameter when an option does not belong to what the file holds; BadInput, also when lines have no
-/// heights; IoError; Cancelled.
+/// \param params files; breaklines are brought into the CRS of the points
+/// \param run progress, log, stop token and number of threads
+/// \return as the stages do.
+/// \throws BadParameter when an option does not belong to what the file holds
+/// \throws BadInput also when lines have no heights
+/// \throws IoError
+/// \throws Cancelled
 MadeTin make_tin(MakeTinParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -49,7 +49,10 @@ struct Assessment {
 };
 
 /// Measures and checks land and rivers.
-/// Takes: drainage: of the surface, where there is one.
+/// \param drawn what was drawn
+/// \param drainage of the surface, where there is one
+/// \param run progress, log, stop token and number of threads
+/// \return measures and checks
 Assessment assess(DrawnLand const& drawn, std::optional<flow::FlowField> const& drainage, Run const& run = {});
 
 } // namespace thalweg::pipeline

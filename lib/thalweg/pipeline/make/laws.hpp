@@ -28,6 +28,7 @@ struct RiverLaws {
     std::optional<DemLaws> dem;
 };
 
+/// Options of laws_of_dem().
 struct DemLawsParams {
     std::int64_t support_cells = flow::ExtractStreamsParams{}.support_cells; ///< as extract_streams
     double network_m = 0.0; ///< [m] length of a network beside the DEM: the support is then the greatest at which its
@@ -35,21 +36,36 @@ struct DemLawsParams {
 };
 
 /// Laws of the network that a DEM's water draws by D8, from the cells through which enough of it drains.
-/// Takes: a DEM with its drainage and flow lengths. Gives: Hack's lengths from the divide; directions at junctions over
-/// ten cells. Throws: BadInput when the DEM has no data; as extract_streams does; Cancelled.
+/// \pre a DEM with its drainage and flow lengths.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param drainage the flow field of the DEM
+/// \param flow_length [m] by cell, longest flow path down to it
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return Hack's lengths from the divide; directions at junctions over ten cells.
+/// \throws BadInput when the DEM has no data; as extract_streams does
+/// \throws Cancelled
 DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, Raster<float> const& flow_length,
                     DemLawsParams const& params = {}, Run const& run = {});
 
-/// The same of any DEM, drained for it, with the side that its cells have on the ground (io::ground_cell): a geographic
-/// one's too. Throws: also as ground_cell.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return the same of any DEM, drained for it, with the side that its cells have on the ground (io::ground_cell): a
+/// geographic one's too.
+/// \throws Error also as ground_cell
 DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params = {}, Run const& run = {});
 
 struct DrawnLand;
 
 /// Both laws of land and rivers.
-/// Takes: areas: of the rivers; land_cells: that have heights, or the grid's; drainage: of the surface, null where
-/// there is none: Hack's lengths are then from the sources. Gives: the DEM's rivers as long together as those drawn,
-/// where there are any. Throws: as laws_of_dem.
+/// \param drawn what was drawn
+/// \param areas of the rivers
+/// \param land_cells that have heights, or the grid's
+/// \param drainage of the surface, null where there is none: Hack's lengths are then from the sources
+/// \param run progress, log, stop token and number of threads
+/// \return the DEM's rivers as long together as those drawn, where there are any.
+/// \throws Error as laws_of_dem
 RiverLaws laws_of_land(DrawnLand const& drawn, flow::ContributingAreas const& areas, std::int64_t land_cells,
                        flow::FlowField const* drainage, Run const& run = {});
 

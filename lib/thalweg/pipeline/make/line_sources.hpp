@@ -19,21 +19,30 @@ namespace thalweg::pipeline {
 class LineSources {
 public:
     LineSources() = default;
-    /// Takes: by arc its stretches.
+    /// \pre by arc its stretches.
+    /// \param network the network
+    /// \param stretches by arc, the stretches of features it is made of
     LineSources(StreamNetwork const& network, std::vector<std::vector<Stretch>> const& stretches);
 
     bool knows_any() const { return knows_any_; }
-    /// The stretches of arcs that are made of the network's vertices. What is drawn beyond them (an outlet carried to
-    /// the border) came from no feature.
+    /// What is drawn beyond them (an outlet carried to the border) came from no feature.
+    /// \param network the network
+    /// \return the stretches of arcs that are made of the network's vertices.
     std::vector<std::vector<Stretch>> of(StreamNetwork const& network) const;
     /// The stretches of arcs of which some are cut and some were drawn anew, as split_confluences leaves them: what is
-    /// drawn anew came from the feature of what it replaced. Gives: arcs made of features wholly still are so.
+    /// drawn anew came from the feature of what it replaced.
+    /// \param network the network
+    /// \return arcs made of features wholly still are so.
     std::vector<std::vector<Stretch>> redrawn(StreamNetwork const& network) const;
-    /// The same for a network whose arcs are those of this one by number, of other shape: each stretch takes its share
-    /// of the arc. Takes: the network as it was.
+    /// \pre the network as it was.
+    /// \param before the state before
+    /// \param after the state after
+    /// \return the same for a network whose arcs are those of this one by number, of other shape: each stretch takes
+    /// its share of the arc.
     LineSources bent(StreamNetwork const& before, StreamNetwork const& after) const;
 
 private:
+    /// A hash.
     struct Hash {
         std::size_t operator()(Vec2 p) const;
         std::size_t operator()(std::pair<Vec2, Vec2> const& segment) const;

@@ -22,14 +22,22 @@ struct LandRelief {
     std::optional<std::int64_t> perched; ///< river cells that stand above their surroundings, where rivers are drawn
 };
 
-/// Relief of any DEM, drained for it, with the side that its cells have on the ground (io::ground_cell): a geographic
-/// one's too, though its cells are taken for squares. Throws: as measure::statistics and ground_cell do; Cancelled.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param run progress, log, stop token and number of threads
+/// \return relief of any DEM, drained for it, with the side that its cells have on the ground (io::ground_cell): a
+/// geographic one's too, though its cells are taken for squares.
+/// \throws Error as measure::statistics and ground_cell do
+/// \throws Cancelled
 LandRelief relief_of_dem(Raster<float> const& dem, Run const& run = {});
 
 struct DrawnLand;
 
 /// Relief of a surface with its statistics.
-/// Gives: perched where it has rivers: by the mean slope that the recipe asks for, else that of the land.
+/// \param drawn what was drawn
+/// \param statistics its statistics
+/// \param drainage the flow field of the DEM
+/// \param run progress, log, stop token and number of threads
+/// \return perched where it has rivers: by the mean slope that the recipe asks for, else that of the land.
 LandRelief relief_of_land(DrawnLand const& drawn, measure::Statistics const& statistics,
                           flow::FlowField const& drainage, Run const& run = {});
 
@@ -44,11 +52,13 @@ struct ReliefRow {
     bool ok() const { return !value || !range || (*value >= range->low && *value <= range->high); }
 };
 
-/// The figures one by one: those of measure::relief_figures, the distance of the geomorphons from the mean of the real
-/// lands, and perched cells where there are rivers.
+/// \param relief relief metrics
+/// \return the figures one by one: those of measure::relief_figures, the distance of the geomorphons from the mean of
+/// the real lands, and perched cells where there are rivers.
 std::vector<ReliefRow> relief_rows(LandRelief const& relief);
 
-/// All of it beside the real lands, as one JSON object: dem.relief in report.json, and what the page draws.
+/// \param relief relief metrics
+/// \return all of it beside the real lands, as one JSON object: dem.relief in report.json, and what the page draws.
 std::string relief_json(LandRelief const& relief);
 
 } // namespace thalweg::pipeline

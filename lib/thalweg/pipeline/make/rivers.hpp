@@ -29,8 +29,13 @@ struct Rivers {
     Timings timings_s;
 };
 
-/// The rivers that a recipe with [network] asks for.
-/// Throws: BadParameter, BadInput, IoError, Cancelled.
+/// \param recipe the recipe
+/// \param run progress, log, stop token and number of threads
+/// \return the rivers that a recipe with [network] asks for.
+/// \throws BadParameter
+/// \throws BadInput
+/// \throws IoError
+/// \throws Cancelled
 Rivers make_rivers(Recipe const& recipe, Run const& run = {});
 
 } // namespace thalweg::pipeline

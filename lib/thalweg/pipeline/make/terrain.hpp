@@ -77,20 +77,33 @@ struct Terrain {
     std::vector<Check> checks;
     std::vector<Finding> findings; ///< of the checks
     Timings timings_s;
-    bool passed() const; ///< every check is ok
+    /// \return every check is ok
+    bool passed() const;
 };
 
 /// Rivers, land and what is measured of them in one value.
+/// \param rivers the rivers
+/// \param drawn what was drawn
+/// \param found measures and checks
+/// \return the terrain
 Terrain together(Rivers rivers, DrawnLand drawn, Assessment found);
 
 /// Called with intermediates: "valley", "surface".
 using Keep = std::function<void(std::string_view, Raster<float> const&)>;
 
 /// From a recipe to a terrain: rivers first, then the land around them; or land from numbers and points alone.
-/// Gives: the same terrain for the same recipe, whatever the Run. Throws: BadParameter, BadInput, IoError, Cancelled.
+/// \param recipe the recipe
+/// \param run progress, log, stop token and number of threads
+/// \param keep receives intermediate rasters
+/// \return the same terrain for the same recipe, whatever the Run.
+/// \throws BadParameter
+/// \throws BadInput
+/// \throws IoError
+/// \throws Cancelled
 Terrain make_terrain(Recipe const& recipe, Run const& run = {}, Keep const& keep = {});
 
-/// Memory [bytes] that a terrain of this many cells takes while it is made, at most.
+/// \param cells the cells
+/// \return memory [bytes] that a terrain of this many cells takes while it is made, at most.
 std::int64_t bytes_needed(std::int64_t cells);
 
 } // namespace thalweg::pipeline

@@ -11,12 +11,19 @@
 
 namespace thalweg::pipeline {
 
-/// Throws BadInput when the folder is taken and may not be replaced: asked before the work, not after.
+/// \param folder the folder
+/// \param existing what to do with an output that exists
+/// \throws BadInput when the folder is taken and may not be replaced: asked before the work, not after
 void check_folder(std::string const& folder, io::Existing existing);
 
 /// Writes everything `make` leaves behind into a folder, whole or not at all.
-/// Gives: the names of the files, report.json last. Under replace it removes what the old report.json lists, nothing
-/// else. Throws: BadInput (the folder is taken), IoError, Cancelled: then nothing has changed.
+/// \param terrain the terrain
+/// \param folder the folder
+/// \param existing what to do with an output that exists
+/// \param run progress, log, stop token and number of threads
+/// \return the names of the files, report.json last. Under replace it removes what the old report.json lists, nothing
+/// else.
+/// \throws BadInput (the folder is taken), IoError, Cancelled: then nothing has changed
 std::vector<std::string> write_terrain(Terrain const& terrain, std::string const& folder,
                                        io::Existing existing = io::Existing::refuse, Run const& run = {});
 

@@ -24,8 +24,11 @@ struct Forecast {
 
 /// Checks a recipe and its input files, and finds out what a run would do, without running it. Lines, polygons and
 /// points are read, since the grid follows from them; rasters are not.
-/// Gives: the stages that make_terrain() times, in its order.
-/// Throws: like make_terrain() for a wrong recipe or input; BadInput where a grid needs more memory than is free.
+/// \param recipe the recipe
+/// \param run progress, log, stop token and number of threads
+/// \return the stages that make_terrain() times, in its order.
+/// \throws Error like make_terrain() for a wrong recipe or input
+/// \throws BadInput where a grid needs more memory than is free
 Forecast forecast(Recipe const& recipe, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -10,18 +10,27 @@
 namespace thalweg::pipeline {
 
 /// The recipe that a path stands for.
-/// Takes: a recipe (a name that ends in .toml, or a text that begins like TOML), or rivers as io::find_rivers finds
-/// them.
-/// Gives: of a recipe what it says; of rivers rivers_recipe().
-/// Throws: BadParameter with all faults of a recipe; BadInput when the path is neither, saying what it is.
+/// \param path a recipe (a name that ends in .toml, or a text that begins like TOML), or rivers as io::find_rivers
+/// finds them
+/// \return of a recipe what it says; of rivers rivers_recipe().
+/// \throws BadParameter with all faults of a recipe
+/// \throws BadInput when the path is neither, saying what it is
 Recipe recipe_from(std::string const& path);
 
-/// The recipe for terrain in equilibrium with the rivers of a file or folder: grid.cell is 0, which chooses it from the
-/// rivers. Throws: BadInput like io::find_rivers.
+/// \param path path of the file
+/// \return the recipe for terrain in equilibrium with the rivers of a file or folder: grid.cell is 0, which chooses it
+/// from the rivers.
+/// \throws BadInput like io::find_rivers
 Recipe rivers_recipe(std::string const& path);
 
 /// Writes into a recipe what make_terrain() would choose from its rivers: CRS and cell size; paths become absolute.
-/// Throws: BadParameter, BadInput, IoError, Cancelled like make_terrain().
+/// \param recipe the recipe
+/// \param run progress, log, stop token and number of threads
+/// \return the recipe
+/// \throws BadParameter
+/// \throws BadInput
+/// \throws IoError
+/// \throws Cancelled like make_terrain()
 Recipe settled_recipe(Recipe const& recipe, Run const& run = {});
 
 } // namespace thalweg::pipeline

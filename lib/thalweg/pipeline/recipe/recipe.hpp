@@ -64,6 +64,7 @@ enum class Coastlines : std::uint8_t {
     none ///< nothing
 };
 
+/// The keys of section [network] for drawn lines.
 struct LinesRecipe {
     std::string path;
     std::string layer;
@@ -76,6 +77,7 @@ struct LinesRecipe {
     Coastlines coastlines = Coastlines::sea;
 };
 
+/// The keys of section [tokunaga] of a recipe.
 struct TokunagaRecipe {
     int generator = 2; ///< [1, 50] lambda, also of strokes without their own
     int order = 6;     ///< [1, 12] Strahler order at the mouth; strokes: MaxDepth, that of one as long as the grid
@@ -101,6 +103,7 @@ struct ForestRecipe {
     network::ForestParams growth;    ///< its step and seed follow from the recipe
 };
 
+/// The keys of section [network] of a recipe.
 struct NetworkRecipe {
     Source source = Source::dla;
     std::optional<double> prune_cells; ///< [cells] default 20 for dla and forest, else 0
@@ -160,6 +163,7 @@ struct EquilibriumRecipe {
     double lake_share = 0.0;           ///< [0, 1] of the reaches with enough water, that run through a lake
 };
 
+/// The keys of section [surface] of a recipe.
 struct SurfaceRecipe {
     Method method = Method::equilibrium;
     EquilibriumRecipe equilibrium;
@@ -192,6 +196,7 @@ struct StatisticsRecipe {
 
 enum class DetailMethod : std::uint8_t { none, midpoint };
 
+/// The keys of section [detail] of a recipe.
 struct DetailRecipe {
     DetailMethod method = DetailMethod::midpoint;
     detail::MidpointParams midpoint;
@@ -214,6 +219,7 @@ struct PatchRecipe {
     PatchRivers rivers = PatchRivers::keep;
 };
 
+/// The keys of section [output] of a recipe.
 struct OutputRecipe {
     std::string title;                      ///< of the pictures and the page; "" names the seed
     double contour_interval = 0.0;          ///< [units] 0 chooses a round number
@@ -238,7 +244,7 @@ struct Recipe {
     std::map<std::string, std::string> set_at = {}; ///< where keys were set, for messages: "r.toml, line 3" or "--set"
 };
 
-/// What `thalweg make` makes without a recipe; the same as samples/relief_dla.toml.
+/// \return what `thalweg make` makes without a recipe; the same as samples/relief_dla.toml.
 Recipe default_recipe();
 
 /// What a key of a recipe file means.
@@ -254,25 +260,35 @@ struct KeyHelp {
     bool is_file = false;                  ///< its value names a file, relative to the recipe's folder
 };
 
-/// Every key in the order of recipe files.
+/// \return every key in the order of recipe files.
 std::vector<KeyHelp> recipe_keys();
 
-/// Reads a recipe from TOML text. Throws BadParameter with all faults at once: unknown sections and keys (did you
-/// mean), wrong types, values out of range. name: for messages.
+/// Reads a recipe from TOML text.
+/// \param toml the text of a recipe
+/// \param name its name
+/// \return the recipe
+/// \throws BadParameter with all faults at once: unknown sections and keys (did you mean), wrong types, values out of
+/// range. name: for messages
 Recipe read_recipe(std::string const& toml, std::string const& name);
 
-/// Sets one key from "section.key=value"; "patch.2.key=value" of the second patch, or a new
-/// one after the last. A file is found from the working folder, wherever the recipe lies. Throws BadParameter.
+/// Sets one key from "section.key=value"; "patch.2.key=value" of the second patch, or a new one after the last. A file
+/// is found from the working folder, wherever the recipe lies.
+/// \param recipe the recipe
+/// \param assignment "section.key=value"
+/// \throws BadParameter
 void set_key(Recipe& recipe, std::string const& assignment);
 
-/// The recipe as TOML: every key that has an effect, defaults too. read_recipe gives it back.
+/// \param recipe the recipe
+/// \return the recipe as TOML: every key that has an effect, defaults too. read_recipe gives it back.
 std::string write_recipe(Recipe const& recipe);
 
-/// The title of what a recipe makes: output.title, or "thalweg, seed 7" where that is "".
+/// \param recipe the recipe
+/// \return the title of what a recipe makes: output.title, or "thalweg, seed 7" where that is "".
 std::string title_of(Recipe const& recipe);
 
-/// Throws BadParameter naming all that does not fit together (a source without its file, ...), and every key that is
-/// set away from its default and has no effect.
+/// \param recipe the recipe
+/// \throws BadParameter naming all that does not fit together (a source without its file, ...), and every key that is
+/// set away from its default and has no effect
 void check_recipe(Recipe const& recipe);
 
 } // namespace thalweg::pipeline

@@ -18,11 +18,15 @@ struct DemRecipe {
 };
 
 /// The recipe of a land with the statistics of a DEM.
-/// Takes: the DEM, its CRS of any kind or ""; its statistics; source: its file name, whose stem becomes the title.
-/// Gives: sections [grid] and [statistics] with mean, std, max, min, length, slope and dimension; what the heights do
+/// \pre the DEM, its CRS of any kind or ""; its statistics
+/// \param dem [m] heights by cell; NaN: no data
+/// \param statistics its statistics
+/// \param source its file name, whose stem becomes the title
+/// \return sections [grid] and [statistics] with mean, std, max, min, length, slope and dimension; what the heights do
 /// not tell, or no recipe may ask for, is left out and said in notes. The grid is the DEM's whole rectangle, holes
 /// included, at its place where the CRS is projected in metres; else at the default place, with cells as large as those
-/// of the DEM are on the ground. Throws: BadInput when all heights are equal, or as io::ground_cell does.
+/// of the DEM are on the ground.
+/// \throws BadInput when all heights are equal, or as io::ground_cell does
 DemRecipe recipe_of_dem(Raster<float> const& dem, measure::Statistics const& statistics, std::string const& source);
 
 } // namespace thalweg::pipeline

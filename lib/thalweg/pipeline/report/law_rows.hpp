@@ -22,7 +22,8 @@ struct LawRow {
     measure::NaturalRange const* nature = nullptr;            ///< null where no range was published
 };
 
-/// The laws one by one, always the same rows in the same order.
+/// \param laws the laws
+/// \return the laws one by one, always the same rows in the same order.
 std::vector<LawRow> law_rows(measure::NetworkLaws const& laws);
 
 } // namespace thalweg::pipeline

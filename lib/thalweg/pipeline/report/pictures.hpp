@@ -16,7 +16,7 @@ namespace thalweg::pipeline {
 
 enum class PictureKind : std::uint8_t { map, profile, curve, hypsometry, sections, wireframe };
 
-/// Every kind, in the order of the enumeration.
+/// \return every kind, in the order of the enumeration.
 std::vector<PictureKind> const& picture_kinds();
 char const* name_of(PictureKind kind);
 
@@ -40,14 +40,22 @@ struct Look {
     std::optional<double> exaggeration;
 };
 
-/// Why a picture cannot be drawn of a scene, in words that end a sentence; "" where it can.
+/// \param kind kind of picture
+/// \param scene what is drawn
+/// \return why a picture cannot be drawn of a scene, in words that end a sentence; "" where it can.
 std::string missing_for(PictureKind kind, Scene const& scene);
 
 /// Draws one picture of a scene.
-/// Throws: BadInput when something is missing for it; what the pictures throw.
+/// \param kind the kind
+/// \param scene what is drawn
+/// \param look size and style
+/// \param run progress, log, stop token and number of threads
+/// \return the picture
+/// \throws BadInput when something is missing for it; what the pictures throw
 draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& look, Run const& run = {});
 
-/// A round contour interval (1, 2 or 5 times a power of ten) that gives about twenty contours.
+/// \param relief_m [m] > 0, height range
+/// \return a round contour interval (1, 2 or 5 times a power of ten) that gives about twenty contours.
 double round_interval(double relief_m);
 
 } // namespace thalweg::pipeline

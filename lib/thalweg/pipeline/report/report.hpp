@@ -10,21 +10,28 @@
 
 namespace thalweg::pipeline {
 
-/// report.json of a terrain: version, recipe, timings_s, peak_rss_mb, network, dem, checks, repairs, files.
+/// \param terrain the terrain
+/// \param files names of the files
+/// \return report.json of a terrain: version, recipe, timings_s, peak_rss_mb, network, dem, checks, repairs, files.
 std::string write_report(Terrain const& terrain, std::vector<std::string> const& files);
 
-/// The files an earlier report.json lists; empty where the text is none.
+/// \param json the text of a report.json
+/// \return the files an earlier report.json lists; empty where the text is none.
 std::vector<std::string> files_of_report(std::string const& json);
 
-/// Statistics as one JSON object, as they stand under "dem" in report.json; laws: of the DEM's rivers, or
-/// null; relief: or null.
+/// \param statistics its statistics
+/// \param laws the laws
+/// \param relief relief metrics
+/// \return statistics as one JSON object, as they stand under "dem" in report.json; laws: of the DEM's rivers, or null;
+/// relief: or null.
 std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws = nullptr,
                             LandRelief const* relief = nullptr);
 
-/// Checks as one JSON array, as they stand under "checks" in report.json.
+/// \param checks the checks
+/// \return Checks as one JSON array, as they stand under "checks" in report.json.
 std::string checks_json(std::vector<Check> const& checks);
 
-/// The version of thalweg, "0.1.0".
+/// \return the version of thalweg, "0.1.0".
 std::string version();
 
 } // namespace thalweg::pipeline

@@ -28,6 +28,7 @@ struct GridProblem {
     Raster<double> source;     ///< b of free cells; empty for Laplace's equation
 };
 
+/// Options of solve_poisson().
 struct PoissonParams {
     /// (0,1) of the residual's norm against that of the problem with 0 in its free cells; and of the error, as a
     /// multigrid cycle sees it, against the greatest |value|: 1e-6 brings land of 1000 m to within 1 mm
@@ -35,6 +36,7 @@ struct PoissonParams {
     int most_iterations = 1000; ///< [0, ...]
 };
 
+/// A solved grid, with the number of iterations and the residual.
 struct GridSolution {
     Raster<double> value; ///< free cells: the solution; fixed and outside ones as they came
     int iterations = 0;
@@ -43,13 +45,21 @@ struct GridSolution {
 
 /// Solves sum over the 4-neighbours n that are not outside of (u_c - u_n) = b_c for every free cell c, by conjugate
 /// gradients with a multigrid cycle for preconditioner: some 15 to 30 iterations for 1e-6, whatever the size of the
-/// grid. Takes: any grid, of one row or column too. Memory beside the problem: 32 bytes a cell, 2 more while it is
-/// prepared. Gives: fixed cells bit for bit; for Laplace's equation values between the least and the greatest fixed
-/// one; the same bytes for any number of threads. Tolerances down to 1e-12 can be reached on grids of any shape, 1e-14
-/// where no cell is far from a fixed one. Throws: BadInput naming a cell when a part of the grid has free cells and no
-/// fixed one, or a value is not finite, or the frames differ; BadParameter; NotConverged: after most_iterations, or
-/// where double has no more digits; Cancelled. Source: paper 003, equations 12 and 16; Hestenes and Stiefel 1952;
-/// Braess 1995 (aggregation).
+/// grid.
+/// \param problem any grid, of one row or column too. Memory beside the problem: 32 bytes a cell, 2 more while it is
+/// prepared
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return fixed cells bit for bit; for Laplace's equation values between the least and the greatest fixed one; the
+/// same bytes for any number of threads. Tolerances down to 1e-12 can be reached on grids of any shape, 1e-14 where no
+/// cell is far from a fixed one.
+/// \throws BadInput naming a cell when a part of the grid has free cells and no fixed one, or a value is not finite, or
+/// the frames differ
+/// \throws BadParameter
+/// \throws NotConverged after most_iterations, or where double has no more digits
+/// \throws Cancelled
+///
+/// Source: \cite nenu2015, equations 12 and 16; \cite hestenes1952; \cite braess1995 (aggregation).
 GridSolution solve_poisson(GridProblem problem, PoissonParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::solver

@@ -20,8 +20,9 @@ struct CellSpan {
 
 /// The free cells from which no path through 4-neighbours that are not outside leads to a fixed cell: where Laplace's
 /// equation has no one solution.
-/// Takes: a CellKind a cell.
-/// Gives: each such cell in one span, the spans from the north-west on.
+/// \param kind a CellKind a cell
+/// \param run progress, log, stop token and number of threads
+/// \return each such cell in one span, the spans from the north-west on.
 std::vector<CellSpan> unreached(Raster<std::uint8_t> const& kind, Run const& run = {});
 
 } // namespace thalweg::solver

@@ -19,9 +19,11 @@ struct SparseEntry {
 /// A sparse, symmetric, positive definite matrix, factored once for any number of right-hand sides.
 class SparseFactor {
 public:
-    /// Takes: size; the numbers on the diagonal and below it (column <= row); those of one place are added in order.
-    /// Throws: BadInput naming an entry that is above the diagonal, outside or not finite; NotConverged when the matrix
-    /// is not positive definite.
+    /// \pre size; the numbers on the diagonal and below it (column <= row); those of one place are added in order.
+    /// \param size number of rows and columns
+    /// \param entries numbers on and below the diagonal
+    /// \throws BadInput naming an entry that is above the diagonal, outside or not finite
+    /// \throws NotConverged when the matrix is not positive definite
     SparseFactor(std::size_t size, std::vector<SparseEntry> const& entries);
     SparseFactor(SparseFactor const&) = delete;
     SparseFactor& operator=(SparseFactor const&) = delete;
@@ -29,7 +31,9 @@ public:
     SparseFactor& operator=(SparseFactor&& other) noexcept;
     ~SparseFactor();
 
-    /// The x of A x = b. Throws: BadInput when b has another size than the matrix.
+    /// \param b the right side b
+    /// \return the x of A x = b.
+    /// \throws BadInput when b has another size than the matrix
     std::vector<double> solve(std::vector<double> const& b) const;
 
 private:

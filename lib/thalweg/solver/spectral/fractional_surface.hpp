@@ -26,27 +26,43 @@ struct FractionalSurface {
     Circulant torus;             ///< at least width + reach d by height + reach d cells
 };
 
-/// Takes: width and height [cells] > 0 of the lattice; hurst in (0, 1).
-/// Gives: the surface; no eigenvalue of its torus is negative (up to rounding). Holds 2 bytes a cell of the torus,
-/// whose reach is 1 for H up to 0.75 and 2 above. Throws: BadParameter: H out of range, no cells, or more than
-/// most_torus_cells; Cancelled. Source: Stein 2002, Fast and exact simulation of fractional Brownian surfaces; Kroese
-/// and Botev 2015, section 2.5; the torus is shorter than theirs, since what lies beyond the lattice's own extent may
-/// wrap around.
+/// \pre width and height [cells] > 0 of the lattice; hurst in (0, 1).
+/// \param width [cells] number of columns
+/// \param height [cells] number of rows
+/// \param hurst (0, 1) Hurst exponent
+/// \param run progress, log, stop token and number of threads
+/// \return the surface; no eigenvalue of its torus is negative (up to rounding). Holds 2 bytes a cell of the torus,
+/// whose reach is 1 for H up to 0.75 and 2 above.
+/// \throws BadParameter H out of range, no cells, or more than most_torus_cells
+/// \throws Cancelled
+///
+/// Source: \cite stein2002, Fast and exact simulation of fractional Brownian surfaces; \cite kroese2015, section 2.5;
+/// the torus is shorter than theirs, since what lies beyond the lattice's own extent may wrap around.
 FractionalSurface fractional_surface(std::int64_t width, std::int64_t height, double hurst, Run const& run = {});
 
-/// Throws what fractional_surface throws for its parameters, without the work.
+/// \param width [cells] number of columns
+/// \param height [cells] number of rows
+/// \param hurst (0, 1) Hurst exponent
+/// \throws Error what fractional_surface throws for its parameters, without the work
 void check_fractional_surface(std::int64_t width, std::int64_t height, double hurst);
 
 /// One surface, 0 in the north-western cell.
-/// Takes: seed and stage, which name the chance.
-/// Gives: jointly normal numbers on the lattice, exact at all pairs of cells; the same bits for any number of threads.
-/// Throws: Cancelled.
+/// \pre seed and stage, which name the chance.
+/// \param surface the prepared surface
+/// \param seed random seed
+/// \param stage number of the stage that draws
+/// \param run progress, log, stop token and number of threads
+/// \return jointly normal numbers on the lattice, exact at all pairs of cells; the same bits for any number of threads.
+/// \throws Cancelled
 Raster<double> sample(FractionalSurface const& surface, std::uint64_t seed, std::uint64_t stage, Run const& run = {});
 
 /// Sums of variograms around weighted cells.
-/// Takes: weights, a raster of the lattice's size.
-/// Gives: in each cell p the sum over all cells q of weights(q) |p - q|^(2H); the same bits for any number of threads.
-/// Throws: Cancelled.
+/// \post in each cell p the sum over all cells q of weights(q) |p - q|^(2H); the same bits for any number of threads.
+/// \pre weights, a raster of the lattice's size.
+/// \param surface the prepared surface
+/// \param weights the weights
+/// \param run progress, log, stop token and number of threads
+/// \throws Cancelled
 void superpose_variograms(FractionalSurface const& surface, Raster<double>& weights, Run const& run = {});
 
 } // namespace thalweg::solver

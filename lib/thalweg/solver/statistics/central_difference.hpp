@@ -7,7 +7,11 @@
 namespace thalweg::solver {
 
 /// Height difference [m] a cell along one axis: central, one-sided beside a hole (NaN), 0 between two.
-/// Takes: a height, and those before and after it.
+/// \pre a height, and those before and after it.
+/// \param before [m] height before it
+/// \param here [m] height of the cell
+/// \param after [m] height after it
+/// \return the difference
 inline double central_difference(float before, float here, float after) {
     double const z = here;
     if (std::isnan(before)) {

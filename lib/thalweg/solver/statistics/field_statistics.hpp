@@ -27,19 +27,26 @@ struct FieldStatistics {
     std::vector<Difference> differences;
 };
 
-/// Takes: a DEM, NaN where there is none; at least one height.
-/// Gives: the statistics by the same definitions as measure::statistics.
-/// Throws: Cancelled.
-/// Source: paper 001, table 4.
+/// \param dem a DEM, NaN where there is none; at least one height
+/// \param run progress, log, stop token and number of threads
+/// \return the statistics by the same definitions as measure::statistics.
+/// \throws Cancelled
+///
+/// Source: \cite zhang, table 4.
 FieldStatistics field_statistics(Raster<float> const& dem, Run const& run = {});
 
 /// Which statistic is derived: the lengths by their logarithms.
 enum class Quantity { mean, std, ln_lx, ln_ly, slope_rad, dimension };
 
 /// How a statistic answers to every height.
-/// Takes: a DEM and its field_statistics; the statistic is a number.
-/// Gives: the derivative by the height of each cell, 0 in cells without; level places count as answering to none in the
-/// slope. The same bits for any number of threads. Throws: Cancelled.
+/// \pre a DEM and its field_statistics; the statistic is a number.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param is the DEM's statistics
+/// \param quantity a statistic
+/// \param run progress, log, stop token and number of threads
+/// \return the derivative by the height of each cell, 0 in cells without; level places count as answering to none in
+/// the slope. The same bits for any number of threads.
+/// \throws Cancelled
 Raster<double> derivative(Raster<float> const& dem, FieldStatistics const& is, Quantity quantity, Run const& run = {});
 
 } // namespace thalweg::solver

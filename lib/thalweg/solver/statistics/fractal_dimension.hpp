@@ -24,17 +24,24 @@ struct Difference {
 };
 
 /// Mean squared differences of heights at lags.
-/// Takes: a DEM, NaN where there is none.
-/// Gives: for each lag at which there are pairs the mean over rows and that over columns, averaged; where an axis has
-/// no pairs the other's. Throws: Cancelled.
+/// \pre a DEM, NaN where there is none.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param lags [cells] the lags
+/// \param run progress, log, stop token and number of threads
+/// \return for each lag at which there are pairs the mean over rows and that over columns, averaged; where an axis has
+/// no pairs the other's.
+/// \throws Cancelled
 std::vector<Difference> differences(Raster<float> const& dem, std::span<std::int64_t const> lags, Run const& run = {});
 
 /// Fractal dimension D = 3 - H; H is the slope of the least-squares line of ln(square)/2 over ln(lag).
-/// Gives: NaN with fewer than two lags, or where heights at one of them do not differ.
-/// Source: paper 001, section 3.4.
+/// \param differences mean squared differences by lag
+/// \return NaN with fewer than two lags, or where heights at one of them do not differ.
+///
+/// Source: \cite zhang, section 3.4.
 double fractal_dimension(std::vector<Difference> const& differences);
 
-/// Derivatives of D by the squares.
+/// \param differences mean squared differences by lag
+/// \return derivatives of D by the squares.
 std::vector<double> fractal_dimension_slopes(std::vector<Difference> const& differences);
 
 } // namespace thalweg::solver

@@ -21,6 +21,7 @@ enum class DiffusionStart : std::uint8_t {
     zero    ///< the paper's: 0 everywhere off the skeleton
 };
 
+/// Options of diffuse().
 struct DiffuseParams {
     Diffusion mode = Diffusion::steady;
     double tolerance = 1e-10;                      ///< (0,1) steady: as solver::PoissonParams
@@ -34,6 +35,7 @@ struct DiffuseParams {
     std::uint64_t seed = 1;                        ///< of the noise
 };
 
+/// What diffuse() returns.
 struct Diffused {
     Raster<float> dem;     ///< [m] NaN outside
     int iterations = 0;    ///< of the solver, or sweeps
@@ -41,14 +43,20 @@ struct Diffused {
 };
 
 /// Spreads the skeleton's heights over the land as heat spreads: du/dt = D lap u with the skeleton kept.
-/// Takes: skeleton: heights of rivers, ridges and points. inside: of its frame; cells with 0 are holes across which
-/// nothing flows, and a skeleton cell there does not count.
-/// Gives: skeleton cells exact; before noise all heights between its lowest and highest; NaN outside and in parts that
+/// \param skeleton heights of rivers, ridges and points. inside: of its frame; cells with 0 are holes across which
+/// nothing flows, and a skeleton cell there does not count
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return skeleton cells exact; before noise all heights between its lowest and highest; NaN outside and in parts that
 /// hold no skeleton cell. The mean over neighbours takes the spikes from lonely cells; the skeleton is kept in each
 /// pass and 20 sweeps of diffusion then take the seam beside it. Noise is multiplied by 1 - exp(-d/4), d the distance
-/// to the skeleton in cells. Throws: BadInput: no skeleton cell (inside), an infinite height, another frame;
-/// BadParameter: out of range, alpha above 1/4 too, for then differences grow from sweep to sweep; NotConverged;
-/// Cancelled. Source: paper 003, equations 12 and 13, the latter with its sign mended; specification 3.7.
+/// to the skeleton in cells.
+/// \throws BadInput no skeleton cell (inside), an infinite height, another frame
+/// \throws BadParameter out of range, alpha above 1/4 too, for then differences grow from sweep to sweep
+/// \throws NotConverged
+/// \throws Cancelled
+///
+/// Source: \cite nenu2015, equations 12 and 13, the latter with its sign mended; specification 3.7.
 Diffused diffuse(Skeleton const& skeleton, DiffuseParams const& params = {}, Run const& run = {});
 Diffused diffuse(Skeleton const& skeleton, Mask const& inside, DiffuseParams const& params = {}, Run const& run = {});
 

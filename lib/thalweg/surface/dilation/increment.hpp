@@ -9,6 +9,7 @@
 
 namespace thalweg::surface {
 
+/// Options of increments().
 struct IncrementParams {
     std::string increment = "rise_fall"; ///< uniform | decreasing | rise_fall | an expression in x such as 3-0.01*x
     bool allow_negative = false;         ///< without it increments below 0 count as 0
@@ -17,11 +18,14 @@ struct IncrementParams {
 };
 
 /// The increment dh(x) of the x-th dilation, x = 1 .. levels, as values[x - 1], in the papers' units.
-/// Gives: Table 1 of paper 000 for the three names; an expression or a function rounded to 2^-32 (from 16 up, to 36
+/// \param levels number of dilations
+/// \param params options, each with its default, unit and range
+/// \return Table 1 of paper 000 for the three names; an expression or a function rounded to 2^-32 (from 16 up, to 36
 /// significant bits), the same on every machine: a function gives the bytes of the expression it computes.
-/// Throws: BadParameter: not a name (did you mean ...) and not an expression; a value that is not finite; what the
-/// function throws.
-/// Source: paper 000, Table 1.
+/// \throws BadParameter not a name (did you mean ...) and not an expression; a value that is not finite; what the
+/// function throws
+///
+/// Source: \cite cao2009, Table 1.
 std::vector<double> increments(std::int64_t levels, IncrementParams const& params = {});
 
 /// A place where increments jump.
@@ -32,15 +36,20 @@ struct IncrementJump {
 };
 
 /// Where dh(x) is not continuous between 1 and levels: slopes break there on every hillside at once.
-/// Takes: as increments(). Gives: jumps of more than a hundredth of the greatest increment that no bisection of x makes
-/// less, ascending; none for the names of Table 1. Throws: as increments(). Source: paper 000, Table 1, whose
-/// increments in two parts meet where they change.
+/// \param levels as increments()
+/// \param params options, each with its default, unit and range
+/// \return jumps of more than a hundredth of the greatest increment that no bisection of x makes less, ascending; none
+/// for the names of Table 1.
+/// \throws Error as increments()
+///
+/// Source: \cite cao2009, Table 1, whose increments in two parts meet where they change.
 std::vector<IncrementJump> increment_jumps(std::int64_t levels, IncrementParams const& params = {});
 
-/// The increments that have a name, in the order of messages.
+/// \return the increments that have a name, in the order of messages.
 std::vector<std::string> increment_names();
 
-/// Sums H(d) = dh(1) + ... + dh(d), d = 0 .. levels.
+/// \param increments [m] dh(x) of x = 1, 2, ...
+/// \return sums H(d) = dh(1) + ... + dh(d), d = 0 .. levels.
 std::vector<double> heights_above_valley(std::vector<double> const& increments);
 
 } // namespace thalweg::surface

@@ -18,7 +18,9 @@
 /// barriers. A row is scanned both ways, then the columns: the smallest pair (|c - v|, e_v) over all valley cells v.
 namespace thalweg::surface::separable {
 
-/// An integer in the order of the float: total, -0 below +0, so that no minimum depends on the order of comparison.
+/// \param height [m] a height
+/// \return an integer in the order of the float: total, -0 below +0, so that no minimum depends on the order of
+/// comparison.
 inline std::int32_t ordered(float height) {
     auto const bits = std::bit_cast<std::int32_t>(height);
     return bits ^ ((bits >> 31) & 0x7fffffff);
@@ -27,6 +29,7 @@ inline float height_of(std::int32_t order) {
     return std::bit_cast<float>(order ^ ((order >> 31) & 0x7fffffff));
 }
 
+/// Values of the free cells.
 struct Free {
     void operator()(void* memory) const { give_large_pages(memory); }
 };
@@ -38,7 +41,8 @@ template <class Level> struct Swept {
     std::int64_t levels = 0; ///< greatest number of dilations after both sweeps
 };
 
-/// Whether the valley has cells, and finite heights in them.
+/// \param swept what sweep_down found
+/// \return whether the valley has cells, and finite heights in them.
 template <class Level> bool usable(Swept<Level> const& swept) {
     return swept.greatest >= 0.0F && swept.greatest < std::numeric_limits<float>::infinity();
 }
@@ -47,15 +51,29 @@ inline bool fits16(Grid const& grid) {
     return grid.width + grid.height <= 0xffff;
 }
 
-/// Takes: a valley of at least one cell; base: any content, the valley's grid.
-/// Gives: level, and in base the heights of the cells they are counted from.
+/// \pre a valley of at least one cell
+/// \param valley [m] heights of the river cells
+/// \param base any content, the valley's grid
+/// \param lanes width of the vector registers; any gives the same bytes
+/// \param run progress, log, stop token and number of threads
+/// \return level, and in base the heights of the cells they are counted from.
 template <class Level> Swept<Level> sweep_down(Valley const& valley, Raster<float>& base, Lanes lanes, Run const& run);
 
 /// Finishes base in place and writes the levels.
+/// \param swept what sweep_down found
+/// \param base [m] base heights
+/// \param level receives the number of dilations
+/// \param lanes width of the vector registers; any gives the same bytes
+/// \param run progress, log, stop token and number of threads
 template <class Level>
 void sweep_up(Swept<Level> const& swept, Raster<float>& base, Raster<std::int32_t>& level, Lanes lanes, Run const& run);
 
 /// Turns base in place into heights: base + above_valley[level], added in double. Valley cells keep their bits.
+/// \param swept what sweep_down found
+/// \param base [m] base heights
+/// \param above_valley [m] height above the valley by number of dilations
+/// \param lanes width of the vector registers; any gives the same bytes
+/// \param run progress, log, stop token and number of threads
 template <class Level>
 void sweep_up(Swept<Level> const& swept, Raster<float>& base, std::vector<double> above_valley, Lanes lanes,
               Run const& run);

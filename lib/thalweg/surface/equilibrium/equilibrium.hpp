@@ -35,6 +35,7 @@ struct EquilibriumFields {
     Raster<float> erodibility; ///< > 0, only ratios count (lithology)
 };
 
+/// Options of equilibrium().
 struct EquilibriumParams {
     double theta = 0.38;               ///< [0.1, 0.9] concavity: slope ~ area^-theta
     double mean_slope_deg = 25.0;      ///< (0, 60] of the land's cells (Horn's slope), where relief is not given
@@ -50,6 +51,7 @@ struct EquilibriumParams {
     std::uint64_t seed = 7;
 };
 
+/// What equilibrium() returns.
 struct EquilibriumLand {
     Raster<float> dem;                   ///< [m] NaN at sea
     Raster<flow::Direction> direction;   ///< where the water of each cell goes; no_data at sea
@@ -61,18 +63,26 @@ struct EquilibriumLand {
     double rise = 0.0;                   ///< factor from the solver's heights (in cells) to metres, over the cell size
 };
 
-/// Draws the land that is in equilibrium with given rivers: everywhere uplift equals what running water cuts
-/// (K A^theta S, with debris flows where A is small) less what soil creep brings (D lap z), with a cap on slopes, noise
-/// on erodibility, and floors along rivers. Solved coarse to fine.
-/// Takes: rivers, at least one, whose water leaves on the border, the coast or in a sink; fields on their grid.
-/// Gives: water of a river cell goes to its receiver, by the steepest descent of the floats that are written, and
-/// land beside rivers stands above every river cell it touches; all land has a strictly lower neighbour, so there is no
+/// Draws the land that is in equilibrium with given rivers: everywhere uplift equals what running water cuts (K A^theta
+/// S, with debris flows where A is small) less what soil creep brings (D lap z), with a cap on slopes, noise on
+/// erodibility, and floors along rivers. Solved coarse to fine.
+/// \pre rivers, at least one, whose water leaves on the border, the coast or in a sink; fields on their grid.
+/// \param rivers the rivers
+/// \param fields fields that vary over the land
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return water of a river cell goes to its receiver, by the steepest descent of the floats that are written, and land
+/// beside rivers stands above every river cell it touches; all land has a strictly lower neighbour, so there is no
 /// depression but a sink; lakes are level. Given heights may keep the land from a mean slope or relief: then it has the
-/// nearest that was found. The lowest river end stands at 0 (given heights: where they
-/// say). The same bytes for any number of threads. Throws: BadParameter; BadInput: channels that break their law,
-/// fields on another grid, not above 0 or with holes on land, no land, a river at sea, given heights that rise;
-/// Cancelled. Source: Perron et al. 2009 (hillslope length); Braun and Willett 2013 (order); Barnes 2014 (flood);
-/// Stock and Dietrich 2003 (debris flows).
+/// nearest that was found. The lowest river end stands at 0 (given heights: where they say). The same bytes for any
+/// number of threads.
+/// \throws BadParameter
+/// \throws BadInput channels that break their law, fields on another grid, not above 0 or with holes on land, no land,
+/// a river at sea, given heights that rise
+/// \throws Cancelled
+///
+/// Source: \cite perron2009 (hillslope length); \cite braun2013 (order); \cite barnes2014 (flood); \cite stock2003
+/// (debris flows).
 EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fields = {},
                             EquilibriumParams const& params = {}, Run const& run = {});
 

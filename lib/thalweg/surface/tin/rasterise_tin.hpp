@@ -10,6 +10,7 @@
 
 namespace thalweg::surface {
 
+/// Options of rasterise_tin().
 struct RasteriseTinParams {
     /// Cells whose centre no triangle holds: NaN, or the height at the nearest point of the TIN's edge.
     enum class Outside : std::uint8_t { no_data, nearest };
@@ -17,11 +18,17 @@ struct RasteriseTinParams {
 };
 
 /// Linear heights of a TIN at the centres of cells.
-/// Takes: a TIN, one without triangles included; a grid.
-/// Gives: in each cell whose centre lies in the TIN, its edge included, the height there of the triangle that owns it,
+/// \pre a TIN, one without triangles included; a grid.
+/// \param tin the TIN
+/// \param grid the grid
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return in each cell whose centre lies in the TIN, its edge included, the height there of the triangle that owns it,
 /// computed in double and never beyond the triangle's corners. A centre on an edge shared by triangles belongs to that
 /// on its east (of a level edge: on its north): decided exactly, so that no cell is left out and none is drawn twice.
-/// Throws: BadInput naming vertex or triangle when one is not finite, not counterclockwise or not there; Cancelled.
+/// \throws BadInput naming vertex or triangle when one is not finite, not counterclockwise or not there
+/// \throws Cancelled
+///
 /// Source: scanlines with exact orientation tests where rounding could decide.
 Raster<float> rasterise_tin(Tin const& tin, Grid const& grid, RasteriseTinParams const& params = {},
                             Run const& run = {});

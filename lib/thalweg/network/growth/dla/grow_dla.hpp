@@ -15,6 +15,7 @@ enum class VisitRule : std::uint8_t {
     stick_then_count ///< only passed stick tests count: below M the walker is removed, at the M-th it holds
 };
 
+/// Options of least_arrivals().
 struct DlaParams {
     std::int64_t particles = 26000;          ///< [1, ...] size of the cluster, its seed included
     double sticking = 0.85;                  ///< (0, 1] S: a site with n occupied 4-neighbours holds with S^(3-n)
@@ -36,19 +37,25 @@ struct Cluster {
     GrowthStop stop = GrowthStop::particles;
 };
 
-/// About the least number of arrivals (a walker beside the cluster, of which each takes a stick test) that a cluster
-/// needs. A compact cluster is least: each of its rows begins at a site with one neighbour, which holds with S².
+/// A compact cluster is least: each of its rows begins at a site with one neighbour, which holds with S².
+/// \param params options, each with its default, unit and range
+/// \return about the least number of arrivals (a walker beside the cluster, of which each takes a stick test) that a
+/// cluster needs.
 double least_arrivals(DlaParams const& params);
 
-/// Throws: BadParameter where a value lies outside its range, or more than 1e12 arrivals are needed: about a day.
+/// \param params options, each with its default, unit and range
+/// \throws BadParameter where a value lies outside its range, or more than 1e12 arrivals are needed: about a day
 void require_growth(DlaParams const& params);
 
 /// Grows a diffusion-limited aggregate from one seed.
-/// Takes: sticking S and visit count M.
-/// Gives: a 4-connected cluster; the walk is the simple random walk of the lattice released from afar, every walker
+/// \param params sticking S and visit count M
+/// \param run progress, log, stop token and number of threads
+/// \return a 4-connected cluster; the walk is the simple random walk of the lattice released from afar, every walker
 /// with its own chance (seed, walker): the same cells for any number of threads.
-/// Throws: like require_growth; Cancelled.
-/// Source: paper 000, equation 1 and section 2 (Chiu, Lee and Tu 1992).
+/// \throws Error like require_growth
+/// \throws Cancelled
+///
+/// Source: \cite cao2009, equation 1 and section 2 (\cite chiu1992).
 Cluster grow_dla(DlaParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

@@ -11,6 +11,7 @@
 
 namespace thalweg::network {
 
+/// Options of grow_forest().
 struct ForestParams {
     std::int64_t step_cells = 5; ///< [1, 100] s: on the lattice, a particle is s to s + 1 from the one it hangs on
     std::int64_t particles = 0;  ///< [0, ...] stop at so many, the seeds included; 0: when the region is full
@@ -31,16 +32,23 @@ struct GrownForest {
 };
 
 /// Grows trees from the seeds into a region, all at once, until there is no cell left at which one could grow.
-/// Takes: a region (0 outside); seeds in it, at least 2 s apart. Walkers start uniformly in the region, walk its cells,
+/// \pre a region (0 outside); seeds in it, at least 2 s apart. Walkers start uniformly in the region, walk its cells,
 /// stay where a step would leave it, and end at the first cell beside a tree, that is beside the cells nearer than s to
 /// a particle. There they become one, or nothing where none may be; so a branch grows with the land that has no nearer
 /// one (growth in a Poisson field).
-/// Gives: a particle hangs on the one nearest to it. It keeps 2 s from all others, but from the children of that one
-/// only s sqrt(3/2), and from its parent s sqrt(5/2): branches fork, but neither meet nor touch, of one tree or of
-/// two, and in all directions alike. Full: no cell that walkers from a seed could reach may hold a particle. Arrivals
-/// have the law of unit steps, each walker has its own chance (seed, walker): the same bytes for any Run.
-/// Throws: BadParameter; BadInput for no seed, one outside the region or two that are too near; Cancelled.
-/// Source: Witten and Sander 1981, with walkers from everywhere; Petroff et al. 2013 (rivers in a Poisson field).
+/// \param region 1 inside the region
+/// \param seeds where trees begin
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return a particle hangs on the one nearest to it. It keeps 2 s from all others, but from the children of that one
+/// only s sqrt(3/2), and from its parent s sqrt(5/2): branches fork, but neither meet nor touch, of one tree or of two,
+/// and in all directions alike. Full: no cell that walkers from a seed could reach may hold a particle. Arrivals have
+/// the law of unit steps, each walker has its own chance (seed, walker): the same bytes for any Run.
+/// \throws BadParameter
+/// \throws BadInput for no seed, one outside the region or two that are too near
+/// \throws Cancelled
+///
+/// Source: \cite witten1981, with walkers from everywhere; \cite petroff2013 (rivers in a Poisson field).
 GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params = {},
                         Run const& run = {});
 

@@ -13,6 +13,7 @@
 
 namespace thalweg::network {
 
+/// What plant_forest() returns.
 struct PlantedForest {
     StreamNetwork network;
     std::vector<Finding> notes; ///< outlets that were left out or added, land without rivers
@@ -23,12 +24,18 @@ struct PlantedForest {
 };
 
 /// Grows rivers from outlets on a coast into the land until it is full of them.
-/// Takes: land, 0 for sea; outlets, cells of its coast (coast_cells); params as grow_forest, step_cells [4, 100].
-/// Gives: a network on land of one tree an outlet, which is the centre of its cell; vertices are centres of cells, and
+/// \pre land, 0 for sea; outlets, cells of its coast (coast_cells); params as grow_forest, step_cells [4, 100].
+/// \param land the cells of land; 0: sea
+/// \param outlets where rivers end
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return a network on land of one tree an outlet, which is the centre of its cell; vertices are centres of cells, and
 /// rivers of two trees keep two cells free between them. notes: "crowded_outlet" (left out: its river would come too
 /// near to another's, or the land is too narrow), "added_outlet" (on land from which no river finds one), "dry_land"
-/// (an island without room for a river; amount: its cells). Throws: BadParameter; BadInput for no land, an outlet off
-/// the coast or no room for any river; Cancelled.
+/// (an island without room for a river; amount: its cells).
+/// \throws BadParameter
+/// \throws BadInput for no land, an outlet off the coast or no room for any river
+/// \throws Cancelled
 PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, ForestParams const& params = {},
                            Run const& run = {});
 

@@ -12,6 +12,7 @@
 
 namespace thalweg::network {
 
+/// Options of grow_strokes().
 struct StrokesParams {
     TokunagaParams tree;        ///< seed, rule, the banks of all but the trunks' branches, and the generator of strokes
                                 ///< without their own; order is not read
@@ -21,6 +22,7 @@ struct StrokesParams {
     double min_spacing_m = 0.0; ///< [m] as in EmbedParams
 };
 
+/// What grow_strokes() returns.
 struct GrownStrokes {
     StreamNetwork network; ///< arcs have the type and the feature of their stroke
     std::int64_t placed = 0;
@@ -29,11 +31,20 @@ struct GrownStrokes {
 
 /// Grows a network along every stroke somebody drew: its trunk follows the stroke, its branches fill the land nearest
 /// to it, on either side as many links as there is land.
-/// Takes: strokes from their mouth upstream, inside the grid. One that begins on another joins its trunk there.
-/// Gives: refinements = length / width of the grid * max_depth, rounded, at least 1 and at most max_depth; no two arcs
-/// meet but in shared nodes. Throws: BadParameter; BadInput naming the stroke and the place: fewer than two different
-/// vertices, half a cell or less, a vertex outside the grid, a type nobody knows, a stroke that meets itself, two that
-/// cross, end on one another, begin or join at the same place; Cancelled. Source: paper 003, equation 9.
+/// \pre strokes from their mouth upstream, inside the grid. One that begins on another joins its trunk there.
+/// \param strokes lines drawn from their mouth upstream
+/// \param grid the grid
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return refinements = length / width of the grid * max_depth, rounded, at least 1 and at most max_depth; no two arcs
+/// meet but in shared nodes.
+/// \throws BadParameter
+/// \throws BadInput naming the stroke and the place: fewer than two different vertices, half a cell or less, a vertex
+/// outside the grid, a type nobody knows, a stroke that meets itself, two that cross, end on one another, begin or join
+/// at the same place
+/// \throws Cancelled
+///
+/// Source: \cite nenu2015, equation 9.
 GrownStrokes grow_strokes(RiverLines const& strokes, Grid const& grid, StrokesParams const& params = {},
                           Run const& run = {});
 

@@ -17,6 +17,7 @@ enum class BankRule : std::uint8_t {
     chance       ///< each by chance, either as likely
 };
 
+/// Options of grow_tokunaga().
 struct TokunagaParams {
     std::uint64_t seed = 7;
     int generator = 2;                  ///< [1, 50] lambda: 1 has no side branches, many make a feathered network
@@ -44,11 +45,14 @@ struct TokunagaTree {
 
 /// Grows a self-similar river network by refining: every source becomes a generator, every other link a chain with side
 /// branches, whose mean number is rounded up or down by chance.
-/// Takes: the generator's number lambda and the order.
-/// Gives: a binary tree of that order whose side branches have the means T_k = a c^(k-1), by chance (seed, refinement,
+/// \param params the generator's number lambda and the order
+/// \param run progress, log, stop token and number of threads
+/// \return a binary tree of that order whose side branches have the means T_k = a c^(k-1), by chance (seed, refinement,
 /// link); for lambda = 2 exactly. One source more than other links.
-/// Throws: BadParameter, also where the tree has more than max_links links; Cancelled.
-/// Source: paper 003, section 2.1, equations 1 to 6.
+/// \throws BadParameter also where the tree has more than max_links links
+/// \throws Cancelled
+///
+/// Source: \cite nenu2015, section 2.1, equations 1 to 6.
 TokunagaTree grow_tokunaga(TokunagaParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

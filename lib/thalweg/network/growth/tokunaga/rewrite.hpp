@@ -23,20 +23,35 @@ struct LSystem {
 
 /// Reads an L-system from text: lines "axiom WORD", "iterations N", "angle DEGREES" and "SIGN -> WORD". Behind # is a
 /// comment; a WORD may be empty but for the axiom, and blanks in it do not count. A sign that has several lines is
-/// rewritten by one of them at random. Throws: BadInput naming file and line. name: for messages.
+/// rewritten by one of them at random.
+/// \param text the text
+/// \param name its name
+/// \return axiom and rules
+/// \throws BadInput naming file and line. name: for messages
 LSystem read_rules(std::string_view text, std::string const& name);
 
 /// The word after all iterations: in each every sign with a rule is replaced at once.
-/// Takes: rules; seed of the choice between several. Gives: the same word for any number of threads. With
-/// F -> FF alone a word's links are halved and its branches stay. Throws: BadParameter when the word would have more
-/// than 20 million signs, or brackets do not match; Cancelled. Source: the thesis of 2015, section 2.2;
-/// Prusinkiewicz and Lindenmayer 1990, The algorithmic beauty of plants, sections 1.2 and 1.7.
+/// \pre rules; seed of the choice between several.
+/// \param system axiom and rules
+/// \param seed random seed
+/// \param run progress, log, stop token and number of threads
+/// \return the same word for any number of threads. With F -> FF alone a word's links are halved and its branches stay.
+/// \throws BadParameter when the word would have more than 20 million signs, or brackets do not match
+/// \throws Cancelled
+///
+/// Source: \cite nenu2015, section 2.2; \cite prusinkiewicz1990, The algorithmic beauty of plants, sections 1.2 and
+/// 1.7.
 std::string rewrite(LSystem const& system, std::uint64_t seed = 7, Run const& run = {});
 
 /// What a turtle draws of a word that starts to the north from the origin, every step of length 1.
-/// Takes: capital letters draw a step, small letters make one without drawing, + and - turn left and right, | turns
+/// \pre capital letters draw a step, small letters make one without drawing, + and - turn left and right, | turns
 /// round, [ and ] remember and return to a place and bearing; other signs do nothing.
-/// Gives: polylines, each as long as nothing interrupts it. Source: as rewrite.
+/// \param word the word
+/// \param angle_deg [degrees] angle
+/// \param run progress, log, stop token and number of threads
+/// \return polylines, each as long as nothing interrupts it.
+///
+/// Source: as rewrite.
 std::vector<std::vector<Vec2>> draw_word(std::string_view word, double angle_deg, Run const& run = {});
 
 } // namespace thalweg::network

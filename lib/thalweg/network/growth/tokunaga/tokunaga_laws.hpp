@@ -22,13 +22,19 @@ struct TokunagaLaws {
 };
 
 /// The closed forms of a self-similar network.
-/// Takes: lambda, [1, 50] the number of the generator. Gives: a = lambda - 1, c = (1 + sqrt(1 + 4 lambda)) / 2 and what
-/// follows. Throws: BadParameter.
-/// Source: paper 003, equations 1 to 8 (Tokunaga 1978; Zhang et al. 2009); R_B: Peckham 1995.
+/// \param lambda lambda, [1, 50] the number of the generator
+/// \return a = lambda - 1, c = (1 + sqrt(1 + 4 lambda)) / 2 and what follows.
+/// \throws BadParameter
+///
+/// Source: \cite nenu2015, equations 1 to 8 (\cite tokunaga1978; Zhang et al. 2009); R_B: \cite peckham1995.
 TokunagaLaws tokunaga_laws(int lambda);
 
-/// Mean number of side branches that an interior link of a stream of this order gets in one refinement.
-/// order: [2, ...]. With t = order - 1: mu_t = a c^t / (lambda + a c (c^(t-1) - 1) / (c - 1)) for the rule `tokunaga`.
+/// With t = order - 1: mu_t = a c^t / (lambda + a c (c^(t-1) - 1) / (c - 1)) for the rule `tokunaga`.
+/// \param lambda [1, 50] number of the generator
+/// \param rule how side branches are counted
+/// \param order >= 2, Strahler order
+/// \return mean number of side branches that an interior link of a stream of this order gets in one refinement. order:
+/// [2, ...].
 double mean_side_branches(int lambda, SideRule rule, int order);
 
 } // namespace thalweg::network
