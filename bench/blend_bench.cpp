@@ -6,7 +6,7 @@
 // BM_blend_paste: the whole stage, opening and target's copy included. BM_blend_paste_feathered: the same with a
 // guidance field.
 #include <thalweg/blend/paste.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/solver/grid/poisson.hpp>
 
 #include <benchmark/benchmark.h>
@@ -27,7 +27,7 @@ float height(std::uint64_t seed, Cell c) {
     auto const y = static_cast<double>(c.row);
     return static_cast<float>(
         400.0 + 120.0 * std::sin(0.013 * x + static_cast<double>(seed)) * std::cos(0.017 * y) +
-        3.0 * unit(chance(seed, static_cast<std::uint64_t>(c.col), static_cast<std::uint64_t>(c.row))));
+        3.0 * unit(random_word(seed, static_cast<std::uint64_t>(c.col), static_cast<std::uint64_t>(c.row))));
 }
 
 Lands const& lands_of(std::int64_t side) {

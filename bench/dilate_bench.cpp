@@ -3,7 +3,7 @@
 // Dilation beside memcpy of its float grid, so that ratios of ns_per_cell are read from one run. One thread.
 // BM_dilate_closed and BM_dilate_frontier: the whole stage, with the memory it allocates, first touch included.
 // BM_dilate_closed_reused: the same sweeps into a DEM that has been touched before; the levels are still allocated.
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/surface/dilation/dilate.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
 
@@ -21,17 +21,17 @@ using namespace thalweg;
 /// Winding rivers through about 3.5 % of the cells.
 Valley rivers(std::int64_t side) {
     Valley valley{Raster<float>(Grid{side, side, 1.0, 0.0, 0.0, ""}, std::numeric_limits<float>::quiet_NaN())};
-    ChanceStream chance(7, 1, 0);
+    RandomStream random(7, 1, 0);
     std::int64_t wanted = side * side * 35 / 1000;
     while (wanted > 0) {
-        double x = chance.real() * static_cast<double>(side);
-        double y = chance.real() * static_cast<double>(side);
-        double bearing = 6.28 * chance.real();
-        auto const length = static_cast<std::int64_t>(200.0 + chance.real() * static_cast<double>(side) / 4.0);
+        double x = random.real() * static_cast<double>(side);
+        double y = random.real() * static_cast<double>(side);
+        double bearing = 6.28 * random.real();
+        auto const length = static_cast<std::int64_t>(200.0 + random.real() * static_cast<double>(side) / 4.0);
         for (std::int64_t i = 0; i < length; ++i) {
             x += std::cos(bearing);
             y += std::sin(bearing);
-            bearing += 0.6 * (chance.real() - 0.5);
+            bearing += 0.6 * (random.real() - 0.5);
             Cell const cell{static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(std::floor(y))};
             if (!valley.z.grid().contains(cell)) {
                 break;

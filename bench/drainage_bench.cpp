@@ -7,7 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/flow/catchments/areas.hpp>
@@ -32,7 +32,7 @@ Raster<float> relief(std::int64_t side) {
         for (std::int64_t wave = side / 2; wave > 0; wave /= 2, ++octave) {
             // Value noise: bilinear between the chances of lattice points.
             auto const corner = [&](std::int64_t col, std::int64_t row) {
-                return unit(chance(1, octave, static_cast<std::uint64_t>(col), static_cast<std::uint64_t>(row)));
+                return unit(random_word(1, octave, static_cast<std::uint64_t>(col), static_cast<std::uint64_t>(row)));
             };
             std::int64_t const col = c.col / wave;
             std::int64_t const row = c.row / wave;
@@ -72,7 +72,7 @@ BENCHMARK(BM_drain_dinf)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
 void BM_drain_noise(benchmark::State& state) {
     Raster<float> dem(Grid{state.range(0), state.range(0), 1.0, 0.0, 0.0, ""});
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        dem[i] = static_cast<float>(unit(chance(1, static_cast<std::uint64_t>(i))));
+        dem[i] = static_cast<float>(unit(random_word(1, static_cast<std::uint64_t>(i))));
     }
     for (auto _ : state) {
         benchmark::DoNotOptimize(flow::route(dem));

@@ -17,7 +17,7 @@ namespace {
 
 using namespace thalweg;
 
-/// A tree by chance from the middle of the southern border, a hundredth of the cells.
+/// A tree at random from the middle of the southern border, a hundredth of the cells.
 Channels rivers(std::int64_t side) {
     Grid const grid = channel_trees::frame(side, side, 30.0);
     return channel_trees::grown(grid, {grid.index({side / 2, side - 1})}, {}, grid.cells() / 100,

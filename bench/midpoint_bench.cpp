@@ -4,10 +4,10 @@
 // read from one run. BM_midpoint_reused/STENCIL/NOISE/threads: 33 x 33 coarse cells to 8192 x 8192, into a DEM and
 // lattices that have been touched before. BM_midpoint: the whole stage, with the memory it allocates, first touch
 // included. One and two threads.
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/parallel.hpp>
-#include <thalweg/detail/midpoint.hpp>
-#include <thalweg/detail/refine.hpp>
+#include <thalweg/fractal/midpoint.hpp>
+#include <thalweg/fractal/refine.hpp>
 
 #include <benchmark/benchmark.h>
 
@@ -16,7 +16,7 @@
 namespace {
 
 using namespace thalweg;
-using namespace thalweg::detail;
+using namespace thalweg::fractal;
 
 constexpr std::int64_t side = 8192;
 
@@ -24,7 +24,7 @@ Raster<float> const& coarse_land() {
     static Raster<float> const land = [] {
         Raster<float> z(Grid{33, 33, 256.0, 0.0, 0.0, ""});
         for (std::int64_t i = 0; i < z.cells(); ++i) {
-            z[i] = static_cast<float>(1000.0 * unit(chance(3, static_cast<std::uint64_t>(i))));
+            z[i] = static_cast<float>(1000.0 * unit(random_word(3, static_cast<std::uint64_t>(i))));
         }
         return z;
     }();

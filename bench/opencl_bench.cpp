@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <benchmark/benchmark.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/solver/grid/poisson.hpp>
 #include <thalweg/solver/grid/relax_explicit.hpp>
 #include <thalweg/solver/opencl/devices.hpp>
@@ -23,9 +23,9 @@ solver::GridProblem land(std::int64_t side) {
     solver::GridProblem problem{Raster<std::uint8_t>(grid, 1), Raster<double>(grid, 0.0), Raster<double>()};
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         auto const cell = static_cast<std::uint64_t>(i);
-        if (unit(chance(7, cell)) < 0.01) {
+        if (unit(random_word(7, cell)) < 0.01) {
             problem.kind[i] = static_cast<std::uint8_t>(solver::CellKind::fixed);
-            problem.value[i] = 1000.0 * unit(chance(8, cell));
+            problem.value[i] = 1000.0 * unit(random_word(8, cell));
         }
     }
     return problem;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lands from numbers: the transform, the random field, the statistics and the projection, on every core.
 // Arguments are sides of square grids but for BM_project_table_4, the land of table 4 of paper 001.
-#include <thalweg/core/numbers/chance.hpp>
-#include <thalweg/detail/project.hpp>
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/fractal/match_statistics.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/skeleton/grf.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
@@ -33,7 +33,7 @@ void BM_fft(benchmark::State& state) {
     std::int64_t const side = state.range(0);
     Raster<solver::Complex> values(square(side));
     for (std::int64_t i = 0; i < values.cells(); ++i) {
-        values[i] = {unit(chance(1, static_cast<std::uint64_t>(i))), 0.0};
+        values[i] = {unit(random_word(1, static_cast<std::uint64_t>(i))), 0.0};
     }
     for (auto _ : state) {
         values = solver::fft(std::move(values), solver::Direction::forward);
@@ -62,29 +62,29 @@ void BM_statistics(benchmark::State& state) {
 void BM_project(benchmark::State& state) {
     std::int64_t const side = state.range(0);
     Raster<float> const dem = land(side);
-    detail::Targets targets;
+    fractal::Targets targets;
     targets.mean = 1000.0;
     targets.std = 180.0;
-    targets.max = detail::FixedHeight{{side / 3, side / 4}, 1900.0};
-    targets.min = detail::FixedHeight{{side - 1, side / 2}, 300.0};
+    targets.max = fractal::FixedHeight{{side / 3, side / 4}, 1900.0};
+    targets.min = fractal::FixedHeight{{side - 1, side / 2}, 300.0};
     targets.lx_cells = 60.0;
     targets.ly_cells = 90.0;
     targets.slope_rad = 1.45;
     targets.dimension = 2.3;
     int iterations = 0;
     for (auto _ : state) {
-        iterations = detail::project(dem, targets, {}, {.prior = {60.0, 90.0, 2.3}}).iterations;
+        iterations = fractal::match_statistics(dem, targets, {}, {.prior = {60.0, 90.0, 2.3}}).iterations;
     }
     state.counters["steps"] = iterations;
     count(state, dem.cells());
 }
 
 void BM_project_table_4(benchmark::State& state) {
-    detail::Targets targets;
+    fractal::Targets targets;
     targets.mean = 536.0;
     targets.std = 131.6;
-    targets.max = detail::FixedHeight{{91, 1}, 1038.0};
-    targets.min = detail::FixedHeight{{129, 26}, 276.0};
+    targets.max = fractal::FixedHeight{{91, 1}, 1038.0};
+    targets.min = fractal::FixedHeight{{129, 26}, 276.0};
     targets.lx_cells = 20.68;
     targets.ly_cells = 39.74;
     targets.slope_rad = 1.499;
@@ -93,7 +93,7 @@ void BM_project_table_4(benchmark::State& state) {
     for (auto _ : state) {
         auto const dem =
             skeleton::grf({130, 40, 300.0, 0.0, 0.0, ""}, {.mean = 536.0, .std = 131.6, .covariance = prior}).dem;
-        benchmark::DoNotOptimize(detail::project(dem, targets, {}, {.prior = prior}));
+        benchmark::DoNotOptimize(fractal::match_statistics(dem, targets, {}, {.prior = prior}));
     }
     count(state, 130 * 40);
 }

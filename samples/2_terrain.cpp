@@ -9,7 +9,7 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
-#include <thalweg/network/import/adopt.hpp>
+#include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/surface/dilation/dilate.hpp>
 
@@ -37,13 +37,13 @@ int main(int count, char** words) try {
 
     //! [stages]
     // Lines become arcs of a tree. Whatever had to be mended is told; here nothing is.
-    network::Adopted const adopted = network::adopt(drawn, {.orientation = network::Orientation::as_drawn});
-    for (Finding const& repair : adopted.repairs) {
+    network::Imported const imported = network::import_lines(drawn, {.orientation = network::Orientation::as_drawn});
+    for (Finding const& repair : imported.repairs) {
         std::printf("%s: %s\n", repair.kind.c_str(), repair.text.c_str());
     }
 
     // The valleys rise 2 m in 100 m from the outlet; a network with heights is another type than one without.
-    network::Raised const raised = network::set_heights(adopted.network, {.slope = 0.02});
+    network::Elevated const raised = network::set_heights(imported.network, {.slope = 0.02});
 
     // The rivers' cells, and the land that rises from them: 400 m from the valley floor to the farthest crest.
     Valley const valley = network::rasterise(raised.network, grid).valley;

@@ -24,11 +24,11 @@ double height_at(double x, double y) {
 int main(int count, char** words) try {
     char const* const path = count > 1 ? words[1] : "tin.gpkg";
 
-    // Places chosen by chance: words that depend on the seed and the point's number alone, on any machine.
+    // Places chosen at random: words that depend on the seed and the point's number alone, on any machine.
     auto const surveyed = [](double x, double y) { return Vec3{x, y, height_at(x, y)}; };
     std::vector<Vec3> points = {surveyed(0, 0), surveyed(1000, 0), surveyed(0, 800), surveyed(1000, 800)};
     for (std::uint64_t i = 0; i < 200; ++i) {
-        auto const word = chance_block(7, i);
+        auto const word = random_block(7, i);
         points.push_back(surveyed(std::floor(unit(word[0]) * 1000.0), std::floor(unit(word[1]) * 800.0)));
     }
     std::vector<Vec3> const stream = {surveyed(500, 800), surveyed(500, 300), surveyed(500, 0)};

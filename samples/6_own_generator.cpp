@@ -32,7 +32,7 @@ StreamNetwork scheidegger(std::int64_t columns, std::int64_t rows, double step_m
         for (std::int64_t column = 0; column < static_cast<std::int64_t>(above.size()); ++column) {
             std::int64_t const west = shifted ? column - 1 : column;
             bool const east =
-                unit(chance(seed, static_cast<std::uint64_t>(row), static_cast<std::uint64_t>(column))) < 0.5;
+                unit(random_word(seed, static_cast<std::uint64_t>(row), static_cast<std::uint64_t>(column))) < 0.5;
             std::int64_t const to = std::clamp<std::int64_t>(west + (east ? 1 : 0), 0, columns - 1);
             draft.add_arc(above[static_cast<std::size_t>(column)], here[static_cast<std::size_t>(to)]);
         }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/tin.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
 
@@ -17,16 +17,16 @@ namespace test {
 
 using namespace thalweg;
 
-/// Points by chance in [0, side)²; with steps > 0 on a lattice of so many places a side, hence with twins.
+/// Points at random in [0, side)²; with steps > 0 on a lattice of so many places a side, hence with twins.
 inline std::vector<Vec3> points_by_chance(std::size_t count, double side, std::uint64_t seed, int steps = 0) {
     std::vector<Vec3> points(count);
     for (std::uint64_t i = 0; auto& p : points) {
-        double const u = unit(chance(seed, 1, i));
-        double const v = unit(chance(seed, 2, i));
+        double const u = unit(random_word(seed, 1, i));
+        double const v = unit(random_word(seed, 2, i));
         auto const place = [&](double w) {
             return steps > 0 ? static_cast<double>(static_cast<int>(w * steps)) * side / steps : w * side;
         };
-        p = {place(u), place(v), 100.0 * unit(chance(seed, 3, i))};
+        p = {place(u), place(v), 100.0 * unit(random_word(seed, 3, i))};
         ++i;
     }
     return points;

@@ -63,9 +63,9 @@ void print_laws(pipeline::DemLaws const& found) {
     }
 }
 
-void print_relief(pipeline::LandRelief const& found) {
+void print_relief(pipeline::TerrainRelief const& found) {
     fmt::print("\n{:<42}{:>8}", "relief", "here");
-    for (measure::RealLand const& land : measure::real_lands()) {
+    for (measure::ReferenceDem const& land : measure::reference_dems()) {
         fmt::print("  {:>11}", land.name);
     }
     fmt::print("  reference range\n");
@@ -109,7 +109,7 @@ int stats(StatsOptions const& options, Session const& session) {
     if (options.laws) {
         laws = pipeline::laws_of_dem(dem, {.support_cells = options.support_cells}, session.run);
     }
-    std::optional<pipeline::LandRelief> relief;
+    std::optional<pipeline::TerrainRelief> relief;
     if (options.relief) {
         relief = pipeline::relief_of_dem(dem, session.run);
     }

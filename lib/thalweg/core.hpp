@@ -16,11 +16,11 @@
 #include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/network_file.hpp>
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/index.hpp>
 #include <thalweg/core/numbers/normal.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/numbers/value_noise.hpp>
 #include <thalweg/core/polygons.hpp>

@@ -18,9 +18,9 @@
 #include <thalweg/measure/relief/local_extremes.hpp>
 #include <thalweg/measure/relief/natural_ranges.hpp>
 #include <thalweg/measure/relief/perched.hpp>
-#include <thalweg/measure/relief/real_lands.hpp>
+#include <thalweg/measure/relief/reference_dems.hpp>
 #include <thalweg/measure/relief/relief.hpp>
-#include <thalweg/measure/relief/relief_figures.hpp>
+#include <thalweg/measure/relief/relief_metrics.hpp>
 #include <thalweg/measure/relief/slope_area.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/measure/relief/statistics.hpp>

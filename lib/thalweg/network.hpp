@@ -11,9 +11,9 @@
 #include <thalweg/network/elevation/assign_types.hpp>
 #include <thalweg/network/elevation/channel_heights.hpp>
 #include <thalweg/network/elevation/drape.hpp>
+#include <thalweg/network/elevation/elevate_from_dem.hpp>
 #include <thalweg/network/elevation/keep_heights.hpp>
 #include <thalweg/network/elevation/lower_rises.hpp>
-#include <thalweg/network/elevation/raise_from_land.hpp>
 #include <thalweg/network/elevation/rosgen.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/elevation/set_heights_by_type.hpp>
@@ -30,11 +30,11 @@
 #include <thalweg/network/growth/tokunaga/lsystem.hpp>
 #include <thalweg/network/growth/tokunaga/rewrite.hpp>
 #include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
-#include <thalweg/network/import/adopt.hpp>
 #include <thalweg/network/import/choose_cell.hpp>
 #include <thalweg/network/import/clip_lines.hpp>
 #include <thalweg/network/import/fill_heights.hpp>
 #include <thalweg/network/import/from_file.hpp>
+#include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/network/order/order.hpp>

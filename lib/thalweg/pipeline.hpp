@@ -15,7 +15,7 @@
 #include <thalweg/pipeline/commands/make_points.hpp>
 #include <thalweg/pipeline/commands/make_tin.hpp>
 #include <thalweg/pipeline/make/assess.hpp>
-#include <thalweg/pipeline/make/drawn_land.hpp>
+#include <thalweg/pipeline/make/drawn_terrain.hpp>
 #include <thalweg/pipeline/make/frame.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>

@@ -18,7 +18,7 @@
 
 #include <thalweg/blend/internal/cut_tin.hpp>
 #include <thalweg/blend/internal/mesh_outline.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "lands.hpp"
@@ -45,7 +45,7 @@ Tin squares(int cols, int rows, double side_m, Vec2 from, std::uint64_t seed, He
             std::uint32_t const se = sw + 1;
             std::uint32_t const nw = sw + static_cast<std::uint32_t>(cols) + 1;
             std::uint32_t const ne = nw + 1;
-            if (chance(seed, sw) % 2 == 0) {
+            if (random_word(seed, sw) % 2 == 0) {
                 tin.triangles.push_back({sw, se, nw});
                 tin.triangles.push_back({se, ne, nw});
             } else {
@@ -233,7 +233,7 @@ TEST(FuseTin, RefusesWhatCannotBePasted) {
 
 TEST(FuseTin, APartOfTheTargetGivesItsHeightsBack) {
     Tin const target = squares(9, 8, 10.0, {500000, 4000000}, 3, [](Vec2 p) {
-        return 100.0 * unit(chance(5, static_cast<std::uint64_t>(p.x), static_cast<std::uint64_t>(p.y)));
+        return 100.0 * unit(random_word(5, static_cast<std::uint64_t>(p.x), static_cast<std::uint64_t>(p.y)));
     });
     Tin part = target;
     part.triangles.clear();
@@ -300,12 +300,14 @@ TEST(FuseTin, AHillOnFlatLandIsTheHill) {
 TEST(FuseTin, AnywhereItIsWholeAndFollowsTheTargetOnItsOutline) {
     ASSERT_TRUE(rc::check("placed by chance", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>().as("seed");
-        auto const by_chance = [&](double most, std::uint64_t place) { return most * unit(chance(seed, 7, place)); };
+        auto const by_chance = [&](double most, std::uint64_t place) {
+            return most * unit(random_word(seed, 7, place));
+        };
         bool const planes = *rc::gen::arbitrary<bool>().as("planes");
         Height const rough = [&](Vec2 p) {
             return planes ? sloping(p)
-                          : 50.0 * unit(chance(seed, static_cast<std::uint64_t>(1e6 + 4.0 * p.x),
-                                               static_cast<std::uint64_t>(1e6 + 4.0 * p.y)));
+                          : 50.0 * unit(random_word(seed, static_cast<std::uint64_t>(1e6 + 4.0 * p.x),
+                                                    static_cast<std::uint64_t>(1e6 + 4.0 * p.y)));
         };
         Tin const target = squares(7, 6, 10.0, {0, 0}, seed, rough);
         int const cols = *rc::gen::inRange(1, 6).as("columns");

@@ -8,7 +8,7 @@
 #include <string>
 
 #include <thalweg/blend/patch.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 
 namespace lands {
@@ -25,7 +25,7 @@ inline Grid frame(std::int64_t width, std::int64_t height, double cell_m = 1.0) 
 inline Raster<float> by_chance(Grid const& grid, std::uint64_t seed, double holes = 0.0) {
     Raster<float> land(grid);
     for (std::int64_t i = 0; i < land.cells(); ++i) {
-        auto const words = chance_block(seed, static_cast<std::uint64_t>(i));
+        auto const words = random_block(seed, static_cast<std::uint64_t>(i));
         land[i] = unit(words[1]) < holes ? nan : static_cast<float>(100.0 * unit(words[0]));
     }
     return land;
@@ -35,7 +35,7 @@ inline Raster<float> by_chance(Grid const& grid, std::uint64_t seed, double hole
 inline Mask mask_by_chance(Grid const& grid, std::uint64_t seed, double share) {
     Mask mask(grid);
     for (std::int64_t i = 0; i < mask.cells(); ++i) {
-        mask[i] = unit(chance(seed, static_cast<std::uint64_t>(i), 77)) < share ? 1 : 0;
+        mask[i] = unit(random_word(seed, static_cast<std::uint64_t>(i), 77)) < share ? 1 : 0;
     }
     return mask;
 }

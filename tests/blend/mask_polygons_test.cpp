@@ -25,7 +25,7 @@ Polygons of(std::vector<Polygon> polygons) {
 std::vector<Vec2> ring_by_chance(std::uint64_t seed, std::uint64_t vertices, double side) {
     std::vector<Vec2> ring;
     for (std::uint64_t i = 0; i < vertices; ++i) {
-        auto const words = chance_block(seed, i);
+        auto const words = random_block(seed, i);
         ring.push_back({(1.6 * unit(words[0]) - 0.3) * side, (1.6 * unit(words[1]) - 0.3) * side});
     }
     return ring;

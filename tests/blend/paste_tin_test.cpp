@@ -34,7 +34,7 @@ Tin tin_of(Raster<float> const& land, std::uint64_t seed) {
             std::uint32_t const ne = nw + 1;
             auto const sw = static_cast<std::uint32_t>(grid.index({col, row + 1}));
             std::uint32_t const se = sw + 1;
-            if (chance(seed, nw) % 2 == 0) {
+            if (random_word(seed, nw) % 2 == 0) {
                 tin.triangles.push_back({sw, ne, nw});
                 tin.triangles.push_back({sw, se, ne});
             } else {

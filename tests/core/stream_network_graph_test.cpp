@@ -24,7 +24,7 @@
 #include <boost/graph/topological_sort.hpp>
 #include <gtest/gtest.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 
 namespace {
 
@@ -41,7 +41,7 @@ BOOST_CONCEPT_ASSERT((boost::ReadablePropertyGraphConcept<StreamNetwork, ArcId, 
 
 /// A tree: every node but node 0, the outlet, runs to one before it.
 StreamNetwork random_tree(std::uint64_t seed, std::size_t nodes) {
-    ChanceStream words(seed, 1, 0);
+    RandomStream words(seed, 1, 0);
     NetworkDraft draft;
     for (NodeId n = 0; n < nodes; ++n) {
         draft.add_node({words.real(), words.real()});

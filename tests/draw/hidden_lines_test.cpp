@@ -177,8 +177,8 @@ TEST(HiddenLines, AWallHidesWhatLiesBehindIt) {
 }
 
 TEST(HiddenLines, AgreesWithTheOracleOnRoughLandFromEverySide) {
-    std::mt19937_64 chance(3); // of the engine itself: no distribution
-    auto const unit = [&] { return static_cast<double>(chance() >> 11U) * 0x1.0p-53; };
+    std::mt19937_64 random_word(3); // of the engine itself: no distribution
+    auto const unit = [&] { return static_cast<double>(random_word() >> 11U) * 0x1.0p-53; };
     for (int round = 0; round < 40; ++round) {
         std::int64_t const columns = 2 + static_cast<std::int64_t>(9.0 * unit());
         std::int64_t const rows = 2 + static_cast<std::int64_t>(9.0 * unit());

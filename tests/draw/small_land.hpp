@@ -16,7 +16,7 @@ namespace test {
 struct SmallLand {
     thalweg::Raster<float> dem;
     thalweg::Raster<std::uint8_t> hillshade;
-    thalweg::RaisedNetwork network;
+    thalweg::ElevatedNetwork network;
     thalweg::NetworkOrders orders;
 };
 

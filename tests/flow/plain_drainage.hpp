@@ -3,7 +3,7 @@
 #pragma once
 
 #include <thalweg/core/cells/d8.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/flow/conditioning/internal/small_step.hpp>
@@ -188,12 +188,12 @@ inline double breach_volume(Raster<float> dem) {
     }
 }
 
-/// Value noise: heights by chance on a lattice of so many cells, bilinear between, and a little for each cell.
+/// Value noise: heights at random on a lattice of so many cells, bilinear between, and a little for each cell.
 inline Raster<float> waves(Grid const& grid, std::int64_t wave, std::uint64_t seed) {
     Raster<float> dem(grid);
     auto const corner = [&](std::int64_t col, std::int64_t row) {
-        return unit(chance(seed, static_cast<std::uint64_t>(wave), static_cast<std::uint64_t>(col),
-                           static_cast<std::uint64_t>(row)));
+        return unit(random_word(seed, static_cast<std::uint64_t>(wave), static_cast<std::uint64_t>(col),
+                                static_cast<std::uint64_t>(row)));
     };
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         Cell const c = grid.at(i);
@@ -203,7 +203,7 @@ inline Raster<float> waves(Grid const& grid, std::int64_t wave, std::uint64_t se
         std::int64_t const row = c.row / wave;
         double const z = (corner(col, row) * (1 - u) + corner(col + 1, row) * u) * (1 - v) +
                          (corner(col, row + 1) * (1 - u) + corner(col + 1, row + 1) * u) * v;
-        dem[i] = static_cast<float>(20.0 * z + unit(chance(seed, 0, static_cast<std::uint64_t>(i))));
+        dem[i] = static_cast<float>(20.0 * z + unit(random_word(seed, 0, static_cast<std::uint64_t>(i))));
     }
     return dem;
 }

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 using namespace thalweg;
@@ -17,7 +17,7 @@ using namespace thalweg::geometry;
 
 namespace {
 
-/// A 4 x 4 grid of vertices whose squares are halved along one diagonal or, by chance, either.
+/// A 4 x 4 grid of vertices whose squares are halved along one diagonal or, at random, either.
 Tin grid_tin(double side, double west, double north, std::uint64_t seed) {
     Tin tin;
     for (int row = 0; row < 4; ++row) {
@@ -31,7 +31,7 @@ Tin grid_tin(double side, double west, double north, std::uint64_t seed) {
             std::uint32_t const ne = nw + 1;
             std::uint32_t const sw = nw + 4;
             std::uint32_t const se = nw + 5;
-            bool const rising = seed == 0 || (seed > 1 && chance(seed, nw) % 2 == 0);
+            bool const rising = seed == 0 || (seed > 1 && random_word(seed, nw) % 2 == 0);
             if (rising) {
                 tin.triangles.push_back({sw, ne, nw});
                 tin.triangles.push_back({sw, se, ne});
@@ -104,7 +104,7 @@ TEST(Cotangents, AreThoseOfTheAngles) {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1000000).as("seed");
         Tin tin{{}, {{0, 1, 2}}};
         for (std::uint64_t i = 0; i < 3; ++i) {
-            auto const words = chance_block(seed, i);
+            auto const words = random_block(seed, i);
             tin.vertices.push_back({unit(words[0]), unit(words[1]), unit(words[2])});
         }
         for (Measured const measured : {Measured::in_plan, Measured::on_surface}) {

@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/internal/equidistant.hpp>
@@ -29,22 +29,22 @@ using Lines = std::vector<LabelledLine>;
 
 Bounds const square{-1.0, -1.0, 9.0, 9.0};
 
-/// Some edges of a lattice whose nodes were moved at random; labels by chance. jitter 0: all nodes on circles of four.
+/// Some edges of a lattice whose nodes were moved at random; labels at random. jitter 0: all nodes on circles of four.
 Lines lattice(std::uint64_t seed, double jitter, double share, Vec2 corner = {}) {
-    ChanceStream chance(seed, 1, 0);
+    RandomStream random(seed, 1, 0);
     constexpr std::size_t side = 8;
     std::vector<Vec2> nodes;
     for (std::size_t i = 0; i < side * side; ++i) {
-        double const dx = jitter * (chance.real() - 0.5);
-        double const dy = jitter * (chance.real() - 0.5);
+        double const dx = jitter * (random.real() - 0.5);
+        double const dy = jitter * (random.real() - 0.5);
         nodes.push_back({corner.x + static_cast<double>(i % side) + dx, corner.y + static_cast<double>(i / side) + dy});
     }
     Lines lines;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         for (std::size_t const step : {std::size_t{1}, side}) {
             bool const inside = step == 1 ? i % side + 1 < side : i + side < nodes.size();
-            if (inside && chance.real() < share) {
-                lines.push_back({{nodes[i], nodes[i + step]}, static_cast<std::int64_t>(chance.real() * 5.0)});
+            if (inside && random.real() < share) {
+                lines.push_back({{nodes[i], nodes[i + step]}, static_cast<std::int64_t>(random.real() * 5.0)});
             }
         }
     }
@@ -176,10 +176,10 @@ bool touches_shared(Lines const& lines, Vec2 p, Kind kind) {
 
 /// Between places whose nearest have no label in common an edge runs.
 void check_nothing_is_missing(Diagram const& diagram, Lines const& lines, Kind kind, Vec2 corner, std::uint64_t seed) {
-    ChanceStream chance(seed, 2, 0);
+    RandomStream random(seed, 2, 0);
     for (int trial = 0; trial < 60; ++trial) {
-        Vec2 const a{corner.x - 0.9 + 9.8 * chance.real(), corner.y - 0.9 + 9.8 * chance.real()};
-        Vec2 const b{a.x + 0.01 * (chance.real() - 0.5), a.y + 0.01 * (chance.real() - 0.5)};
+        Vec2 const a{corner.x - 0.9 + 9.8 * random.real(), corner.y - 0.9 + 9.8 * random.real()};
+        Vec2 const b{a.x + 0.01 * (random.real() - 0.5), a.y + 0.01 * (random.real() - 0.5)};
         if (common(nearest(lines, a, kind), nearest(lines, b, kind))) {
             continue;
         }
@@ -263,7 +263,7 @@ TEST(Diagram, FourPointsOnACircleShareAVertex) {
     }
 }
 
-/// Of the diagram that make(lines, bounds) draws of a lattice by chance, anywhere.
+/// Of the diagram that make(lines, bounds) draws of a lattice at random, anywhere.
 void check_laws(Kind kind, double error, auto const& make) {
     auto const seed = *rc::gen::arbitrary<std::uint64_t>();
     double const jitter = *rc::gen::element(0.0, 0.5);

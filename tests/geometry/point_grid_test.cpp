@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 
 using namespace thalweg;
 using geometry::PointGrid;
@@ -56,7 +56,7 @@ TEST(PointGrid, IsTheNearestOfAll) {
         auto const lattice = *rc::gen::element<std::uint64_t>(5, 1000).as("lattice");
         auto const cell_m = *rc::gen::element(0.3, 2.0, 50.0).as("cell_m");
         auto const draw = [&](std::uint64_t stage, std::uint64_t i) {
-            return static_cast<double>(chance(seed, stage, i) % lattice) * 10.0 / static_cast<double>(lattice);
+            return static_cast<double>(random_word(seed, stage, i) % lattice) * 10.0 / static_cast<double>(lattice);
         };
         std::vector<Vec2> points;
         for (std::uint64_t i = 0; i < count; ++i) {

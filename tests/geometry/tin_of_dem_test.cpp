@@ -37,12 +37,12 @@ template <class Height> Raster<float> raster(std::int64_t width, std::int64_t he
 
 /// Hills, with a little roughness.
 Raster<float> hills(std::int64_t width, std::int64_t height, std::uint64_t seed) {
-    double const phase = 6.0 * unit(chance(seed, 1));
+    double const phase = 6.0 * unit(random_word(seed, 1));
     return raster(width, height, [&](Cell c) {
         auto const x = static_cast<double>(c.col);
         auto const y = static_cast<double>(c.row);
-        return 300.0 + 40.0 * exact::sin(0.21 * x + phase) + 30.0 * exact::cos(0.17 * y - 0.08 * x) +
-               5.0 * unit(chance(seed, 2, static_cast<std::uint64_t>(c.col), static_cast<std::uint64_t>(c.row)));
+        return 300.0 + 40.0 * portable::sin(0.21 * x + phase) + 30.0 * portable::cos(0.17 * y - 0.08 * x) +
+               5.0 * unit(random_word(seed, 2, static_cast<std::uint64_t>(c.col), static_cast<std::uint64_t>(c.row)));
     });
 }
 
@@ -219,7 +219,7 @@ TEST(TinOfDem, ErrorHoldsAtEveryCell) {
         auto dem = hills(*rc::gen::inRange(2, 50), *rc::gen::inRange(2, 50), seed);
         double const share = *rc::gen::element(0.0, 0.0, 0.02, 0.3);
         for (std::int64_t i = 0; i < dem.cells(); ++i) {
-            if (unit(chance(seed, 3, static_cast<std::uint64_t>(i))) < share) {
+            if (unit(random_word(seed, 3, static_cast<std::uint64_t>(i))) < share) {
                 dem[i] = none;
             }
         }

@@ -9,12 +9,8 @@
 #include <thalweg/blend/paste.hpp>
 #include <thalweg/blend/paste_tin.hpp>
 #include <thalweg/blend/place_patch.hpp>
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/detail/estimate_fractal.hpp>
-#include <thalweg/detail/midpoint.hpp>
-#include <thalweg/detail/project.hpp>
-#include <thalweg/detail/refine.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/catchments/catchments.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>
@@ -23,6 +19,10 @@
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/flow/routing/route_dinf.hpp>
 #include <thalweg/flow/streams/extract_streams.hpp>
+#include <thalweg/fractal/estimate_fractal.hpp>
+#include <thalweg/fractal/match_statistics.hpp>
+#include <thalweg/fractal/midpoint.hpp>
+#include <thalweg/fractal/refine.hpp>
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
@@ -35,7 +35,7 @@
 #include <thalweg/network/elevation/assign_types.hpp>
 #include <thalweg/network/elevation/channel_heights.hpp>
 #include <thalweg/network/elevation/drape.hpp>
-#include <thalweg/network/elevation/raise_from_land.hpp>
+#include <thalweg/network/elevation/elevate_from_dem.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/elevation/set_heights_by_type.hpp>
 #include <thalweg/network/elevation/set_heights_graded.hpp>
@@ -103,7 +103,7 @@ void print(char const* stage, Fnv const& fnv) {
 Fnv hash_of_chance() {
     Fnv fnv;
     for (std::uint64_t i = 0; i < 1000; ++i) {
-        fnv.add_all(chance_block(7, i, i + 1, i * i, ~i));
+        fnv.add_all(random_block(7, i, i + 1, i * i, ~i));
     }
     return fnv;
 }
@@ -112,12 +112,12 @@ Fnv hash_of_elementary() {
     Fnv fnv;
     for (int i = 1; i <= 20000; ++i) {
         double const x = i * 0.37;
-        fnv.add(exact::exp((x - 3700.0) * 0.1));
-        fnv.add(exact::log(x));
-        fnv.add(exact::pow(x, 0.7));
-        fnv.add(exact::sin(x));
-        fnv.add(exact::cos(x));
-        fnv.add(exact::atan2(x - 3700.0, x));
+        fnv.add(portable::exp((x - 3700.0) * 0.1));
+        fnv.add(portable::log(x));
+        fnv.add(portable::pow(x, 0.7));
+        fnv.add(portable::sin(x));
+        fnv.add(portable::cos(x));
+        fnv.add(portable::atan2(x - 3700.0, x));
     }
     return fnv;
 }
@@ -136,7 +136,7 @@ Fnv hash_of(StreamNetwork const& network) {
     for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
         fnv.add(static_cast<std::uint64_t>(network.from(arc)));
         fnv.add(static_cast<std::uint64_t>(network.to(arc)));
-        fnv.add(network.arc(arc).survives);
+        fnv.add(network.arc(arc).persistence);
         for (Vec2 const& p : network.arc(arc).line) {
             fnv.add(p.x);
             fnv.add(p.y);
@@ -164,7 +164,7 @@ Fnv hash_of(network::RiverTypes const& types) {
     return fnv;
 }
 
-Fnv hash_of(RaisedNetwork const& network) {
+Fnv hash_of(ElevatedNetwork const& network) {
     Fnv fnv;
     fnv.add_all(network.node_z);
     for (std::vector<double> const& z : network.arc_z) {
@@ -197,7 +197,7 @@ Fnv hash_of(Tin const& tin) {
 }
 
 /// Breaklines of a network.
-std::vector<std::vector<Vec3>> lines_of(RaisedNetwork const& network) {
+std::vector<std::vector<Vec3>> lines_of(ElevatedNetwork const& network) {
     std::vector<std::vector<Vec3>> lines;
     for (ArcId a = 0; a < network.plan.arc_count(); ++a) {
         auto& line = lines.emplace_back();
@@ -237,7 +237,7 @@ Fnv hash_of(measure::Statistics const& s) {
 Raster<solver::Complex> transformed(Run const& run) {
     Raster<solver::Complex> values(Grid{180, 98, 1.0, 0.0, 0.0, ""});
     for (std::int64_t i = 0; i < values.cells(); ++i) {
-        auto const words = chance_block(9, static_cast<std::uint64_t>(i));
+        auto const words = random_block(9, static_cast<std::uint64_t>(i));
         values[i] = {unit(words[0]) - 0.5, unit(words[1]) - 0.5};
     }
     return solver::fft(std::move(values), solver::Direction::forward, run);
@@ -274,16 +274,16 @@ void print_lands_of_statistics(Run const& run) {
     Raster<float> const land =
         skeleton::grf(grid, {.mean = 536.0, .std = 131.6, .covariance = prior, .seed = 3}, run).dem;
     print("grf", hash_of(land));
-    detail::Targets targets;
+    fractal::Targets targets;
     targets.mean = 536.0;
     targets.std = 131.6;
-    targets.max = detail::FixedHeight{{91, 1}, 1038.0};
-    targets.min = detail::FixedHeight{{129, 26}, 276.0};
+    targets.max = fractal::FixedHeight{{91, 1}, 1038.0};
+    targets.min = fractal::FixedHeight{{129, 26}, 276.0};
     targets.lx_cells = 20.68;
     targets.ly_cells = 39.74;
     targets.slope_rad = 1.499;
     targets.dimension = 2.39;
-    auto const projected = detail::project(land, targets, {{{20, 20}, 500.0}}, {.prior = prior}, run);
+    auto const projected = fractal::match_statistics(land, targets, {{{20, 20}, 500.0}}, {.prior = prior}, run);
     print("project", hash_of(projected.dem));
     print("statistics", hash_of(measure::statistics(projected.dem, run)));
     print_laws(projected.dem, run);
@@ -319,7 +319,7 @@ void print_points(Run const& run) {
 }
 
 /// Ridges between streams, by both methods.
-void print_ridges(RaisedNetwork const& rivers, Grid const& grid, Run const& run) {
+void print_ridges(ElevatedNetwork const& rivers, Grid const& grid, Run const& run) {
     auto const streams = network::streams(rivers.plan, network::order(rivers.plan));
     Fnv labels;
     labels.add_all(streams);
@@ -384,26 +384,26 @@ surface::Expansion expand_plain(Valley const& valley, Run const& run) {
     return expansion;
 }
 
-Fnv hash_of(detail::Fractal const& fractal) {
+Fnv hash_of(fractal::Fractal const& fractal) {
     Fnv fnv;
     fnv.add(fractal.hurst);
     fnv.add(fractal.sigma);
     return fnv;
 }
 
-/// Coarse land with a hole, by chance.
+/// Coarse land with a hole, at random.
 Raster<float> coarse_land() {
     Raster<float> z(Grid{23, 19, 16.0, 0.0, 0.0, ""});
     for (std::int64_t i = 0; i < z.cells(); ++i) {
-        z[i] = static_cast<float>(100.0 * unit(chance(5, static_cast<std::uint64_t>(i))));
+        z[i] = static_cast<float>(100.0 * unit(random_word(5, static_cast<std::uint64_t>(i))));
     }
     z[{11, 7}] = std::numeric_limits<float>::quiet_NaN();
     return z;
 }
 
 /// Midpoint displacement without the vector instructions of this processor.
-Raster<float> midpoint_plain(Raster<float> const& coarse, detail::MidpointParams const& params, Run const& run) {
-    detail::Refinement refinement;
+Raster<float> midpoint_plain(Raster<float> const& coarse, fractal::MidpointParams const& params, Run const& run) {
+    fractal::Refinement refinement;
     refinement.coarse = &coarse;
     refinement.holes = true;
     refinement.levels = params.levels;
@@ -413,36 +413,36 @@ Raster<float> midpoint_plain(Raster<float> const& coarse, detail::MidpointParams
     refinement.character.hurst = *params.hurst;
     refinement.character.sigma = *params.sigma;
     Raster<float> dem(Grid{params.width, params.height, 1.0, 0.0, 0.0, ""});
-    detail::Floors floors;
-    detail::refine(refinement, dem, floors, run);
+    fractal::Floors floors;
+    fractal::refine(refinement, dem, floors, run);
     return dem;
 }
 
 void print_detail(Run const& run) {
     Raster<float> const coarse = coarse_land();
-    detail::MidpointParams params;
+    fractal::MidpointParams params;
     params.width = 339;
     params.height = 287;
     params.hurst = 0.6;
     params.sigma = 20.0;
-    Raster<float> const dem = detail::midpoint(coarse, params, run).dem;
+    Raster<float> const dem = fractal::midpoint(coarse, params, run).dem;
     print("midpoint 16", hash_of(dem));
-    print("estimate_fractal", hash_of(detail::estimate_fractal(dem, {}, run)));
+    print("estimate_fractal", hash_of(fractal::estimate_fractal(dem, {}, run)));
     print("estimate_fractal, absolute",
-          hash_of(detail::estimate_fractal(dem, {detail::Differences::absolute, {}}, run)));
+          hash_of(fractal::estimate_fractal(dem, {fractal::Differences::absolute, {}}, run)));
     print("midpoint 16, plain", hash_of(midpoint_plain(coarse, params, run)));
-    params.noise = detail::Noise::uniform;
-    params.stencil = detail::Stencil::four;
-    print("midpoint 4, uniform", hash_of(detail::midpoint(coarse, params, run).dem));
+    params.noise = fractal::Noise::uniform;
+    params.stencil = fractal::Stencil::four;
+    print("midpoint 4, uniform", hash_of(fractal::midpoint(coarse, params, run).dem));
     print("midpoint 4, uniform, plain", hash_of(midpoint_plain(coarse, params, run)));
     params = {};
-    params.stencil = detail::Stencil::twelve;
-    params.adaptation = detail::Adaptation::local;
-    print("midpoint 12, local", hash_of(detail::midpoint(coarse, params, run).dem));
-    params.stencil = detail::Stencil::exact;
-    params.adaptation = detail::Adaptation::global;
+    params.stencil = fractal::Stencil::twelve;
+    params.adaptation = fractal::Adaptation::local;
+    print("midpoint 12, local", hash_of(fractal::midpoint(coarse, params, run).dem));
+    params.stencil = fractal::Stencil::exact;
+    params.adaptation = fractal::Adaptation::global;
     params.hurst = 0.8;
-    print("midpoint exact", hash_of(detail::midpoint(coarse, params, run).dem));
+    print("midpoint exact", hash_of(fractal::midpoint(coarse, params, run).dem));
 }
 
 /// Types of rivers, and the heights that follow from them or from areas.
@@ -548,7 +548,7 @@ Fnv hash_of(network::TokunagaTree const& tree) {
 void print_drained(Raster<float> land, Valley const& valley, Run const& run) {
     for (std::int64_t i = 0; i < land.cells(); ++i) {
         if (std::isnan(valley.z[i])) {
-            land[i] += static_cast<float>(chance(7, static_cast<std::uint64_t>(i)) >> 40U) * 0x1p-21F; // up to 8 m
+            land[i] += static_cast<float>(random_word(7, static_cast<std::uint64_t>(i)) >> 40U) * 0x1p-21F; // up to 8 m
         }
     }
     print("fill", hash_of(flow::condition(land, valley, {flow::Conditioning::fill}, run).dem));
@@ -615,9 +615,9 @@ void print_equilibrium(StreamNetwork const& pruned, Grid const& box, Run const& 
         params.edge = edge;
         print("equilibrium", hash_of(surface::equilibrium(flooded.drawn.channels, {}, params, run).dem));
     }
-    surface::EquilibriumLand const land = surface::equilibrium(drawn.channels, {}, {}, run);
+    surface::EquilibriumTerrain const land = surface::equilibrium(drawn.channels, {}, {}, run);
     network::Shortened const kept = network::shorten(bent, drawn, land.shortened);
-    RaisedNetwork const raised = network::raise_from_land(kept.network, kept.drawn.channels, land.dem);
+    ElevatedNetwork const raised = network::elevate_from_dem(kept.network, kept.drawn.channels, land.dem);
     print("raise_from_land", hash_of(raised));
     flow::FlowField const drainage = flow::route(land.dem, run);
     print("side_valleys",
@@ -674,7 +674,7 @@ int main(int count, char** words) {
     StreamNetwork const pruned = network::prune(traced, {.length_m = 8 * cell_m, .cell_m = cell_m}, run).network;
     print("prune", hash_of(pruned));
     print("order", hash_of(network::order(pruned)));
-    network::Raised const raised = network::set_heights(pruned, {}, run);
+    network::Elevated const raised = network::set_heights(pruned, {}, run);
     print("set_heights", hash_of(raised.network));
     print_rivers(pruned, skeleton.grid(), run);
     Valley const valley = network::rasterise(raised.network, skeleton.grid()).valley;

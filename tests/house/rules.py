@@ -10,7 +10,7 @@ import sys
 
 # Which rooms a room may include, besides itself. Stage rooms meet in pipeline only.
 BELOW = ["core", "geometry", "solver", "flow"]
-STAGES = ["network", "skeleton", "surface", "detail", "blend", "measure", "draw", "io"]
+STAGES = ["network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io"]
 ROOMS = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"], "pipeline": BELOW + STAGES}
 ROOMS.update({stage: BELOW for stage in STAGES})
 
@@ -141,7 +141,7 @@ def check_source(name, lines):
         if include and re.search(r"\.cpp$", include[2]):
             yield number, "a .cpp file is included"
         if found := DISTRIBUTION.search(code):
-            yield number, f"{found[0]}: distributions differ between libraries; use core/chance.hpp"
+            yield number, f"{found[0]}: distributions differ between libraries; use core/random.hpp"
         if room and (found := PREFIX.search(code)) and found[1] in ROOMS and found[1] != room:
             yield number, f"{found[0]}: an error names its own module first; write a key as key = value or [section]"
         if not in_lib:

@@ -25,7 +25,7 @@ PLANTED = [
     (NETWORK, "#include <CGAL/Arrangement_2.h>", "does not belong to network"),
     (NETWORK, "#include <thalweg/surface/dilation/dilate.hpp>", "stage rooms meet in pipeline only"),
     (NETWORK, "  #  include <thalweg/measure/drainage/certificate.hpp>", "stage rooms meet in pipeline only"),
-    ("lib/thalweg/detail/project.cpp", "#include <Eigen/Dense>", "does not belong to detail"),
+    ("lib/thalweg/fractal/match_statistics.cpp", "#include <Eigen/Dense>", "does not belong to fractal"),
     (NETWORK, "#include <strange/library.hpp>", "foreign <strange/library.hpp>"),
     (NETWORK, '#include "thin.hpp"', "write <thalweg/...>"),
     (NETWORK, "#include <random>", "not the same everywhere"),

@@ -15,7 +15,7 @@
 /// A small network with everything its tables hold, numbers that do not end in binary among them.
 struct SampleNetwork {
     thalweg::NetworkDraft draft; ///< settle() makes the network's plan from it
-    thalweg::RaisedNetwork network;
+    thalweg::ElevatedNetwork network;
     thalweg::NetworkOrders orders;
     std::vector<double> us_area_m2;
     std::vector<double> ds_area_m2;
@@ -159,7 +159,7 @@ inline SampleNetwork two_basins() {
     auto& arc = sample.draft.arcs.back().arc;
     arc.type = "Bärenbach";
     arc.feature = 123456789012345;
-    arc.survives = 20.5;
+    arc.persistence = 20.5;
     sample.settle();
     return sample;
 }

@@ -9,7 +9,7 @@
 
 #include <rapidcheck.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 
 inline constexpr float hole = std::numeric_limits<float>::quiet_NaN();
@@ -29,7 +29,7 @@ inline thalweg::Raster<float> dem_of(std::int64_t width, std::vector<float> cons
 inline thalweg::Raster<float> rough_dem(thalweg::Grid const& grid, std::uint64_t seed) {
     thalweg::Raster<float> dem(grid);
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        dem[i] = static_cast<float>(thalweg::unit(thalweg::chance(seed, static_cast<std::uint64_t>(i))));
+        dem[i] = static_cast<float>(thalweg::unit(thalweg::random_word(seed, static_cast<std::uint64_t>(i))));
     }
     return dem;
 }

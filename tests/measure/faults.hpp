@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 
 #include "trees.hpp"
@@ -29,7 +29,7 @@ inline constexpr std::int64_t new_id = 900'000'007;
 inline double const no_number = std::numeric_limits<double>::quiet_NaN();
 
 inline NetworkFile clean(std::uint64_t seed, std::int64_t cols = 12, std::int64_t rows = 12) {
-    thalweg::RaisedNetwork const rivers = random_rivers(seed, cols, rows);
+    thalweg::ElevatedNetwork const rivers = random_rivers(seed, cols, rows);
     return thalweg::measure::as_file(rivers, orders_of(rivers.plan));
 }
 

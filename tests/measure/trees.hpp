@@ -7,19 +7,19 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 /// Scheidegger's random rivers (1967): every point of a lattice drains to the one south or south-east of it, so that no
 /// two reaches cross. Row 0 holds the outlets; points are spacing_m apart, the first half of it from the axes; heights
 /// are the rows' numbers. Its arcs run from sources and confluences; about half as many as points.
-inline thalweg::RaisedNetwork random_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t rows,
-                                            double spacing_m = 1.0) {
+inline thalweg::ElevatedNetwork random_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t rows,
+                                              double spacing_m = 1.0) {
     using namespace thalweg;
     auto const id = [&](std::int64_t col, std::int64_t row) { return static_cast<std::size_t>(row * cols + col); };
     auto const below = [&](std::size_t p) {
         auto const col = static_cast<std::int64_t>(p) % cols;
-        auto const east = static_cast<std::int64_t>(chance(seed, p) % 2);
+        auto const east = static_cast<std::int64_t>(random_word(seed, p) % 2);
         return id(std::min(col + east, cols - 1), static_cast<std::int64_t>(p) / cols - 1);
     };
     auto const row_of = [&](std::size_t p) { return static_cast<double>(static_cast<std::int64_t>(p) / cols); };
@@ -33,7 +33,7 @@ inline thalweg::RaisedNetwork random_rivers(std::uint64_t seed, std::int64_t col
     for (std::size_t p = first_row; p < points; ++p) {
         ++arriving[below(p)];
     }
-    RaisedNetwork rivers;
+    ElevatedNetwork rivers;
     NetworkDraft plan;
     std::vector<NodeId> node(points);
     auto const is_node = [&](std::size_t p) { return p < first_row ? arriving[p] > 0 : arriving[p] != 1; };

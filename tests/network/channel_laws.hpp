@@ -25,7 +25,7 @@ inline bool are_neighbours(Cell a, Cell b) {
     return !(a == b) && std::abs(a.col - b.col) <= 1 && std::abs(a.row - b.row) <= 1;
 }
 
-/// Rivers by chance and a grid that holds them.
+/// Rivers at random and a grid that holds them.
 struct SomeRivers {
     std::uint64_t seed = 0;
     bool on_lattice = false; ///< from cell to cell, as grown; else lines that pay no heed to each other

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 
-/// Masks to thin and trace, drawn by hand or by chance.
+/// Masks to thin and trace, drawn by hand or at random.
 namespace thalweg::test {
 
 /// Cells of one metre, x from 0 eastwards, y from `height` at the north edge down to 0.
@@ -45,7 +45,7 @@ inline std::vector<std::string> rows_of(Mask const& mask) {
 inline Mask random_mask(std::uint64_t seed, std::int64_t width, std::int64_t height, double share) {
     Mask mask(grid_of(width, height));
     for (std::int64_t i = 0; i < mask.cells(); ++i) {
-        mask[i] = unit(chance(seed, 1, static_cast<std::uint64_t>(i))) < share ? 1 : 0;
+        mask[i] = unit(random_word(seed, 1, static_cast<std::uint64_t>(i))) < share ? 1 : 0;
     }
     return mask;
 }
@@ -54,7 +54,7 @@ inline Mask random_mask(std::uint64_t seed, std::int64_t width, std::int64_t hei
 inline Mask random_blob(std::uint64_t seed, std::int64_t width, std::int64_t height, int strokes, int thickness) {
     Mask mask(grid_of(width, height));
     std::vector<Cell> on{{width / 2, height / 2}};
-    ChanceStream words(seed, 2, 0);
+    RandomStream words(seed, 2, 0);
     auto const below = [&](std::int64_t n) {
         return static_cast<std::int64_t>(words.word() % static_cast<std::uint64_t>(n));
     };

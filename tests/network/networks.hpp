@@ -12,7 +12,7 @@
 #include <thalweg/network/vectorise/thin.hpp>
 #include <thalweg/network/vectorise/trace.hpp>
 
-/// Networks to prune, order and raise, drawn by hand or by chance.
+/// Networks to prune, order and raise, drawn by hand or at random.
 namespace thalweg::test {
 
 struct Reach {
@@ -52,7 +52,7 @@ inline StreamNetwork random_skeleton(std::uint64_t seed, std::int64_t side) {
 
 /// Trees of straight and bent arcs that pay no heed to where the others run; several basins, some pseudo nodes.
 inline StreamNetwork random_forest(std::uint64_t seed, std::size_t nodes, std::size_t basins) {
-    ChanceStream words(seed, 3, 0);
+    RandomStream words(seed, 3, 0);
     auto const place = [&] { return Vec2{1000.0 * words.real(), 1000.0 * words.real()}; };
     std::vector<Vec2> at;
     std::vector<Reach> reaches;

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/network/growth/forest/grow_forest.hpp>
 #include <thalweg/network/growth/forest/internal/forest_growth.hpp>
@@ -17,8 +17,8 @@
 namespace plain_forest {
 
 using thalweg::Cell;
-using thalweg::ChanceStream;
 using thalweg::Mask;
+using thalweg::RandomStream;
 using thalweg::network::ForestParams;
 using thalweg::network::GrownForest;
 
@@ -101,8 +101,8 @@ private:
     std::vector<std::int64_t> parents_;
 };
 
-inline void step(Cell& at, Trees const& trees, ChanceStream& chance) {
-    Cell const next = neighbours(at)[chance.word() % 4];
+inline void step(Cell& at, Trees const& trees, RandomStream& random) {
+    Cell const next = neighbours(at)[random.word() % 4];
     if (trees.is_land(next) && !trees.within(next)) {
         at = next;
     }
@@ -130,22 +130,22 @@ inline GrownForest grow(Mask const& region, std::vector<Cell> const& seeds, Fore
     auto const room = [&] { return std::ranges::any_of(cells, [&](Cell c) { return trees.may_hold(c); }); };
     bool is_room = room();
     while (is_room) {
-        ChanceStream chance(params.seed, 78, static_cast<std::uint64_t>(forest.walkers++));
-        Cell at = cells[chance.word() % cells.size()];
+        RandomStream random(params.seed, 78, static_cast<std::uint64_t>(forest.walkers++));
+        Cell at = cells[random.word() % cells.size()];
         while (!trees.within(at)) {
             if (!trees.arrived(at)) {
-                step(at, trees, chance);
+                step(at, trees, random);
                 continue;
             }
             if (!trees.may_hold(at) || ++visits[static_cast<std::size_t>(region.grid().index(at))] < params.visits) {
                 break;
             }
-            if (chance.real() < params.sticking) {
+            if (random.real() < params.sticking) {
                 add(at, trees.nearest(at));
                 is_room = room();
                 break;
             }
-            step(at, trees, chance);
+            step(at, trees, random);
         }
     }
     return forest;
@@ -183,12 +183,12 @@ inline std::vector<std::int64_t> arrivals_by_steps(Mask const& region, GrownFore
     std::vector<Cell> const free = starts(region, trees);
     std::vector<std::int64_t> hits;
     for (std::int64_t w = 0; w < walkers; ++w) {
-        ChanceStream chance(seed, 79, static_cast<std::uint64_t>(w));
-        Cell at = free[chance.word() % free.size()];
+        RandomStream random(seed, 79, static_cast<std::uint64_t>(w));
+        Cell at = free[random.word() % free.size()];
         std::uint64_t bits = 0;
         for (int left = 0; arrived[at] == 0; --left) {
             if (left == 0) {
-                bits = chance.word();
+                bits = random.word();
                 left = 32;
             }
             std::uint64_t const way = bits & 3;
@@ -215,9 +215,9 @@ inline std::vector<std::int64_t> arrivals_by_jumps(Mask const& region, GrownFore
     std::vector<Cell> const free = starts(region, trees);
     std::vector<std::int64_t> hits;
     for (std::int64_t w = 0; w < walkers; ++w) {
-        ChanceStream chance(seed, 79, static_cast<std::uint64_t>(w));
-        Cell at = free[chance.word() % free.size()];
-        while (!walk.approach(at, chance)) {
+        RandomStream random(seed, 79, static_cast<std::uint64_t>(w));
+        Cell at = free[random.word() % free.size()];
+        while (!walk.approach(at, random)) {
         }
         hits.push_back(region.grid().index(at));
     }

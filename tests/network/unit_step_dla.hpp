@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/dla/internal/birth_circle.hpp>
+#include <thalweg/network/growth/dla/internal/launch_circle.hpp>
 
 /// The oracle and yardstick of the growth: the same birth circle, return from afar and occupancy test, but every step
 /// of a walker is a unit step.
@@ -22,11 +22,11 @@ using thalweg::network::Site;
 /// Two bits a step: thirty-two steps a word.
 class Steps {
 public:
-    explicit Steps(thalweg::ChanceStream& chance) : chance_(chance) {}
+    explicit Steps(thalweg::RandomStream& random) : random_(random) {}
 
     unsigned next() {
         if (left_ == 0) {
-            word_ = chance_.word();
+            word_ = random_.word();
             left_ = 32;
         }
         --left_;
@@ -36,7 +36,7 @@ public:
     }
 
 private:
-    thalweg::ChanceStream& chance_;
+    thalweg::RandomStream& random_;
     std::uint64_t word_ = 0;
     int left_ = 0;
 };
@@ -53,7 +53,7 @@ public:
         double const distance = std::sqrt(static_cast<double>(thalweg::network::squared(site)));
         if (distance >= radius_) {
             radius_ = distance;
-            circle_ = thalweg::network::birth_circle(distance);
+            circle_ = thalweg::network::launch_circle(distance);
             widen(circle_.far + 2);
         }
         cells_[index(site)] |= taken;
@@ -63,14 +63,14 @@ public:
         occupied_.push_back(site);
     }
 
-    Site born(thalweg::ChanceStream& chance) const { return thalweg::network::born(circle_, chance); }
+    Site born(thalweg::RandomStream& random) const { return thalweg::network::born(circle_, random); }
 
     /// Walks from a site that is not next to the cluster until it is.
-    Site approach(Site site, Steps& steps, thalweg::ChanceStream& chance) const {
+    Site approach(Site site, Steps& steps, thalweg::RandomStream& random) const {
         while (state(site) == 0) {
             site = move(site, steps.next());
             if (circle_.lost(site)) {
-                site = thalweg::network::back_from_afar(circle_, site, chance);
+                site = thalweg::network::back_from_afar(circle_, site, random);
             }
         }
         return site;
@@ -112,7 +112,7 @@ private:
     std::ptrdiff_t width_ = 0;
     std::int32_t half_ = 0;
     double radius_ = 0.0;
-    thalweg::network::BirthCircle circle_;
+    thalweg::network::LaunchCircle circle_;
 };
 
 /// The law of grow_dla word by word; parents are not recorded.
@@ -133,16 +133,16 @@ inline thalweg::network::Cluster grow(thalweg::network::DlaParams const& params)
     };
     add({0, 0});
     while (static_cast<std::int64_t>(cluster.cells.size()) < params.particles) {
-        thalweg::ChanceStream chance(params.seed, 2, static_cast<std::uint64_t>(cluster.walkers++));
-        Steps steps(chance);
-        for (Site s = lattice.approach(lattice.born(chance), steps, chance);;) {
+        thalweg::RandomStream random(params.seed, 2, static_cast<std::uint64_t>(cluster.walkers++));
+        Steps steps(random);
+        for (Site s = lattice.approach(lattice.born(random), steps, random);;) {
             double const hold = std::pow(params.sticking, 3 - lattice.state(s));
             bool removed = false;
             bool sticks = false;
             if (params.rule == thalweg::network::VisitRule::count_first) {
                 removed = !count(s);
-                sticks = !removed && chance.real() < hold;
-            } else if (chance.real() < hold) {
+                sticks = !removed && random.real() < hold;
+            } else if (random.real() < hold) {
                 sticks = count(s);
                 removed = !sticks;
             }
@@ -152,7 +152,7 @@ inline thalweg::network::Cluster grow(thalweg::network::DlaParams const& params)
             if (sticks || removed) {
                 break;
             }
-            s = lattice.approach(lattice.step(s, steps), steps, chance);
+            s = lattice.approach(lattice.step(s, steps), steps, random);
         }
     }
     cluster.radius = lattice.radius();

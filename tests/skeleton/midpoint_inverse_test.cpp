@@ -15,7 +15,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "fields.hpp"
@@ -51,7 +51,7 @@ Skeleton any_skeleton(std::int64_t longest) {
     double const share = *rc::gen::element(0.0, 0.01, 0.05, 0.3);
     auto const seed = *rc::gen::arbitrary<std::uint64_t>();
     for (std::int64_t i = 0; i < skeleton.z.cells(); ++i) {
-        auto const words = chance_block(seed, static_cast<std::uint64_t>(i));
+        auto const words = random_block(seed, static_cast<std::uint64_t>(i));
         if (unit(words[0]) < share) {
             skeleton.z[i] = static_cast<float>(200.0 * unit(words[1]) - 50.0);
         }
@@ -125,7 +125,7 @@ Skeleton thin_lines(std::int64_t side) {
     Skeleton skeleton = empty(side, side);
     std::uint64_t word = 0;
     auto const anywhere = [&] {
-        auto const words = chance_block(5, word++);
+        auto const words = random_block(5, word++);
         return Cell{static_cast<std::int64_t>(unit(words[0]) * static_cast<double>(side)),
                     static_cast<std::int64_t>(unit(words[1]) * static_cast<double>(side))};
     };

@@ -36,7 +36,7 @@ namespace {
 constexpr Method methods[] = {Method::voronoi, Method::segments};
 
 struct Land {
-    RaisedNetwork rivers;
+    ElevatedNetwork rivers;
     std::vector<std::int64_t> stream;
     Grid grid;
 };
@@ -182,7 +182,7 @@ double distance_to(std::vector<std::vector<Vec2>> const& lines, Vec2 p) {
 
 Grid const square{10, 10, 1.0, 0.0, 10.0, ""};
 
-RaisedNetwork straight(std::vector<std::vector<Vec2>> const& lines) {
+ElevatedNetwork straight(std::vector<std::vector<Vec2>> const& lines) {
     NetworkDraft plan;
     for (auto const& line : lines) {
         NodeId const from = plan.add_node(line.front());
@@ -206,7 +206,7 @@ template <class Thrown> std::string message(auto const& act) {
 } // namespace
 
 TEST(Ridges, NothingToKeepApartHasNone) {
-    RaisedNetwork const two = straight({{{2, 8}, {2, 2}}, {{7, 8}, {7, 2}}});
+    ElevatedNetwork const two = straight({{{2, 8}, {2, 2}}, {{7, 8}, {7, 2}}});
     for (Method const method : methods) {
         RidgesParams params;
         params.method = method;
@@ -218,7 +218,7 @@ TEST(Ridges, NothingToKeepApartHasNone) {
 }
 
 TEST(Ridges, RefusesWhatDoesNotBelongTogether) {
-    RaisedNetwork const two = straight({{{2, 8}, {2, 2}}, {{7, 8}, {7, 2}}});
+    ElevatedNetwork const two = straight({{{2, 8}, {2, 2}}, {{7, 8}, {7, 2}}});
     for (Method const method : methods) {
         RidgesParams params;
         params.method = method;
@@ -226,7 +226,7 @@ TEST(Ridges, RefusesWhatDoesNotBelongTogether) {
                   std::string::npos);
         EXPECT_THROW(ridges(two, {1, 2, 3}, square, params), BadInput);
         EXPECT_THROW(ridges({}, {1}, square, params), BadInput);
-        RaisedNetwork other = two;
+        ElevatedNetwork other = two;
         other.arc_z.pop_back();
         EXPECT_THROW(ridges(other, {1, 2}, square, params), BadInput);
         other = two;
@@ -238,7 +238,7 @@ TEST(Ridges, RefusesWhatDoesNotBelongTogether) {
         other.arc_z[1].push_back(std::nan(""));
         EXPECT_THROW(ridges(other, {1, 2}, square, params), BadInput);
     }
-    RaisedNetwork const across = straight({{{2, 8}, {8, 2}}, {{2, 2}, {8, 8}}});
+    ElevatedNetwork const across = straight({{{2, 8}, {8, 2}}, {{2, 2}, {8, 8}}});
     RidgesParams params;
     params.method = Method::segments;
     EXPECT_NE(message<BadInput>([&] {
@@ -248,7 +248,7 @@ TEST(Ridges, RefusesWhatDoesNotBelongTogether) {
 }
 
 TEST(Ridges, RefusesParametersOutOfRange) {
-    RaisedNetwork const two = straight({{{2, 8}, {2, 2}}, {{7, 8}, {7, 2}}});
+    ElevatedNetwork const two = straight({{{2, 8}, {2, 2}}, {{7, 8}, {7, 2}}});
     for (double RidgesParams::*const field : {&RidgesParams::gain, &RidgesParams::farthest_m, &RidgesParams::spacing_m,
                                               &RidgesParams::tolerance_m, &RidgesParams::clear_m}) {
         for (double const bad : {-1e-9, std::nan(""), std::numeric_limits<double>::infinity()}) {
@@ -264,7 +264,7 @@ TEST(Ridges, RefusesParametersOutOfRange) {
 
 TEST(Ridges, TwoRiversHaveOneFromEdgeToEdge) {
     // Drawn southwards: label 9 lies in the west, on the right of whoever goes south.
-    RaisedNetwork two = straight({{{2, 12}, {2, -2}}, {{7, 12}, {7, -2}}});
+    ElevatedNetwork two = straight({{{2, 12}, {2, -2}}, {{7, 12}, {7, -2}}});
     two.arc_z = {{30.0, 10.0}, {20.0, 20.0}};
     for (Method const method : methods) {
         RidgesParams params;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/solver/grid/poisson.hpp>
 
 /// Problems to solve, for tests and bench.
@@ -15,19 +15,19 @@ namespace thalweg::test {
 inline solver::GridProblem winding_lines(std::int64_t side, double share) {
     Grid const grid{side, side, 1.0, 0.0, 0.0, ""};
     solver::GridProblem problem{Raster<std::uint8_t>(grid, solver::free_cell), Raster<double>(grid), {}};
-    ChanceStream chance(7, 1, 0);
+    RandomStream random(7, 1, 0);
     auto const size = static_cast<double>(side);
     auto wanted = static_cast<std::int64_t>(share * size * size);
     while (wanted > 0) {
-        double x = chance.real() * size;
-        double y = chance.real() * size;
-        double bearing = 6.28 * chance.real();
-        double const step_m = chance.real() < 0.5 ? 60.0 : -60.0;
-        auto const length = static_cast<std::int64_t>(200.0 + chance.real() * size / 4.0);
+        double x = random.real() * size;
+        double y = random.real() * size;
+        double bearing = 6.28 * random.real();
+        double const step_m = random.real() < 0.5 ? 60.0 : -60.0;
+        auto const length = static_cast<std::int64_t>(200.0 + random.real() * size / 4.0);
         for (std::int64_t i = 0; i < length; ++i) {
             x += std::cos(bearing);
             y += std::sin(bearing);
-            bearing += 0.6 * (chance.real() - 0.5);
+            bearing += 0.6 * (random.real() - 0.5);
             Cell const cell{static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(std::floor(y))};
             if (!grid.contains(cell)) {
                 break;

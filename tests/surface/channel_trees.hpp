@@ -4,14 +4,14 @@
 
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/channels.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
-/// Rivers by chance, for whatever is drawn around them.
+/// Rivers at random, for whatever is drawn around them.
 namespace channel_trees {
 
 using namespace thalweg;
@@ -37,7 +37,7 @@ enum class Room {
     crowd  ///< any cell may be taken
 };
 
-/// Grows trees from their ends by chance until they have so many cells, or no room is left.
+/// Grows trees from their ends at random until they have so many cells, or no room is left.
 inline Channels grown(Grid const& grid, std::vector<std::int64_t> const& ends, Mask const& land, std::int64_t cells,
                       Room room, std::uint64_t seed) {
     Channels rivers{grid, {}, {}, {}, {}};
@@ -61,12 +61,12 @@ inline Channels grown(Grid const& grid, std::vector<std::int64_t> const& ends, M
         if (static_cast<std::int64_t>(rivers.cell.size()) >= cells) {
             break;
         }
-        auto const from = chance(seed, 11, draw) % rivers.cell.size();
+        auto const from = random_word(seed, 11, draw) % rivers.cell.size();
         auto const near = beside(grid, rivers.cell[from]);
         if (near.empty()) {
             break;
         }
-        std::int64_t const to = near[chance(seed, 12, draw) % near.size()];
+        std::int64_t const to = near[random_word(seed, 12, draw) % near.size()];
         bool const dry = land.cells() == 0 || land[to] != 0;
         if (dry && number_of(to) < 0 && (room == Room::crowd || neighbours(to) == 1)) {
             put(to, static_cast<std::int64_t>(from));

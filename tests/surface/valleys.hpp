@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/valley.hpp>
 
@@ -25,21 +25,21 @@ inline Grid frame(std::int64_t width, std::int64_t height, double cell_m = 1.0) 
     return {width, height, cell_m, 0.0, 0.0, ""};
 }
 
-/// Valley cells by chance, at least one; heights in steps of 1/8 with ties, -0 and +0 among them, or arbitrary.
+/// Valley cells at random, at least one; heights in steps of 1/8 with ties, -0 and +0 among them, or arbitrary.
 inline Valley by_chance(std::int64_t width, std::int64_t height, double share, std::uint64_t seed) {
     Valley valley{Raster<float>(frame(width, height), nan)};
     bool const stepped = seed % 2 == 0;
     auto const put = [&](std::int64_t i) {
-        double const u = unit(chance(seed, 2, static_cast<std::uint64_t>(i)));
+        double const u = unit(random_word(seed, 2, static_cast<std::uint64_t>(i)));
         double const z = stepped ? std::floor(16.0 * u) / 8.0 - 1.0 : 50.0 * u - 10.0;
         valley.z[i] = z == 0.0 && i % 2 == 0 ? -0.0F : static_cast<float>(z);
     };
     for (std::int64_t i = 0; i < valley.z.cells(); ++i) {
-        if (unit(chance(seed, 1, static_cast<std::uint64_t>(i))) < share) {
+        if (unit(random_word(seed, 1, static_cast<std::uint64_t>(i))) < share) {
             put(i);
         }
     }
-    put(static_cast<std::int64_t>(chance(seed, 3) % static_cast<std::uint64_t>(valley.z.cells())));
+    put(static_cast<std::int64_t>(random_word(seed, 3) % static_cast<std::uint64_t>(valley.z.cells())));
     return valley;
 }
 
@@ -52,12 +52,12 @@ inline Valley any(std::int64_t longest) {
     return by_chance(width, height, share, seed);
 }
 
-/// A mask for a valley: barriers by chance, at least one valley cell inside.
+/// A mask for a valley: barriers at random, at least one valley cell inside.
 inline Mask barriers(Valley const& valley, double share, std::uint64_t seed) {
     Mask inside(valley.z.grid(), 1);
     std::int64_t kept = -1;
     for (std::int64_t i = 0; i < inside.cells(); ++i) {
-        inside[i] = unit(chance(seed, 4, static_cast<std::uint64_t>(i))) < share ? 0 : 1;
+        inside[i] = unit(random_word(seed, 4, static_cast<std::uint64_t>(i))) < share ? 0 : 1;
         kept = std::isnan(valley.z[i]) ? kept : i;
     }
     inside[kept] = 1;

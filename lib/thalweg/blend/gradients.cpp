@@ -35,8 +35,8 @@ LinearMap rotation(Vec3 axis, double angle_deg, double scale) {
                                        axis.x, axis.y, axis.z, scale));
     }
     Vec3 const u = (1.0 / axis_length) * axis;
-    double const c = exact::cos(angle_deg * (exact::pi / 180.0));
-    double const s = exact::sin(angle_deg * (exact::pi / 180.0));
+    double const c = portable::cos(angle_deg * (portable::pi / 180.0));
+    double const s = portable::sin(angle_deg * (portable::pi / 180.0));
     double const rest = 1.0 - c; // Rodrigues
     return {scale * Vec3{c + u.x * u.x * rest, u.x * u.y * rest - u.z * s, u.x * u.z * rest + u.y * s},
             scale * Vec3{u.y * u.x * rest + u.z * s, c + u.y * u.y * rest, u.y * u.z * rest - u.x * s},

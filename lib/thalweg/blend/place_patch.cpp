@@ -71,8 +71,9 @@ public:
         : source_(source), beyond_(beyond_outline(source)), window_(window),
           middle_{static_cast<double>(window.col) + 0.5 * static_cast<double>(window.width - 1),
                   static_cast<double>(window.row) + 0.5 * static_cast<double>(window.height - 1)},
-          cosine_(exact::cos(params.rotate_deg * (exact::pi / 180.0))),
-          sine_(exact::sin(params.rotate_deg * (exact::pi / 180.0))), cell_m_(params.scale * source.grid().cell_m) {
+          cosine_(portable::cos(params.rotate_deg * (portable::pi / 180.0))),
+          sine_(portable::sin(params.rotate_deg * (portable::pi / 180.0))),
+          cell_m_(params.scale * source.grid().cell_m) {
         Grid const& grid = source.grid();
         at_ = params.at.value_or(
             Vec2{grid.west + (middle_.col + 0.5) * grid.cell_m, grid.north - (middle_.row + 0.5) * grid.cell_m});

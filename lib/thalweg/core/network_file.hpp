@@ -59,7 +59,7 @@ struct NetworkFile {
         std::vector<Vec3> line = {};                                  ///< [m] as drawn, downstream under every schema
         double us_area_m2 = std::numeric_limits<double>::quiet_NaN(); ///< NaN where the file does not say
         double ds_area_m2 = std::numeric_limits<double>::quiet_NaN();
-        double survives = std::numeric_limits<double>::infinity(); ///< [cells]
+        double persistence = std::numeric_limits<double>::infinity(); ///< [cells]
         std::int64_t feature = 0;      ///< number in its layer's order, from 1; native: as the file says, 0 for none
         std::int64_t record = 0;       ///< of its attributes, from 1; 0 for none
         std::vector<double> size = {}; ///< as RiverLine
@@ -70,7 +70,7 @@ struct NetworkFile {
         std::vector<Stretch> sources = {};  ///< the features it is made of, where the file has them
         std::string type = {};
         bool braided = false;
-        bool given = true; ///< as Arc
+        bool is_input = true; ///< as Arc
         ArcColumns columns = {};
     };
     /// What the file says. The rest was filled in by what reads it, or left alone, and is not to be checked.

@@ -24,11 +24,11 @@ struct Node {
 
 /// A reach between two nodes, drawn downstream.
 struct Arc {
-    std::vector<Vec2> line;                                    ///< [m]
-    double survives = std::numeric_limits<double>::infinity(); ///< [cells] largest L at which pruning keeps it
-    std::int64_t feature = 0;                                  ///< id of the line it came from in the file; 0 for none
-    std::string type;                                          ///< river type given by the file (Rosgen), or ""
-    bool given = true; ///< false: a side valley that the land has grown around the given rivers
+    std::vector<Vec2> line;                                       ///< [m]
+    double persistence = std::numeric_limits<double>::infinity(); ///< [cells] largest L at which pruning keeps it
+    std::int64_t feature = 0; ///< id of the line it came from in the file; 0 for none
+    std::string type;         ///< river type given by the file (Rosgen), or ""
+    bool is_input = true;     ///< false: a side valley that the land has grown around the given rivers
 };
 
 /// An arc and the nodes it joins.
@@ -139,7 +139,7 @@ char const* name_of(NodeKind kind);
 double length_of(std::vector<Vec2> const& line);
 
 /// A network with heights: another type, so that heights cannot be asked before they are set.
-struct RaisedNetwork {
+struct ElevatedNetwork {
     StreamNetwork plan;
     std::vector<double> node_z;             ///< [m] by node
     std::vector<std::vector<double>> arc_z; ///< [m] by arc number, one a vertex; ends equal node_z bit for bit

@@ -92,7 +92,7 @@ double height_at(Raster<float> const& dem, Vec2 position) {
     return sum;
 }
 
-std::vector<Section> cut_sections(Raster<float> const& dem, RaisedNetwork const* network, NetworkOrders const* orders,
+std::vector<Section> cut_sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
                                   int count) {
     Grid const& grid = dem.grid();
     if (grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0)) {

@@ -30,7 +30,7 @@ struct Section {
 /// \param count how many
 /// \return nothing for places off the DEM.
 /// \throws BadInput when the DEM has no cells
-std::vector<Section> cut_sections(Raster<float> const& dem, RaisedNetwork const* network, NetworkOrders const* orders,
+std::vector<Section> cut_sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
                                   int count);
 
 /// Height at a position [m], bilinear between the four centres of cells around it, level beyond the outermost; NaN off

@@ -26,7 +26,7 @@ struct MapParams {
 struct MapSheet {
     Raster<float> const& dem;
     Raster<std::uint8_t> const& hillshade;
-    RaisedNetwork const* network = nullptr;
+    ElevatedNetwork const* network = nullptr;
     NetworkOrders const* orders = nullptr;                      ///< of the network; needed where there is one
     std::vector<std::pair<double, std::vector<Vec2>>> contours; ///< height [m] and line
     RidgeLines const* ridges = nullptr;                         ///< null or empty: none

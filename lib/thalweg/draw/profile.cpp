@@ -25,7 +25,7 @@ struct Reach {
     int hack = 1;
 };
 
-std::vector<Reach> reaches_of(RaisedNetwork const& network, NetworkOrders const& orders) {
+std::vector<Reach> reaches_of(ElevatedNetwork const& network, NetworkOrders const& orders) {
     std::size_t const arcs = network.plan.arc_count();
     if (network.arc_z.size() != arcs || orders.hack.size() != arcs || orders.arc_basin.size() != arcs ||
         orders.node_dist_out_m.size() != network.plan.node_count()) {
@@ -84,7 +84,7 @@ Plot scales_of(std::vector<Reach> const& reaches, Box box) {
 
 } // namespace
 
-Picture profile(RaisedNetwork const& network, NetworkOrders const& orders, ProfileParams const& params) {
+Picture profile(ElevatedNetwork const& network, NetworkOrders const& orders, ProfileParams const& params) {
     require_in("draw.profile", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_in("draw.profile", "height_px", params.height_px, Range::between(200, 8000), "pixels");
     std::vector<Reach> const reaches = reaches_of(network, orders);

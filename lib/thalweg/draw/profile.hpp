@@ -25,6 +25,6 @@ struct ProfileParams {
 /// emphasised.
 /// \throws BadParameter
 /// \throws BadInput when orders or heights are not those of the network, or a number is not finite
-Picture profile(RaisedNetwork const& network, NetworkOrders const& orders, ProfileParams const& params = {});
+Picture profile(ElevatedNetwork const& network, NetworkOrders const& orders, ProfileParams const& params = {});
 
 } // namespace thalweg::draw

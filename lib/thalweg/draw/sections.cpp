@@ -222,7 +222,7 @@ void draw_scale_of_x(Cairo* sheet, Box box, Ticks const& ticks, double metres_a_
     }
 }
 
-void demand_sections(RaisedNetwork const* network, NetworkOrders const* orders, SectionsParams const& params) {
+void demand_sections(ElevatedNetwork const* network, NetworkOrders const* orders, SectionsParams const& params) {
     require_in("draw.sections", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_in("draw.sections", "count", params.count, Range::between(1, 9));
     if (network != nullptr && (orders == nullptr || orders->strahler.size() != network->plan.arc_count())) {
@@ -313,7 +313,7 @@ void say_scales(Cairo* cairo, PanelSheet const& sheet, Grid const& grid) {
 
 } // namespace
 
-Picture sections(Raster<float> const& dem, RaisedNetwork const* network, NetworkOrders const* orders,
+Picture sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
                  SectionsParams const& params) {
     demand_sections(network, orders, params);
     std::vector<Section> const cuts = cut_sections(dem, network, orders, params.count);

@@ -28,7 +28,7 @@ struct SectionsParams {
 /// a key map that shows where each lies.
 /// \throws BadParameter
 /// \throws BadInput when the DEM has no cells or orders are of another network
-Picture sections(Raster<float> const& dem, RaisedNetwork const* network, NetworkOrders const* orders,
+Picture sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
                  SectionsParams const& params = {});
 
 } // namespace thalweg::draw

@@ -24,7 +24,7 @@ struct WireframeParams {
 /// What a wireframe shows.
 struct WireframeScene {
     Raster<float> const& dem;
-    RaisedNetwork const* network = nullptr;
+    ElevatedNetwork const* network = nullptr;
     NetworkOrders const* orders = nullptr; ///< of the network; needed where there is one
 };
 

@@ -23,13 +23,13 @@ Raster<float> attract(Raster<float> dem, Attraction const& attraction) {
     require_in("skeleton.attract", "radius", attraction.radius_cells, Range::above(0.0).or_infinite(), "cells");
     require_in("skeleton.attract", "height", attraction.z, Range::finite(), "m");
     double const square = attraction.radius_cells * attraction.radius_cells;
-    double const at_radius = attraction.falloff == Falloff::literal ? 0.0 : exact::exp(-1.0);
+    double const at_radius = attraction.falloff == Falloff::literal ? 0.0 : portable::exp(-1.0);
     auto const reach = static_cast<std::int64_t>(std::min(attraction.radius_cells, 1e9));
     cells_around(dem.grid(), centre, reach, [&](Cell c) {
         auto const distance = static_cast<double>(squared_cells(c, centre));
         if (distance <= square) {
             double const h = dem[c];
-            double const pull = (exact::exp(-distance / square) - at_radius) / (1.0 - at_radius);
+            double const pull = (portable::exp(-distance / square) - at_radius) / (1.0 - at_radius);
             dem[c] = static_cast<float>(h + pull * (attraction.z - h));
         }
     });

@@ -33,8 +33,8 @@ Raster<float> markov3(Grid const& grid, FieldParams const& params, Run const& ru
                         "many rows and columns is made for at most {}",
                         length, longest_cells));
     }
-    double const rho = exact::exp(-1.0 / length);
-    double const diagonal = exact::exp(-std::sqrt(2.0) / length);
+    double const rho = portable::exp(-1.0 / length);
+    double const diagonal = portable::exp(-std::sqrt(2.0) / length);
     double const weight = rho / (1.0 + diagonal);
     // With q = 1 - 2 rho^2/(1 + rho1) the recursion's variance is q / sqrt(1 - 4 A^2) times that of R: sqrt(q) cancels.
     double const gain = std::sqrt(std::sqrt(1.0 - 4.0 * weight * weight));

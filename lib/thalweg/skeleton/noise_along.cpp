@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/skeleton/internal/perlin.hpp>
@@ -47,7 +47,7 @@ std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 ori
                                 Run const& run) {
     demand(params);
     run.check();
-    auto const words = chance_block(params.seed, noise_stage);
+    auto const words = random_block(params.seed, noise_stage);
     // libnoise folds its seed to 16 bits, and its noise is 0 wherever coordinates are whole.
     double const shift_x = widest_shift * unit(words[1]);
     double const shift_y = widest_shift * unit(words[2]);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/internal/place_points.hpp>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <fmt/format.h>
@@ -104,7 +104,7 @@ void throw_darts(Crowd& crowd, Ground const& ground, PlacePointsParams const& pa
         if (dart % 65536 == 0) {
             run.at(static_cast<double>(crowd.places().size()) / static_cast<double>(params.count), "scatter");
         }
-        Vec2 const p = anywhere(ground.grid, chance_block(params.seed, place_stage, dart));
+        Vec2 const p = anywhere(ground.grid, random_block(params.seed, place_stage, dart));
         if (ground.holds(p) && crowd.has_room(p)) {
             crowd.add(p);
             misses = 0;
@@ -118,7 +118,7 @@ void throw_darts(Crowd& crowd, Ground const& ground, PlacePointsParams const& pa
 void spread(Crowd& crowd, Ground const& ground, PlacePointsParams const& params, double spacing_m, Run const& run) {
     if (crowd.places().empty()) {
         for (std::uint64_t dart = 0; crowd.places().empty(); ++dart) {
-            Vec2 const p = anywhere(ground.grid, chance_block(params.seed, place_stage, dart));
+            Vec2 const p = anywhere(ground.grid, random_block(params.seed, place_stage, dart));
             if (ground.holds(p)) {
                 crowd.add(p);
             }
@@ -132,13 +132,14 @@ void spread(Crowd& crowd, Ground const& ground, PlacePointsParams const& params,
         if (turn % 4096 == 0) {
             run.check();
         }
-        std::size_t const which = static_cast<std::size_t>(chance(params.seed, annulus_stage, turn) % active.size());
+        std::size_t const which =
+            static_cast<std::size_t>(random_word(params.seed, annulus_stage, turn) % active.size());
         Vec2 const around = crowd.places()[active[which]];
         bool found = false;
         for (std::uint64_t k = 1; k <= candidates && !found; ++k) {
             // In the square of side 4 spacings; what falls outside the annulus is drawn anew.
             for (std::uint64_t again = 0;; ++again) {
-                auto const words = chance_block(params.seed, annulus_stage, turn, k, again);
+                auto const words = random_block(params.seed, annulus_stage, turn, k, again);
                 Vec2 const p{around.x + (4.0 * unit(words[0]) - 2.0) * spacing_m,
                              around.y + (4.0 * unit(words[1]) - 2.0) * spacing_m};
                 double const away = distance(p, around);
@@ -178,7 +179,7 @@ void thin_out(std::vector<Vec2>& places, std::size_t wanted, std::uint64_t seed)
         return;
     }
     for (std::size_t i = 0; i < wanted; ++i) {
-        std::size_t const j = i + static_cast<std::size_t>(chance(seed, choice_stage, i) % (places.size() - i));
+        std::size_t const j = i + static_cast<std::size_t>(random_word(seed, choice_stage, i) % (places.size() - i));
         std::swap(places[i], places[j]);
     }
     places.resize(wanted);

@@ -37,7 +37,7 @@ public:
     Terms at(double x, double y) const {
         double const u = x / half_x_;
         double const v = y / half_y_;
-        double const hill = exact::exp(-std::fabs(x) / params_.length_x - std::fabs(y) / params_.length_y);
+        double const hill = portable::exp(-std::fabs(x) / params_.length_x - std::fabs(y) / params_.length_y);
         double const eighth = params_.eighth == EighthTerm::x2y2 ? u * u * v * v : u * u * u * v;
         return {1.0,
                 u,
@@ -49,8 +49,8 @@ public:
                 eighth,
                 u * v * v,
                 hill,
-                hill * wave_x(x, exact::cos),
-                hill * wave_y(y, exact::sin)};
+                hill * wave_x(x, portable::cos),
+                hill * wave_y(y, portable::sin)};
     }
 
     /// Derivatives of the terms to x and y [a cell]; those of |x| and |y| are 0 at 0.
@@ -60,15 +60,15 @@ public:
         double const a = 1.0 / half_x_;
         double const b = 1.0 / half_y_;
         bool const whole = params_.eighth == EighthTerm::x2y2;
-        double const hill = exact::exp(-std::fabs(x) / params_.length_x - std::fabs(y) / params_.length_y);
+        double const hill = portable::exp(-std::fabs(x) / params_.length_x - std::fabs(y) / params_.length_y);
         double const sign_x = x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0;
         double const sign_y = y > 0.0 ? 1.0 : y < 0.0 ? -1.0 : 0.0;
         double const fall_x = -sign_x / params_.length_x;
         double const fall_y = -sign_y / params_.length_y;
-        double const cosine = wave_x(x, exact::cos);
-        double const sine = wave_y(y, exact::sin);
-        double const turn_x = -sign_x * wave_x(x, exact::sin) * 2.0 * exact::pi * params_.frequency_x / width();
-        double const turn_y = sign_y * wave_y(y, exact::cos) * 2.0 * exact::pi * params_.frequency_y / height();
+        double const cosine = wave_x(x, portable::cos);
+        double const sine = wave_y(y, portable::sin);
+        double const turn_x = -sign_x * wave_x(x, portable::sin) * 2.0 * portable::pi * params_.frequency_x / width();
+        double const turn_y = sign_y * wave_y(y, portable::cos) * 2.0 * portable::pi * params_.frequency_y / height();
         Terms const to_x{0.0,
                          a,
                          0.0,
@@ -115,10 +115,10 @@ private:
     double width() const { return static_cast<double>(grid_.width); }
     double height() const { return static_cast<double>(grid_.height); }
     double wave_x(double x, double (*wave)(double)) const {
-        return wave(2.0 * exact::pi * params_.frequency_x * std::fabs(x) / width());
+        return wave(2.0 * portable::pi * params_.frequency_x * std::fabs(x) / width());
     }
     double wave_y(double y, double (*wave)(double)) const {
-        return wave(2.0 * exact::pi * params_.frequency_y * std::fabs(y) / height());
+        return wave(2.0 * portable::pi * params_.frequency_y * std::fabs(y) / height());
     }
 
     Grid const& grid_;
@@ -137,7 +137,7 @@ void demand(FeaturePoints const& points, Grid const& grid, RegressParams const& 
     if (!(p.frequency_x >= 0.0) || !(p.frequency_y >= 0.0) || !(p.frequency_x + p.frequency_y < 1e4)) {
         refuse(fmt::format("frequencies {} and {}: give 0 to 10 000 cycles", p.frequency_x, p.frequency_y));
     }
-    if (p.slope != SlopeMode::none && !(p.slope_rad > 0.0 && p.slope_rad < 0.5 * exact::pi)) {
+    if (p.slope != SlopeMode::none && !(p.slope_rad > 0.0 && p.slope_rad < 0.5 * portable::pi)) {
         refuse(fmt::format("slope {} rad: give more than 0 and less than pi/2 = 1.5708", p.slope_rad));
     }
     if (points.points.size() < terms) {
@@ -156,7 +156,7 @@ void demand(FeaturePoints const& points, Grid const& grid, RegressParams const& 
 solver::Sphere sphere_of(Basis const& basis, Grid const& grid, RegressParams const& params,
                          std::vector<std::size_t> const& columns) {
     solver::Sphere sphere;
-    sphere.tau = exact::sin(params.slope_rad) / exact::cos(params.slope_rad);
+    sphere.tau = portable::sin(params.slope_rad) / portable::cos(params.slope_rad);
     if (params.slope == SlopeMode::centre) {
         sphere.unknowns = {1, 2}; // x and y: in the middle all other terms are level
         sphere.form = solver::Matrix(2, 2);

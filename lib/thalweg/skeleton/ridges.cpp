@@ -35,7 +35,7 @@ void demand(RidgesParams const& params, Grid const& grid) {
     }
 }
 
-void demand(RaisedNetwork const& network, std::vector<std::int64_t> const& labels) {
+void demand(ElevatedNetwork const& network, std::vector<std::int64_t> const& labels) {
     std::size_t const arcs = network.plan.arc_count();
     if (labels.size() != arcs || network.arc_z.size() != arcs) {
         throw BadInput(
@@ -128,7 +128,7 @@ double or_else(double asked, double chosen) {
 
 } // namespace
 
-RidgeLines ridges(RaisedNetwork const& network, std::vector<std::int64_t> const& stream_of_arc, Grid const& grid,
+RidgeLines ridges(ElevatedNetwork const& network, std::vector<std::int64_t> const& stream_of_arc, Grid const& grid,
                   RidgesParams const& params, Run const& run) {
     demand(params, grid);
     demand(network, stream_of_arc);

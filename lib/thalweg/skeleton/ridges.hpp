@@ -39,7 +39,7 @@ struct RidgesParams {
 /// \throws Cancelled
 ///
 /// Source: \cite nenu2015, section 3.1 and equation 10; specification 3.4.
-RidgeLines ridges(RaisedNetwork const& network, std::vector<std::int64_t> const& stream_of_arc, Grid const& grid,
+RidgeLines ridges(ElevatedNetwork const& network, std::vector<std::int64_t> const& stream_of_arc, Grid const& grid,
                   RidgesParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::skeleton

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/scatter.hpp>
 
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/skeleton/internal/place_points.hpp>
@@ -26,9 +26,9 @@ bool inside(Grid const& grid, Vec2 p) {
 }
 
 double normal(std::uint64_t seed, std::uint64_t place) {
-    auto const words = chance_block(seed, height_stage, place);
+    auto const words = random_block(seed, height_stage, place);
     double const u = 1.0 - unit(words[0]); // (0, 1]
-    return std::sqrt(-2.0 * exact::log(u)) * exact::cos(2.0 * exact::pi * unit(words[1]));
+    return std::sqrt(-2.0 * portable::log(u)) * portable::cos(2.0 * portable::pi * unit(words[1]));
 }
 
 /// Numbers by the law: uniform in [-1, 1), or normal.
@@ -36,7 +36,7 @@ std::vector<double> drawn(std::size_t count, ScatterParams const& params) {
     std::vector<double> z(count);
     for (std::size_t i = 0; i < count; ++i) {
         z[i] = params.law == HeightLaw::normal ? normal(params.seed, i)
-                                               : 2.0 * unit(chance(params.seed, height_stage, i)) - 1.0;
+                                               : 2.0 * unit(random_word(params.seed, height_stage, i)) - 1.0;
     }
     return z;
 }
@@ -108,8 +108,8 @@ void attract(Vec3& point, Vec3 const& extreme, double reach_m, Falloff falloff) 
     double const away = distance({point.x, point.y}, {extreme.x, extreme.y});
     if (away <= reach_m) {
         double const share = away / reach_m;
-        double const at_reach = falloff == Falloff::literal ? 0.0 : exact::exp(-1.0);
-        point.z += (exact::exp(-share * share) - at_reach) / (1.0 - at_reach) * (extreme.z - point.z);
+        double const at_reach = falloff == Falloff::literal ? 0.0 : portable::exp(-1.0);
+        point.z += (portable::exp(-share * share) - at_reach) / (1.0 - at_reach) * (extreme.z - point.z);
     }
 }
 

@@ -3,8 +3,8 @@
 #include <thalweg/skeleton/scatter_between.hpp>
 
 #include <thalweg/core/cells/nearest_cells.hpp>
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/normal.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/skeleton/internal/place_points.hpp>
@@ -88,10 +88,10 @@ std::vector<Vec2> with_room(std::vector<Vec2> const& places, Mask const& free, S
 
 double share_of(std::uint64_t place, ScatterBetweenParams const& params) {
     if (params.law == HeightLaw::uniform) {
-        return unit(chance(params.seed, share_stage, place));
+        return unit(random_word(params.seed, share_stage, place));
     }
     for (std::uint64_t again = 0;; ++again) {
-        auto const words = chance_block(params.seed, share_stage, place, again);
+        auto const words = random_block(params.seed, share_stage, place, again);
         double const share = 0.5 + normal_pair(words[0], words[1])[0] / 6.0;
         if (share >= 0.0 && share <= 1.0) {
             return share;

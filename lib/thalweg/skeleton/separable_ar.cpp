@@ -21,7 +21,7 @@ constexpr std::uint64_t ar_stage = 32;
 Raster<float> separable_ar(Grid const& grid, FieldParams const& params, Run const& run) {
     check(params, "skeleton.separable_ar");
     Raster<double> field(grid);
-    double const a = exact::exp(-1.0 / params.lx_cells);
+    double const a = portable::exp(-1.0 / params.lx_cells);
     double const along = std::sqrt(1.0 - a * a);
     parallel_ranges(run, grid.height, 8, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t r = begin; r < end; ++r) {
@@ -34,7 +34,7 @@ Raster<float> separable_ar(Grid const& grid, FieldParams const& params, Run cons
         }
     });
     Raster<float> dem(grid);
-    double const b = exact::exp(-1.0 / params.ly_cells);
+    double const b = portable::exp(-1.0 / params.ly_cells);
     double const across = std::sqrt(1.0 - b * b);
     parallel_ranges(run, grid.width, 64, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t r = 0; r < grid.height; ++r) {

@@ -12,7 +12,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments/areas.hpp>
 
@@ -237,7 +237,7 @@ TEST(AreasD8, FollowTheDefinitionAndItsLaws) {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         Raster<float> dem(grid);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            dem[i] = static_cast<float>(chance(seed, static_cast<std::uint64_t>(i)) % 9);
+            dem[i] = static_cast<float>(random_word(seed, static_cast<std::uint64_t>(i)) % 9);
         }
         auto const drainage = flow::route(dem);
         ContributingAreas const areas = areas_d8(net, drainage);

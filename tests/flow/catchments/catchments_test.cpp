@@ -56,7 +56,7 @@ std::string complaint_of(std::vector<Reach> const& reaches, FlowField const& dra
 }
 
 /// Rivers on lattices finer or coarser than the cells, and any land with holes under them.
-rc::Gen<std::pair<RaisedNetwork, Raster<float>>> gen_rivers_and_land() {
+rc::Gen<std::pair<ElevatedNetwork, Raster<float>>> gen_rivers_and_land() {
     return rc::gen::exec([] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         auto const cols = *evenly<std::int64_t>(1, 9);
@@ -69,7 +69,7 @@ rc::Gen<std::pair<RaisedNetwork, Raster<float>>> gen_rivers_and_land() {
         Raster<float> dem(frame(cells(cols), cells(rows)));
         auto const holes = *evenly<std::uint64_t>(0, 20);
         for (std::int64_t i = 0; i < dem.cells(); ++i) {
-            auto const any = chance(seed, static_cast<std::uint64_t>(i), 1);
+            auto const any = random_word(seed, static_cast<std::uint64_t>(i), 1);
             dem[i] = any % 100 < holes ? hole : static_cast<float>(any / 100 % 9);
         }
         return std::pair{random_rivers(seed, cols, rows, spacing), dem};

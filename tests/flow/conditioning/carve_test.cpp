@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/conditioning/dem_change.hpp>
+#include <thalweg/flow/conditioning/internal/confine_channels.hpp>
 #include <thalweg/flow/conditioning/internal/fill.hpp>
-#include <thalweg/flow/conditioning/internal/raise_banks.hpp>
 
 #include "conditioning/scenes.hpp"
 #include "plain_drainage.hpp"
@@ -20,8 +20,8 @@
 using namespace thalweg;
 using flow::Banks;
 using flow::carve;
+using flow::confine_channels;
 using flow::fill;
-using flow::raise_banks;
 using scenes::any_scene;
 using scenes::frame;
 using scenes::require_drained;
@@ -58,7 +58,8 @@ Raster<float> any_carve_land() {
     Raster<float> dem(frame(width, height));
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         auto const at = static_cast<std::uint64_t>(i);
-        dem[i] = chance(seed, 1, at) % 16 == 0 ? plain::no_data : static_cast<float>(chance(seed, 2, at) % steps);
+        dem[i] =
+            random_word(seed, 1, at) % 16 == 0 ? plain::no_data : static_cast<float>(random_word(seed, 2, at) % steps);
     }
     return dem;
 }
@@ -134,7 +135,7 @@ TEST(Carve, DrainsWithNoMoreVolumeThanFilling) {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("least");
         Raster<float> least = any_depth(dem.grid());
         for (std::int64_t i = 0; i < dem.cells(); ++i) {
-            if (chance(seed, static_cast<std::uint64_t>(i)) % 3 == 0) {
+            if (random_word(seed, static_cast<std::uint64_t>(i)) % 3 == 0) {
                 least[i] = dem[i] - 2.0F;
             }
         }
@@ -164,7 +165,7 @@ TEST(Carve, RefusesLeastHeightsOfAnotherGrid) {
 TEST(Carve, DrainsAndKeepsRivers) {
     ASSERT_TRUE(rc::check("drain by carving", [] {
         Scene const scene = any_scene();
-        Banks const banks = raise_banks(scene.dem, scene.valley);
+        Banks const banks = confine_channels(scene.dem, scene.valley);
         Raster<float> const carved = carve(banks.dem, scene.valley, banks.least);
         require_drained(carved, scene.valley);
         require_rivers_untouched(carved, scene);

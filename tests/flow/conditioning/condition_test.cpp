@@ -95,7 +95,7 @@ TEST(Condition, OneBowlTakesTheCheapestWay) {
         for (std::int64_t i = 0; i < bowl.cells(); ++i) {
             Cell const c = bowl.grid().at(i);
             auto const ring = std::max(std::abs(c.col - rings), std::abs(c.row - rings));
-            double const u = unit(chance(seed, static_cast<std::uint64_t>(i)));
+            double const u = unit(random_word(seed, static_cast<std::uint64_t>(i)));
             bowl[i] = static_cast<float>(ring == 0       ? 0.0
                                          : ring == rings ? static_cast<double>(ring) + rim * u
                                                          : static_cast<double>(ring) + 0.9 * u);

@@ -11,7 +11,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/cells/framed.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "conditioning/scenes.hpp"
@@ -67,8 +67,9 @@ FloodScene any_flood_scene() {
     FloodScene scene{Raster<float>(grid), Raster<float>(grid, plain::no_data)};
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         auto const at = static_cast<std::uint64_t>(i);
-        scene.dem[i] = chance(seed, 1, at) % 12 == 0 ? plain::no_data : static_cast<float>(chance(seed, 2, at) % steps);
-        if (!std::isnan(scene.dem[i]) && chance(seed, 3, at) % 12 == 0) {
+        scene.dem[i] =
+            random_word(seed, 1, at) % 12 == 0 ? plain::no_data : static_cast<float>(random_word(seed, 2, at) % steps);
+        if (!std::isnan(scene.dem[i]) && random_word(seed, 3, at) % 12 == 0) {
             scene.rivers[i] = scene.dem[i];
         }
     }

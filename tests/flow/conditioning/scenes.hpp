@@ -12,7 +12,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/cells/d8.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/valley.hpp>
 
@@ -58,13 +58,13 @@ inline Scene any_scene() {
     Scene scene{Raster<float>(frame(width, height)), no_rivers(frame(width, height))};
     Grid const& grid = scene.dem.grid();
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        double const u = 40.0 * unit(chance(seed, 1, static_cast<std::uint64_t>(i)));
-        bool const hole = unit(chance(seed, 2, static_cast<std::uint64_t>(i))) < holes;
+        double const u = 40.0 * unit(random_word(seed, 1, static_cast<std::uint64_t>(i)));
+        bool const hole = unit(random_word(seed, 2, static_cast<std::uint64_t>(i))) < holes;
         scene.dem[i] = hole ? no_data : static_cast<float>(stepped ? std::floor(u / 8.0) : u);
     }
     std::uint64_t draw = 0;
     auto const pick = [&](std::int64_t n) {
-        return static_cast<std::int64_t>(chance(seed, 3, ++draw) % static_cast<std::uint64_t>(n));
+        return static_cast<std::int64_t>(random_word(seed, 3, ++draw) % static_cast<std::uint64_t>(n));
     };
     // All on one clock, so that where rivers meet the later, lower one goes on.
     double z = 30.0;
@@ -106,7 +106,7 @@ inline void require_rivers_untouched(Raster<float> const& dem, Scene const& scen
     }
 }
 
-/// The law of raise_banks.
+/// The law of confine_channels.
 inline void require_water_kept(Raster<float> const& dem, Valley const& valley) {
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         if (std::isnan(valley.z[i])) {

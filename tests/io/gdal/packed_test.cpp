@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "unpacked.hpp"
@@ -29,7 +29,7 @@ TEST(Packed, ByteByByteTheSameAgain) {
 TEST(Packed, MoreThanOnePieceOfBase64) {
     Bytes noise(10'000'001);
     for (std::size_t i = 0; i < noise.size(); ++i) {
-        noise[i] = static_cast<std::uint8_t>(chance(7, i));
+        noise[i] = static_cast<std::uint8_t>(random_word(7, i));
     }
     std::string const text = io::packed(noise);
     EXPECT_GT(text.size(), noise.size());

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "full_disk.hpp"
@@ -35,7 +35,8 @@ Grid frame(std::int64_t width, std::int64_t height) {
 Raster<float> land(std::int64_t width = 13, std::int64_t height = 7, double cell_m = 2.5) {
     Raster<float> z(Grid{width, height, cell_m, 300000.1, 5200000.7, "EPSG:32631"});
     for (std::int64_t i = 0; i < z.cells(); ++i) {
-        z[i] = i % 11 == 4 ? none : static_cast<float>(1000.0 * unit(chance(1, static_cast<std::uint64_t>(i)))) - 50.0F;
+        z[i] = i % 11 == 4 ? none
+                           : static_cast<float>(1000.0 * unit(random_word(1, static_cast<std::uint64_t>(i)))) - 50.0F;
     }
     return z;
 }
@@ -167,7 +168,7 @@ TEST(WritePoints, PointsOfAFileKeepTheirOrder) {
     ScratchFolder const folder;
     FeaturePoints points{{}, "EPSG:2154"};
     for (std::uint64_t i = 0; i < 10000; ++i) {
-        auto const words = chance_block(3, i);
+        auto const words = random_block(3, i);
         points.points.push_back({1e6 * unit(words[0]), 7e6 / 3.0 - unit(words[1]), unit(words[2])});
     }
     EXPECT_EQ(write_points(points, folder / "a.ply", {.format = PointFormat::ply}), 10000U);

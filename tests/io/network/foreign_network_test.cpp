@@ -516,8 +516,8 @@ TEST(ForeignNetwork, NativeIsNativeInEveryFormat) {
     auto const last = std::ranges::find(original.arcs, 6, &NetworkFile::FileArc::id);
     EXPECT_EQ(last->type, "Bärenbach");
     EXPECT_EQ(last->feature, 123456789012345);
-    EXPECT_EQ(last->survives, 20.5);
-    EXPECT_TRUE(std::isinf(original.arcs[0].survives));
+    EXPECT_EQ(last->persistence, 20.5);
+    EXPECT_TRUE(std::isinf(original.arcs[0].persistence));
     EXPECT_EQ(original.arcs[0].type, "");
     EXPECT_EQ(original.arcs[0].us_area_m2, 0.1);
     EXPECT_EQ(io::read_network(folder / "x_arcs.geojson", io::ReadNetworkParams{}).arcs.size(), 6U);

@@ -18,7 +18,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/gdal/driver.hpp>
-#include <thalweg/network/import/adopt.hpp>
+#include <thalweg/network/import/import_lines.hpp>
 
 using namespace thalweg;
 namespace fs = std::filesystem;
@@ -443,23 +443,23 @@ TEST(Walker, IsReadWhole) {
 
 TEST(Walker, BecomesOneTree) {
     auto const rivers = walker();
-    auto const adopted = network::adopt(rivers);
-    ASSERT_EQ(adopted.network.outlets().size(), 1U);
-    EXPECT_EQ(adopted.network.node_count(), adopted.network.arc_count() + 1);
-    EXPECT_EQ(adopted.network.arc_count(), 51U); // 62 reaches, of which 11 go on where no other joins
-    EXPECT_EQ(adopted.repairs.size(), 11U);
-    EXPECT_TRUE(std::ranges::all_of(adopted.repairs, [](Finding const& f) { return f.kind == "joined"; }));
+    auto const imported = network::import_lines(rivers);
+    ASSERT_EQ(imported.network.outlets().size(), 1U);
+    EXPECT_EQ(imported.network.node_count(), imported.network.arc_count() + 1);
+    EXPECT_EQ(imported.network.arc_count(), 51U); // 62 reaches, of which 11 go on where no other joins
+    EXPECT_EQ(imported.repairs.size(), 11U);
+    EXPECT_TRUE(std::ranges::all_of(imported.repairs, [](Finding const& f) { return f.kind == "joined"; }));
     // The last reach of Walker Creek is feature 1 (TerminalFl = 1), drawn downstream.
     auto const mouth = rivers.lines[0].vertices.back();
-    EXPECT_EQ(adopted.network.node(adopted.network.outlets()[0]).at, (Vec2{mouth.x, mouth.y}));
+    EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at, (Vec2{mouth.x, mouth.y}));
 }
 
 TEST(Walker, KeepsEveryVertexInOrder) {
     auto const rivers = walker();
-    auto const adopted = network::adopt(rivers);
+    auto const imported = network::import_lines(rivers);
     std::set<std::pair<std::pair<double, double>, std::pair<double, double>>> steps;
-    for (ArcId a = 0; a < adopted.network.arc_count(); ++a) {
-        auto const& line = adopted.network.arc(a).line;
+    for (ArcId a = 0; a < imported.network.arc_count(); ++a) {
+        auto const& line = imported.network.arc(a).line;
         for (std::size_t i = 0; i + 1 < line.size(); ++i) {
             steps.insert({{line[i].x, line[i].y}, {line[i + 1].x, line[i + 1].y}});
         }
@@ -478,8 +478,8 @@ TEST(Walker, KeepsEveryVertexInOrder) {
 TEST(Walker, EveryEvidenceSaysTheSame) {
     auto const rivers = walker();
     auto const outlet = [&](network::Orientation orientation) {
-        auto const adopted = network::adopt(rivers, {.orientation = orientation});
-        return adopted.network.node(adopted.network.outlets().at(0)).at;
+        auto const imported = network::import_lines(rivers, {.orientation = orientation});
+        return imported.network.node(imported.network.outlets().at(0)).at;
     };
     EXPECT_EQ(outlet(network::Orientation::rank), outlet(network::Orientation::as_drawn));
     EXPECT_EQ(outlet(network::Orientation::rank), outlet(network::Orientation::automatic));

@@ -260,7 +260,7 @@ TEST(WriteNetwork, ValuesAreTheNetworksInBothFormats) {
                 EXPECT_NEAR(real("dist_out"), sample.orders.node_dist_out_m[to], 1e-9);
                 EXPECT_NEAR(real("us_area"), sample.us_area_m2[a], 1e-6);
                 EXPECT_NEAR(real("ds_area"), sample.ds_area_m2[a], 1e-6);
-                EXPECT_EQ(real("survives"), std::isinf(arc.survives) ? -1.0 : arc.survives);
+                EXPECT_EQ(real("survives"), std::isinf(arc.persistence) ? -1.0 : arc.persistence);
                 EXPECT_GE(real("length_3d"), real("length"));
                 auto const& line = *feature->GetGeometryRef()->toLineString();
                 ASSERT_EQ(static_cast<std::size_t>(line.getNumPoints()), arc.line.size());

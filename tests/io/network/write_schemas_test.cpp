@@ -95,7 +95,7 @@ void expect_row(std::map<std::string, std::string> const& row, std::map<std::str
 
 /// A network of random rivers with areas that grow downstream.
 struct Drawn {
-    RaisedNetwork network;
+    ElevatedNetwork network;
     NetworkOrders orders;
     std::vector<double> us_area_m2;
     std::vector<double> ds_area_m2;
@@ -106,7 +106,7 @@ struct Drawn {
     }
 };
 
-Drawn draw(RaisedNetwork network) {
+Drawn draw(ElevatedNetwork network) {
     Drawn drawn{std::move(network), {}, {}, {}, {}};
     drawn.orders = network::order(drawn.network.plan);
     for (std::size_t a = 0; a < drawn.network.plan.arc_count(); ++a) {
@@ -374,7 +374,7 @@ TEST(WriteSchemas, RoundTripsLoseNothingTheSchemaCanHold) {
         auto const format = *rc::gen::elementOf(std::vector<NetworkFormat>(formats));
         auto const schema =
             *rc::gen::element(Schema::native, Schema::taudem, Schema::nhdplus, Schema::hydrorivers, Schema::grass);
-        RaisedNetwork rivers =
+        ElevatedNetwork rivers =
             random_rivers(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::int64_t>(2, 12),
                           *rc::gen::inRange<std::int64_t>(2, 12), 1000.0 / 7.0);
         std::int64_t feature = 0;

@@ -10,7 +10,7 @@
 #include <ogrsf_frmts.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/raster/internal/polygonise.hpp>
 
@@ -95,7 +95,7 @@ TEST(Polygonise, OutlinesHoldTheirCellsAndAreValid) {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         std::vector<std::int32_t> cells;
         for (std::int64_t i = 0; i < width * height; ++i) {
-            auto const any = chance(seed, static_cast<std::uint64_t>(i)) % static_cast<std::uint64_t>(count + 1);
+            auto const any = random_word(seed, static_cast<std::uint64_t>(i)) % static_cast<std::uint64_t>(count + 1);
             cells.push_back(static_cast<std::int32_t>(any) - 1);
         }
         auto const numbers = numbers_of(width, cells);

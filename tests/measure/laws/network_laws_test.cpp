@@ -31,7 +31,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Rivers of chance whose areas and heights are made to order.
 struct MadeToOrder {
-    RaisedNetwork rivers;
+    ElevatedNetwork rivers;
     flow::ContributingAreas areas;
     NetworkOrders orders;
 
@@ -135,7 +135,7 @@ TEST(PowerLaw, IsRecovered) {
         auto const count = *evenly<std::uint64_t>(60, 400);
         std::vector<AtArea> places{{0.0, 1.0}, {1.0, 0.0}, {1.0, -3.0}, {not_a_number, 1.0}, {1.0, not_a_number}};
         for (std::uint64_t i = 0; i < count; ++i) {
-            double const area = std::pow(10.0, 3.0 + 4.0 * unit(chance(seed, i)));
+            double const area = std::pow(10.0, 3.0 + 4.0 * unit(random_word(seed, i)));
             places.push_back({area, coefficient * std::pow(area, exponent)});
         }
         auto const law = fit_power_law(places);
@@ -211,7 +211,7 @@ TEST(Hack, IsRecoveredFromRiversThatHaveIt) {
         Numbers head;
         if (*rc::gen::arbitrary<bool>()) {
             for (NodeId n = 0; n < made.rivers.plan.node_count(); ++n) {
-                head.push_back(500.0 * unit(chance(9, n)));
+                head.push_back(500.0 * unit(random_word(9, n)));
             }
         }
         Numbers const longest = longest_slowly(made.rivers.plan, head);

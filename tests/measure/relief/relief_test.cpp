@@ -13,7 +13,7 @@
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/perched.hpp>
-#include <thalweg/measure/relief/relief_figures.hpp>
+#include <thalweg/measure/relief/relief_metrics.hpp>
 
 #include "graded_land.hpp"
 
@@ -112,7 +112,7 @@ TEST(Relief, OfLittleLandIsUnknownNotWrong) {
         EXPECT_EQ(found.hypsometric_integral, 0.5);
         EXPECT_TRUE(std::isnan(found.valleys_over_ridges));
         EXPECT_EQ(found.drainage_density, dem.cells() < 200 ? 0.0 : found.drainage_density);
-        for (measure::ReliefFigure const& figure : measure::relief_figures()) {
+        for (measure::ReliefMetric const& figure : measure::relief_metrics()) {
             EXPECT_FALSE(std::isinf(figure.of(found))) << figure.key;
         }
     }
@@ -159,7 +159,7 @@ TEST(Relief, HasNoScale) {
     }
     Relief const a = relief_of(land.dem);
     Relief const b = relief_of(enlarged);
-    for (measure::ReliefFigure const& figure : measure::relief_figures()) {
+    for (measure::ReliefMetric const& figure : measure::relief_metrics()) {
         if (figure.key != "theta" && figure.key != "theta_r2") { // the edges of its bins are in m2
             EXPECT_NEAR(figure.of(a), figure.of(b), 1e-6) << figure.key;
         }
@@ -187,7 +187,7 @@ TEST(Relief, SameBitsForAnyThreads) {
     five.threads = 5;
     Relief const a = relief_of(dem, one);
     Relief const b = relief_of(dem, five);
-    for (measure::ReliefFigure const& figure : measure::relief_figures()) {
+    for (measure::ReliefMetric const& figure : measure::relief_metrics()) {
         EXPECT_EQ(figure.of(a), figure.of(b)) << figure.key;
     }
 }

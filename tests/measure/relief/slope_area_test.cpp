@@ -79,7 +79,7 @@ TEST(SlopeArea, WholeMetresAndNoiseDoNotBendIt) {
     for (double const theta : {0.35, 0.45, 0.55}) {
         GradedLand land = graded_land(cells_of_30_m(400, 400), 9, theta, 20.0);
         for (std::int64_t i = 0; i < land.dem.cells(); ++i) {
-            double const noise = unit(chance(3, static_cast<std::uint64_t>(i))) - 0.5;
+            double const noise = unit(random_word(3, static_cast<std::uint64_t>(i))) - 0.5;
             land.dem[i] = static_cast<float>(std::round(static_cast<double>(land.dem[i]) + 4.0 * noise));
         }
         auto const law = slope_area(land.dem, land.drainage, {.support_cells = 20});

@@ -12,7 +12,7 @@
 
 #include "faults.hpp"
 
-// Each fault, twenty times at places by chance, one a file: it is found, its feature named, and nothing is found beside
+// Each fault, twenty times at places at random, one a file: it is found, its feature named, and nothing is found beside
 // what it cannot help but cause.
 namespace {
 
@@ -48,7 +48,7 @@ void expect_all_found(std::size_t arcs, std::size_t networks, std::size_t times 
     auto const plant = [&](std::size_t fault, std::size_t instance) {
         for (std::uint64_t seed = instance;; seed += instances) { // until there is a place for it
             NetworkFile file = clean[seed % networks];
-            auto const features = all[fault].plant(file, chance(seed, fault) % file.arcs.size());
+            auto const features = all[fault].plant(file, random_word(seed, fault) % file.arcs.size());
             if (features.empty()) {
                 ASSERT_LT(seed, 1000 * instances) << all[fault].kind << " has no place";
                 continue;

@@ -292,7 +292,7 @@ TEST(CheckTopology, StopsWhenAsked) {
 }
 
 TEST(AsFile, NumbersFromOne) {
-    RaisedNetwork net;
+    ElevatedNetwork net;
     NetworkDraft plan;
     for (Vec2 const at : {Vec2{0, 1}, Vec2{0, 0}, Vec2{3, 0}}) {
         plan.add_node(at);

@@ -13,7 +13,7 @@
 
 #include <network/channel_laws.hpp>
 #include <network/networks.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace {
@@ -233,7 +233,7 @@ TEST(FloodLakes, WhateverIsDrawn) {
         auto const count = *rc::gen::inRange<std::int32_t>(1, 6);
         for (std::int32_t k = 1; k <= count; ++k) {
             Mask const blob = test::random_blob(seed + static_cast<std::uint64_t>(k), 40, 40, 2, 2 + k % 3);
-            auto const by = static_cast<std::int64_t>(chance(seed, 9, static_cast<std::uint64_t>(k)) % 1600);
+            auto const by = static_cast<std::int64_t>(random_word(seed, 9, static_cast<std::uint64_t>(k)) % 1600);
             for (std::int64_t i = 0; i < grid.cells(); ++i) {
                 if (blob[i] != 0) {
                     labels[(i + by) % grid.cells()] = k;

@@ -11,7 +11,7 @@
 #include <network/channel_laws.hpp>
 #include <network/networks.hpp>
 #include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace {
@@ -34,7 +34,7 @@ std::vector<std::int64_t> some_tips(Channels const& rivers, std::uint64_t seed, 
     std::vector<std::int64_t> out;
     for (std::size_t i = 0; i < gone.size(); ++i) {
         bool const below = rivers.receiver[i] >= 0 && gone[static_cast<std::size_t>(rivers.receiver[i])] != 0;
-        gone[i] = below || unit(chance(seed, i)) < share ? 1 : 0;
+        gone[i] = below || unit(random_word(seed, i)) < share ? 1 : 0;
         if (gone[i] != 0) {
             out.push_back(static_cast<std::int64_t>(i));
         }

@@ -9,7 +9,7 @@
 #include <thalweg/geometry/meetings.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/shorten.hpp>
-#include <thalweg/network/elevation/raise_from_land.hpp>
+#include <thalweg/network/elevation/elevate_from_dem.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
@@ -30,7 +30,7 @@ namespace {
 
 /// Rivers, and the land in equilibrium with them.
 struct Scene {
-    RaisedNetwork rivers;
+    ElevatedNetwork rivers;
     Channels channels;
     Raster<float> dem;
     flow::FlowField drainage;
@@ -41,9 +41,9 @@ Scene scene_of(StreamNetwork const& plan, Grid const& grid, std::uint64_t seed) 
     ChannelsOfArcs const drawn = channels(carried, grid);
     surface::EquilibriumParams params;
     params.seed = seed;
-    surface::EquilibriumLand land = surface::equilibrium(drawn.channels, {}, params);
+    surface::EquilibriumTerrain land = surface::equilibrium(drawn.channels, {}, params);
     Shortened const kept = shorten(carried, drawn, land.shortened);
-    Scene scene{raise_from_land(kept.network, kept.drawn.channels, land.dem), kept.drawn.channels, land.dem, {}};
+    Scene scene{elevate_from_dem(kept.network, kept.drawn.channels, land.dem), kept.drawn.channels, land.dem, {}};
     scene.drainage = flow::route(scene.dem);
     return scene;
 }
@@ -68,7 +68,7 @@ std::vector<Arc> arcs_of(StreamNetwork const& plan) {
 std::set<std::pair<double, double>> vertices_of(StreamNetwork const& plan) {
     std::set<std::pair<double, double>> found;
     for (Arc const& arc : arcs_of(plan)) {
-        for (Vec2 const p : arc.given ? arc.line : std::vector<Vec2>{}) {
+        for (Vec2 const p : arc.is_input ? arc.line : std::vector<Vec2>{}) {
             found.emplace(p.x, p.y);
         }
     }
@@ -87,17 +87,17 @@ void expect_lawful(Scene const& scene, SideValleys const& made, std::int64_t sup
         Arc const& arc = plan.arc(a);
         lines.push_back(arc.line);
         ends.push_back({plan.from(a), plan.to(a)});
-        RC_ASSERT(arc.given == (a < plan.arc_count() - static_cast<std::size_t>(made.grown))); // given arcs first
-        grown += arc.given ? 0 : 1;
-        given_m += arc.given ? plan.length_m(a) : 0.0;
+        RC_ASSERT(arc.is_input == (a < plan.arc_count() - static_cast<std::size_t>(made.grown))); // given arcs first
+        grown += arc.is_input ? 0 : 1;
+        given_m += arc.is_input ? plan.length_m(a) : 0.0;
         std::vector<double> const& z = made.network.arc_z[a];
         RC_ASSERT(z.size() == arc.line.size());
         RC_ASSERT(z.front() == made.network.node_z[plan.from(a)]);
         RC_ASSERT(z.back() == made.network.node_z[plan.to(a)]);
         for (std::size_t i = 0; i + 1 < z.size(); ++i) {
-            RC_ASSERT((arc.given ? z[i] >= z[i + 1] : z[i] > z[i + 1]));
+            RC_ASSERT((arc.is_input ? z[i] >= z[i + 1] : z[i] > z[i + 1]));
         }
-        for (Vec2 const p : arc.given ? std::vector<Vec2>{} : arc.line) {
+        for (Vec2 const p : arc.is_input ? std::vector<Vec2>{} : arc.line) {
             covered.insert(grid.index(grid.cell_of(p)));
         }
     }
@@ -121,7 +121,7 @@ void expect_lawful(Scene const& scene, SideValleys const& made, std::int64_t sup
     // Where enough drains through, away from what is drawn, there is an arc, and elsewhere none begins.
     std::set<std::int64_t> near;
     for (Arc const& arc : arcs_of(plan)) {
-        for (std::size_t i = 0; arc.given && i + 1 < arc.line.size(); ++i) {
+        for (std::size_t i = 0; arc.is_input && i + 1 < arc.line.size(); ++i) {
             for (double t = 0.0; t <= 1.0; t += 0.05) {
                 Cell const at = grid.cell_of({arc.line[i].x + t * (arc.line[i + 1].x - arc.line[i].x),
                                               arc.line[i].y + t * (arc.line[i + 1].y - arc.line[i].y)});
@@ -171,12 +171,14 @@ TEST(SideValleys, TheyReachTheGivenRivers) {
     // By far the most of the land drains to the given outlet: so do most valleys.
     std::int64_t given_basin = 0;
     for (std::size_t a = 0; a < made.network.plan.arc_count(); ++a) {
-        given_basin = made.network.plan.arc(a).given ? made.network.plan.basin(made.network.plan.to(a)) : given_basin;
+        given_basin =
+            made.network.plan.arc(a).is_input ? made.network.plan.basin(made.network.plan.to(a)) : given_basin;
     }
     std::int64_t joined = 0;
     for (std::size_t a = 0; a < made.network.plan.arc_count(); ++a) {
-        joined +=
-            !made.network.plan.arc(a).given && made.network.plan.basin(made.network.plan.to(a)) == given_basin ? 1 : 0;
+        joined += !made.network.plan.arc(a).is_input && made.network.plan.basin(made.network.plan.to(a)) == given_basin
+                      ? 1
+                      : 0;
     }
     EXPECT_GT(joined, 10);
 }

@@ -19,7 +19,7 @@ namespace {
 Raster<float> land(std::uint64_t seed, std::int64_t cols, std::int64_t rows) {
     Raster<float> dem(Grid{cols, rows, 1.0, 0.0, static_cast<double>(rows), {}});
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        dem[i] = static_cast<float>(chance(seed, 77 + static_cast<std::uint64_t>(i)) % 1000) / 8.0F;
+        dem[i] = static_cast<float>(random_word(seed, 77 + static_cast<std::uint64_t>(i)) % 1000) / 8.0F;
     }
     return dem;
 }
@@ -27,7 +27,7 @@ Raster<float> land(std::uint64_t seed, std::int64_t cols, std::int64_t rows) {
 } // namespace
 
 TEST(Drape, RefusesWhereTheDemHasNoHeight) {
-    RaisedNetwork const rivers = random_rivers(1, 5, 5);
+    ElevatedNetwork const rivers = random_rivers(1, 5, 5);
     Raster<float> dem = land(1, 5, 5);
     EXPECT_NO_THROW(network::drape(rivers.plan, dem));
     dem[Cell{0, 0}] = std::numeric_limits<float>::quiet_NaN(); // sources lie in the northernmost row
@@ -41,9 +41,9 @@ TEST(Drape, LeastHeightOfAllUpstream) {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         auto const cols = *rc::gen::inRange<std::int64_t>(2, 20);
         auto const rows = *rc::gen::inRange<std::int64_t>(2, 20);
-        RaisedNetwork const rivers = random_rivers(seed, cols, rows);
+        ElevatedNetwork const rivers = random_rivers(seed, cols, rows);
         Raster<float> const dem = land(seed, cols, rows);
-        RaisedNetwork const raised = network::drape(rivers.plan, dem);
+        ElevatedNetwork const raised = network::drape(rivers.plan, dem);
         auto const at = [&](Vec2 p) { return static_cast<double>(dem[dem.grid().cell_of(p)]); };
         std::function<double(NodeId)> const least = [&](NodeId n) {
             double z = at(rivers.plan.node(n).at);

@@ -33,19 +33,19 @@ TEST(KeepHeights, NoHeightsAtAll) {
 }
 
 TEST(KeepHeights, SameNetworkKeepsItsHeights) {
-    RaisedNetwork const known{two_rivers(), {9, 8, 5, 1}, {{9, 7, 5}, {8, 5}, {5, 1}}};
-    RaisedNetwork const out = network::keep_heights(known.plan, known, 0.1);
+    ElevatedNetwork const known{two_rivers(), {9, 8, 5, 1}, {{9, 7, 5}, {8, 5}, {5, 1}}};
+    ElevatedNetwork const out = network::keep_heights(known.plan, known, 0.1);
     EXPECT_EQ(out.node_z, known.node_z);
     EXPECT_EQ(out.arc_z, known.arc_z);
 }
 
 TEST(KeepHeights, OutletCarriedOnFallsWithTheSlope) {
-    RaisedNetwork const known{two_rivers(), {9, 8, 5, 1}, {{9, 7, 5}, {8, 5}, {5, 1}}};
+    ElevatedNetwork const known{two_rivers(), {9, 8, 5, 1}, {{9, 7, 5}, {8, 5}, {5, 1}}};
     NetworkDraft longer = known.plan.draft();
     ArcId const last = 2;
     longer.nodes[longer.arcs[last].to].at = {2, -10};
     longer.arcs[last].arc.line = {{2, 2}, {2, 0}, {2, -10}};
-    RaisedNetwork const out = network::keep_heights(longer, known, 0.5);
+    ElevatedNetwork const out = network::keep_heights(longer, known, 0.5);
     EXPECT_EQ(out.arc_z[2], (std::vector<double>{5, 1, -4}));
     EXPECT_EQ(out.node_z[3], -4);
 }

@@ -54,7 +54,7 @@ TEST(LowerRises, WhatLiesDownstreamComesDown) {
 
 TEST(LowerRises, IsTheHighestThatFalls) {
     ASSERT_TRUE(rc::check("as the least of all heights upstream", [] {
-        RaisedNetwork rivers = random_rivers(*rc::gen::arbitrary<std::uint64_t>(), 8, 8);
+        ElevatedNetwork rivers = random_rivers(*rc::gen::arbitrary<std::uint64_t>(), 8, 8);
         for (auto& z : rivers.arc_z) {
             for (double& height : z) {
                 height = static_cast<double>(*rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 20)));

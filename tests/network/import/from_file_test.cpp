@@ -32,7 +32,7 @@ NetworkFile y_shape() {
     file.arcs[0].braided = true;
     file.arcs[1].type = "C4";
     file.arcs[1].feature = 123;
-    file.arcs[1].survives = 4.5;
+    file.arcs[1].persistence = 4.5;
     return file;
 }
 
@@ -92,7 +92,7 @@ TEST(FromFile, WhatTheFileSaysIsKeptInTheOrderOfIds) {
     Arc const& arc = made.network.plan.arc(1);
     EXPECT_EQ(arc.type, "C4");
     EXPECT_EQ(arc.feature, 123);
-    EXPECT_EQ(arc.survives, 4.5);
+    EXPECT_EQ(arc.persistence, 4.5);
     EXPECT_EQ(made.us_area_m2[2], 17.5);
     EXPECT_TRUE(std::isnan(made.ds_area_m2[2]));
     EXPECT_EQ(made.braided, (std::vector<std::uint8_t>{0, 0, 1}));
@@ -161,7 +161,7 @@ TEST(FromFile, AFileThatSaysNothingOfDownstreamArcsIsBelieved) {
 // Law: what as_file makes of a network is that network again, bit for bit.
 TEST(FromFile, UndoesAsFile) {
     ASSERT_TRUE(rc::check([] {
-        RaisedNetwork const rivers =
+        ElevatedNetwork const rivers =
             random_rivers(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::int64_t>(2, 30),
                           *rc::gen::inRange<std::int64_t>(2, 30), 1.0 / 3.0);
         NetworkFile const file = measure::as_file(rivers, network::order(rivers.plan));

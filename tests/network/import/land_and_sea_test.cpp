@@ -13,7 +13,7 @@
 #include <network/networks.hpp>
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/cells/cells_around.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 
 namespace {
@@ -49,7 +49,7 @@ struct Shore {
 Shore shore(std::uint64_t seed) {
     Shore made;
     for (int x = -4; x <= 68; x += 4) {
-        made.coast.push_back({static_cast<double>(x), 20.0 + 10.0 * unit(chance(seed, 1, x + 100))});
+        made.coast.push_back({static_cast<double>(x), 20.0 + 10.0 * unit(random_word(seed, 1, x + 100))});
     }
     for (std::size_t k = 3; k + 3 < made.coast.size(); k += 3) {
         Vec2 const mouth = made.coast[k];

@@ -74,7 +74,7 @@ std::vector<Piece> pieces_of(std::vector<Vec2> const& line) {
 
 /// Small rivers inside a grid of 32 cells, at multiples of 1/128; their arcs may even cross.
 StreamNetwork scattered_rivers(std::uint64_t seed, std::size_t basins) {
-    ChanceStream words(seed, 4, 0);
+    RandomStream words(seed, 4, 0);
     auto const within = [&](double centre, double reach) {
         double const x = centre + reach * (2.0 * words.real() - 1.0);
         return std::floor(std::clamp(x, 0.0, 32.0) * 128.0) / 128.0;
@@ -248,7 +248,7 @@ TEST(CarryOutlets, SeveralArcsGetATrunk) {
     Grid const grid = test::grid_of(15, 7);
     NetworkDraft net = test::network_of({{7.5, 2.5}, {5.5, 4.5}, {9.5, 4.5}}, {{1, 0}, {2, 0}}).draft();
     for (DraftArc& drawn : net.arcs) {
-        drawn.arc.survives = drawn.from == 1 ? 3.0 : 4.0;
+        drawn.arc.persistence = drawn.from == 1 ? 3.0 : 4.0;
     }
     auto const carried = carry_outlets(net, grid);
     ASSERT_EQ(carried.network.arc_count(), 3U);
@@ -256,8 +256,8 @@ TEST(CarryOutlets, SeveralArcsGetATrunk) {
     EXPECT_EQ(carried.network.from(2), 0U);
     EXPECT_TRUE((carried.network.node(0).at == Vec2{7.5, 2.5}));
     EXPECT_EQ(carried.network.node(carried.network.to(2)).at.y, 0.5);
-    EXPECT_EQ(carried.network.arc(2).survives, 4.0); // as long as one of the rivers it carries
-    EXPECT_EQ(carried.notes[0].feature, 1);          // the arc, where no file named a line
+    EXPECT_EQ(carried.network.arc(2).persistence, 4.0); // as long as one of the rivers it carries
+    EXPECT_EQ(carried.notes[0].feature, 1);             // the arc, where no file named a line
 }
 
 TEST(CarryOutlets, AClosedBasinStays) {
@@ -367,7 +367,7 @@ TEST(CarryOutlets, RefusesCostsBelowNothing) {
 TEST(CarryOutlets, RiversThatAreJoinedAreTreesWithoutCrossings) {
     ASSERT_TRUE(rc::check("many strokes", [] {
         Grid const grid = test::grid_of(64, 64);
-        ChanceStream words(*rc::gen::arbitrary<std::uint64_t>(), 4, 0);
+        RandomStream words(*rc::gen::arbitrary<std::uint64_t>(), 4, 0);
         std::vector<Vec2> nodes;
         std::vector<test::Reach> reaches;
         Mask taken(grid);

@@ -33,7 +33,7 @@ std::vector<double> some_areas(StreamNetwork const& net, Grid const& grid) {
 /// Trees of arcs on a square lattice of four cells' width, that pay heed to one another: each begins in a free place
 /// and walks to one that is taken.
 StreamNetwork lattice_rivers(std::uint64_t seed, Grid const& grid) {
-    ChanceStream words(seed, 5, 0);
+    RandomStream words(seed, 5, 0);
     std::int64_t const side = grid.width / 4;
     std::vector<std::int64_t> down(static_cast<std::size_t>(side * side), -2);
     std::vector<std::int64_t> donors(down.size(), 0);

@@ -40,7 +40,7 @@ TEST(Rotate, AQuarterTurnIsCounterClockwise) {
 TEST(Rotate, TheSameRiversInTheMiddleOfTheirGrid) {
     ASSERT_TRUE(rc::check("distances are kept, a grid without a size is made to fit", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
-        double const turn = network::turn_by_chance(seed);
+        double const turn = network::random_turn(seed);
         RC_ASSERT(std::fabs(turn) >= 12.0);
         RC_ASSERT(std::fabs(turn) <= 33.0);
         StreamNetwork const net = test::random_skeleton(seed, 40);

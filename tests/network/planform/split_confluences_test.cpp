@@ -22,8 +22,8 @@ using network::split_confluences;
 namespace {
 
 /// Rivers that meet in one point, evenly around it, and leave it to the south; or none leaves.
-RaisedNetwork star(int rivers, bool outlet_in_the_middle, double reach_m = 100.0, double leaving_m = 100.0) {
-    RaisedNetwork made;
+ElevatedNetwork star(int rivers, bool outlet_in_the_middle, double reach_m = 100.0, double leaving_m = 100.0) {
+    ElevatedNetwork made;
     NetworkDraft plan;
     auto const node = [&](Vec2 at, double z) {
         made.node_z.push_back(z);
@@ -48,8 +48,9 @@ RaisedNetwork star(int rivers, bool outlet_in_the_middle, double reach_m = 100.0
 
 /// Random rivers in which nodes were merged, so that more than two arcs meet: short arcs are contracted to their lower
 /// end wherever nothing crosses, that is where the arc is one segment and its upper node has arcs upstream.
-RaisedNetwork merged_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t rows, double share, double spacing_m) {
-    RaisedNetwork const rivers = random_rivers(seed, cols, rows, spacing_m);
+ElevatedNetwork merged_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t rows, double share,
+                              double spacing_m) {
+    ElevatedNetwork const rivers = random_rivers(seed, cols, rows, spacing_m);
     std::vector<NodeId> goes_to(rivers.plan.node_count());
     for (NodeId n = 0; n < goes_to.size(); ++n) {
         goes_to[n] = n;
@@ -59,7 +60,7 @@ RaisedNetwork merged_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t 
     for (std::size_t a = 0; a < rivers.plan.arc_count(); ++a) {
         NodeId const from = rivers.plan.from(a);
         NodeId const to = rivers.plan.to(a);
-        bool const wanted = static_cast<double>(chance(seed, 1000 + a) % 1000) < 1000.0 * share;
+        bool const wanted = static_cast<double>(random_word(seed, 1000 + a) % 1000) < 1000.0 * share;
         if (wanted && rivers.arc_z[a].size() == 2 && !rivers.plan.in(from).empty() && touched[from] == 0 &&
             touched[to] == 0) {
             gone[a] = 1;
@@ -67,7 +68,7 @@ RaisedNetwork merged_rivers(std::uint64_t seed, std::int64_t cols, std::int64_t 
             touched[from] = touched[to] = 1;
         }
     }
-    RaisedNetwork made;
+    ElevatedNetwork made;
     NetworkDraft plan;
     std::vector<NodeId> number(goes_to.size());
     for (NodeId n = 0; n < goes_to.size(); ++n) {
@@ -100,7 +101,7 @@ std::size_t most_upstream(StreamNetwork const& network) {
     return most;
 }
 
-std::vector<Finding> faults(RaisedNetwork const& network) {
+std::vector<Finding> faults(ElevatedNetwork const& network) {
     return measure::check_topology(measure::as_file(network, network::order(network.plan))).findings;
 }
 
@@ -120,17 +121,17 @@ std::vector<std::int64_t> sources_by_outlet(StreamNetwork const& network) {
 } // namespace
 
 TEST(SplitConfluences, RefusesWhatCannotBe) {
-    RaisedNetwork const network = star(3, false);
+    ElevatedNetwork const network = star(3, false);
     EXPECT_THROW(split_confluences(network, {.max_upstream = 1}), BadParameter);
     EXPECT_THROW(split_confluences(network, {.distance_m = -1.0}), BadParameter);
     EXPECT_THROW(split_confluences(network, {.distance_m = std::numeric_limits<double>::infinity()}), BadParameter);
-    RaisedNetwork without = network;
+    ElevatedNetwork without = network;
     without.arc_z.pop_back();
     EXPECT_THROW(split_confluences(without), BadInput);
 }
 
 TEST(SplitConfluences, BinaryNetworkStaysAsItIs) {
-    RaisedNetwork const network = star(2, false);
+    ElevatedNetwork const network = star(2, false);
     network::Split const split = split_confluences(network);
     EXPECT_TRUE(split.pieces.empty());
     EXPECT_EQ(split.network.node_z, network.node_z);
@@ -139,7 +140,7 @@ TEST(SplitConfluences, BinaryNetworkStaysAsItIs) {
 }
 
 TEST(SplitConfluences, ThirdRiverJoinsOneDistanceDownstream) {
-    RaisedNetwork const network = star(3, false);
+    ElevatedNetwork const network = star(3, false);
     network::Split const split = split_confluences(network, {.distance_m = 5.0});
     ASSERT_EQ(split.pieces.size(), 1U);
     EXPECT_EQ(split.pieces[0].of, 3U);
@@ -158,7 +159,7 @@ TEST(SplitConfluences, ManyRiversAroundAPointAreSplitWhereverTheyLeave) {
         for (bool const outlet : {false, true}) {
             for (double const leaving_m : {100.0, 0.5, 1e-6}) {
                 for (int most = 2; most < rivers; most += 3) {
-                    RaisedNetwork const network = star(rivers, outlet, 100.0, leaving_m);
+                    ElevatedNetwork const network = star(rivers, outlet, 100.0, leaving_m);
                     network::Split const split = split_confluences(network, {.max_upstream = most, .distance_m = 3.0});
                     EXPECT_LE(most_upstream(split.network.plan), static_cast<std::size_t>(most));
                     EXPECT_EQ(split.pieces.size(), static_cast<std::size_t>(rivers - most));
@@ -181,7 +182,7 @@ TEST(SplitConfluences, OutletIsSplitUpstream) {
 
 TEST(SplitConfluences, RiversOnOneSideAreLedAroundTheOthers) {
     // All come from the east within a fan; the river leaves to the west: straight ways would cut across the fan.
-    RaisedNetwork network;
+    ElevatedNetwork network;
     NetworkDraft plan;
     auto const node = [&](Vec2 at, double z) {
         network.node_z.push_back(z);
@@ -203,7 +204,7 @@ TEST(SplitConfluences, RiversOnOneSideAreLedAroundTheOthers) {
 }
 
 TEST(SplitConfluences, ALevelRiverStaysLevel) {
-    RaisedNetwork network = star(5, true);
+    ElevatedNetwork network = star(5, true);
     for (auto& z : network.arc_z) {
         z.assign(z.size(), 10.0);
     }
@@ -223,7 +224,7 @@ TEST(SplitConfluences, LawsHoldOnRandomRivers) {
         int const most = *rc::gen::inRange(2, 4);
         double const spacing_m = *rc::gen::element(1.0, 0.1, 33.3, 1234.5);
         double const distance_m = spacing_m * *rc::gen::element(0.0, 0.001, 0.3, 1.0, 7.0);
-        RaisedNetwork const network = merged_rivers(seed, cols, rows, 0.7, spacing_m);
+        ElevatedNetwork const network = merged_rivers(seed, cols, rows, 0.7, spacing_m);
         RC_PRE(faults(network).empty());
         network::Split const split = split_confluences(network, {most, distance_m});
         RC_CLASSIFY(!split.pieces.empty(), "split");

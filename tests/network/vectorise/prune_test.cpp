@@ -33,7 +33,7 @@ std::vector<std::pair<double, double>> key(std::vector<Vec2> const& line) {
 Lines lines_of(StreamNetwork const& net) {
     Lines lines;
     for (ArcId arc = 0; arc < net.arc_count(); ++arc) {
-        lines[key(net.arc(arc).line)] = net.arc(arc).survives;
+        lines[key(net.arc(arc).line)] = net.arc(arc).persistence;
     }
     return lines;
 }
@@ -54,7 +54,7 @@ bool equal(StreamNetwork const& a, StreamNetwork const& b) {
     for (std::size_t k = 0; same && k < a.arc_count(); ++k) {
         Arc const& p = a.arc(k);
         Arc const& q = b.arc(k);
-        same = p.line == q.line && p.survives == q.survives && p.feature == q.feature && p.type == q.type;
+        same = p.line == q.line && p.persistence == q.persistence && p.feature == q.feature && p.type == q.type;
     }
     return same;
 }
@@ -140,11 +140,11 @@ Lines plain_prune(StreamNetwork const& net, double length_cells) {
         while (forest.merge_one()) {
         }
     }
-    for (auto& [line, survives] : lines) {
+    for (auto& [line, persistence] : lines) {
         for (auto const& [gone, at] : removed) {
             auto const whole = key(gone);
             if (std::search(whole.begin(), whole.end(), line.begin(), line.end()) != whole.end()) {
-                survives = at;
+                persistence = at;
             }
         }
     }
@@ -157,16 +157,16 @@ Lines filtered(StreamNetwork const& net, double length_cells) {
     for (NodeId n = 0; n < net.node_count(); ++n) {
         kept.add_node(net.node(n).at);
     }
-    std::map<std::size_t, double> survives;
+    std::map<std::size_t, double> persistence;
     for (std::size_t a = 0; a < net.arc_count(); ++a) {
-        if (net.arc(a).survives >= length_cells) {
+        if (net.arc(a).persistence >= length_cells) {
             kept.add_arc(net.from(a), net.to(a), net.arc(a));
-            survives[net.from(a)] = net.arc(a).survives;
+            persistence[net.from(a)] = net.arc(a).persistence;
         }
     }
     Lines lines;
     for (PlainArc const& a : PlainForest(kept).arcs) {
-        lines[key(a.line)] = survives[a.from];
+        lines[key(a.line)] = persistence[a.from];
     }
     return lines;
 }
@@ -183,7 +183,7 @@ StreamNetwork any_network() {
 double any_length(StreamNetwork const& net) {
     double longest = 0.0;
     for (ArcId arc = 0; arc < net.arc_count(); ++arc) {
-        longest = std::max(longest, net.arc(arc).survives);
+        longest = std::max(longest, net.arc(arc).persistence);
     }
     return longest * *rc::gen::element(0.02, 0.1, 0.3, 0.7, 1.0);
 }
@@ -241,7 +241,7 @@ TEST(Prune, AMergedArcTakesTheNameOfItsLongestPiece) {
     EXPECT_EQ(arc.line, (std::vector<Vec2>{{9, 0}, {5, 0}, {0, 0}}));
     EXPECT_EQ(arc.feature, 9);
     EXPECT_EQ(arc.type, "C");
-    EXPECT_EQ(arc.survives, 9.0);
+    EXPECT_EQ(arc.persistence, 9.0);
 }
 
 TEST(Prune, OfEqualLeavesTheNorthernThenTheWesternGoes) {
@@ -303,7 +303,7 @@ TEST(Prune, ThresholdsAgreeWithPruningAnew) {
         // Each step of the sparser network is one of the denser.
         std::map<std::pair<double, double>, std::pair<double, double>> steps;
         double sum = 0.0;
-        for (auto const& [line, survives] : lines_of(at_low)) {
+        for (auto const& [line, persistence] : lines_of(at_low)) {
             for (std::size_t i = 1; i < line.size(); ++i) {
                 steps[line[i - 1]] = line[i];
             }
@@ -342,7 +342,7 @@ TEST(Prune, TheSameArcsWhateverTheCell) {
         RC_ASSERT(a.network.from() == b.network.from());
         RC_ASSERT(a.network.to() == b.network.to());
         for (std::size_t k = 0; k < a.network.arc_count(); ++k) {
-            RC_ASSERT(a.network.arc(k).survives == b.network.arc(k).survives);
+            RC_ASSERT(a.network.arc(k).persistence == b.network.arc(k).persistence);
         }
     }));
 }

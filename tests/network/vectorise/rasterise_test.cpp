@@ -20,11 +20,11 @@ namespace {
 using namespace thalweg;
 using network::rasterise;
 
-RaisedNetwork raised(StreamNetwork const& net, std::vector<std::vector<double>> arc_z) {
+ElevatedNetwork raised(StreamNetwork const& net, std::vector<std::vector<double>> arc_z) {
     return {net, std::vector<double>(net.node_count(), 0.0), std::move(arc_z)};
 }
 
-std::string refusal(RaisedNetwork const& net, Grid const& grid) {
+std::string refusal(ElevatedNetwork const& net, Grid const& grid) {
     try {
         rasterise(net, grid);
     } catch (BadInput const& e) {
@@ -34,7 +34,7 @@ std::string refusal(RaisedNetwork const& net, Grid const& grid) {
 }
 
 /// All cells of all arcs, downstream, from the lowest height on each: lowered by sweeps until none rises.
-std::map<std::int64_t, float> plain_valley(RaisedNetwork const& net, Grid const& grid, std::int64_t& lowered) {
+std::map<std::int64_t, float> plain_valley(ElevatedNetwork const& net, Grid const& grid, std::int64_t& lowered) {
     std::map<std::int64_t, float> z;
     std::vector<std::vector<std::int64_t>> paths;
     for (std::size_t a = 0; a < net.plan.arc_count(); ++a) {

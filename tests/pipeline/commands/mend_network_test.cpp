@@ -64,7 +64,7 @@ TEST(MendNetwork, EveryFaultThatCanBeMendedIs) {
         auto const& f = faults::all()[fault];
         for (std::uint64_t seed = 0; seed < 5; ++seed) {
             NetworkFile file = faults::clean(seed);
-            if (f.plant(file, chance(seed, fault) % file.arcs.size()).empty()) {
+            if (f.plant(file, random_word(seed, fault) % file.arcs.size()).empty()) {
                 continue;
             }
             MendedNetwork const mended = mend(file);

@@ -307,7 +307,7 @@ TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {
     EXPECT_GT(t.equilibrium->side_valleys, 30);
     std::int64_t grown = 0;
     for (ArcId arc = 0; arc < t.network.plan.arc_count(); ++arc) {
-        grown += t.network.plan.arc(arc).given ? 0 : 1;
+        grown += t.network.plan.arc(arc).is_input ? 0 : 1;
     }
     EXPECT_EQ(grown, t.equilibrium->side_valleys);
     EXPECT_EQ(t.relief->perched, 0);

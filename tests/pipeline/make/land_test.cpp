@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/terrain.hpp>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 
@@ -73,7 +73,7 @@ public:
         out.precision(12);
         out << "x,y,z\n";
         for (std::uint64_t i = 0; i < 150; ++i) {
-            auto const words = chance_block(5, i);
+            auto const words = random_block(5, i);
             // Corners first: the points' hull is the ground.
             double const x = i < 4 ? (i % 2 == 0 ? 0.0 : 1799.0) : 1799.0 * unit(words[0]);
             double const y = i < 4 ? (i < 2 ? 1.0 : 1199.0) : 1.0 + 1198.0 * unit(words[1]);

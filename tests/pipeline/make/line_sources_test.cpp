@@ -35,7 +35,7 @@ Stretches stretches_in(StreamNetwork& network, std::uint64_t seed) {
         std::vector<Stretch> own;
         double along_m = 0.0;
         for (std::size_t i = 1; i < line.size(); ++i) {
-            if (own.empty() || unit(chance(seed, place++)) < 0.4) {
+            if (own.empty() || unit(random_word(seed, place++)) < 0.4) {
                 own.push_back({++feature, along_m, along_m});
             }
             along_m += distance(line[i - 1], line[i]);
@@ -77,8 +77,8 @@ void expect_same(Stretches const& is, Stretches const& was) {
 }
 
 /// A river from north to south, 1000 m between its nodes, into each of which several tributaries of many vertices run.
-RaisedNetwork fans(std::uint64_t seed, std::size_t nodes, std::size_t most) {
-    RaisedNetwork rivers;
+ElevatedNetwork fans(std::uint64_t seed, std::size_t nodes, std::size_t most) {
+    ElevatedNetwork rivers;
     NetworkDraft plan;
     auto const node = [&](Vec2 at, double z) {
         rivers.node_z.push_back(z);
@@ -99,7 +99,7 @@ RaisedNetwork fans(std::uint64_t seed, std::size_t nodes, std::size_t most) {
         rivers.arc_z.push_back(z);
         plan.add_arc(from, to, std::move(arc));
     };
-    ChanceStream words(seed, 7, 0);
+    RandomStream words(seed, 7, 0);
     NodeId above = node({0.0, 1000.0 * static_cast<double>(nodes)}, 10.0 * static_cast<double>(nodes));
     for (std::size_t k = nodes; k-- > 0;) {
         NodeId const at = node({0.0, 1000.0 * static_cast<double>(k)}, 10.0 * static_cast<double>(k));
@@ -205,7 +205,7 @@ TEST(LineSources, MeanderedRiversAreCovered) {
 TEST(LineSources, SplitConfluencesAreCovered) {
     bool const ok = rc::check([] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
-        RaisedNetwork rivers = fans(seed, 4, 5);
+        ElevatedNetwork rivers = fans(seed, 4, 5);
         Stretches const drawn = stretches_in(rivers.plan, seed);
         std::map<std::int64_t, std::size_t> arc_of;
         std::map<std::pair<double, double>, std::int64_t> leaving; // features by place

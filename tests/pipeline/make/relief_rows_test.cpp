@@ -17,7 +17,7 @@ using namespace thalweg::pipeline;
 
 namespace {
 
-LandRelief relief_of_sample(char const* name) {
+TerrainRelief relief_of_sample(char const* name) {
     return relief_of_dem(io::read_dem(std::string(THALWEG_SOURCE_DIR "/samples/") + name));
 }
 
@@ -27,12 +27,12 @@ ReliefRow const& row_of(std::vector<ReliefRow> const& rows, std::string_view key
 
 } // namespace
 
-// A part of a real land is taken for land by every figure but those that follow its extent.
+// A part of a reference DEM is taken for land by every figure but those that follow its extent.
 TEST(ReliefRows, APartOfRealLandIsLand) {
     auto const rows = relief_rows(relief_of_sample("bigtujunga_srtm1.tif"));
-    EXPECT_EQ(rows.size(), measure::relief_figure_count + 1); // no rivers are drawn on it
+    EXPECT_EQ(rows.size(), measure::relief_metric_count + 1); // no rivers are drawn on it
     for (ReliefRow const& row : rows) {
-        EXPECT_EQ(row.beside.size(), measure::real_lands().size()) << row.key;
+        EXPECT_EQ(row.beside.size(), measure::reference_dems().size()) << row.key;
         EXPECT_TRUE(row.value) << row.key;
         if (row.key.substr(0, 6) != "length" && row.key != "peaks") { // by its extent, and one peak in a thousand
             EXPECT_TRUE(row.ok()) << row.key << " " << *row.value;
@@ -42,7 +42,7 @@ TEST(ReliefRows, APartOfRealLandIsLand) {
 
 // Cells of degrees are measured on the ground: nearly as the same land in metres.
 TEST(ReliefRows, GeographicLandHasItsSlopes) {
-    LandRelief const degrees = relief_of_sample("jacksboro_srtm3.tif");
+    TerrainRelief const degrees = relief_of_sample("jacksboro_srtm3.tif");
     EXPECT_NEAR(degrees.land.slopes.mean_deg, relief_of_sample("jacksboro_utm16.tif").land.slopes.mean_deg, 0.7);
 }
 
@@ -77,7 +77,7 @@ TEST(ReliefRows, UnknownIsNull) {
 
 // River cells are counted where there are rivers, and none may stand perched.
 TEST(ReliefRows, PerchedOnlyWithRivers) {
-    LandRelief relief = relief_of_dem(Raster<float>({40, 40, 30.0, 0.0, 1200.0, ""}, 7.0F));
+    TerrainRelief relief = relief_of_dem(Raster<float>({40, 40, 30.0, 0.0, 1200.0, ""}, 7.0F));
     EXPECT_EQ(relief_rows(relief).back().key, "form_distance");
     relief.perched = 0;
     EXPECT_TRUE(relief_rows(relief).back().ok());

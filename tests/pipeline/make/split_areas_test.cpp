@@ -14,7 +14,7 @@ namespace {
 
 /// Rivers of 10, 20, 30, ... m2 that meet; the river that leaves has their sum and a cell of 1 m2; or none leaves.
 struct Star {
-    RaisedNetwork network;
+    ElevatedNetwork network;
     std::vector<double> us_area_m2;
     std::vector<double> ds_area_m2;
 };

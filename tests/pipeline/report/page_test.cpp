@@ -94,8 +94,8 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
         EXPECT_NEAR(arcs["length"][a].get<double>(), terrain.network.plan.length_m(a), 0.001);
         EXPECT_NEAR(arcs["z_up"][a].get<double>(), terrain.network.arc_z[a].front(), 0.001);
         EXPECT_EQ(arcs["ds_area"][a], terrain.areas.ds_area_m2[a]);
-        double const survives = terrain.network.plan.arc(a).survives;
-        EXPECT_EQ(arcs["survives"][a].is_null(), std::isinf(survives));
+        double const persistence = terrain.network.plan.arc(a).persistence;
+        EXPECT_EQ(arcs["survives"][a].is_null(), std::isinf(persistence));
     }
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid/poisson.hpp>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/solver/grid/internal/conjugate_gradients.hpp>
 #include <thalweg/solver/grid/internal/v_cycle.hpp>
@@ -68,17 +68,17 @@ std::vector<Cell> neighbours(GridProblem const& problem, Cell c) {
     return near;
 }
 
-/// Cells by chance; `share` of them fixed, `holes` outside. Parts without a fixed cell get one.
+/// Cells at random; `share` of them fixed, `holes` outside. Parts without a fixed cell get one.
 GridProblem by_chance(std::int64_t width, std::int64_t height, double share, double holes, std::uint64_t seed) {
     GridProblem problem = all_free(width, height);
     for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
-        auto const [kind, value, a, b] = chance_block(seed, 1, static_cast<std::uint64_t>(i));
+        auto const [kind, value, a, b] = random_block(seed, 1, static_cast<std::uint64_t>(i));
         double const u = unit(kind);
         problem.kind[i] = u < share ? fixed_cell : (u < share + holes ? outside_cell : free_cell);
         problem.value[i] = problem.kind[i] == fixed_cell ? 1000.0 * unit(value) : 0.0;
     }
     for (auto lost = unreached(problem.kind); !lost.empty(); lost = unreached(problem.kind)) {
-        fix(problem, {lost.front().begin, lost.front().row}, 1000.0 * unit(chance(seed, 2, lost.size())));
+        fix(problem, {lost.front().begin, lost.front().row}, 1000.0 * unit(random_word(seed, 2, lost.size())));
     }
     return problem;
 }
@@ -201,10 +201,10 @@ TEST(Poisson, AgreesWithElimination) {
         for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
             auto const place = static_cast<std::uint64_t>(i);
             if (pushed) {
-                problem.source[i] = 100.0 * (unit(chance(seed, 5, place)) - 0.5);
+                problem.source[i] = 100.0 * (unit(random_word(seed, 5, place)) - 0.5);
             }
             if (guessed && problem.kind[i] == free_cell) {
-                problem.value[i] = 1000.0 * unit(chance(seed, 6, place));
+                problem.value[i] = 1000.0 * unit(random_word(seed, 6, place));
             }
         }
         GridSolution const solution = solve_poisson(problem, {1e-12, 1000});
@@ -381,7 +381,7 @@ TEST(Unreached, FindsPartsWithoutFixedCells) {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
         GridProblem problem = all_free(width, height);
         for (std::int64_t i = 0; i < problem.kind.cells(); ++i) {
-            double const u = unit(chance(seed, 1, static_cast<std::uint64_t>(i)));
+            double const u = unit(random_word(seed, 1, static_cast<std::uint64_t>(i)));
             problem.kind[i] = u < 0.02 ? fixed_cell : (u < 0.02 + holes ? outside_cell : free_cell);
         }
         Mask reached(problem.kind.grid(), 0);

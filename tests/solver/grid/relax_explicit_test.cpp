@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid/relax_explicit.hpp>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ GridProblem by_chance(std::int64_t width, std::int64_t height, std::uint64_t see
     GridProblem problem{Raster<std::uint8_t>(grid, free_cell), Raster<double>(grid), {}};
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         Cell const c = grid.at(i);
-        auto const words = chance_block(seed, 1, static_cast<std::uint64_t>(i));
+        auto const words = random_block(seed, 1, static_cast<std::uint64_t>(i));
         bool const hole = c.col % 2 == 1 && c.row % 2 == 1 && unit(words[0]) < 0.3;
         problem.kind[i] = hole ? outside_cell : (unit(words[1]) < 0.05 ? fixed_cell : free_cell);
         problem.value[i] = unit(words[2]);

@@ -35,7 +35,7 @@ Raster<float> rivers_and_ridges(skeleton::RidgesParams::Method method) {
     embedding.mouth = {15360, 600};
     auto const tree = network::grow_tokunaga({.generator = 2, .order = 6});
     StreamNetwork const plan = network::embed_tree(tree, embedding).network;
-    RaisedNetwork const rivers = network::set_heights(plan, {network::HeightMode::along_stream, 0.02}).network;
+    ElevatedNetwork const rivers = network::set_heights(plan, {network::HeightMode::along_stream, 0.02}).network;
     skeleton::RidgesParams params;
     params.method = method;
     RidgeLines const ridges = skeleton::ridges(rivers, network::streams(plan, network::order(plan)), grid, params);

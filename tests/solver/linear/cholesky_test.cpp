@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 using namespace thalweg;
@@ -17,7 +17,7 @@ namespace {
 std::vector<double> random_matrix(std::size_t n, std::uint64_t seed) {
     std::vector<double> a(n * n);
     for (std::size_t i = 0; i < a.size(); ++i) {
-        a[i] = unit(chance(seed, i)) - 0.5;
+        a[i] = unit(random_word(seed, i)) - 0.5;
     }
     std::vector<double> m(n * n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -51,7 +51,7 @@ TEST(Cholesky, SolvesWithTheSameBitsForAnyNumberOfThreads) {
     std::vector<double> x(n);
     std::vector<double> b(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
-        x[i] = unit(chance(5, i));
+        x[i] = unit(random_word(5, i));
     }
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j < n; ++j) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/linear/least_squares.hpp>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ using namespace thalweg::solver;
 namespace {
 
 double drawn(std::uint64_t seed, std::uint64_t i, std::uint64_t j) {
-    return 2.0 * unit(chance(seed, i, j)) - 1.0;
+    return 2.0 * unit(random_word(seed, i, j)) - 1.0;
 }
 
 Matrix random_matrix(std::size_t rows, std::size_t columns, std::uint64_t seed) {

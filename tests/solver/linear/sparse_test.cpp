@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 using namespace thalweg;
@@ -41,8 +41,8 @@ TEST(SparseFactor, SolvesForEveryRightHandSide) {
             add(i, i, 0.5); // two numbers in one place add up
         }
         for (std::uint64_t k = 0; k < 150; ++k) {
-            auto const a = static_cast<std::uint32_t>(chance(seed, k, 1) % size);
-            auto const b = static_cast<std::uint32_t>(chance(seed, k, 2) % size);
+            auto const a = static_cast<std::uint32_t>(random_word(seed, k, 1) % size);
+            auto const b = static_cast<std::uint32_t>(random_word(seed, k, 2) % size);
             if (a > b) {
                 add(a, b, -1.0); // a spring between two
                 add(a, a, 1.0);
@@ -53,7 +53,7 @@ TEST(SparseFactor, SolvesForEveryRightHandSide) {
         for (std::uint64_t side = 0; side < 3; ++side) {
             std::vector<double> b;
             for (std::uint64_t i = 0; i < size; ++i) {
-                b.push_back(unit(chance(seed, i, 10 + side)));
+                b.push_back(unit(random_word(seed, i, 10 + side)));
             }
             std::vector<double> const x = factor.solve(b);
             for (std::uint32_t i = 0; i < size; ++i) {

@@ -16,7 +16,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/solver/opencl/devices.hpp>
 #include <thalweg/solver/opencl/internal/device_queue.hpp>
@@ -58,12 +58,12 @@ GridProblem random_problem(std::int64_t width, std::int64_t height, std::uint64_
     }
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         auto const cell = static_cast<std::uint64_t>(i);
-        double const kind = unit(chance(seed, cell, 1));
+        double const kind = unit(random_word(seed, cell, 1));
         problem.kind[i] = kind < fixed_share ? fixed : kind < fixed_share + outside_share ? outside : free_cell;
         problem.value[i] = problem.kind[i] == outside ? std::numeric_limits<double>::quiet_NaN()
-                                                      : 1000.0 * unit(chance(seed, cell, 2));
+                                                      : 1000.0 * unit(random_word(seed, cell, 2));
         if (problem.source.cells() > 0) {
-            problem.source[i] = unit(chance(seed, cell, 3)) - 0.5;
+            problem.source[i] = unit(random_word(seed, cell, 3)) - 0.5;
         }
     }
     std::vector<std::uint8_t> wet(static_cast<std::size_t>(grid.cells()), 0);

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/normal.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/solver/statistics/expected_slope.hpp>
 
@@ -92,8 +92,8 @@ TEST(Circulant, MultipliesAsTheMatrixDoes) {
     Raster<double> a(grid);
     Raster<double> b(grid);
     for (std::int64_t i = 0; i < a.cells(); ++i) {
-        a[i] = unit(chance(1, static_cast<std::uint64_t>(i))) - 0.5;
-        b[i] = unit(chance(2, static_cast<std::uint64_t>(i)));
+        a[i] = unit(random_word(1, static_cast<std::uint64_t>(i))) - 0.5;
+        b[i] = unit(random_word(2, static_cast<std::uint64_t>(i)));
     }
     Raster<double> product_a = a;
     Raster<double> product_b = b;
@@ -158,7 +158,7 @@ TEST(NormalPair, IsNormal) {
     double fourths = 0.0;
     double products = 0.0;
     for (std::uint64_t i = 0; i < count; ++i) {
-        auto const [a, b] = normal_pair(chance(5, i, 0), chance(5, i, 1));
+        auto const [a, b] = normal_pair(random_word(5, i, 0), random_word(5, i, 1));
         sum += a + b;
         squares += a * a + b * b;
         fourths += a * a * a * a + b * b * b * b;

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 using namespace thalweg;
@@ -21,7 +21,7 @@ namespace {
 Raster<Complex> noise(std::int64_t width, std::int64_t height, std::uint64_t seed) {
     Raster<Complex> values(Grid{width, height, 1.0, 0.0, 0.0, ""});
     for (std::int64_t i = 0; i < values.cells(); ++i) {
-        auto const words = chance_block(seed, static_cast<std::uint64_t>(i));
+        auto const words = random_block(seed, static_cast<std::uint64_t>(i));
         values[i] = {unit(words[0]) - 0.5, unit(words[1]) - 0.5};
     }
     return values;

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 using namespace thalweg;
@@ -143,7 +143,7 @@ TEST(FractionalSurface, VariogramsAreSuperposedAsTheSlowSumsAre) {
         for (auto const& [width, height] : {std::pair{12, 9}, std::pair{1, 1}, std::pair{30, 1}, std::pair{2, 17}}) {
             Raster<double> weights(lattice(width, height));
             for (std::int64_t i = 0; i < weights.cells(); ++i) {
-                weights[i] = unit(chance(3, static_cast<std::uint64_t>(i))) - 0.3;
+                weights[i] = unit(random_word(3, static_cast<std::uint64_t>(i))) - 0.3;
             }
             Raster<double> sums = weights;
             superpose_variograms(fractional_surface(width, height, hurst), sums);

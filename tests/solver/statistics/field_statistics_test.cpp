@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 
 using namespace thalweg;
 using solver::Axis;
@@ -23,7 +23,7 @@ constexpr float hole = std::numeric_limits<float>::quiet_NaN();
 Raster<float> hills(std::int64_t width, std::int64_t height, std::uint64_t seed, int holes_percent) {
     Raster<float> dem(Grid{width, height, 1.0, 0.0, 0.0, ""});
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        auto const words = chance_block(seed, static_cast<std::uint64_t>(i));
+        auto const words = random_block(seed, static_cast<std::uint64_t>(i));
         Cell const cell = dem.grid().at(i);
         double const z = 100.0 + 20.0 * std::sin(0.21 * static_cast<double>(cell.col) + static_cast<double>(seed)) +
                          15.0 * std::cos(0.3 * static_cast<double>(cell.row)) + 6.0 * unit(words[0]);
@@ -135,7 +135,7 @@ TEST(WeighLags, ManyWeightsAndFewAreTheSumOfTheDefinition) {
             for (std::size_t const count : {std::size_t{3}, std::size_t{22}}) {
                 std::vector<double> weights(count);
                 for (std::size_t k = 0; k < count; ++k) {
-                    weights[k] = unit(chance(4, k)) - 0.3;
+                    weights[k] = unit(random_word(4, k)) - 0.3;
                 }
                 auto const sums = solver::weigh_lags(dem, 95.0, axis, weights);
                 for (std::int64_t i = 0; i < dem.cells(); ++i) {

@@ -85,7 +85,7 @@ TEST(Harmonic, IsTheMeanOfTheNeighbours) {
     }));
 }
 
-/// A valley of the first paper: the longest branch of a cluster grown by chance, raised upstream.
+/// A valley of the first paper: the longest branch of a cluster grown at random, raised upstream.
 Valley grown() {
     network::Branch const branch = network::pick_branch(network::grow_dla({.particles = 8000}));
     pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});

@@ -25,13 +25,13 @@ using namespace thalweg::surface;
 
 namespace {
 
-/// Rivers by chance in the frame of a closed land.
+/// Rivers at random in the frame of a closed land.
 LandLevel any_level() {
     auto const width = *rc::gen::inRange<std::int64_t>(1, 25).as("width");
     auto const height = *rc::gen::inRange<std::int64_t>(1, 25).as("height");
     auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
     Grid const grid = channel_trees::frame(width, height);
-    auto const end = static_cast<std::int64_t>(chance(seed, 1) % static_cast<std::uint64_t>(grid.cells()));
+    auto const end = static_cast<std::int64_t>(random_word(seed, 1) % static_cast<std::uint64_t>(grid.cells()));
     Channels const rivers =
         channel_trees::grown(grid, {0, end}, {}, grid.cells() / 3 + 1, channel_trees::Room::crowd, seed);
     LandLevel level;
@@ -52,9 +52,9 @@ LandLevel any_land() {
     level.z.assign(cells, std::numeric_limits<float>::infinity());
     level.cap.assign(cells, 0.0F);
     each_inner(level, [&](std::size_t i) {
-        level.cover[i] = chance(seed, 1, i) % 10 == 0 ? Cover::bank : Cover::land;
-        level.z[i] = static_cast<float>(chance(seed, 2, i) % 1000) * 0.01F;
-        level.cap[i] = 0.1F + static_cast<float>(chance(seed, 3, i) % 10) * 0.05F;
+        level.cover[i] = random_word(seed, 1, i) % 10 == 0 ? Cover::bank : Cover::land;
+        level.z[i] = static_cast<float>(random_word(seed, 2, i) % 1000) * 0.01F;
+        level.cap[i] = 0.1F + static_cast<float>(random_word(seed, 3, i) % 10) * 0.05F;
     });
     for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
         level.cover[level.rivers.cell[n]] = Cover::river;
@@ -68,12 +68,12 @@ LandLevel any_land() {
 TEST(AreaPower, IsThePower) {
     AreaPower const power(0.45);
     for (int area = 1; area < 512; ++area) {
-        EXPECT_EQ(power(static_cast<float>(area)), static_cast<float>(exact::pow(area, 0.45))) << area;
+        EXPECT_EQ(power(static_cast<float>(area)), static_cast<float>(portable::pow(area, 0.45))) << area;
     }
     for (double area = 512.0; area < 1e15; area *= 1.37) {
         auto const value = static_cast<double>(power(static_cast<float>(area)));
-        EXPECT_LE(value, exact::pow(area, 0.45) * (1.0 + 1e-6));
-        EXPECT_GE(value, exact::pow(area * (1.0 - 1.0 / 256.0), 0.45) * (1.0 - 1e-6));
+        EXPECT_LE(value, portable::pow(area, 0.45) * (1.0 + 1e-6));
+        EXPECT_GE(value, portable::pow(area * (1.0 - 1.0 / 256.0), 0.45) * (1.0 - 1e-6));
     }
 }
 
@@ -206,7 +206,7 @@ TEST(Perched, IsLoweredOrHeldUp) {
         float const step = 0.002F;
         for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
             if (rivers.receiver[n] >= 0) {
-                float const rise = chance(7, n) % 8 == 0 ? 3.0F : 0.01F;
+                float const rise = random_word(7, n) % 8 == 0 ? 3.0F : 0.01F;
                 level.z[rivers.cell[n]] = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]] + rise;
             }
         }

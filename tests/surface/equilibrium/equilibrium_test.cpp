@@ -26,8 +26,8 @@ using channel_trees::Room;
 using surface::Edge;
 using surface::equilibrium;
 using surface::EquilibriumFields;
-using surface::EquilibriumLand;
 using surface::EquilibriumParams;
+using surface::EquilibriumTerrain;
 using surface::RiverHeights;
 
 namespace {
@@ -50,13 +50,14 @@ bool at_end(Scene const& scene, std::int64_t cell) {
            std::any_of(near.begin(), near.end(), [&](std::int64_t n) { return !dry(scene, n); });
 }
 
-/// Land within the circle about the middle, and every cell that a circle by chance adds.
+/// Land within the circle about the middle, and every cell that a circle at random adds.
 Mask island(Grid const& grid, std::uint64_t seed) {
     Mask land(grid);
     for (std::uint64_t blob = 0; blob < 3; ++blob) {
-        double const x = static_cast<double>(grid.width) * unit(chance(seed, 21, blob));
-        double const y = static_cast<double>(grid.height) * unit(chance(seed, 22, blob));
-        double const r = 0.5 * static_cast<double>(std::max(grid.width, grid.height)) * unit(chance(seed, 23, blob));
+        double const x = static_cast<double>(grid.width) * unit(random_word(seed, 21, blob));
+        double const y = static_cast<double>(grid.height) * unit(random_word(seed, 22, blob));
+        double const r =
+            0.5 * static_cast<double>(std::max(grid.width, grid.height)) * unit(random_word(seed, 23, blob));
         for (std::int64_t i = 0; i < land.cells(); ++i) {
             Cell const c = grid.at(i);
             double const dx = static_cast<double>(c.col) - x;
@@ -78,25 +79,25 @@ void add_lakes(Channels& rivers, std::uint64_t seed) {
             continue;
         }
         left[n] = std::max(0, left[static_cast<std::size_t>(r)] - 1);
-        if (chance(seed, 31, n) % 20 == 0) {
+        if (random_word(seed, 31, n) % 20 == 0) {
             left[n] = 4;
         }
         rivers.level[n] = left[n] > 0 ? 1 : 0;
     }
 }
 
-/// Heights that rise upstream from 100 m by chance, or not at all; some cells have none.
+/// Heights that rise upstream from 100 m at random, or not at all; some cells have none.
 void add_heights(Channels& rivers, std::uint64_t seed) {
     std::vector<float> z(rivers.cell.size(), 100.0F);
     for (std::size_t n = 0; n < z.size(); ++n) {
         if (rivers.receiver[n] >= 0) {
-            double const rise = static_cast<double>(chance(seed, 51, n) % 4) * 0.7;
+            double const rise = static_cast<double>(random_word(seed, 51, n) % 4) * 0.7;
             z[n] = z[static_cast<std::size_t>(rivers.receiver[n])] + static_cast<float>(rise);
         }
     }
     rivers.z = z;
     for (std::size_t n = 1; n < z.size(); ++n) {
-        rivers.z[n] = chance(seed, 52, n) % 3 == 0 ? rivers.z[n] : std::numeric_limits<float>::quiet_NaN();
+        rivers.z[n] = random_word(seed, 52, n) % 3 == 0 ? rivers.z[n] : std::numeric_limits<float>::quiet_NaN();
     }
 }
 
@@ -130,7 +131,7 @@ Scene any_scene() {
         }
     }
     for (std::uint64_t end = 0; end < 3; ++end) {
-        ends.push_back(possible[chance(seed, 41, end) % possible.size()]);
+        ends.push_back(possible[random_word(seed, 41, end) % possible.size()]);
     }
     scene.rivers = channel_trees::grown(grid, ends, scene.fields.land, cells, scene.room, seed);
     // A lake's water cannot be told from a river's that lies beside it.
@@ -209,7 +210,7 @@ std::int64_t cells_in_depressions(Scene const& scene, Raster<float> const& dem) 
 }
 
 /// Numbers of the river cells that are still such.
-std::vector<std::size_t> kept(Scene const& scene, EquilibriumLand const& land) {
+std::vector<std::size_t> kept(Scene const& scene, EquilibriumTerrain const& land) {
     std::set<std::int64_t> const gone(land.shortened.begin(), land.shortened.end());
     std::vector<std::size_t> out;
     for (std::size_t n = 0; n < scene.rivers.cell.size(); ++n) {
@@ -220,7 +221,7 @@ std::vector<std::size_t> kept(Scene const& scene, EquilibriumLand const& land) {
     return out;
 }
 
-std::set<std::int64_t> river_cells(Scene const& scene, EquilibriumLand const& land) {
+std::set<std::int64_t> river_cells(Scene const& scene, EquilibriumTerrain const& land) {
     std::set<std::int64_t> out;
     for (std::size_t const n : kept(scene, land)) {
         out.insert(scene.rivers.cell[n]);
@@ -263,7 +264,7 @@ TEST(Equilibrium, TinyGridsHaveLand) {
             Scene scene;
             scene.params.edge = edge;
             scene.rivers = {frame(width, height), {0}, {-1}, {}, {}};
-            EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
+            EquilibriumTerrain const land = equilibrium(scene.rivers, {}, scene.params);
             EXPECT_EQ(land.dem[0], 0.0F);
             EXPECT_EQ(land.direction[0], flow::Direction::leaves);
             for (std::int64_t i = 1; i < land.dem.cells(); ++i) {
@@ -276,7 +277,7 @@ TEST(Equilibrium, TinyGridsHaveLand) {
 TEST(Equilibrium, AGridMayBeAllRiver) {
     Scene scene;
     scene.rivers = {frame(4, 1), {0, 1, 2, 3}, {-1, 0, 1, 2}, {}, {}};
-    EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
+    EquilibriumTerrain const land = equilibrium(scene.rivers, {}, scene.params);
     for (std::int64_t i = 1; i < 4; ++i) {
         EXPECT_GT(land.dem[i], land.dem[i - 1]);
         EXPECT_EQ(land.direction[i], flow::Direction::west);
@@ -288,7 +289,7 @@ TEST(Equilibrium, AGridMayBeAllRiver) {
 TEST(Equilibrium, LandDrains) {
     EXPECT_TRUE(rc::check("land drains", [] {
         Scene const scene = any_scene();
-        EquilibriumLand const land = equilibrium(scene.rivers, scene.fields, scene.params);
+        EquilibriumTerrain const land = equilibrium(scene.rivers, scene.fields, scene.params);
         auto const rivers = river_cells(scene, land);
         for (std::int64_t i = 0; i < land.dem.cells(); ++i) {
             RC_ASSERT(std::isnan(land.dem[i]) == !dry(scene, i));
@@ -308,7 +309,7 @@ TEST(Equilibrium, LandDrains) {
 TEST(Equilibrium, RiversKeepTheirWater) {
     EXPECT_TRUE(rc::check("rivers keep their water", [] {
         Scene const scene = any_scene();
-        EquilibriumLand const land = equilibrium(scene.rivers, scene.fields, scene.params);
+        EquilibriumTerrain const land = equilibrium(scene.rivers, scene.fields, scene.params);
         Channels const& rivers = scene.rivers;
         auto const cells = river_cells(scene, land);
         float lowest = std::numeric_limits<float>::infinity();
@@ -352,7 +353,7 @@ TEST(Equilibrium, GivenHeightsHold) {
         scene.params.heights = *rc::gen::element(RiverHeights::soft, RiverHeights::fixed).as("which");
         scene.rivers.level.clear();
         add_heights(scene.rivers, scene.params.seed);
-        EquilibriumLand const land = equilibrium(scene.rivers, scene.fields, scene.params);
+        EquilibriumTerrain const land = equilibrium(scene.rivers, scene.fields, scene.params);
         float const ulps = 100.0F * static_cast<float>(scene.rivers.cell.size()) * 0x1p-22F;
         double deepest = 0.0;
         for (std::size_t n = 0; n < scene.rivers.cell.size(); ++n) {
@@ -390,7 +391,7 @@ TEST(Equilibrium, WhatLiesBeyondTheGridDoesNotLiftGivenHeights) {
         params.mean_slope_deg = 0.001;
         params.hillslope_cells = 100.0;
         params.floor_width = 1.0;
-        EquilibriumLand const land = equilibrium(rivers, {}, params);
+        EquilibriumTerrain const land = equilibrium(rivers, {}, params);
         float const source = land.dem[rivers.cell.back()];
         EXPECT_GE(source, 100.0F);
         EXPECT_LE(source, 100.0F + static_cast<float>(length) * 100.0F * 0x1p-22F) << length;
@@ -404,7 +405,7 @@ TEST(Equilibrium, RiversAreGradedBetweenGivenHeights) {
     scene.rivers.z.front() = 20.0F;
     scene.rivers.z.back() = 50.0F;
     scene.params.heights = RiverHeights::fixed;
-    EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
+    EquilibriumTerrain const land = equilibrium(scene.rivers, {}, scene.params);
     auto const z = [&](std::size_t n) { return land.dem[scene.rivers.cell[n]]; };
     std::size_t const last = scene.rivers.cell.size() - 1;
     EXPECT_EQ(z(0), 20.0F);
@@ -421,7 +422,7 @@ TEST(Equilibrium, ThreadsDoNotMatterSeedsDo) {
     auto const bytes = [&](int threads) {
         thalweg::Run run;
         run.threads = threads;
-        EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params, run);
+        EquilibriumTerrain const land = equilibrium(scene.rivers, {}, scene.params, run);
         std::vector<std::uint32_t> out;
         std::transform(land.dem.values().begin(), land.dem.values().end(), std::back_inserter(out),
                        [](float z) { return std::bit_cast<std::uint32_t>(z); });
@@ -438,7 +439,7 @@ TEST(Equilibrium, HasTheReliefAsked) {
     for (Edge const edge : {Edge::open, Edge::closed, Edge::coast, Edge::mainland}) {
         Scene scene = square(64, edge);
         scene.params.relief_m = 123.0;
-        EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
+        EquilibriumTerrain const land = equilibrium(scene.rivers, {}, scene.params);
         auto const values = land.dem.values();
         auto const [low, high] = std::minmax_element(values.begin(), values.end());
         EXPECT_NEAR(*high - *low, 123.0F, 0.01F);
@@ -456,9 +457,9 @@ TEST(Equilibrium, AMainlandIsLowAtTheSeaAndGoesOnInland) {
     for (std::int64_t const cell : scene.rivers.cell) {
         scene.fields.land[cell] = 1;
     }
-    EquilibriumLand const land = equilibrium(scene.rivers, scene.fields, scene.params);
+    EquilibriumTerrain const land = equilibrium(scene.rivers, scene.fields, scene.params);
     scene.params.edge = Edge::coast;
-    EquilibriumLand const island = equilibrium(scene.rivers, scene.fields, scene.params);
+    EquilibriumTerrain const island = equilibrium(scene.rivers, scene.fields, scene.params);
     auto const mean = [](Raster<float> const& dem, std::int64_t col) {
         double sum = 0.0;
         int cells = 0;
@@ -488,7 +489,7 @@ TEST(Equilibrium, HasTheMeanSlopeAsked) {
     for (double const asked : {2.0, 25.0, 50.0}) {
         Scene scene = square(64);
         scene.params.mean_slope_deg = asked;
-        EquilibriumLand const land = equilibrium(scene.rivers, {}, scene.params);
+        EquilibriumTerrain const land = equilibrium(scene.rivers, {}, scene.params);
         double sum = 0.0;
         for (std::int64_t row = 1; row < 63; ++row) {
             for (std::int64_t col = 1; col < 63; ++col) {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 
 using namespace thalweg;
 using namespace thalweg::surface;
@@ -57,8 +57,8 @@ LandLevel any_flood_level() {
     LandLevel level = level_of(width, height, 0.0F);
     level.side = *rc::gen::element(1.0F, 4.0F).as("side");
     each_inner(level, [&](std::size_t i) {
-        level.z[i] = static_cast<float>(chance(seed, 1, i) % 10);
-        auto const kind = chance(seed, 2, i) % 16;
+        level.z[i] = static_cast<float>(random_word(seed, 1, i) % 10);
+        auto const kind = random_word(seed, 2, i) % 16;
         if (kind == 0) {
             add_spring(level, i);
         } else if (kind <= 3) {

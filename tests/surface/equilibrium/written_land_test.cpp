@@ -12,7 +12,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/cells/d8.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/flow/direction.hpp>
 #include <thalweg/surface/equilibrium/internal/flood_land.hpp>
 #include <thalweg/surface/equilibrium/internal/order_cells.hpp>
@@ -45,7 +45,7 @@ SolvedLand solved_land(std::int64_t width, std::int64_t height, std::int64_t mar
     level.z.assign(level.cover.size(), std::numeric_limits<float>::infinity());
     each_inner(level, [&](std::size_t i) {
         level.cover[i] = Cover::land;
-        level.z[i] = static_cast<float>(chance(seed, i) % 1000) * 0.01F;
+        level.z[i] = static_cast<float>(random_word(seed, i) % 1000) * 0.01F;
     });
     std::int64_t const row = height / 2;
     for (std::int64_t col = 0; col < (width + 1) / 2; ++col) {
@@ -126,7 +126,7 @@ void require_steepest(Raster<float> const& dem, Cell c, flow::Direction directio
 
 TEST(WrittenLand, OneCell) {
     SolvedLand const land = solved_land(1, 1, 0, 7);
-    EquilibriumLand const out = written_land(land.level, land.rivers, land.window(), {10.0, -1.0, 0.5}, {}, {});
+    EquilibriumTerrain const out = written_land(land.level, land.rivers, land.window(), {10.0, -1.0, 0.5}, {}, {});
     ASSERT_EQ(out.dem.cells(), 1);
     EXPECT_NEAR(out.dem[0], 0.0, 1e-6); // 0.1 of 10 m, less 1 m
     EXPECT_TRUE(out.direction[0] == flow::Direction::leaves);
@@ -153,7 +153,7 @@ TEST(WrittenLand, DrainsDownItsOwnFloats) {
         rc::check("rivers go to their receivers, land down the steepest slope, and nothing is a depression", [] {
             SolvedLand const land = any_solved_land();
             Raise const raise = raise_for(land.level, land.rivers, land.window(), with_relief(100.0));
-            EquilibriumLand const out = written_land(land.level, land.rivers, land.window(), raise, {}, {});
+            EquilibriumTerrain const out = written_land(land.level, land.rivers, land.window(), raise, {}, {});
             RC_ASSERT(out.dem.grid() == land.grid);
             RC_ASSERT(std::is_sorted(out.shortened.begin(), out.shortened.end()));
             std::vector<bool> river(static_cast<std::size_t>(land.grid.cells()), false);
@@ -180,7 +180,7 @@ TEST(WrittenLand, TheSeaHasNoHeight) {
     SolvedLand land = solved_land(6, 5, 1, 3);
     land.land = Mask(land.grid, 1);
     land.land[Cell{5, 4}] = 0;
-    EquilibriumLand const out = written_land(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, {}, {});
+    EquilibriumTerrain const out = written_land(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, {}, {});
     for (std::int64_t i = 0; i < land.grid.cells(); ++i) {
         EXPECT_EQ(std::isnan(out.dem[i]), land.land[i] == 0);
         EXPECT_EQ(out.direction[i] == flow::Direction::no_data, land.land[i] == 0);
@@ -192,7 +192,7 @@ TEST(WrittenLand, FixedHeightsAreKept) {
     for (std::size_t n = 0; n < land.rivers.cell.size(); ++n) {
         land.rivers.z.push_back(3.0F + static_cast<float>(n));
     }
-    EquilibriumLand const out =
+    EquilibriumTerrain const out =
         written_given_land(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, RiverHeights::fixed, {});
     for (std::size_t n = 0; n < land.rivers.cell.size(); ++n) {
         EXPECT_EQ(out.dem[land.rivers.cell[n]], land.rivers.z[n]);
@@ -206,7 +206,7 @@ TEST(WrittenLand, SoftHeightsAreUpperBounds) {
     for (std::size_t n = 0; n < land.rivers.cell.size(); ++n) {
         land.rivers.z.push_back(0.5F * static_cast<float>(n));
     }
-    EquilibriumLand const out =
+    EquilibriumTerrain const out =
         written_given_land(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, RiverHeights::soft, {});
     double greatest = 0.0;
     for (std::size_t n = 0; n < land.rivers.cell.size(); ++n) {

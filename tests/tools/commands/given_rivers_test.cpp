@@ -307,16 +307,16 @@ struct Stroke {
 
 /// Strokes at random over 12 km, none of which crosses another.
 std::string scattered_strokes(int count, std::uint64_t seed) {
-    std::mt19937_64 chance(seed);
+    std::mt19937_64 random_word(seed);
     auto const within = [&](double low, double high) {
-        return low + (high - low) * static_cast<double>(chance() >> 11U) / 9007199254740992.0;
+        return low + (high - low) * static_cast<double>(random_word() >> 11U) / 9007199254740992.0;
     };
     std::vector<Stroke> strokes;
     while (strokes.size() < static_cast<std::size_t>(count)) {
         Vec2 const from{within(600.0, 11400.0), within(600.0, 11400.0)};
         double const length = within(300.0, 1200.0);
         double const along = within(-1.0, 1.0);
-        double const side = chance() % 2 == 0 ? 1.0 : -1.0;
+        double const side = random_word() % 2 == 0 ? 1.0 : -1.0;
         Vec2 const to{from.x + length * along, from.y + side * length * std::sqrt(1.0 - along * along)};
         bool const free = std::none_of(strokes.begin(), strokes.end(), [&](Stroke const& s) {
             return cross(from, to, s.a) * cross(from, to, s.b) <= 0.0 &&

@@ -110,7 +110,7 @@ TEST(Land, StatsTellsTheReliefOfADemBesideRealLand) {
          {"Big Tujunga", "Jacksboro", "slope, mean", "concavity θ of the DEM’s rivers", "10.1 to 26.9"}) {
         EXPECT_NE(words.out.find(part), std::string::npos) << part << "\n" << words.out;
     }
-    EXPECT_EQ(words.out.find("outside"), std::string::npos) << words.out; // it is one of the real lands
+    EXPECT_EQ(words.out.find("outside"), std::string::npos) << words.out; // it is one of the reference DEMs
     EXPECT_FALSE(nlohmann::json::parse(thalweg_run(stats + "--json", place.path()).out).contains("relief"));
     Outcome const o = thalweg_run(stats + "--json --relief", place.path());
     ASSERT_EQ(o.code, 0) << o.err;

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -197,10 +197,10 @@ Lines from_osm(std::uint64_t seed) {
         for (std::size_t i = 1; i < course.size(); ++i) {
             part.push_back(course[i]);
             ++way;
-            bool const ends =
-                i + 1 == course.size() || thalweg::unit(thalweg::chance(seed, static_cast<std::uint64_t>(way))) < 0.3;
+            bool const ends = i + 1 == course.size() ||
+                              thalweg::unit(thalweg::random_word(seed, static_cast<std::uint64_t>(way))) < 0.3;
             if (ends) {
-                if (thalweg::unit(thalweg::chance(seed + 1, static_cast<std::uint64_t>(way))) < 0.1) {
+                if (thalweg::unit(thalweg::random_word(seed + 1, static_cast<std::uint64_t>(way))) < 0.1) {
                     std::reverse(part.begin(), part.end());
                 }
                 lines.add(part, {{"osm_id", std::to_string(way)}, {"waterway", "river"}, {"name", name}});

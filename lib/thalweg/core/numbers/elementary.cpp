@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace thalweg::exact {
+namespace thalweg::portable {
 
 namespace {
 
@@ -270,4 +270,4 @@ double atan2(double y, double x) {
     return std::copysign(angle.hi + angle.lo, y);
 }
 
-} // namespace thalweg::exact
+} // namespace thalweg::portable

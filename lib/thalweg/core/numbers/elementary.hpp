@@ -4,7 +4,7 @@
 
 /// Elementary functions with the same bits on every machine: only + - * / and sqrt, no libm, no contraction.
 /// Each is within 2 units in the last place of the true value on its range.
-namespace thalweg::exact {
+namespace thalweg::portable {
 
 inline constexpr double pi = 3.14159265358979323846;
 
@@ -29,4 +29,4 @@ double cos(double x);
 /// \return [rad] in [-pi, pi]
 double atan2(double y, double x);
 
-} // namespace thalweg::exact
+} // namespace thalweg::portable

@@ -4,15 +4,15 @@
 
 #include <cmath>
 
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 
 namespace thalweg {
 
 std::array<double, 2> normal_pair(std::uint64_t first, std::uint64_t second) {
-    double const radius = std::sqrt(-2.0 * exact::log(1.0 - unit(first)));
-    double const angle = 2.0 * exact::pi * unit(second);
-    return {radius * exact::cos(angle), radius * exact::sin(angle)};
+    double const radius = std::sqrt(-2.0 * portable::log(1.0 - unit(first)));
+    double const angle = 2.0 * portable::pi * unit(second);
+    return {radius * portable::cos(angle), radius * portable::sin(angle)};
 }
 
 } // namespace thalweg

@@ -7,7 +7,7 @@
 
 namespace thalweg {
 
-/// Two independent normal deviates of mean 0 and deviation 1 from two words of chance.
+/// Two independent normal deviates of mean 0 and deviation 1 from two random words.
 /// \param first first random word
 /// \param second second random word
 /// \return sqrt(-2 ln u) cos(2 pi v) and the same with sin, u in (0, 1], v in [0, 1); both are at most 8.6.

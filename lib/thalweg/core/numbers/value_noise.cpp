@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/numbers/value_noise.hpp>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t stage = 0x6e6f697365; // "noise"
 
 double node(std::uint64_t seed, double x, double y) {
-    return 2.0 * unit(chance(seed, stage, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y))) - 1.0;
+    return 2.0 * unit(random_word(seed, stage, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y))) - 1.0;
 }
 
 double eased(double t) {

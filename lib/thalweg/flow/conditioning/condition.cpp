@@ -5,9 +5,9 @@
 #include <utility>
 
 #include <thalweg/flow/conditioning/internal/carve.hpp>
+#include <thalweg/flow/conditioning/internal/confine_channels.hpp>
 #include <thalweg/flow/conditioning/internal/fill.hpp>
 #include <thalweg/flow/conditioning/internal/flood.hpp>
-#include <thalweg/flow/conditioning/internal/raise_banks.hpp>
 
 namespace thalweg::flow {
 
@@ -18,7 +18,7 @@ ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParam
         return out;
     }
     check_drainable(dem, valley);
-    Banks const banks = raise_banks(dem, valley, {}, run);
+    Banks const banks = confine_channels(dem, valley, {}, run);
     out.dem =
         params.method == Conditioning::fill ? fill(banks.dem, valley, run) : carve(banks.dem, valley, banks.least, run);
     out.banks = change_between(dem, banks.dem);

@@ -21,7 +21,7 @@ struct ConditionParams {
 /// What condition() returns.
 struct ConditionedDem {
     Raster<float> dem;
-    DemChange banks;       ///< raised so that rivers keep their water (raise_banks)
+    DemChange banks;       ///< raised so that rivers keep their water (confine_channels)
     DemChange depressions; ///< filled or cut after that
 };
 
@@ -32,7 +32,7 @@ struct ConditionedDem {
 /// \param valley [m] heights of the river cells
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return river cells keep their heights bit for bit; otherwise as raise_banks, then fill or carve. Method none
+/// \return river cells keep their heights bit for bit; otherwise as confine_channels, then fill or carve. Method none
 /// changes nothing.
 /// \throws Error as those
 ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParams const& params = {},

@@ -62,7 +62,7 @@ Raster<float> levels(Raster<float> const& dem, Raster<Direction> const& directio
 /// Down the steepest facet, or dinf_leaves where no neighbour is lower. drop: to each neighbour, NaN where it has no
 /// data.
 float steepest(std::array<double, 8> const& drop, std::array<double, 8> const& height) {
-    constexpr double eighth_turn = exact::pi / 4.0;
+    constexpr double eighth_turn = portable::pi / 4.0;
     double best = 0.0; // square of the slope
     std::size_t facet = drop.size();
     double along = 0.0; // slopes of the best facet: towards its direct neighbour, and from there to the diagonal one
@@ -91,7 +91,7 @@ float steepest(std::array<double, 8> const& drop, std::array<double, 8> const& h
     if (facet == drop.size()) {
         return dinf_leaves;
     }
-    double const turn = across == 0.0 ? 0.0 : across == along ? 1.0 : exact::atan2(across, along) / eighth_turn;
+    double const turn = across == 0.0 ? 0.0 : across == along ? 1.0 : portable::atan2(across, along) / eighth_turn;
     auto const bearing = static_cast<float>(static_cast<double>(facet) + (facet % 2 == 0 ? turn : 1.0 - turn));
     return bearing < 8.0F ? bearing : 0.0F;
 }

@@ -13,7 +13,7 @@ namespace thalweg::flow {
 
 /// The rivers of a DEM, and what they drain.
 struct ExtractedStreams {
-    RaisedNetwork network; ///< from cell centre to cell centre, at the DEM's heights: they may rise through a pit
+    ElevatedNetwork network; ///< from cell centre to cell centre, at the DEM's heights: they may rise through a pit
     ContributingAreas areas;
 };
 

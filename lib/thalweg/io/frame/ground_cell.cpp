@@ -18,19 +18,19 @@ namespace {
 double side_of_geographic(Grid const& grid, OGRSpatialReference const& reference) {
     double const unit = reference.GetAngularUnits(nullptr);
     double const latitude = 0.5 * (grid.north + grid.south()) * unit;
-    if (!(std::fabs(latitude) < exact::pi / 2.0)) {
+    if (!(std::fabs(latitude) < portable::pi / 2.0)) {
         throw BadInput(
             fmt::format("io.ground_cell: the middle of the grid lies at latitude {:.3f} degrees, not between "
                         "the poles; give the grid its true place",
-                        latitude * 180.0 / exact::pi));
+                        latitude * 180.0 / portable::pi));
     }
     double const flattening = reference.GetInvFlattening() > 0.0 ? 1.0 / reference.GetInvFlattening() : 0.0;
     double const eccentricity_2 = flattening * (2.0 - flattening);
-    double const sine = exact::sin(latitude);
+    double const sine = portable::sin(latitude);
     // The root of the radii of curvature's product along the meridian and across it.
     double const radius =
         reference.GetSemiMajor() * std::sqrt(1.0 - eccentricity_2) / (1.0 - eccentricity_2 * sine * sine);
-    return grid.cell_m * unit * radius * std::sqrt(exact::cos(latitude));
+    return grid.cell_m * unit * radius * std::sqrt(portable::cos(latitude));
 }
 
 } // namespace

@@ -55,7 +55,7 @@ double utm_stretch(std::string const& crs, DegreeBox const& box) {
         return 0.0;
     }
     constexpr double scale = 0.9996; // on the central meridian
-    constexpr double radian = exact::pi / 180.0;
+    constexpr double radian = portable::pi / 180.0;
     double const central = 6.0 * *zone - 183.0;
     // Farthest from the central meridian, nearest to the equator.
     double const latitude =
@@ -63,7 +63,7 @@ double utm_stretch(std::string const& crs, DegreeBox const& box) {
     double stretch = 0.0;
     for (double const side : {box.west, box.east}) {
         double const off = std::fabs(std::remainder(side - central, 360.0));
-        double const sine = exact::cos(latitude * radian) * exact::sin(std::min(off, 90.0) * radian);
+        double const sine = portable::cos(latitude * radian) * portable::sin(std::min(off, 90.0) * radian);
         double const length =
             off >= 90.0 || sine >= 1.0 ? std::numeric_limits<double>::infinity() : scale / std::sqrt(1.0 - sine * sine);
         stretch = std::max(stretch, length - 1.0);

@@ -92,13 +92,13 @@ Table arcs_table(NetworkTables const& tables, bool short_names) {
         real("us_area", area_decimals, [&area = tables.us_area_m2](auto row) { return area[as_index(row)]; }),
         real("ds_area", area_decimals, [&area = tables.ds_area_m2](auto row) { return area[as_index(row)]; }),
         real("survives", length_decimals,
-             [arc](auto row) { return std::isinf(arc(row).survives) ? -1.0 : arc(row).survives; }),
+             [arc](auto row) { return std::isinf(arc(row).persistence) ? -1.0 : arc(row).persistence; }),
         {"feature", Kind::wide_integer, 0, [arc](std::int64_t row) { return arc(row).feature; }},
         // A shapefile reads an empty text back as NULL.
         text("type", [arc](auto row) { return arc(row).type.empty() ? "none" : arc(row).type; }),
         integer("braided",
                 [of = tables.braided](auto row) { return of != nullptr && (*of)[as_index(row)] != 0 ? 1 : 0; }),
-        integer("given", [arc](auto row) { return arc(row).given ? 1 : 0; }),
+        integer("given", [arc](auto row) { return arc(row).is_input ? 1 : 0; }),
     };
     if (tables.user != nullptr) {
         add_user_columns(

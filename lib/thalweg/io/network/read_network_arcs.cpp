@@ -163,8 +163,8 @@ private:
         arc.ds_area_m2 = columns_.real(feature, Q::ds_area);
         arc.us_area_m2 = columns_.has(Q::us_area) ? columns_.real(feature, Q::us_area)
                                                   : arc.ds_area_m2 - columns_.real(feature, Q::own_area);
-        double const survives = columns_.real(feature, Q::survives);
-        arc.survives = std::isnan(survives) ? std::numeric_limits<double>::infinity() : survives;
+        double const persistence = columns_.real(feature, Q::persistence);
+        arc.persistence = std::isnan(persistence) ? std::numeric_limits<double>::infinity() : persistence;
         arc.feature = native ? numbers.whole(columns_.column(Q::feature), id, true) : number_;
         arc.record = number_;
         if (native) {
@@ -184,7 +184,7 @@ private:
             arc.type.clear();
         }
         arc.braided = numbers.whole(columns_.column(Q::braided), id, true) != 0;
-        arc.given = !columns_.has(Q::given) || numbers.whole(columns_.column(Q::given), id, true) != 0;
+        arc.is_input = !columns_.has(Q::given) || numbers.whole(columns_.column(Q::given), id, true) != 0;
         return arc;
     }
 

@@ -83,7 +83,7 @@ constexpr std::array native_fields{
     real(Q::slope, "slope", slope_decimals),
     real(Q::us_area, "us_area", area_decimals),
     real(Q::ds_area, "ds_area", area_decimals),
-    with_unknown(real(Q::survives, "survives", length_decimals), -1), // which stands for infinity
+    with_unknown(real(Q::persistence, "survives", length_decimals), -1), // which stands for infinity
     SchemaField{.quantity = Q::feature, .name = "feature", .kind = Kind::wide_integer},
     SchemaField{.quantity = Q::type, .name = "type", .kind = Kind::text},
     integer(Q::braided, "braided"),

@@ -38,7 +38,7 @@ enum class Quantity : std::uint8_t {
     slope,
     us_area,
     ds_area,
-    survives,
+    persistence,
     feature,
     type,
     braided,

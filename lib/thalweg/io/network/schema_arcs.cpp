@@ -101,7 +101,7 @@ public:
         case hack: return this->hack(a);
         case feature: return arc(a).feature;
         case braided: return tables_.braided != nullptr && (*tables_.braided)[as_index(a)] != 0 ? 1 : 0;
-        case given: return arc(a).given ? 1 : 0;
+        case given: return arc(a).is_input ? 1 : 0;
         case ds_hack: return down(a) < 0 ? 0 : this->hack(down(a));
         case n_down: return down(a) < 0 ? 0 : 1;
         case is_source: return above(a).empty() ? 1 : 0;
@@ -142,7 +142,7 @@ public:
         case us_area: return known(us_m2 >= 0.0, us_m2);
         case ds_area: return known(ds_m2 >= 0.0, ds_m2);
         case own_area: return known(us_m2 >= 0.0 && ds_m2 >= 0.0, ds_m2 - us_m2);
-        case survives: return known(std::isfinite(arc(a).survives), arc(a).survives);
+        case persistence: return known(std::isfinite(arc(a).persistence), arc(a).persistence);
         default: return unknown;
         }
     }

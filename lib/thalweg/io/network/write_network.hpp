@@ -27,7 +27,7 @@ struct UserData {
 
 /// A network with everything its tables hold.
 struct NetworkTables {
-    RaisedNetwork const& network;
+    ElevatedNetwork const& network;
     NetworkOrders const& orders;
     std::vector<double> const& us_area_m2;   ///< by arc; -1 where it is not known
     std::vector<double> const& ds_area_m2;   ///< by arc; likewise

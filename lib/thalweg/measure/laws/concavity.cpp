@@ -9,7 +9,7 @@
 
 namespace thalweg::measure {
 
-std::optional<PowerLaw> concavity(RaisedNetwork const& network, flow::ContributingAreas const& areas,
+std::optional<PowerLaw> concavity(ElevatedNetwork const& network, flow::ContributingAreas const& areas,
                                   PowerLawParams const& params) {
     std::size_t const arcs = network.plan.arc_count();
     if (areas.us_area_m2.size() != arcs || areas.ds_area_m2.size() != arcs || network.arc_z.size() != arcs) {

@@ -34,14 +34,14 @@ template <class Value> std::optional<LineFit> fit(std::vector<StreamOrder> const
     std::vector<Vec2> points;
     for (StreamOrder const& o : orders) {
         if (double const v = value(o); v > 0.0) {
-            points.push_back({static_cast<double>(o.order), exact::log(v)});
+            points.push_back({static_cast<double>(o.order), portable::log(v)});
         }
     }
     return fit_line(points);
 }
 
 std::optional<HortonRatio> ratio(std::optional<LineFit> const& fit, double sign) {
-    return fit ? std::optional(HortonRatio{exact::exp(sign * fit->slope), fit->r2, fit->points}) : std::nullopt;
+    return fit ? std::optional(HortonRatio{portable::exp(sign * fit->slope), fit->r2, fit->points}) : std::nullopt;
 }
 
 } // namespace

@@ -63,7 +63,7 @@ JunctionAngles junction_angles(StreamNetwork const& network, double reach_m) {
         }
         double const cross = one->x * other->y - one->y * other->x;
         double const dot = one->x * other->x + one->y * other->y;
-        degrees.push_back(exact::atan2(std::fabs(cross), dot) * (180.0 / exact::pi));
+        degrees.push_back(portable::atan2(std::fabs(cross), dot) * (180.0 / portable::pi));
     }
     angles.junctions = static_cast<std::int64_t>(degrees.size());
     if (degrees.empty()) {

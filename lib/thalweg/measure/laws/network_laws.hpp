@@ -42,7 +42,7 @@ struct NetworkLawsParams {
 /// \return every law of a network, drawn or drained, by the verbs beside this one.
 /// \throws BadParameter when the land or the reach is not above 0
 /// \throws BadInput as the verbs do
-NetworkLaws network_laws(RaisedNetwork const& network, NetworkOrders const& orders,
+NetworkLaws network_laws(ElevatedNetwork const& network, NetworkOrders const& orders,
                          flow::ContributingAreas const& areas, NetworkLawsParams const& params);
 
 } // namespace thalweg::measure

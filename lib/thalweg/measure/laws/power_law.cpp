@@ -30,7 +30,7 @@ std::optional<PowerLaw> with_line(PowerLaw law, std::optional<LineFit> const& fi
         return std::nullopt;
     }
     law.exponent = fit->slope;
-    law.coefficient = exact::exp(fit->intercept);
+    law.coefficient = portable::exp(fit->intercept);
     law.r2 = fit->r2;
     law.exponent_error = fit->slope_error;
     return law;
@@ -41,14 +41,14 @@ std::optional<PowerLaw> fit_power_law(std::vector<AtArea> const& places, PowerLa
     require_in(self, "bins_per_decade", params.bins_per_decade, Range::between(1, 100));
     require_in(self, "least_places", params.least_places, Range::at_least(1));
     require_in(self, "least_bins", params.least_bins, Range::at_least(2));
-    double const per_e_fold = params.bins_per_decade / exact::log(10.0);
+    double const per_e_fold = params.bins_per_decade / portable::log(10.0);
     std::map<std::int64_t, Logarithms> bins;
     for (AtArea const& p : places) {
         if (p.area_m2 > 0.0 && p.value > 0.0 && std::isfinite(p.area_m2) && std::isfinite(p.value)) {
-            double const area = exact::log(p.area_m2);
+            double const area = portable::log(p.area_m2);
             Logarithms& bin = bins[static_cast<std::int64_t>(std::floor(area * per_e_fold))];
             bin.area.add(area);
-            bin.value.add(exact::log(p.value));
+            bin.value.add(portable::log(p.value));
             ++bin.places;
         }
     }
@@ -58,7 +58,7 @@ std::optional<PowerLaw> fit_power_law(std::vector<AtArea> const& places, PowerLa
         if (bin.places >= params.least_places) {
             auto const n = static_cast<double>(bin.places);
             line.push_back({bin.area.value() / n, bin.value.value() / n});
-            law.bins.push_back({exact::exp(line.back().x), exact::exp(line.back().y), bin.places});
+            law.bins.push_back({portable::exp(line.back().x), portable::exp(line.back().y), bin.places});
             law.places += bin.places;
         }
     }

@@ -74,7 +74,7 @@ std::vector<Vec2> stem_above(Raster<float> const& dem, flow::FlowField const& dr
             break;
         }
         double const area_m2 = static_cast<double>(drainage.area_cells[at]) * grid.cell_m * grid.cell_m;
-        double const step = grid.cell_m / d8_per_length[way] * exact::pow(area_m2, -params.theta);
+        double const step = grid.cell_m / d8_per_length[way] * portable::pow(area_m2, -params.theta);
         stem.push_back({stem.back().x + step, static_cast<double>(dem[at])});
     }
     return stem;

@@ -44,8 +44,8 @@ struct Sight {
 };
 
 std::array<Sight, 8> sights(GeomorphonParams const& params, double cell_m) {
-    double const angle = params.flat_deg * (exact::pi / 180.0);
-    double const tangent = exact::sin(angle) / exact::cos(angle);
+    double const angle = params.flat_deg * (portable::pi / 180.0);
+    double const tangent = portable::sin(angle) / portable::cos(angle);
     auto const search = params.search_cells;
     std::array<Sight, 8> all{};
     for (std::size_t k = 0; k < all.size(); ++k) {

@@ -41,7 +41,7 @@ void check(SlopeAreaParams const& params, Raster<float> const& dem, flow::FlowFi
 std::map<std::int64_t, Reach> reaches_by_area(Raster<float> const& dem, flow::FlowField const& drainage,
                                               SlopeAreaParams const& params, Run const& run) {
     double const cell_m = dem.grid().cell_m;
-    double const bins_a_fold = params.bins_per_decade / exact::log(10.0);
+    double const bins_a_fold = params.bins_per_decade / portable::log(10.0);
     auto const offsets = d8_offsets(dem.grid());
     std::map<std::int64_t, Reach> reaches;
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
@@ -52,7 +52,7 @@ std::map<std::int64_t, Reach> reaches_by_area(Raster<float> const& dem, flow::Fl
             continue;
         }
         std::size_t const way = index_of(drainage.direction[i]);
-        double const log_area = exact::log(static_cast<double>(drainage.area_cells[i]) * cell_m * cell_m);
+        double const log_area = portable::log(static_cast<double>(drainage.area_cells[i]) * cell_m * cell_m);
         Reach& reach = reaches[static_cast<std::int64_t>(std::floor(log_area * bins_a_fold))];
         reach.drop_m.add(static_cast<double>(dem[i]) - static_cast<double>(dem[i + offsets[way]]));
         reach.way_m.add(cell_m / d8_per_length[way]);
@@ -77,9 +77,9 @@ std::optional<PowerLaw> slope_area(Raster<float> const& dem, flow::FlowField con
             continue;
         }
         double const log_area = reach.log_area.value() / static_cast<double>(reach.cells);
-        line.push_back({log_area, exact::log(slope)});
+        line.push_back({log_area, portable::log(slope)});
         weights.push_back(std::sqrt(static_cast<double>(reach.cells)));
-        law.bins.push_back({exact::exp(log_area), slope, reach.cells});
+        law.bins.push_back({portable::exp(log_area), slope, reach.cells});
         law.places += reach.cells;
     }
     return with_line(std::move(law), fit_line(line, weights), params.least_bins);

@@ -30,8 +30,8 @@ struct Sector {
 
 Sector sector(double half_deg) {
     auto const tangent = [](double deg) {
-        double const angle = deg * (exact::pi / 180.0);
-        return exact::sin(angle) / exact::cos(angle);
+        double const angle = deg * (portable::pi / 180.0);
+        return portable::sin(angle) / portable::cos(angle);
     };
     return {tangent(half_deg), tangent(45.0 - half_deg), half_deg / 22.5};
 }
@@ -69,7 +69,7 @@ void add_row(Raster<float> const& dem, std::int64_t row, Sector const& wide, Sec
         if (std::isnan(tangent) || std::isnan(here[c])) {
             continue;
         }
-        double const degrees = exact::atan2(tangent, 1.0) * (180.0 / exact::pi);
+        double const degrees = portable::atan2(tangent, 1.0) * (180.0 / portable::pi);
         ++block.counts[std::min(static_cast<std::size_t>(degrees * classes_a_degree), classes - 1)];
         block.degrees.add(degrees);
         block.degrees_squared.add(degrees * degrees);

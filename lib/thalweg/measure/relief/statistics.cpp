@@ -72,8 +72,8 @@ void add_slopes(Raster<float> const& dem, std::int64_t row, RowSums& sums) {
         double const dy =
             solver::central_difference(north.empty() ? hole : north[c], here[c], south.empty() ? hole : south[c]);
         double const gradient = std::sqrt(dx * dx + dy * dy);
-        sums.slope_cells.add(exact::atan2(gradient, 1.0));
-        sums.slope_metres.add(exact::atan2(gradient, dem.grid().cell_m));
+        sums.slope_cells.add(portable::atan2(gradient, 1.0));
+        sums.slope_metres.add(portable::atan2(gradient, dem.grid().cell_m));
     }
 }
 
@@ -163,7 +163,7 @@ Statistics first_figures(std::vector<RowSums> const& rows, std::int64_t cells, d
     auto const n = static_cast<double>(result.cells);
     result.mean = datum + total(rows, &RowSums::above_datum) / n;
     result.slope_rad = total(rows, &RowSums::slope_cells) / n;
-    result.slope_true_deg = total(rows, &RowSums::slope_metres) / n * (180.0 / exact::pi);
+    result.slope_true_deg = total(rows, &RowSums::slope_metres) / n * (180.0 / portable::pi);
     result.roughness_m = mean_of_axes(total(rows, &RowSums::rises_along_row), row_pairs,
                                       total(rows, &RowSums::rises_along_column), column_pairs);
     return result;

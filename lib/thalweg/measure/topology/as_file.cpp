@@ -8,7 +8,7 @@
 
 namespace thalweg::measure {
 
-NetworkFile as_file(RaisedNetwork const& network, NetworkOrders const& orders) {
+NetworkFile as_file(ElevatedNetwork const& network, NetworkOrders const& orders) {
     std::size_t const nodes = network.plan.node_count();
     std::size_t const arcs = network.plan.arc_count();
     if (network.node_z.size() != nodes || network.arc_z.size() != arcs || orders.strahler.size() != arcs ||

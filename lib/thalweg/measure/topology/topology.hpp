@@ -62,6 +62,6 @@ std::vector<std::string> topology_kinds();
 /// \param orders the network's orders
 /// \return what a network will be in its file: arc_id is the arc's number and node_id the node's, both from 1.
 /// \throws BadInput when the orders are not those of the network
-NetworkFile as_file(RaisedNetwork const& network, NetworkOrders const& orders);
+NetworkFile as_file(ElevatedNetwork const& network, NetworkOrders const& orders);
 
 } // namespace thalweg::measure

@@ -15,8 +15,8 @@
 
 #include <thalweg/core/cells/cells_around.hpp>
 #include <thalweg/core/cells/d8.hpp>
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/numbers/value_noise.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
@@ -60,7 +60,7 @@ public:
         for (std::int64_t const i : way) {
             river.insert(drawn_.channels.cell[static_cast<std::size_t>(i)]);
         }
-        std::uint64_t const own_seed = chance(seed_, lake_stage, arc);
+        std::uint64_t const own_seed = random_word(seed_, lake_stage, arc);
         double const wave = std::max(3.0, 0.6 * std::sqrt(static_cast<double>(cells)));
         using Entry = std::pair<double, std::int64_t>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -142,14 +142,14 @@ Raster<std::int32_t> choose_lakes(ChannelsOfArcs const& drawn, std::vector<doubl
     for (std::size_t a = 0; a < area_m2.size(); ++a) {
         run.check();
         double const area = area_m2[a] / (grid.cell_m * grid.cell_m);
-        auto const words = chance_block(params.seed, lake_stage, ~0ULL, a);
+        auto const words = random_block(params.seed, lake_stage, ~0ULL, a);
         if (!(area >= params.min_area_cells) || drawn.of_arc[a].empty() || !(unit(words[0]) < params.share)) {
             continue;
         }
         auto const least = static_cast<double>(fewest_lake_cells);
         double const most = std::max(least, std::min(area / 50.0, static_cast<double>(params.max_cells)));
         // Small lakes are many, large ones few: the logarithm is uniform.
-        double const size = least * exact::pow(most / least, unit(words[1]));
+        double const size = least * portable::pow(most / least, unit(words[1]));
         shores.grow(a, static_cast<std::int64_t>(size), 0.2 + 0.6 * unit(words[2]));
     }
     return std::move(shores.labels);

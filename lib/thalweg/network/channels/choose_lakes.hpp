@@ -27,7 +27,7 @@ struct ChooseLakesParams {
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
 /// \return labels for flood_lakes, from 1 in the order of arcs; lakes keep three cells from one another and from the
-/// grid's edge, so that some find less room. Chance is the hash of (seed, arc).
+/// grid's edge, so that some find less room. Random numbers are a hash of (seed, arc).
 /// \throws BadParameter
 /// \throws BadInput for areas of other arcs
 /// \throws Cancelled

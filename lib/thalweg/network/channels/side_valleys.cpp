@@ -117,9 +117,9 @@ private:
 /// Puts given arcs and grown valleys together.
 class Grafting {
 public:
-    Grafting(RaisedNetwork const& given, LandWater const& water) : given_(given), water_(water) {}
+    Grafting(ElevatedNetwork const& given, LandWater const& water) : given_(given), water_(water) {}
 
-    RaisedNetwork join(std::vector<Grown> const& grown) {
+    ElevatedNetwork join(std::vector<Grown> const& grown) {
         out_ = {};
         plan_ = {};
         for (NodeId n = 0; n < given_.plan.node_count(); ++n) {
@@ -237,7 +237,7 @@ private:
         Grid const& grid = water_.dem.grid();
         for (std::size_t g = 0; g < grown.size(); ++g) {
             Arc arc;
-            arc.given = false;
+            arc.is_input = false;
             for (std::int64_t const cell : grown[g].cells) {
                 arc.line.push_back(grid.centre(grid.at(cell)));
             }
@@ -249,9 +249,9 @@ private:
         }
     }
 
-    RaisedNetwork const& given_;
+    ElevatedNetwork const& given_;
     LandWater const& water_;
-    RaisedNetwork out_;
+    ElevatedNetwork out_;
     NetworkDraft plan_;
     std::map<Key, NodeId> nodes_;
 };
@@ -311,7 +311,7 @@ void require_one_grid(Channels const& channels, LandWater const& water) {
 
 } // namespace
 
-SideValleys side_valleys(RaisedNetwork const& given, Channels const& channels, Raster<float> const& dem,
+SideValleys side_valleys(ElevatedNetwork const& given, Channels const& channels, Raster<float> const& dem,
                          flow::FlowField const& flow, SideValleysParams const& params, Run const& run) {
     LandWater const water{dem, flow};
     require_in("network.side_valleys", "the support", params.support_cells, Range::at_least(1), "cells");

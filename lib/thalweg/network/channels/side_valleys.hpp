@@ -19,7 +19,7 @@ struct SideValleysParams {
 
 /// What side_valleys() returns.
 struct SideValleys {
-    RaisedNetwork network;
+    ElevatedNetwork network;
     std::int64_t grown = 0;    ///< arcs that the land has grown
     std::int64_t cut = 0;      ///< of these, that end where a drawn line runs beside the cells its water takes
     std::int64_t left_out = 0; ///< that would have met a line elsewhere than in a node, with what flows into them
@@ -42,7 +42,7 @@ struct SideValleys {
 /// \throws Cancelled
 ///
 /// Source: \cite ocallaghan1984.
-SideValleys side_valleys(RaisedNetwork const& given, Channels const& channels, Raster<float> const& dem,
+SideValleys side_valleys(ElevatedNetwork const& given, Channels const& channels, Raster<float> const& dem,
                          flow::FlowField const& flow, SideValleysParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

@@ -8,7 +8,7 @@
 
 namespace thalweg::network {
 
-std::vector<float> channel_heights(RaisedNetwork const& network, Channels const& channels) {
+std::vector<float> channel_heights(ElevatedNetwork const& network, Channels const& channels) {
     Raster<float> const drawn = rasterise(network, channels.grid).valley.z;
     std::vector<float> z;
     z.reserve(channels.cell.size());

@@ -16,6 +16,6 @@ namespace thalweg::network {
 /// \return by number what rasterise draws there, lowered where the way of the water rises: no cell stands below its
 /// receiver; NaN where no arc of the network runs.
 /// \throws Error as rasterise
-std::vector<float> channel_heights(RaisedNetwork const& network, Channels const& channels);
+std::vector<float> channel_heights(ElevatedNetwork const& network, Channels const& channels);
 
 } // namespace thalweg::network

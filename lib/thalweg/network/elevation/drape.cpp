@@ -29,9 +29,9 @@ double height_at(Raster<float> const& dem, Vec2 p) {
 
 } // namespace
 
-RaisedNetwork drape(StreamNetwork const& network, Raster<float> const& dem) {
+ElevatedNetwork drape(StreamNetwork const& network, Raster<float> const& dem) {
     require_trees(network, "network.drape");
-    RaisedNetwork raised{network, {}, {}};
+    ElevatedNetwork raised{network, {}, {}};
     raised.arc_z.resize(network.arc_count());
     for (NodeId n = 0; n < network.node_count(); ++n) {
         raised.node_z.push_back(height_at(dem, network.node(n).at));

@@ -14,6 +14,6 @@ namespace thalweg::network {
 /// \return at each vertex the height of its cell, or the least of all vertices upstream where that is lower: heights
 /// never rise downstream.
 /// \throws BadInput naming the place, when a vertex lies where the DEM has no height, or a component is no tree
-RaisedNetwork drape(StreamNetwork const& network, Raster<float> const& dem);
+ElevatedNetwork drape(StreamNetwork const& network, Raster<float> const& dem);
 
 } // namespace thalweg::network

@@ -12,7 +12,7 @@
 
 namespace thalweg::network {
 
-RaisedNetwork keep_heights(StreamNetwork const& network, RaisedNetwork const& known, double slope) {
+ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const& known, double slope) {
     std::map<std::pair<double, double>, double> height;
     for (std::size_t a = 0; a < known.plan.arc_count(); ++a) {
         auto const& line = known.plan.arc(a).line;
@@ -26,7 +26,7 @@ RaisedNetwork keep_heights(StreamNetwork const& network, RaisedNetwork const& kn
         return at == height.end() ? none : at->second;
     };
 
-    RaisedNetwork out;
+    ElevatedNetwork out;
     out.plan = network;
     out.arc_z.resize(network.arc_count());
     for (NodeId n = 0; n < network.node_count(); ++n) {

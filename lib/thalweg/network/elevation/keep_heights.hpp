@@ -14,6 +14,6 @@ namespace thalweg::network {
 /// \param slope [m/m] > 0
 /// \return the network with heights
 /// \throws BadInput when a vertex without a height has none upstream either
-RaisedNetwork keep_heights(StreamNetwork const& network, RaisedNetwork const& known, double slope);
+ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const& known, double slope);
 
 } // namespace thalweg::network

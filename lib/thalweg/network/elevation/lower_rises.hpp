@@ -10,7 +10,7 @@ namespace thalweg::network {
 
 /// What lower_rises() returns.
 struct Lowered {
-    RaisedNetwork network;
+    ElevatedNetwork network;
     std::vector<double> by_m; ///< [m] by arc number: how far its vertices were lowered at most, 0 for none
 };
 

@@ -56,9 +56,9 @@ void require_heights(StreamNetwork const& network, std::vector<double> const& no
     }
 }
 
-RaisedNetwork raise_linearly(StreamNetwork const& network, std::vector<double> node_z, std::string_view who) {
+ElevatedNetwork raise_linearly(StreamNetwork const& network, std::vector<double> node_z, std::string_view who) {
     require_heights(network, node_z, who);
-    RaisedNetwork raised{network, std::move(node_z), {}};
+    ElevatedNetwork raised{network, std::move(node_z), {}};
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
         raised.arc_z.push_back(
             between(way_along(network.arc(a).line), raised.node_z[network.from(a)], raised.node_z[network.to(a)]));

@@ -69,12 +69,12 @@ void report_lift(std::vector<double> const& straight, std::vector<double> const&
 
 } // namespace
 
-Raised set_heights(StreamNetwork const& network, HeightParams const& params, Run const& run) {
+Elevated set_heights(StreamNetwork const& network, HeightParams const& params, Run const& run) {
     require_in("network.set_heights", "slope", params.slope, Range::above(0.0), "m/m");
     require_raisable(network, "network.set_heights");
     run.check();
 
-    Raised raised;
+    Elevated raised;
     std::vector<double> const straight = straight_heights(network, params.slope);
     report_uphill(network, straight, raised.report);
     std::vector<double> z;

@@ -32,8 +32,8 @@ struct HeightReport {
 };
 
 /// What set_heights() returns.
-struct Raised {
-    RaisedNetwork network;
+struct Elevated {
+    ElevatedNetwork network;
     HeightReport report;
 };
 
@@ -46,6 +46,6 @@ struct Raised {
 /// \throws BadInput for an arc of no length or a network that is no forest
 ///
 /// Source: \cite cao2009, section 3.3, figure 5; specification 0.3 (majorant with least slope 0.01 s).
-Raised set_heights(StreamNetwork const& network, HeightParams const& params = {}, Run const& run = {});
+Elevated set_heights(StreamNetwork const& network, HeightParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

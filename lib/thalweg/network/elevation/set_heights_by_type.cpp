@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/elevation/internal/raise.hpp>
 
@@ -26,15 +26,15 @@ double slope_at(Vec2 place, Rosgen type, HeightsByTypeParams const& params) {
         return range.usual;
     }
     // Added to 0, the zero of either sign is the same place.
-    auto const word = chance(params.seed, slope_stage, std::bit_cast<std::uint64_t>(place.x + 0.0),
-                             std::bit_cast<std::uint64_t>(place.y + 0.0));
+    auto const word = random_word(params.seed, slope_stage, std::bit_cast<std::uint64_t>(place.x + 0.0),
+                                  std::bit_cast<std::uint64_t>(place.y + 0.0));
     return std::min(range.low + (range.high - range.low) * unit(word), range.high);
 }
 
 } // namespace
 
-RaisedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,
-                                  HeightsByTypeParams const& params, Run const& run) {
+ElevatedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,
+                                    HeightsByTypeParams const& params, Run const& run) {
     require_raisable(network, "network.set_heights_by_type");
     if (types.type.size() != network.arc_count()) {
         throw BadInput(fmt::format(

@@ -13,7 +13,7 @@ namespace thalweg::network {
 /// Which slope of its type's range an arc gets.
 enum class SlopeDraw : std::uint8_t {
     middle, ///< the one that stands for the class (SlopeRange::usual)
-    uniform ///< one by chance, every slope of the range alike
+    uniform ///< one at random, every slope of the range alike
 };
 
 /// Options of set_heights_by_type().
@@ -34,7 +34,7 @@ struct HeightsByTypeParams {
 /// \throws BadInput for an arc of no length, a network that is no forest, or types of another network
 ///
 /// Source: \cite nenu2015, section 3 and table 2; specification 3.3.
-RaisedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,
-                                  HeightsByTypeParams const& params = {}, Run const& run = {});
+ElevatedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,
+                                    HeightsByTypeParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

@@ -61,7 +61,7 @@ double panel(double a, double b, double theta) {
     double const half = 0.5 * (b - a);
     double sum = 0.0;
     for (Abscissa const& x : gauss_8) {
-        sum += x.weight * (exact::pow(middle - half * x.at, -theta) + exact::pow(middle + half * x.at, -theta));
+        sum += x.weight * (portable::pow(middle - half * x.at, -theta) + portable::pow(middle + half * x.at, -theta));
     }
     return half * sum;
 }
@@ -71,7 +71,7 @@ double panel(double a, double b, double theta) {
 double mean_power(double a, double b, double theta) {
     constexpr double panel_ratio = 1.5; // the error of a panel is 1e-16 there
     if (a == b) {
-        return exact::pow(a, -theta);
+        return portable::pow(a, -theta);
     }
     double const low = std::min(a, b);
     double const high = std::max(a, b);

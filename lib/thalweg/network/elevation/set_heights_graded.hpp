@@ -19,7 +19,7 @@ struct GradedParams {
 
 /// What set_heights_graded() returns.
 struct Graded {
-    RaisedNetwork network;
+    ElevatedNetwork network;
     double steepness = 0.0; ///< [m^(2 theta)] k_s; 0 without rivers
 };
 

@@ -138,7 +138,7 @@ void add_arc(FileArc const& arc, NetworkFile const& file, Nodes const& nodes, Ne
     bool const own_height = heights && file.says.nodes;
     require_end(arc, file.nodes[nodes.order()[from]], arc.line.front(), own_height);
     require_end(arc, file.nodes[nodes.order()[to]], arc.line.back(), own_height);
-    Arc drawn{{}, arc.survives, arc.feature, arc.type, arc.given};
+    Arc drawn{{}, arc.persistence, arc.feature, arc.type, arc.is_input};
     std::vector<double> z;
     for (Vec3 const p : arc.line) {
         drawn.line.push_back({p.x, p.y});

@@ -12,7 +12,7 @@ namespace thalweg::network {
 
 /// A network with what its file says beside lines and heights.
 struct FileNetwork {
-    RaisedNetwork network;                       ///< heights are NaN, all of them, where the file has none
+    ElevatedNetwork network;                     ///< heights are NaN, all of them, where the file has none
     std::vector<double> us_area_m2;              ///< by arc; NaN where the file does not say
     std::vector<double> ds_area_m2;              ///< by arc; NaN where the file does not say
     std::vector<std::uint8_t> braided;           ///< by arc: 1 or 0

@@ -6,7 +6,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/segments_near.hpp>
-#include <thalweg/network/import/adopt.hpp>
+#include <thalweg/network/import/import_lines.hpp>
 
 namespace thalweg::network {
 namespace {
@@ -50,22 +50,22 @@ std::string uphill(RiverLines const& file, Vec2 a, Vec2 b, double za, double zb)
 
 } // namespace
 
-RaisedNetwork take_file_heights(Adopted const& adopted, RiverLines const& file) {
-    if (adopted.arc_z.size() != adopted.network.arc_count()) {
+ElevatedNetwork take_file_heights(Imported const& imported, RiverLines const& file) {
+    if (imported.arc_z.size() != imported.network.arc_count()) {
         throw BadInput("network.take_file_heights: the rivers of " + file.name +
                        " carry no heights; leave heights to [network] heights");
     }
-    RaisedNetwork raised{adopted.network, std::vector<double>(adopted.network.node_count(), 0.0), adopted.arc_z};
-    for (std::size_t i = 0; i < adopted.network.arc_count(); ++i) {
-        auto const& line = adopted.network.arc(i).line;
-        auto const& z = adopted.arc_z[i];
+    ElevatedNetwork raised{imported.network, std::vector<double>(imported.network.node_count(), 0.0), imported.arc_z};
+    for (std::size_t i = 0; i < imported.network.arc_count(); ++i) {
+        auto const& line = imported.network.arc(i).line;
+        auto const& z = imported.arc_z[i];
         for (std::size_t v = 0; v + 1 < z.size(); ++v) {
             if (z[v] < z[v + 1]) {
                 throw BadInput(uphill(file, line[v], line[v + 1], z[v], z[v + 1]));
             }
         }
-        raised.node_z[adopted.network.from(i)] = z.front();
-        raised.node_z[adopted.network.to(i)] = z.back();
+        raised.node_z[imported.network.from(i)] = z.front();
+        raised.node_z[imported.network.to(i)] = z.back();
     }
     return raised;
 }

@@ -8,8 +8,8 @@
 #include <cstddef>
 
 #include <thalweg/core/cells/d8.hpp>
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 
 namespace thalweg::network {
 
@@ -45,12 +45,12 @@ std::vector<Wave> waves_of(Grid const& grid, double gain, std::uint64_t seed) {
     for (double const cells : long_waves) {
         double const wave = std::min(cells, 0.5 * least) * grid.cell_m;
         for (std::uint64_t k = 0; k < waves_each; ++k) {
-            auto const words = chance_block(seed, stage_plain, static_cast<std::uint64_t>(cells), k);
-            double const way = 2.0 * exact::pi * unit(words[0]);
-            out.push_back({{exact::cos(way), exact::sin(way)},
-                           2.0 * exact::pi / wave,
-                           2.0 * exact::pi * unit(words[1]),
-                           gain * shear * wave / (2.0 * exact::pi)});
+            auto const words = random_block(seed, stage_plain, static_cast<std::uint64_t>(cells), k);
+            double const way = 2.0 * portable::pi * unit(words[0]);
+            out.push_back({{portable::cos(way), portable::sin(way)},
+                           2.0 * portable::pi / wave,
+                           2.0 * portable::pi * unit(words[1]),
+                           gain * shear * wave / (2.0 * portable::pi)});
         }
     }
     return out;
@@ -130,7 +130,7 @@ void mean_near(Stem const& stem, std::vector<double> const& way_m, std::vector<d
 double noise(double half_waves, std::uint64_t seed, std::uint64_t river) {
     constexpr double takes_turns = 0.8;
     auto const extreme = [&](std::uint64_t k) {
-        auto const words = chance_block(seed, stage_river, river, k);
+        auto const words = random_block(seed, stage_river, river, k);
         double const size = 0.35 + 0.65 * unit(words[0]);
         bool const odd = (k % 2 == 1) != (unit(words[1]) > takes_turns);
         return odd ? -size : size;
@@ -146,7 +146,7 @@ std::vector<double> wavelengths(Stems const& stems, std::vector<double> const& w
     std::vector<double> own;
     for (double const area_m2 : stems.area_m2) {
         double const cells = std::max(area_m2 / (cell_m * cell_m), 1.0);
-        own.push_back(cell_m * std::max(shortest_wave, wave_widths * floor_cells * exact::pow(cells, 0.4)));
+        own.push_back(cell_m * std::max(shortest_wave, wave_widths * floor_cells * portable::pow(cells, 0.4)));
     }
     std::vector<double> out(own.size(), 0.0);
     for (std::size_t i = 0; i < own.size(); ++i) {
@@ -222,7 +222,7 @@ std::vector<Vec2> bend_plain(std::vector<Vec2> at, Raster<std::uint8_t> const& t
         Vec2 shift;
         for (Wave const& wave : waves) {
             double const along = (p.x - grid.west) * wave.across.x + (grid.north - p.y) * wave.across.y;
-            double const by = fades * wave.amplitude * exact::sin(wave.number * along + wave.phase);
+            double const by = fades * wave.amplitude * portable::sin(wave.number * along + wave.phase);
             shift = shift + Vec2{by * wave.across.y, by * wave.across.x}; // y grows to the north
         }
         p = p + shift;
@@ -258,7 +258,7 @@ std::vector<Vec2> wander(Stems const& stems, std::vector<Vec2> const& at, double
     std::vector<double> const wave_m = wavelengths(stems, weights(stems), cell_m);
     std::vector<Vec2> out(at.size());
     for (Stem const& stem : stems.stems) {
-        double half_waves = unit(chance(seed, stage_river, stem.source, ~0ULL));
+        double half_waves = unit(random_word(seed, stage_river, stem.source, ~0ULL));
         double const end_m = stems.way_m[stem.end - 1];
         for (std::size_t i = stem.begin; i < stem.end; ++i) {
             double const step = i == stem.begin ? 0.0 : stems.way_m[i] - stems.way_m[i - 1];

@@ -175,9 +175,9 @@ private:
             return outlet;
         }
         Arc trunk;
-        trunk.survives = 0.0;
+        trunk.persistence = 0.0;
         for (ArcId const a : arriving) {
-            trunk.survives = std::max(trunk.survives, network_.arc(a).survives);
+            trunk.persistence = std::max(trunk.persistence, network_.arc(a).persistence);
         }
         NodeId const mouth = longer_.add_node(line.back());
         trunk.line = std::move(line);

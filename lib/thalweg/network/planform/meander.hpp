@@ -40,7 +40,7 @@ struct Meandered {
 /// the grid's edge stays. Arcs meet only in nodes (CGAL). On the bent plain, what is gap_cells or more from a segment
 /// of a river (along one river: and eight cells on) stays so, what is nearer keeps a third of its distance: where it
 /// would not, the shift is halved there until it does. Wave: 12 widths of a valley floor, 0.08 * area [cells] ^ 0.4, at
-/// least 10 cells. Coordinates are rounded to 1e-6 m. Chance is the hash of (seed, node).
+/// least 10 cells. Coordinates are rounded to 1e-6 m. Random numbers are a hash of (seed, node).
 /// \throws BadParameter
 /// \throws BadInput for areas of other arcs, a vertex outside the grid, arcs that meet elsewhere, or a network that is
 /// no forest

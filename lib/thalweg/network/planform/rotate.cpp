@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/core/vec.hpp>
@@ -61,8 +61,8 @@ Grid grid_around(Grid grid, double wide_cells, double high_cells) {
 
 } // namespace
 
-double turn_by_chance(std::uint64_t seed) {
-    auto const words = chance_block(seed, turn_stage);
+double random_turn(std::uint64_t seed) {
+    auto const words = random_block(seed, turn_stage);
     double const turn = 12.0 + 21.0 * unit(words[0]);
     return words[1] % 2 == 0 ? turn : -turn;
 }
@@ -76,9 +76,9 @@ Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams con
     Rotated out{{}, frame};
     NetworkDraft turned = network.draft();
     Vec2 const about = extent_of(turned).middle();
-    double const turn = params.turn_deg / 180.0 * exact::pi;
-    double const c = params.turn_deg == 0.0 ? 1.0 : exact::cos(turn);
-    double const s = params.turn_deg == 0.0 ? 0.0 : exact::sin(turn);
+    double const turn = params.turn_deg / 180.0 * portable::pi;
+    double const c = params.turn_deg == 0.0 ? 1.0 : portable::cos(turn);
+    double const s = params.turn_deg == 0.0 ? 0.0 : portable::sin(turn);
     each_position(turned, [&](Vec2& p) {
         Vec2 const from{p.x - about.x, p.y - about.y};
         p = {c * from.x - s * from.y, s * from.x + c * from.y};

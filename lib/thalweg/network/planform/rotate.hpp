@@ -21,8 +21,8 @@ struct Rotated {
 };
 
 /// \param seed random seed
-/// \return a turn by chance that takes a lattice's axes and diagonals far from the grid's: 12 to 33 degrees either way.
-double turn_by_chance(std::uint64_t seed);
+/// \return a turn at random that takes a lattice's axes and diagonals far from the grid's: 12 to 33 degrees either way.
+double random_turn(std::uint64_t seed);
 
 /// Turns a network and puts it into the middle of a grid.
 /// \pre a network; the grid, of which width and height may be 0: then it is a twentieth of the network's longer side

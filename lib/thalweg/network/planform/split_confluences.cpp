@@ -38,7 +38,7 @@ double median_segment(StreamNetwork const& network) {
 /// A network whose arcs can be cut and led elsewhere.
 class Loose {
 public:
-    explicit Loose(RaisedNetwork const& network) {
+    explicit Loose(ElevatedNetwork const& network) {
         for (NodeId n = 0; n < network.plan.node_count(); ++n) {
             in_.emplace_back(network.plan.in(n).begin(), network.plan.in(n).end());
             out_.push_back(network.plan.out(n));
@@ -130,8 +130,8 @@ public:
         pieces_.push_back({trunk, tributary, upstream});
     }
 
-    RaisedNetwork raised(StreamNetwork const& old) const {
-        RaisedNetwork made;
+    ElevatedNetwork raised(StreamNetwork const& old) const {
+        ElevatedNetwork made;
         NetworkDraft drawn;
         for (Vec3 const at : nodes_) {
             drawn.add_node(plan(at));
@@ -143,7 +143,7 @@ public:
                 first = pieces_[first - old.arc_count()].of;
             }
             Arc const& source = old.arc(first);
-            Arc arc{{}, source.survives, source.feature, source.type, source.given};
+            Arc arc{{}, source.persistence, source.feature, source.type, source.is_input};
             std::vector<double> z;
             for (Vec3 const p : lines_[a]) {
                 arc.line.push_back(plan(p));
@@ -258,7 +258,7 @@ private:
     double distance_m_;
 };
 
-void require(SplitParams const& params, RaisedNetwork const& network) {
+void require(SplitParams const& params, ElevatedNetwork const& network) {
     if (params.max_upstream < 2) {
         throw BadParameter(fmt::format("network.split_confluences: max_upstream is {}; a confluence joins at least 2",
                                        params.max_upstream));
@@ -282,7 +282,7 @@ void require(SplitParams const& params, RaisedNetwork const& network) {
 
 } // namespace
 
-Split split_confluences(RaisedNetwork const& network, SplitParams const& params, Run const& run) {
+Split split_confluences(ElevatedNetwork const& network, SplitParams const& params, Run const& run) {
     require(params, network);
     auto const most = static_cast<std::size_t>(params.max_upstream);
     std::vector<NodeId> crowded;

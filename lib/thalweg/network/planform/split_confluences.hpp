@@ -25,7 +25,7 @@ struct SplitPiece {
 
 /// What split_confluences() returns.
 struct Split {
-    RaisedNetwork network;
+    ElevatedNetwork network;
     std::vector<SplitPiece> pieces; ///< in the order in which they were cut, as arcs and nodes are numbered
 };
 
@@ -41,6 +41,6 @@ struct Split {
 /// \throws BadParameter
 /// \throws BadInput naming the place, when a component is no tree or lines leave no room
 /// \throws Cancelled
-Split split_confluences(RaisedNetwork const& network, SplitParams const& params = {}, Run const& run = {});
+Split split_confluences(ElevatedNetwork const& network, SplitParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

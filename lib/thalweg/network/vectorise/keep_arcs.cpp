@@ -42,7 +42,7 @@ KeptArcs keep_arcs(StreamNetwork const& network, std::vector<std::int64_t> const
         }
         arc.feature = network.arc(longest).feature;
         arc.type = network.arc(longest).type;
-        arc.given = network.arc(longest).given;
+        arc.is_input = network.arc(longest).is_input;
         out.network.add_arc(node[network.from(a)], node[network.to(piece)], std::move(arc));
     }
     return out;

@@ -139,7 +139,7 @@ std::vector<std::int64_t> survival(StreamNetwork const& network, Remains remains
             push(a);
         }
     }
-    std::vector<std::int64_t> survives(as_index(remains.arcs()), 0);
+    std::vector<std::int64_t> persistence(as_index(remains.arcs()), 0);
     std::int64_t longest = 0;
     for (std::int64_t popped = 1; !queue.empty(); ++popped) {
         if (popped % 65536 == 0) {
@@ -151,12 +151,12 @@ std::vector<std::int64_t> survival(StreamNetwork const& network, Remains remains
             continue;
         }
         longest = std::max(longest, leaf.units);
-        remains.each_piece(leaf.reach, [&](std::size_t piece) { survives[piece] = longest; });
+        remains.each_piece(leaf.reach, [&](std::size_t piece) { persistence[piece] = longest; });
         if (Number const merged = remains.remove(leaf.reach); merged >= 0 && remains.is_leaf(merged)) {
             push(merged);
         }
     }
-    return survives;
+    return persistence;
 }
 
 /// The least whole number of units that is no shorter than L. An L made as cells times cell_m, and so perhaps half a
@@ -185,7 +185,7 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
     }
 
     std::vector<std::int64_t> const units = lengths_in_units(network, params.cell_m);
-    std::vector<std::int64_t> const survives = survival(network, Remains(network, units), run);
+    std::vector<std::int64_t> const persistence = survival(network, Remains(network, units), run);
 
     Pruned pruned;
     pruned.arcs_before = static_cast<std::int64_t>(network.arc_count());
@@ -193,11 +193,11 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
     std::vector<std::uint8_t> kept;
     std::int64_t const least = least_units(params);
     for (ArcId a = 0; a < with_thresholds.arcs.size(); ++a) {
-        with_thresholds.arcs[a].arc.survives = static_cast<double>(survives[a]) / units_per_cell;
-        kept.push_back(survives[a] >= least ? 1 : 0);
+        with_thresholds.arcs[a].arc.persistence = static_cast<double>(persistence[a]) / units_per_cell;
+        kept.push_back(persistence[a] >= least ? 1 : 0);
     }
     if (std::find(kept.begin(), kept.end(), 1) == kept.end()) {
-        auto const longest = *std::max_element(survives.begin(), survives.end());
+        auto const longest = *std::max_element(persistence.begin(), persistence.end());
         std::string const most = readable_floor(static_cast<double>(longest) / units_per_cell);
         throw BadParameter(fmt::format("network.prune: pruning at {:.12g} cells removes every arc (the longest is {}). "
                                        "Try {} or less.",

@@ -58,7 +58,7 @@ void lower_downstream(std::vector<Step> steps, Rasterised& out) {
 
 } // namespace
 
-Rasterised rasterise(RaisedNetwork const& network, Grid const& grid) {
+Rasterised rasterise(ElevatedNetwork const& network, Grid const& grid) {
     if (network.arc_z.size() != network.plan.arc_count()) {
         throw BadInput(fmt::format("network.rasterise: {} arcs with heights for {}; set the heights again",
                                    network.plan.arc_count(), network.arc_z.size()));

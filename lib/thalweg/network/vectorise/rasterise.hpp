@@ -25,6 +25,6 @@ struct Rasterised {
 /// \throws BadInput naming the arc and the place, when a vertex lies outside the grid or a height is not a number
 ///
 /// Source: \cite cao2009, section 3.3; specification 0.3.
-Rasterised rasterise(RaisedNetwork const& network, Grid const& grid);
+Rasterised rasterise(ElevatedNetwork const& network, Grid const& grid);
 
 } // namespace thalweg::network

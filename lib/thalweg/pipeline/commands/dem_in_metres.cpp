@@ -9,8 +9,8 @@
 
 #include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/io/frame/projection.hpp>
-#include <thalweg/io/raster/bring_into.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/io/raster/warp_to_grid.hpp>
 
 namespace thalweg::pipeline {
 
@@ -26,7 +26,7 @@ MetricDem dem_in_metres(std::string const& path, Run const& run) {
     lattice.crs = io::utm_zone(0.5 * (own.west + own.east()), 0.5 * (own.south() + own.north));
     lattice.west = 0.0;
     lattice.north = 0.0;
-    out.dem = io::bring_into(out.dem, lattice, "pipeline.dem_in_metres: " + path, run);
+    out.dem = io::warp_to_grid(out.dem, lattice, "pipeline.dem_in_metres: " + path, run);
     out.notes.push_back(fmt::format("{}: coordinates in degrees are reprojected into {}, onto cells of {:.2f} m",
                                     std::filesystem::path(path).filename().string(), lattice.crs, ground.side_m));
     return out;

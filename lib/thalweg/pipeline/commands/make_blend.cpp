@@ -11,8 +11,8 @@
 #include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/io/frame/places_on_earth.hpp>
 #include <thalweg/io/frame/same_frame.hpp>
-#include <thalweg/io/raster/bring_into.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/io/raster/warp_to_grid.hpp>
 #include <thalweg/pipeline/make/internal/read_cells.hpp>
 
 namespace thalweg::pipeline {
@@ -79,7 +79,7 @@ PastedSource read_source(MakeBlendParams const& params, Grid const& grid, Run co
         source.dem = std::move(dem);
         return source;
     }
-    source.dem = io::bring_into(params.window ? cut(dem, *params.window, params.source) : dem, frame, what, run);
+    source.dem = io::warp_to_grid(params.window ? cut(dem, *params.window, params.source) : dem, frame, what, run);
     source.window = {0, 0, source.dem.width(), source.dem.height()};
     return source;
 }

@@ -91,7 +91,7 @@ Raster<double> dinf_angles(Raster<float> const& bearing) {
         if (bearing[i] == flow::dinf_leaves) {
             angles[i] = -1.0;
         } else if (!std::isnan(eighths)) {
-            angles[i] = (eighths == 0.0 ? 0.0 : 8.0 - eighths) * (exact::pi / 4.0);
+            angles[i] = (eighths == 0.0 ? 0.0 : 8.0 - eighths) * (portable::pi / 4.0);
         }
     }
     return angles;

@@ -12,7 +12,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/elevation/lower_rises.hpp>
-#include <thalweg/network/import/adopt.hpp>
+#include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/commands/internal/append.hpp>
 #include <thalweg/pipeline/commands/internal/mend_lines.hpp>
@@ -107,8 +107,8 @@ void take_words(Known const& known, MendedNetwork& mended) {
         mended.braided.push_back(given.braided ? 1 : 0);
         mended.user.record.push_back(given.record);
         mended.user.sources.push_back(stretches_of(given, length_of(line), mended.network.plan.length_m(a)));
-        of.survives = given.survives;
-        of.given = given.given;
+        of.persistence = given.persistence;
+        of.is_input = given.is_input;
         of.feature = given.feature;
     }
     mended.network.plan = std::move(named);
@@ -167,9 +167,9 @@ MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport cons
     if (lines.rivers.lines.empty()) {
         return give_up("no arc is left that has a line");
     }
-    network::Adopted adopted;
+    network::Imported imported;
     try {
-        adopted = network::adopt(
+        imported = network::import_lines(
             lines.rivers,
             {.snap_m = near_m,
              .orientation = file.schema == "native" ? network::Orientation::least_turned : network::Orientation::links,
@@ -178,8 +178,8 @@ MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport cons
     } catch (BadInput const& cannot) {
         return give_up(cannot.what());
     }
-    append(mended.mended, std::move(adopted.repairs));
-    network::Lowered lowered = network::lower_rises(adopted.network, adopted.arc_z);
+    append(mended.mended, std::move(imported.repairs));
+    network::Lowered lowered = network::lower_rises(imported.network, imported.arc_z);
     say_lowered(lowered, mended.mended);
     if (!file.says.heights) {
         mended.mended.push_back(
@@ -191,7 +191,7 @@ MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport cons
     take_areas(known, near_m, mended);
     take_words(known, mended);
     mended.user.attributes = file.attributes;
-    append(lines.secondary, std::move(adopted.secondary));
+    append(lines.secondary, std::move(imported.secondary));
     mended.secondary = named_by_file(file, std::move(lines.secondary));
     say_mended(found, mended.mended);
 

@@ -8,8 +8,8 @@
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
-#include <thalweg/network/import/adopt.hpp>
 #include <thalweg/network/import/clip_lines.hpp>
+#include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/surface/dilation/increment.hpp>
@@ -32,8 +32,8 @@ namespace fs = std::filesystem;
 constexpr std::int64_t largest_text = 1 << 30;
 
 /// A network as its own files hold it.
-RaisedNetwork network_of(NetworkFile const& file, std::string const& name) {
-    RaisedNetwork out;
+ElevatedNetwork network_of(NetworkFile const& file, std::string const& name) {
+    ElevatedNetwork out;
     NetworkDraft plan;
     std::unordered_map<std::int64_t, NodeId> nodes;
     for (NetworkFile::FileNode const& node : file.nodes) {
@@ -100,8 +100,8 @@ double lowest_of(Raster<float> const& dem) {
     return low;
 }
 
-RaisedNetwork drape(StreamNetwork plan, Raster<float> const& dem) {
-    RaisedNetwork out{std::move(plan), {}, {}};
+ElevatedNetwork drape(StreamNetwork plan, Raster<float> const& dem) {
+    ElevatedNetwork out{std::move(plan), {}, {}};
     double const lowest = lowest_of(dem);
     out.node_z.assign(out.plan.node_count(), lowest);
     for (ArcId arc = 0; arc < out.plan.arc_count(); ++arc) {
@@ -113,8 +113,8 @@ RaisedNetwork drape(StreamNetwork plan, Raster<float> const& dem) {
 }
 
 /// Rivers from any line file on a DEM; nothing when none runs there.
-std::optional<RaisedNetwork> rivers_on(Raster<float> const& dem, std::string const& file,
-                                       std::vector<std::string>& notes, Run const& run) {
+std::optional<ElevatedNetwork> rivers_on(Raster<float> const& dem, std::string const& file,
+                                         std::vector<std::string>& notes, Run const& run) {
     io::ReadRiversParams params;
     params.path = file;
     params.crs = dem.grid().crs;
@@ -123,16 +123,16 @@ std::optional<RaisedNetwork> rivers_on(Raster<float> const& dem, std::string con
         notes.push_back(fmt::format("no river of {} runs on the DEM", lines.name));
         return std::nullopt;
     }
-    network::Adopted adopted = network::adopt(lines, {}, run);
-    if (!adopted.arc_z.empty()) {
+    network::Imported imported = network::import_lines(lines, {}, run);
+    if (!imported.arc_z.empty()) {
         try {
-            return network::take_file_heights(adopted, lines);
+            return network::take_file_heights(imported, lines);
         } catch (BadInput const&) { // they run uphill somewhere, or were cut away
             notes.push_back(
                 fmt::format("heights of {} do not fall all the way: the rivers take those of the DEM", lines.name));
         }
     }
-    return drape(std::move(adopted.network), dem);
+    return drape(std::move(imported.network), dem);
 }
 
 /// The increments of the surface: the recipe names them, the report says how many there were and how they were scaled.

@@ -39,7 +39,7 @@ std::vector<Vec3> in_space(std::vector<Vec2> const& line, std::vector<double> co
 }
 
 /// The land with ridges between its streams.
-DrawnLand with_ridges(DrawnLand drawn, Diary& diary, Run const& run) {
+DrawnTerrain with_ridges(DrawnTerrain drawn, Diary& diary, Run const& run) {
     SkeletonRecipe const& wanted = *drawn.recipe.skeleton;
     skeleton::RidgesParams params;
     params.method = wanted.ridges == Ridges::voronoi ? skeleton::RidgesParams::Method::voronoi
@@ -55,7 +55,7 @@ DrawnLand with_ridges(DrawnLand drawn, Diary& diary, Run const& run) {
 }
 
 /// Random points between the rivers, where the recipe asks for them.
-skeleton::Scattered scattered(DrawnLand const& drawn, Mask const& inside, Diary& diary, Run const& run) {
+skeleton::Scattered scattered(DrawnTerrain const& drawn, Mask const& inside, Diary& diary, Run const& run) {
     SkeletonRecipe const& wanted = *drawn.recipe.skeleton;
     skeleton::ScatterBetweenParams params;
     params.seed = drawn.recipe.seed;
@@ -71,7 +71,7 @@ skeleton::Scattered scattered(DrawnLand const& drawn, Mask const& inside, Diary&
 }
 
 /// The triangles of points, rivers and ridges, whose lines are breaklines.
-DrawnLand with_tin(DrawnLand drawn, FeaturePoints const& points, Diary& diary, Run const& run) {
+DrawnTerrain with_tin(DrawnTerrain drawn, FeaturePoints const& points, Diary& diary, Run const& run) {
     std::vector<std::vector<Vec3>> breaklines;
     for (ArcId a = 0; a < drawn.network.plan.arc_count(); ++a) {
         breaklines.push_back(in_space(drawn.network.plan.arc(a).line, drawn.network.arc_z[a]));
@@ -103,7 +103,7 @@ Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
 }
 
 /// Land over the skeleton's triangles. Valley cells keep their heights.
-Raster<float> over_triangles(DrawnLand const& drawn, Run const& run) {
+Raster<float> over_triangles(DrawnTerrain const& drawn, Run const& run) {
     Raster<float> land =
         surface::rasterise_tin(*drawn.tin, drawn.grid, {surface::RasteriseTinParams::Outside::nearest}, run);
     for (std::int64_t i = 0; i < land.cells(); ++i) {
@@ -122,7 +122,7 @@ void warn_of_jumps(surface::Dilated const& drawn, surface::IncrementParams const
     }
 }
 
-surface::Dilated dilated(DrawnLand const& drawn, Mask const& inside, Run const& run) {
+surface::Dilated dilated(DrawnTerrain const& drawn, Mask const& inside, Run const& run) {
     SurfaceRecipe const& wanted = *drawn.recipe.surface;
     bool const whole = wanted.mask.empty() && drawn.land.values().empty();
     if (wanted.base == Base::paper) { // without a mask by the closed form
@@ -138,7 +138,7 @@ surface::Dilated dilated(DrawnLand const& drawn, Mask const& inside, Run const& 
 }
 
 /// What a land is diffused from: rivers, ridges, points, and what follows from them beside them.
-Skeleton gathered(DrawnLand const& drawn, FeaturePoints const& points, Run const& run) {
+Skeleton gathered(DrawnTerrain const& drawn, FeaturePoints const& points, Run const& run) {
     SkeletonRecipe const wanted = drawn.recipe.skeleton.value_or(SkeletonRecipe{});
     skeleton::DrawSkeletonParams params;
     params.noise.amplitude_m = wanted.ridge_noise_m;
@@ -157,7 +157,7 @@ struct Surface {
     std::optional<SolverStory> diffusion = {};
 };
 
-Surface diffused(DrawnLand const& drawn, FeaturePoints const& points, Mask const& inside, Run const& run) {
+Surface diffused(DrawnTerrain const& drawn, FeaturePoints const& points, Mask const& inside, Run const& run) {
     surface::DiffuseParams params = drawn.recipe.surface->diffuse;
     params.seed = drawn.recipe.seed;
     params.tolerance = drawn.recipe.surface->tolerance.value_or(params.tolerance);
@@ -169,7 +169,7 @@ Surface diffused(DrawnLand const& drawn, FeaturePoints const& points, Mask const
 }
 
 /// Adds fractal detail to land with rivers: none in the valleys, all of it some cells away.
-DrawnLand with_detail_beside_rivers(DrawnLand drawn, Run const& run) {
+DrawnTerrain with_detail_beside_rivers(DrawnTerrain drawn, Run const& run) {
     constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
     if (levels_of(drawn.recipe) == 0) {
         return drawn;
@@ -180,13 +180,13 @@ DrawnLand with_detail_beside_rivers(DrawnLand drawn, Run const& run) {
     Raster<float>& dem = drawn.surface->dem;
     surface::Expansion const expansion = surface::expand(drawn.valley, run);
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        double const share = 1.0 - exact::exp(-static_cast<double>(expansion.level[i]) / near_cells);
+        double const share = 1.0 - portable::exp(-static_cast<double>(expansion.level[i]) / near_cells);
         dem[i] = static_cast<float>(static_cast<double>(dem[i]) + share * static_cast<double>(noise[i]));
     }
     return drawn;
 }
 
-Surface surface_of(DrawnLand const& drawn, FeaturePoints const& points, Mask const& inside, Run const& run) {
+Surface surface_of(DrawnTerrain const& drawn, FeaturePoints const& points, Mask const& inside, Run const& run) {
     SurfaceRecipe const& wanted = *drawn.recipe.surface;
     if (wanted.method == Method::tin) {
         Surface made;
@@ -203,7 +203,7 @@ Surface surface_of(DrawnLand const& drawn, FeaturePoints const& points, Mask con
 }
 
 /// Whether the slopes rise as high above their rivers as it was asked.
-std::vector<Check> relief_checks(DrawnLand const& drawn) {
+std::vector<Check> relief_checks(DrawnTerrain const& drawn) {
     constexpr double allowed = 0.01;
     double const asked = drawn.recipe.surface->dilate.relief_m;
     if (!(asked > 0.0)) {
@@ -213,7 +213,7 @@ std::vector<Check> relief_checks(DrawnLand const& drawn) {
     return {{"relief_error", error, allowed, error <= allowed}};
 }
 
-std::string about(DrawnLand const& drawn) {
+std::string about(DrawnTerrain const& drawn) {
     SurfaceRecipe const& wanted = *drawn.recipe.surface;
     switch (wanted.method) {
     case Method::dilate: return fmt::format("{}, {} levels", wanted.dilate.increment.increment, drawn.surface->levels);
@@ -227,8 +227,8 @@ std::string about(DrawnLand const& drawn) {
 
 } // namespace
 
-DrawnLand without_land(Rivers const& rivers) {
-    DrawnLand drawn;
+DrawnTerrain without_land(Rivers const& rivers) {
+    DrawnTerrain drawn;
     drawn.recipe = rivers.recipe;
     drawn.grid = rivers.grid;
     drawn.land = rivers.land;
@@ -240,8 +240,8 @@ DrawnLand without_land(Rivers const& rivers) {
     return drawn;
 }
 
-DrawnLand draw_around_rivers(Rivers const& rivers, FeaturePoints const& given, Diary& diary, Run const& run) {
-    DrawnLand drawn = without_land(rivers);
+DrawnTerrain draw_around_rivers(Rivers const& rivers, FeaturePoints const& given, Diary& diary, Run const& run) {
+    DrawnTerrain drawn = without_land(rivers);
     bool const balanced = in_equilibrium(rivers.recipe);
     Mask inside;
     if (balanced) { // whose rivers have their heights from it

@@ -23,7 +23,7 @@ namespace thalweg::pipeline {
 namespace {
 
 /// Arcs that rise somewhere. Level ones are what the schema allows: lakes, tidal reaches.
-std::int64_t uphill_arcs(RaisedNetwork const& network) {
+std::int64_t uphill_arcs(ElevatedNetwork const& network) {
     return std::count_if(network.arc_z.begin(), network.arc_z.end(), [](std::vector<double> const& z) {
         return std::adjacent_find(z.begin(), z.end(), std::less<>()) != z.end();
     });
@@ -42,7 +42,7 @@ Check none_of(char const* name, std::int64_t count) {
 }
 
 /// What the rivers claim of the surface.
-measure::Claims claims_of(DrawnLand const& drawn, flow::ContributingAreas const& areas) {
+measure::Claims claims_of(DrawnTerrain const& drawn, flow::ContributingAreas const& areas) {
     measure::Claims claims;
     claims.ds_area_m2 = areas.ds_area_m2;
     claims.still =
@@ -55,7 +55,7 @@ measure::Claims claims_of(DrawnLand const& drawn, flow::ContributingAreas const&
 }
 
 /// What is measured of rivers on their surface.
-Assessment with_rivers(Assessment found, DrawnLand const& drawn, flow::FlowField const& drainage, Diary& diary,
+Assessment with_rivers(Assessment found, DrawnTerrain const& drawn, flow::FlowField const& drainage, Diary& diary,
                        Run const& run) {
     StreamNetwork const& plan = drawn.network.plan;
     Raster<float> const& dem = drawn.surface->dem;
@@ -82,7 +82,7 @@ std::vector<Check> drainage_checks(Assessment const& found, flow::FlowField cons
 }
 
 /// What is measured of a surface, with the rivers on it.
-Assessment of_surface(DrawnLand const& drawn, flow::FlowField const& drainage, Diary& diary, Run const& run) {
+Assessment of_surface(DrawnTerrain const& drawn, flow::FlowField const& drainage, Diary& diary, Run const& run) {
     Raster<float> const& dem = drawn.surface->dem;
     Assessment found;
     found.statistics = diary.stage("measure", [&] { return measure::statistics(dem, run); });
@@ -107,9 +107,9 @@ Assessment of_surface(DrawnLand const& drawn, flow::FlowField const& drainage, D
             return WaterAreas{areas_m2(drainage), areas_m2(flow::route_dinf(dem, drainage, run).area_cells)};
         });
     }
-    found.laws =
-        diary.stage("laws", [&] { return laws_of_land(drawn, found.areas, found.statistics->cells, &drainage, run); });
-    found.relief = diary.stage("relief", [&] { return relief_of_land(drawn, *found.statistics, drainage, run); });
+    found.laws = diary.stage(
+        "laws", [&] { return laws_of_terrain(drawn, found.areas, found.statistics->cells, &drainage, run); });
+    found.relief = diary.stage("relief", [&] { return relief_of_terrain(drawn, *found.statistics, drainage, run); });
     return found;
 }
 
@@ -125,14 +125,14 @@ std::vector<Finding> findings_of(std::optional<measure::Certificate> const& cert
 
 } // namespace
 
-Assessment assess(DrawnLand const& drawn, std::optional<flow::FlowField> const& drainage, Run const& run) {
+Assessment assess(DrawnTerrain const& drawn, std::optional<flow::FlowField> const& drainage, Run const& run) {
     Diary diary(run);
     Assessment found;
     if (drawn.surface) {
         found = of_surface(drawn, *drainage, diary, run);
     } else {
         found.areas = flow::areas_nearest(drawn.network.plan, drawn.grid, run);
-        found.laws = laws_of_land(drawn, found.areas, drawn.grid.cells(), nullptr, run);
+        found.laws = laws_of_terrain(drawn, found.areas, drawn.grid.cells(), nullptr, run);
     }
     std::vector<Check> checks = drawn.checks;
     append(checks, std::move(found.checks));

@@ -16,7 +16,7 @@
 #include <thalweg/measure/drainage/extract_ridges.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/pipeline/make/drawn_land.hpp>
+#include <thalweg/pipeline/make/drawn_terrain.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/make/timings.hpp>
@@ -36,8 +36,8 @@ struct Assessment {
     std::vector<NodeId> sinks;                     ///< where rivers end inland, as they were asked to
     std::optional<measure::Statistics> statistics; ///< of the surface, like the rest
     std::optional<measure::Hypsometry> hypsometry;
-    std::optional<LandRelief> relief; ///< with the rivers
-    std::int64_t pits = 0;            ///< cells that lie in depressions
+    std::optional<TerrainRelief> relief; ///< with the rivers
+    std::int64_t pits = 0;               ///< cells that lie in depressions
     double pit_volume_m3 = 0.0;
     std::optional<measure::ExtractedRidges> surface_ridges; ///< beside the ridges asked for
     std::optional<measure::Certificate> certificate;        ///< of rivers and surface, where both are there
@@ -53,6 +53,6 @@ struct Assessment {
 /// \param drainage of the surface, where there is one
 /// \param run progress, log, stop token and number of threads
 /// \return measures and checks
-Assessment assess(DrawnLand const& drawn, std::optional<flow::FlowField> const& drainage, Run const& run = {});
+Assessment assess(DrawnTerrain const& drawn, std::optional<flow::FlowField> const& drainage, Run const& run = {});
 
 } // namespace thalweg::pipeline

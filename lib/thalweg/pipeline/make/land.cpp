@@ -4,9 +4,9 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/detail/check_targets.hpp>
-#include <thalweg/detail/estimate_fractal.hpp>
-#include <thalweg/detail/fine_forms.hpp>
+#include <thalweg/fractal/check_targets.hpp>
+#include <thalweg/fractal/estimate_fractal.hpp>
+#include <thalweg/fractal/fine_forms.hpp>
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/frame/projection.hpp>
@@ -202,12 +202,12 @@ LandOfPoints land_of_points(Recipe const& recipe, double cell_m, FeaturePoints c
 
 /// Adds the detail that the recipe wants.
 Detailed with_detail(Recipe recipe, Raster<float> const& coarse, Grid const& grid, Run const& run) {
-    detail::MidpointParams& wanted = recipe.detail->midpoint;
-    detail::MidpointParams params = wanted;
+    fractal::MidpointParams& wanted = recipe.detail->midpoint;
+    fractal::MidpointParams params = wanted;
     params.width = grid.width;
     params.height = grid.height;
     params.seed = recipe.seed;
-    detail::Displaced displaced = detail::midpoint(coarse, params, run);
+    fractal::Displaced displaced = fractal::midpoint(coarse, params, run);
     wanted.hurst = displaced.hurst;
     wanted.sigma = displaced.sigma;
     Raster<float> land(grid); // the very frame, not one reckoned back from the coarse cells
@@ -215,12 +215,12 @@ Detailed with_detail(Recipe recipe, Raster<float> const& coarse, Grid const& gri
     return {std::move(recipe), std::move(land)};
 }
 
-detail::Targets targets_of(StatisticsRecipe const& s) {
-    detail::Targets targets;
+fractal::Targets targets_of(StatisticsRecipe const& s) {
+    fractal::Targets targets;
     targets.mean = s.mean;
     targets.std = s.std;
     auto const fixed = [](std::array<double, 3> const& e) {
-        return detail::FixedHeight{{static_cast<std::int64_t>(e[1]), static_cast<std::int64_t>(e[2])}, e[0]};
+        return fractal::FixedHeight{{static_cast<std::int64_t>(e[1]), static_cast<std::int64_t>(e[2])}, e[0]};
     };
     if (s.max) {
         targets.max = fixed(*s.max);
@@ -272,8 +272,8 @@ Raster<float> standardised(Raster<float> land, StatisticsRecipe const& s, Run co
 }
 
 /// Heights of given points that the projection must keep: the first of each cell, none where an extreme lies.
-std::vector<detail::FixedHeight> heights_to_keep(Recipe const& recipe, FeaturePoints const& given, Grid const& grid) {
-    std::vector<detail::FixedHeight> kept;
+std::vector<fractal::FixedHeight> heights_to_keep(Recipe const& recipe, FeaturePoints const& given, Grid const& grid) {
+    std::vector<fractal::FixedHeight> kept;
     if (recipe.statistics->skeleton != Prior::points) {
         return kept;
     }
@@ -295,25 +295,25 @@ std::vector<detail::FixedHeight> heights_to_keep(Recipe const& recipe, FeaturePo
 /// Projects a land on the statistics. One from which they cannot be reached, smoother or more jagged between neighbours
 /// than they ask for, takes its fine forms from a Gaussian land: as few of them as will do.
 struct Brought {
-    detail::Projection projection;
-    double fine_forms_cells = 0.0; ///< [cells] as DrawnLand
+    fractal::MatchedDem projection;
+    double fine_forms_cells = 0.0; ///< [cells] as DrawnTerrain
 };
 
-Brought brought_to_statistics(Recipe const& recipe, Raster<float> land, std::vector<detail::FixedHeight> const& kept,
+Brought brought_to_statistics(Recipe const& recipe, Raster<float> land, std::vector<fractal::FixedHeight> const& kept,
                               Run const& run) {
     StatisticsRecipe const& s = *recipe.statistics;
     Grid const grid = land.grid();
-    detail::ProjectParams params;
+    fractal::MatchParams params;
     params.prior = covariance_of(s, 1.0);
-    Brought brought{naming_keys([&] { return detail::project(land, targets_of(s), kept, params, run); })};
+    Brought brought{naming_keys([&] { return fractal::match_statistics(land, targets_of(s), kept, params, run); })};
     if (!brought.projection.converged && s.skeleton != Prior::grf) {
         land = standardised(std::move(land), s, run);
         Recipe other = recipe;
         other.statistics->skeleton = Prior::grf;
         Raster<float> const gaussian = standardised(random_land(other, grid, 0, run), s, run);
         for (double cells = 1.0; cells <= most_fine_cells; cells *= 2.0) {
-            detail::Projection again =
-                detail::project(detail::with_fine_forms(land, gaussian, cells, run), targets_of(s), kept, params, run);
+            fractal::MatchedDem again = fractal::match_statistics(fractal::with_fine_forms(land, gaussian, cells, run),
+                                                                  targets_of(s), kept, params, run);
             if (again.converged) {
                 brought.fine_forms_cells = cells;
                 brought.projection = std::move(again);
@@ -356,9 +356,9 @@ void warn_of_lengths(StatisticsRecipe const& s, Grid const& grid, Run const& run
     warn("Ly", (*s.length)[1], "rows", grid.height);
 }
 
-std::vector<Check> residual_checks(detail::Projection const& projection) {
+std::vector<Check> residual_checks(fractal::MatchedDem const& projection) {
     std::vector<Check> checks;
-    for (detail::Residual const& r : projection.residuals) {
+    for (fractal::Residual const& r : projection.residuals) {
         bool const dimension = r.name == "dimension";
         double const error = dimension ? std::fabs(r.got - r.asked) : std::fabs(r.error);
         double const limit = dimension ? allowed_dimension_error : allowed_error;
@@ -441,14 +441,15 @@ Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted) {
     return grid;
 }
 
-DrawnLand make_land(Recipe const& recipe, Grid const& grid, FeaturePoints const& given, Diary& diary, Run const& run) {
-    DrawnLand drawn;
+DrawnTerrain make_land(Recipe const& recipe, Grid const& grid, FeaturePoints const& given, Diary& diary,
+                       Run const& run) {
+    DrawnTerrain drawn;
     drawn.recipe = recipe;
     drawn.grid = grid;
     int const levels = levels_of(recipe);
     Grid const coarse = coarse_grid(grid, levels);
     if (recipe.statistics) { // before any work
-        naming_keys([&] { detail::check_targets(Raster<float>(grid), targets_of(*recipe.statistics)); });
+        naming_keys([&] { fractal::check_targets(Raster<float>(grid), targets_of(*recipe.statistics)); });
         warn_of_lengths(*recipe.statistics, grid, run);
     }
     bool const from_points = !recipe.statistics || recipe.statistics->skeleton == Prior::points;
@@ -494,26 +495,26 @@ DrawnLand make_land(Recipe const& recipe, Grid const& grid, FeaturePoints const&
 
 void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height) {
     int const levels = levels_of(recipe);
-    if (levels == 0 || recipe.detail->midpoint.stencil != detail::Stencil::exact) {
+    if (levels == 0 || recipe.detail->midpoint.stencil != fractal::Stencil::exact) {
         return;
     }
     auto const coarse_at = [&](int halved) { return coarse_grid({width, height, 1.0, 0.0, 0.0, ""}, halved); };
     auto const coarse_cells = [&](int halved) { return coarse_at(halved).cells(); };
-    if (coarse_cells(levels) <= detail::most_conditioning_cells) {
+    if (coarse_cells(levels) <= fractal::most_conditioning_cells) {
         Grid const coarse = coarse_at(levels);
         solver::check_fractional_surface(((coarse.width - 1) << levels) + 1, ((coarse.height - 1) << levels) + 1,
-                                         recipe.detail->midpoint.hurst.value_or(detail::least_hurst));
+                                         recipe.detail->midpoint.hurst.value_or(fractal::least_hurst));
         return;
     }
     constexpr int most_levels = 12;
     int enough = levels;
-    while (enough <= most_levels && coarse_cells(enough) > detail::most_conditioning_cells) {
+    while (enough <= most_levels && coarse_cells(enough) > fractal::most_conditioning_cells) {
         ++enough;
     }
     throw BadParameter(fmt::format(
         "pipeline.check_detail: detail.stencil = \"exact\" takes up to {} coarse cells, and {} x {} cells at "
         "detail.levels = {} have {}; set {}detail.stencil = 16",
-        detail::most_conditioning_cells, width, height, levels, coarse_cells(levels),
+        fractal::most_conditioning_cells, width, height, levels, coarse_cells(levels),
         enough <= most_levels ? fmt::format("detail.levels = {}, or ", enough) : ""));
 }
 

@@ -13,7 +13,7 @@
 #include <thalweg/network/channels/shorten.hpp>
 #include <thalweg/network/channels/side_valleys.hpp>
 #include <thalweg/network/elevation/channel_heights.hpp>
-#include <thalweg/network/elevation/raise_from_land.hpp>
+#include <thalweg/network/elevation/elevate_from_dem.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/pipeline/commands/internal/append.hpp>
@@ -44,7 +44,7 @@ bool has_sea(Mask const& land) {
     return std::any_of(land.values().begin(), land.values().end(), [](std::uint8_t is_land) { return is_land == 0; });
 }
 
-surface::Edge edge_of(DrawnLand const& drawn, Mask const& land) {
+surface::Edge edge_of(DrawnTerrain const& drawn, Mask const& land) {
     bool const by_coastlines = drawn.recipe.network->source == Source::lines && drawn.land.cells() > 0;
     return by_coastlines ? surface::Edge::mainland : has_sea(land) ? surface::Edge::coast : surface::Edge::open;
 }
@@ -84,7 +84,7 @@ Asked asked_of(Recipe recipe, surface::Edge edge) {
 }
 
 /// The heights that are asked of channels: all that the rivers have, or those of sources and where they end.
-std::vector<float> asked_heights(RaisedNetwork const& rivers, Channels const& channels, Heights heights) {
+std::vector<float> asked_heights(ElevatedNetwork const& rivers, Channels const& channels, Heights heights) {
     std::vector<float> z = network::channel_heights(rivers, channels);
     if (heights == Heights::ends) {
         std::vector<std::uint8_t> has_donor(z.size());
@@ -117,7 +117,7 @@ Mask land_of(Mask one, Mask const& other, Channels const& channels) {
     return one;
 }
 
-surface::EquilibriumFields fields_of(DrawnLand const& drawn, Channels const& channels, Run const& run) {
+surface::EquilibriumFields fields_of(DrawnTerrain const& drawn, Channels const& channels, Run const& run) {
     Recipe const& recipe = drawn.recipe;
     Grid const& grid = drawn.grid;
     SurfaceRecipe const& wanted = *recipe.surface;
@@ -129,8 +129,8 @@ surface::EquilibriumFields fields_of(DrawnLand const& drawn, Channels const& cha
 }
 
 /// What was asked of the land, and what came out.
-DrawnLand with_target_checked(DrawnLand drawn, surface::EquilibriumLand const& land,
-                              surface::EquilibriumParams const& params, Run const& run) {
+DrawnTerrain with_target_checked(DrawnTerrain drawn, surface::EquilibriumTerrain const& land,
+                                 surface::EquilibriumParams const& params, Run const& run) {
     constexpr double allowed = 0.05;
     if (params.heights != surface::RiverHeights::graded && !params.bring_to_target) {
         return drawn; // nothing was
@@ -153,13 +153,13 @@ double most_walled(Channels const& channels) {
     return 0.01 * static_cast<double>(channels.cell.size());
 }
 
-bool too_walled(surface::EquilibriumLand const& land, Channels const& channels) {
+bool too_walled(surface::EquilibriumTerrain const& land, Channels const& channels) {
     return static_cast<double>(land.walled.size()) > most_walled(channels);
 }
 
 /// River cells that only walls hold up.
-DrawnLand with_walls_checked(DrawnLand drawn, surface::EquilibriumLand const& land, Channels const& channels,
-                             Run const& run) {
+DrawnTerrain with_walls_checked(DrawnTerrain drawn, surface::EquilibriumTerrain const& land, Channels const& channels,
+                                Run const& run) {
     constexpr std::size_t listed = 1000;
     bool const ok = !too_walled(land, channels);
     drawn.checks.push_back(
@@ -203,7 +203,7 @@ struct Lakes {
     std::vector<Finding> notes = {};
 };
 
-Lakes lakes_of(DrawnLand const& drawn, network::ChannelsOfArcs const& rivers, Run const& run) {
+Lakes lakes_of(DrawnTerrain const& drawn, network::ChannelsOfArcs const& rivers, Run const& run) {
     EquilibriumRecipe const& wanted = drawn.recipe.surface->equilibrium;
     if (wanted.lake_share > 0.0) {
         flow::ContributingAreas const areas = flow::areas_nearest(drawn.network.plan, drawn.grid, run);
@@ -219,7 +219,7 @@ Lakes lakes_of(DrawnLand const& drawn, network::ChannelsOfArcs const& rivers, Ru
     return lakes;
 }
 
-EquilibriumStory story_of(surface::EquilibriumLand const& land, Channels const& channels) {
+EquilibriumStory story_of(surface::EquilibriumTerrain const& land, Channels const& channels) {
     EquilibriumStory story;
     story.channel_cells = static_cast<std::int64_t>(channels.cell.size());
     story.shortened_cells = static_cast<std::int64_t>(land.shortened.size());
@@ -253,7 +253,7 @@ struct WithLakes {
     std::vector<Finding> notes = {};
 };
 
-WithLakes with_lakes(network::ChannelsOfArcs rivers, DrawnLand const& drawn, Run const& run) {
+WithLakes with_lakes(network::ChannelsOfArcs rivers, DrawnTerrain const& drawn, Run const& run) {
     Lakes lakes = lakes_of(drawn, rivers, run);
     if (lakes.labels.cells() == 0) {
         return {std::move(rivers)};
@@ -264,7 +264,7 @@ WithLakes with_lakes(network::ChannelsOfArcs rivers, DrawnLand const& drawn, Run
 }
 
 /// The land with other arcs in plan, and the types that they get.
-DrawnLand with_types(DrawnLand drawn, StreamNetwork plan, Run const& run) {
+DrawnTerrain with_types(DrawnTerrain drawn, StreamNetwork plan, Run const& run) {
     Typed typed = type_rivers(std::move(plan), *drawn.recipe.network, run);
     drawn.network.plan = std::move(typed.plan);
     if (!typed.types.type.empty()) {
@@ -290,10 +290,10 @@ double usual_slope_deg(double cell_m) {
     if (cell_m <= finest_m) {
         return fine_deg;
     }
-    auto const share = [](double m) { return 1.0 / (1.0 + exact::pow(m / half_m, 0.9)); };
-    double const fine = fine_deg / 180.0 * exact::pi;
-    double const tangent = exact::sin(fine) / exact::cos(fine) * share(cell_m) / share(finest_m);
-    double const degrees = exact::atan2(tangent, 1.0) / exact::pi * 180.0;
+    auto const share = [](double m) { return 1.0 / (1.0 + portable::pow(m / half_m, 0.9)); };
+    double const fine = fine_deg / 180.0 * portable::pi;
+    double const tangent = portable::sin(fine) / portable::cos(fine) * share(cell_m) / share(finest_m);
+    double const degrees = portable::atan2(tangent, 1.0) / portable::pi * 180.0;
     return std::max(0.5, std::round(2.0 * degrees) / 2.0);
 }
 
@@ -301,7 +301,7 @@ bool in_equilibrium(Recipe const& recipe) {
     return recipe.network && recipe.surface && recipe.surface->method == Method::equilibrium;
 }
 
-DrawnLand draw_in_equilibrium(DrawnLand drawn, bool heights_of_file, Diary& diary, Run const& run) {
+DrawnTerrain draw_in_equilibrium(DrawnTerrain drawn, bool heights_of_file, Diary& diary, Run const& run) {
     network::ChannelsOfArcs rivers =
         diary.stage("channels", [&] { return network::channels(drawn.network.plan, drawn.grid, {}, run); });
     append(drawn.notes, rivers.notes);
@@ -320,7 +320,7 @@ DrawnLand draw_in_equilibrium(DrawnLand drawn, bool heights_of_file, Diary& diar
     auto const solve = [&] {
         return diary.stage("fill", [&] { return surface::equilibrium(rivers.channels, fields, asked.params, run); });
     };
-    surface::EquilibriumLand land = solve();
+    surface::EquilibriumTerrain land = solve();
     if (heights_of_file && too_walled(land, rivers.channels)) {
         run.say(fmt::format("warning: the heights in {} would put {} of {} river cells on walls above the terrain. "
                             "Rivers are lowered there: network.heights = \"soft\"; \"file\" keeps their heights.",
@@ -344,7 +344,7 @@ DrawnLand draw_in_equilibrium(DrawnLand drawn, bool heights_of_file, Diary& diar
     }
     diary.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", drawn.grid.width, drawn.grid.height,
                           rivers.channels.cell.size()));
-    drawn.network = network::raise_from_land(drawn.network.plan, rivers.channels, land.dem);
+    drawn.network = network::elevate_from_dem(drawn.network.plan, rivers.channels, land.dem);
     drawn.orders = network::order(drawn.network.plan);
     drawn.streams = network::count_streams(drawn.network.plan);
     drawn.valley = valley_of(rivers.channels, land.dem);
@@ -354,7 +354,7 @@ DrawnLand draw_in_equilibrium(DrawnLand drawn, bool heights_of_file, Diary& diar
     return drawn;
 }
 
-DrawnLand with_side_valleys(DrawnLand drawn, flow::FlowField const& drainage, Diary& diary, Run const& run) {
+DrawnTerrain with_side_valleys(DrawnTerrain drawn, flow::FlowField const& drainage, Diary& diary, Run const& run) {
     if (!drawn.recipe.network || !drawn.recipe.network->fill_space) {
         return drawn;
     }
@@ -375,7 +375,8 @@ DrawnLand with_side_valleys(DrawnLand drawn, flow::FlowField const& drainage, Di
     for (ArcId a = 0; a < drawn.network.plan.arc_count(); ++a) {
         Arc const& of = drawn.network.plan.arc(a);
         bool const leaves = drawn.network.plan.out(drawn.network.plan.to(a)) == no_arc;
-        for (std::size_t v = 0; !of.given && v + (leaves ? 0 : 1) < of.line.size(); ++v) { // the last may join a line
+        for (std::size_t v = 0; !of.is_input && v + (leaves ? 0 : 1) < of.line.size();
+             ++v) { // the last may join a line
             std::int64_t const cell = drawn.grid.index(drawn.grid.cell_of(of.line[v]));
             drawn.valley.z[cell] = drawn.surface->dem[cell];
         }

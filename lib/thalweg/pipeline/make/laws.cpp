@@ -9,7 +9,7 @@
 #include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/pipeline/make/drawn_land.hpp>
+#include <thalweg/pipeline/make/drawn_terrain.hpp>
 
 #include <algorithm>
 
@@ -20,7 +20,7 @@ namespace {
 constexpr double cells_of_junction = 10.0;
 
 /// flow_length: of the DEM under the network, or null.
-measure::NetworkLaws laws_of(RaisedNetwork const& network, NetworkOrders const& orders,
+measure::NetworkLaws laws_of(ElevatedNetwork const& network, NetworkOrders const& orders,
                              flow::ContributingAreas const& areas, Grid const& grid, std::int64_t land_cells,
                              Raster<float> const* flow_length) {
     measure::NetworkLawsParams params{.land_m2 = static_cast<double>(land_cells) * grid.cell_m * grid.cell_m,
@@ -67,8 +67,8 @@ DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params, Run c
     return laws_of_dem(on_ground, drainage, flow::flow_lengths(drainage, run), params, run);
 }
 
-RiverLaws laws_of_land(DrawnLand const& drawn, flow::ContributingAreas const& areas, std::int64_t land_cells,
-                       flow::FlowField const* drainage, Run const& run) {
+RiverLaws laws_of_terrain(DrawnTerrain const& drawn, flow::ContributingAreas const& areas, std::int64_t land_cells,
+                          flow::FlowField const* drainage, Run const& run) {
     RiverLaws found;
     std::optional<Raster<float>> flow_length;
     if (drainage != nullptr) {

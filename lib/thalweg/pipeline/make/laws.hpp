@@ -56,7 +56,7 @@ DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, R
 /// \throws Error also as ground_cell
 DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params = {}, Run const& run = {});
 
-struct DrawnLand;
+struct DrawnTerrain;
 
 /// Both laws of land and rivers.
 /// \param drawn what was drawn
@@ -66,7 +66,7 @@ struct DrawnLand;
 /// \param run progress, log, stop token and number of threads
 /// \return the DEM's rivers as long together as those drawn, where there are any.
 /// \throws Error as laws_of_dem
-RiverLaws laws_of_land(DrawnLand const& drawn, flow::ContributingAreas const& areas, std::int64_t land_cells,
-                       flow::FlowField const* drainage, Run const& run = {});
+RiverLaws laws_of_terrain(DrawnTerrain const& drawn, flow::ContributingAreas const& areas, std::int64_t land_cells,
+                          flow::FlowField const* drainage, Run const& run = {});
 
 } // namespace thalweg::pipeline

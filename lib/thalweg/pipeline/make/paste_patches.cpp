@@ -35,7 +35,7 @@ MakeBlendParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
 
 } // namespace
 
-DrawnLand with_patches(DrawnLand drawn, Diary& diary, Run const& run) {
+DrawnTerrain with_patches(DrawnTerrain drawn, Diary& diary, Run const& run) {
     for (PatchRecipe const& patch : drawn.recipe.patches) {
         bool const keeps = patch.rivers == PatchRivers::keep && drawn.recipe.network.has_value();
         MadeBlend made = diary.stage("blend", [&] {

@@ -45,8 +45,8 @@ Grid turned_frame(network::Branch const& branch, Grid frame, GridRecipe const& w
     frame.width = wanted.width;
     frame.height = wanted.height;
     if (frame.width == 0) {
-        double const c = exact::cos(turn_deg / 180.0 * exact::pi);
-        double const s = exact::sin(turn_deg / 180.0 * exact::pi);
+        double const c = portable::cos(turn_deg / 180.0 * portable::pi);
+        double const s = portable::sin(turn_deg / 180.0 * portable::pi);
         Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
         Vec2 high{-low.x, -low.y};
         for (Cell const& cell : branch.cells) {
@@ -227,7 +227,7 @@ Planned plan_dla(Recipe recipe, Diary& diary, Run const& run) {
     story.particles = static_cast<std::int64_t>(cluster.cells.size());
     story.walkers = cluster.walkers;
 
-    wanted.rotate_deg = wanted.rotate_deg.value_or(in_equilibrium(recipe) ? network::turn_by_chance(recipe.seed) : 0.0);
+    wanted.rotate_deg = wanted.rotate_deg.value_or(in_equilibrium(recipe) ? network::random_turn(recipe.seed) : 0.0);
     double const turn_deg = *wanted.rotate_deg;
     network::BranchParams branch_params{wanted.branch, 0, 0, turn_deg};
     if (recipe.grid.width > 0) {
@@ -261,26 +261,26 @@ Planned plan_lines(Recipe given, Diary& diary, Run const& run) {
             throw BadInput(fmt::format("grid: no river of {} runs inside the grid", lines.name));
         }
     }
-    network::Adopted adopted = diary.stage("adopt", [&] {
-        return network::adopt(
+    network::Imported imported = diary.stage("adopt", [&] {
+        return network::import_lines(
             lines, {.snap_m = wanted.snap_m, .orientation = wanted.orientation, .divergences = wanted.divergences},
             run);
     });
     NetworkStory story;
     story.repairs = left_out(lines);
-    story.repairs.insert(story.repairs.end(), adopted.repairs.begin(), adopted.repairs.end());
+    story.repairs.insert(story.repairs.end(), imported.repairs.begin(), imported.repairs.end());
     RiverFile file;
     file.secondary = lines.secondary;
     for (RiverLine const& line : lines.lines) {
         file.drawn.push_back({line.feature, line.vertices, "", line.feature});
     }
     file.attributes = std::move(lines.attributes);
-    file.sources = LineSources(adopted.network, adopted.stretches);
-    file.secondary.insert(file.secondary.end(), adopted.secondary.begin(), adopted.secondary.end());
-    diary.say(fmt::format("{} arcs, {} repairs{}", adopted.network.arc_count(), story.repairs.size(),
+    file.sources = LineSources(imported.network, imported.stretches);
+    file.secondary.insert(file.secondary.end(), imported.secondary.begin(), imported.secondary.end());
+    diary.say(fmt::format("{} arcs, {} repairs{}", imported.network.arc_count(), story.repairs.size(),
                           file.secondary.empty() ? "" : fmt::format(", {} secondary", file.secondary.size())));
 
-    warn_of_gaps(adopted.network, grid, wanted.snap_m, run);
+    warn_of_gaps(imported.network, grid, wanted.snap_m, run);
     Mask land = wanted.coastlines == Coastlines::sea ? land_of_coastlines(lines, grid, diary, run) : Mask{};
     Heights& heights = recipe.network->heights;
     if (heights == Heights::automatic) {
@@ -288,16 +288,16 @@ Planned plan_lines(Recipe given, Diary& diary, Run const& run) {
         heights = lines.has_z ? Heights::file : in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;
     }
     bool const or_straight = heights == Heights::soft || heights == Heights::fixed || heights == Heights::ends;
-    std::optional<RaisedNetwork> file_heights;
+    std::optional<ElevatedNetwork> file_heights;
     if (heights == Heights::file || (or_straight && lines.has_z)) {
         if (!lines.has_z) {
             throw BadInput(fmt::format("network.heights = \"file\", but {} has lines without Z; choose other heights",
                                        lines.name));
         }
-        file_heights = network::take_file_heights({adopted.network, adopted.arc_z, {}}, lines);
+        file_heights = network::take_file_heights({imported.network, imported.arc_z, {}}, lines);
     }
     return {
-        std::move(recipe), std::move(adopted.network), grid, std::move(file_heights), std::move(land), std::move(file),
+        std::move(recipe), std::move(imported.network), grid, std::move(file_heights), std::move(land), std::move(file),
         std::move(story)};
 }
 

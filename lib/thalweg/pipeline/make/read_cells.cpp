@@ -14,10 +14,10 @@
 #include <thalweg/io/frame/same_frame.hpp>
 #include <thalweg/io/gdal/content_of.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
-#include <thalweg/io/raster/bring_into.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
 #include <thalweg/io/raster/read_mask.hpp>
 #include <thalweg/io/raster/read_polygons.hpp>
+#include <thalweg/io/raster/warp_to_grid.hpp>
 #include <thalweg/network/import/clip_lines.hpp>
 
 namespace thalweg::pipeline {
@@ -108,7 +108,7 @@ Raster<float> read_field(std::string const& path, Grid const& grid, std::string 
         field = valued_polygons(io::read_polygons(path, grid.crs, "erodibility", run), grid);
     } else {
         Raster<float> const given =
-            io::bring_into(io::read_dem(path, run), grid, fmt::format("{} = \"{}\"", what, path), run);
+            io::warp_to_grid(io::read_dem(path, run), grid, fmt::format("{} = \"{}\"", what, path), run);
         field = Raster<float>(grid, std::numeric_limits<float>::quiet_NaN());
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             Cell const at = given.grid().cell_of(grid.centre(grid.at(i)));

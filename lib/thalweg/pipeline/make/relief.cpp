@@ -7,14 +7,14 @@
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/measure/relief/perched.hpp>
-#include <thalweg/pipeline/make/drawn_land.hpp>
+#include <thalweg/pipeline/make/drawn_terrain.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 namespace thalweg::pipeline {
 
-LandRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
+TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
     Grid grid = dem.grid();
     grid.cell_m = io::ground_cell(grid).side_m;
     Raster<float> on_ground(grid);
@@ -23,12 +23,12 @@ LandRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
             std::nullopt};
 }
 
-LandRelief relief_of_land(DrawnLand const& drawn, measure::Statistics const& statistics,
-                          flow::FlowField const& drainage, Run const& run) {
+TerrainRelief relief_of_terrain(DrawnTerrain const& drawn, measure::Statistics const& statistics,
+                                flow::FlowField const& drainage, Run const& run) {
     Raster<float> const& dem = drawn.surface->dem;
-    LandRelief found{measure::relief(dem, drainage, statistics, {}, run), std::nullopt};
+    TerrainRelief found{measure::relief(dem, drainage, statistics, {}, run), std::nullopt};
     double const asked = drawn.recipe.surface ? drawn.recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;
-    double const mean_slope = (asked > 0.0 ? asked : found.land.slopes.mean_deg) * (exact::pi / 180.0);
+    double const mean_slope = (asked > 0.0 ? asked : found.land.slopes.mean_deg) * (portable::pi / 180.0);
     if (drawn.recipe.network && !std::isnan(mean_slope)) {
         std::vector<std::int64_t> cells = drawn.channels.cell; // side valleys that the land has grown climb its slopes
         if (!drawn.equilibrium) {
@@ -38,20 +38,20 @@ LandRelief relief_of_land(DrawnLand const& drawn, measure::Statistics const& sta
                 }
             }
         }
-        double const rise_m = exact::sin(mean_slope) / exact::cos(mean_slope) * dem.grid().cell_m;
+        double const rise_m = portable::sin(mean_slope) / portable::cos(mean_slope) * dem.grid().cell_m;
         found.perched = static_cast<std::int64_t>(measure::perched(dem, cells, rise_m).size());
     }
     return found;
 }
 
-std::vector<ReliefRow> relief_rows(LandRelief const& relief) {
+std::vector<ReliefRow> relief_rows(TerrainRelief const& relief) {
     auto const known = [](double value) { return std::isnan(value) ? std::nullopt : std::optional(value); };
-    auto const lands = measure::real_lands();
+    auto const lands = measure::reference_dems();
     std::vector<ReliefRow> rows;
-    auto const& figures = measure::relief_figures();
+    auto const& figures = measure::relief_metrics();
     for (std::size_t f = 0; f < figures.size(); ++f) {
         ReliefRow row{figures[f].key, figures[f].name, figures[f].unit, known(figures[f].of(relief.land)), {}, {}};
-        for (measure::RealLand const& land : lands) {
+        for (measure::ReferenceDem const& land : lands) {
             row.beside.push_back(land.figures[f]);
         }
         if (figures[f].judges == measure::Judges::yes) {
@@ -64,7 +64,7 @@ std::vector<ReliefRow> relief_rows(LandRelief const& relief) {
     if (std::any_of(relief.land.forms.begin(), relief.land.forms.end(), [](double share) { return share > 0.0; })) {
         forms.value = measure::total_variation(relief.land.forms, mean);
     }
-    for (measure::RealLand const& land : lands) {
+    for (measure::ReferenceDem const& land : lands) {
         forms.beside.push_back(measure::total_variation(land.forms, mean));
     }
     forms.range = {0.0, measure::land_tolerance * *std::max_element(forms.beside.begin(), forms.beside.end())};

@@ -11,13 +11,13 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/flow_field.hpp>
-#include <thalweg/measure/relief/real_lands.hpp>
+#include <thalweg/measure/relief/reference_dems.hpp>
 #include <thalweg/measure/relief/relief.hpp>
 
 namespace thalweg::pipeline {
 
 /// The relief of a land, and of the rivers drawn on it.
-struct LandRelief {
+struct TerrainRelief {
     measure::Relief land;
     std::optional<std::int64_t> perched; ///< river cells that stand above their surroundings, where rivers are drawn
 };
@@ -28,9 +28,9 @@ struct LandRelief {
 /// geographic one's too, though its cells are taken for squares.
 /// \throws Error as measure::statistics and ground_cell do
 /// \throws Cancelled
-LandRelief relief_of_dem(Raster<float> const& dem, Run const& run = {});
+TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run = {});
 
-struct DrawnLand;
+struct DrawnTerrain;
 
 /// Relief of a surface with its statistics.
 /// \param drawn what was drawn
@@ -38,8 +38,8 @@ struct DrawnLand;
 /// \param drainage the flow field of the DEM
 /// \param run progress, log, stop token and number of threads
 /// \return perched where it has rivers: by the mean slope that the recipe asks for, else that of the land.
-LandRelief relief_of_land(DrawnLand const& drawn, measure::Statistics const& statistics,
-                          flow::FlowField const& drainage, Run const& run = {});
+TerrainRelief relief_of_terrain(DrawnTerrain const& drawn, measure::Statistics const& statistics,
+                                flow::FlowField const& drainage, Run const& run = {});
 
 /// A figure as report.json and the page tell it.
 struct ReliefRow {
@@ -47,18 +47,18 @@ struct ReliefRow {
     std::string_view name;
     std::string_view unit;
     std::optional<double> value;               ///< none where the land is too small to tell
-    std::vector<double> beside;                ///< of the real lands, in their order; empty where they have none
+    std::vector<double> beside;                ///< of the reference DEMs, in their order; empty where they have none
     std::optional<measure::ReliefRange> range; ///< none where nothing can be said
     bool ok() const { return !value || !range || (*value >= range->low && *value <= range->high); }
 };
 
 /// \param relief relief metrics
-/// \return the figures one by one: those of measure::relief_figures, the distance of the geomorphons from the mean of
-/// the real lands, and perched cells where there are rivers.
-std::vector<ReliefRow> relief_rows(LandRelief const& relief);
+/// \return the figures one by one: those of measure::relief_metrics, the distance of the geomorphons from the mean of
+/// the reference DEMs, and perched cells where there are rivers.
+std::vector<ReliefRow> relief_rows(TerrainRelief const& relief);
 
 /// \param relief relief metrics
-/// \return all of it beside the real lands, as one JSON object: dem.relief in report.json, and what the page draws.
-std::string relief_json(LandRelief const& relief);
+/// \return all of it beside the reference DEMs, as one JSON object: dem.relief in report.json, and what the page draws.
+std::string relief_json(TerrainRelief const& relief);
 
 } // namespace thalweg::pipeline

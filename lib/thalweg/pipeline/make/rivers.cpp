@@ -30,12 +30,12 @@ namespace thalweg::pipeline {
 
 namespace {
 
-struct Raised {
-    RaisedNetwork network;
+struct Elevated {
+    ElevatedNetwork network;
     network::HeightReport report = {}; ///< under modes that set heights
 };
 
-Raised raise(Planned const& planned, network::RiverTypes const& types, Run const& run) {
+Elevated raise(Planned const& planned, network::RiverTypes const& types, Run const& run) {
     NetworkRecipe const& wanted = *planned.recipe.network;
     if (planned.file_heights) {
         return {network::keep_heights(planned.plan, *planned.file_heights, wanted.slope)};
@@ -53,7 +53,7 @@ Raised raise(Planned const& planned, network::RiverTypes const& types, Run const
     network::HeightMode const mode = wanted.heights == Heights::straight       ? network::HeightMode::straight
                                      : wanted.heights == Heights::along_stream ? network::HeightMode::along_stream
                                                                                : network::HeightMode::straight_repaired;
-    network::Raised raised = network::set_heights(planned.plan, {mode, wanted.slope}, run);
+    network::Elevated raised = network::set_heights(planned.plan, {mode, wanted.slope}, run);
     return {std::move(raised.network), raised.report};
 }
 
@@ -236,7 +236,7 @@ Rivers make_rivers(Recipe const& recipe, Run const& run) {
     if (in_equilibrium(planned.recipe) && planned.recipe.network->heights == Heights::graded) {
         rivers.network.plan = std::move(planned.plan); // their heights are the land's
     } else {
-        Raised raised = diary.stage("raise", [&] { return raise(planned, typed.types, run); });
+        Elevated raised = diary.stage("raise", [&] { return raise(planned, typed.types, run); });
         planned.story.heights = raised.report;
         network::Rasterised rasterised = network::rasterise(raised.network, planned.grid);
         planned.story.lowered_cells = rasterised.lowered_cells;

@@ -18,7 +18,7 @@ namespace thalweg::pipeline {
 struct Rivers {
     Recipe recipe; ///< with what follows from the rivers: frame, CRS, heights, prune, meander
     Grid grid;
-    RaisedNetwork network;     ///< without heights where they follow from a terrain in equilibrium
+    ElevatedNetwork network;   ///< without heights where they follow from a terrain in equilibrium
     RiverFile file;            ///< of which the rivers are
     Mask land;                 ///< 0: sea, which has no heights; without cells: all is land
     network::RiverTypes types; ///< by arc, where rivers have types; else empty

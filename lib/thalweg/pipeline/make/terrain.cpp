@@ -30,7 +30,7 @@ namespace thalweg::pipeline {
 namespace {
 
 /// The land with heights that drain, as the recipe wants it.
-DrawnLand made_to_drain(DrawnLand drawn, Diary& diary, Run const& run) {
+DrawnTerrain made_to_drain(DrawnTerrain drawn, Diary& diary, Run const& run) {
     if (!drawn.surface || !drawn.recipe.surface) {
         return drawn;
     }
@@ -51,7 +51,7 @@ DrawnLand made_to_drain(DrawnLand drawn, Diary& diary, Run const& run) {
     return drawn;
 }
 
-flow::FlowField drainage_of(DrawnLand const& drawn, Diary& diary, Run const& run) {
+flow::FlowField drainage_of(DrawnTerrain const& drawn, Diary& diary, Run const& run) {
     Raster<float> const& dem = drawn.surface->dem;
     StreamNetwork const& plan = drawn.network.plan;
     bool const sinks = drawn.recipe.network && drawn.recipe.network->inland == InlandEnds::sink;
@@ -63,7 +63,7 @@ flow::FlowField drainage_of(DrawnLand const& drawn, Diary& diary, Run const& run
 }
 
 /// Land without rivers, on its grid, with a note on each conversion.
-DrawnLand land_alone(Recipe const& wanted, Diary& diary, Run const& run) {
+DrawnTerrain land_alone(Recipe const& wanted, Diary& diary, Run const& run) {
     FeaturePoints const points = given_points(wanted, run);
     Recipe recipe = wanted;
     recipe.grid.crs = points.crs;
@@ -74,12 +74,12 @@ DrawnLand land_alone(Recipe const& wanted, Diary& diary, Run const& run) {
     }
     std::vector<Finding> notes = report_conversions(recipe, grid, run);
     check_detail(recipe, grid.width, grid.height);
-    DrawnLand drawn = make_land(recipe, grid, points, diary, run);
+    DrawnTerrain drawn = make_land(recipe, grid, points, diary, run);
     drawn.notes = std::move(notes);
     return drawn;
 }
 
-DrawnLand land_with(Rivers const& rivers, Diary& diary, Run const& run) {
+DrawnTerrain land_with(Rivers const& rivers, Diary& diary, Run const& run) {
     refuse_unused_keys(rivers.recipe); // now that the rivers' heights are known
     FeaturePoints points;
     if (rivers.recipe.skeleton) {
@@ -96,7 +96,7 @@ bool Terrain::passed() const {
     return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
 }
 
-Terrain together(Rivers rivers, DrawnLand drawn, Assessment found) {
+Terrain together(Rivers rivers, DrawnTerrain drawn, Assessment found) {
     Terrain terrain;
     terrain.recipe = std::move(drawn.recipe);
     terrain.grid = drawn.grid;
@@ -145,7 +145,7 @@ Terrain make_terrain(Recipe const& wanted, Run const& run, Keep const& keep) {
     if (keep && wanted.network) {
         keep("valley", rivers.valley.z);
     }
-    DrawnLand drawn = wanted.network ? land_with(rivers, diary, run) : land_alone(wanted, diary, run);
+    DrawnTerrain drawn = wanted.network ? land_with(rivers, diary, run) : land_alone(wanted, diary, run);
     drawn = made_to_drain(with_patches(std::move(drawn), diary, run), diary, run);
     if (keep && drawn.surface) {
         keep("surface", drawn.surface->dem);

@@ -18,10 +18,10 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/valley.hpp>
-#include <thalweg/detail/project.hpp>
 #include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/catchments/catchments.hpp>
 #include <thalweg/flow/conditioning/dem_change.hpp>
+#include <thalweg/fractal/match_statistics.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/drainage/extract_ridges.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
@@ -29,7 +29,7 @@
 #include <thalweg/network/elevation/assign_types.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/pipeline/make/assess.hpp>
-#include <thalweg/pipeline/make/drawn_land.hpp>
+#include <thalweg/pipeline/make/drawn_terrain.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/network_story.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
@@ -43,7 +43,7 @@ namespace thalweg::pipeline {
 struct Terrain {
     Recipe recipe; ///< every default resolved: made again, it gives the same terrain
     Grid grid;
-    RaisedNetwork network;
+    ElevatedNetwork network;
     RiverFile file; ///< of which the rivers are
     Mask land;      ///< 0: sea, which has no heights; without cells: all is land
     NetworkOrders orders;
@@ -55,19 +55,19 @@ struct Terrain {
     RidgeLines ridges;                                      ///< between streams, where they are asked for
     std::optional<measure::ExtractedRidges> surface_ridges; ///< those of the surface beside them
     std::optional<surface::Dilated> surface;
-    Channels channels;                            ///< of rivers with which the land is in equilibrium
-    std::int64_t lakes = 0;                       ///< laid into them
-    std::vector<NodeId> sinks;                    ///< where rivers end inland, as they were asked to
-    std::optional<EquilibriumStory> equilibrium;  ///< of a land that is
-    std::optional<SolverStory> diffusion;         ///< how the surface was solved for, where it was diffused
-    std::vector<PatchStory> patches;              ///< in the recipe's order
-    std::optional<DrainStory> drained;            ///< where the recipe wants the land to drain
-    std::optional<Tin> tin;                       ///< of rivers and points, where the land is drawn over one
-    std::optional<detail::Projection> projection; ///< how the statistics came out; its dem is moved to surface
+    Channels channels;                             ///< of rivers with which the land is in equilibrium
+    std::int64_t lakes = 0;                        ///< laid into them
+    std::vector<NodeId> sinks;                     ///< where rivers end inland, as they were asked to
+    std::optional<EquilibriumStory> equilibrium;   ///< of a land that is
+    std::optional<SolverStory> diffusion;          ///< how the surface was solved for, where it was diffused
+    std::vector<PatchStory> patches;               ///< in the recipe's order
+    std::optional<DrainStory> drained;             ///< where the recipe wants the land to drain
+    std::optional<Tin> tin;                        ///< of rivers and points, where the land is drawn over one
+    std::optional<fractal::MatchedDem> projection; ///< how the statistics came out; its dem is moved to surface
     double fine_forms_cells = 0.0; ///< [cells] below which forms had to come from a Gaussian land to meet them; 0: none
     std::optional<measure::Statistics> statistics; ///< of the surface
     std::optional<measure::Hypsometry> hypsometry; ///< likewise
-    std::optional<LandRelief> relief;              ///< likewise, with the rivers
+    std::optional<TerrainRelief> relief;           ///< likewise, with the rivers
     std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
     double pit_volume_m3 = 0.0;
     std::optional<measure::Certificate> certificate; ///< of rivers and surface, where both are there
@@ -86,7 +86,7 @@ struct Terrain {
 /// \param drawn what was drawn
 /// \param found measures and checks
 /// \return the terrain
-Terrain together(Rivers rivers, DrawnLand drawn, Assessment found);
+Terrain together(Rivers rivers, DrawnTerrain drawn, Assessment found);
 
 /// Called with intermediates: "valley", "surface".
 using Keep = std::function<void(std::string_view, Raster<float> const&)>;

@@ -203,7 +203,7 @@ void write_surface(Terrain const& t, std::string const& title, io::OutputFolder 
     }
 
     bool const rivers = t.recipe.network.has_value();
-    RaisedNetwork const* const network = rivers ? &t.network : nullptr;
+    ElevatedNetwork const* const network = rivers ? &t.network : nullptr;
     NetworkOrders const* const orders = rivers ? &t.orders : nullptr;
     draw::MapSheet sheet{dem, io::hillshade(dem), network, orders, {}, &t.ridges};
     for (auto const& [z, line] : contours) {

@@ -51,7 +51,7 @@ void require_files(Recipe const& recipe) {
 /// About as many cells as a network grown from this many particles takes with its margin: the radius of a cluster of
 /// dimension 1.71, of which one arm is kept.
 std::int64_t cells_of_cluster(std::int64_t particles) {
-    double const radius = 0.8 * exact::pow(static_cast<double>(particles), 1.0 / 1.71);
+    double const radius = 0.8 * portable::pow(static_cast<double>(particles), 1.0 / 1.71);
     return std::max<std::int64_t>(1, std::llround(1.2 * radius * radius));
 }
 
@@ -257,7 +257,7 @@ std::int64_t memory_of(Recipe const& recipe, std::int64_t cells) {
     constexpr std::int64_t a_particle = 60;
     bool const has_cluster = recipe.network && recipe.network->source == Source::dla;
     constexpr std::int64_t a_cell_of_exact_detail = 120; // transforms on a torus of up to seven cells a cell
-    bool const exact = levels_of(recipe) > 0 && recipe.detail->midpoint.stencil == detail::Stencil::exact;
+    bool const exact = levels_of(recipe) > 0 && recipe.detail->midpoint.stencil == fractal::Stencil::exact;
     return program + bytes_needed(cells) * 5 / 4 + (exact ? cells * a_cell_of_exact_detail : 0) +
            (has_cluster ? recipe.network->dla.particles * a_particle : 0);
 }

@@ -113,7 +113,7 @@ std::vector<Row> make_rows() {
     Use const scatter = (from_points() || skeleton_beside_rivers()) && above("skeleton.scatter", 0.0);
     Use const midpoint = is("detail.method", {"midpoint"});
     Use const stencils = when("detail.stencil = 4, 12 or 16", [](Recipe const& r) {
-        return r.detail && r.detail->midpoint.stencil != detail::Stencil::exact;
+        return r.detail && r.detail->midpoint.stencil != fractal::Stencil::exact;
     });
     Use const prior = is("statistics.skeleton", {"separable", "markov3"});
     Use const relief_left_out =

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <thalweg/core/height_unit.hpp>
-#include <thalweg/detail/midpoint.hpp>
 #include <thalweg/flow/conditioning/condition.hpp>
+#include <thalweg/fractal/midpoint.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/network/schema.hpp>
 #include <thalweg/network/elevation/rosgen.hpp>
@@ -21,7 +21,7 @@
 #include <thalweg/network/growth/dla/pick_branch.hpp>
 #include <thalweg/network/growth/forest/grow_forest.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
-#include <thalweg/network/import/adopt.hpp>
+#include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/skeleton/attract.hpp>
 #include <thalweg/skeleton/regress.hpp>
 #include <thalweg/skeleton/scatter.hpp>
@@ -112,7 +112,7 @@ struct NetworkRecipe {
     double concavity = 0.38;               ///< [0, 1] theta of graded heights
     std::optional<network::Rosgen> rosgen; ///< type of arcs without one; none: by Strahler order
     network::SlopeDraw rosgen_slope = network::SlopeDraw::middle;
-    std::optional<double> rotate_deg; ///< [degrees] counterclockwise; none: by chance where rivers are grown for a land
+    std::optional<double> rotate_deg; ///< [degrees] counterclockwise; none: at random where rivers are grown for a land
                                       ///< in equilibrium, else 0
     std::optional<double> meander;    ///< [0, 2] of nature's amplitude; none: 1 where rivers are grown likewise, else 0
     InlandEnds inland = InlandEnds::carry;
@@ -199,7 +199,7 @@ enum class DetailMethod : std::uint8_t { none, midpoint };
 /// The keys of section [detail] of a recipe.
 struct DetailRecipe {
     DetailMethod method = DetailMethod::midpoint;
-    detail::MidpointParams midpoint;
+    fractal::MidpointParams midpoint;
 };
 
 /// What becomes of rivers under a patch.

@@ -248,8 +248,8 @@ void add_statistics_keys(std::vector<Key>& keys) {
 namespace {
 
 /// The value of detail.stencil: a number of neighbours, or a word.
-detail::Stencil stencil_of(Value const& v) {
-    using detail::Stencil;
+fractal::Stencil stencil_of(Value const& v) {
+    using fractal::Stencil;
     if (auto const* word = std::get_if<std::string>(&v)) {
         if (*word != "exact") {
             refuse_word(*word, {"4", "12", "16", "exact"});
@@ -267,9 +267,9 @@ detail::Stencil stencil_of(Value const& v) {
 } // namespace
 
 void add_detail_keys(std::vector<Key>& keys) {
-    using detail::Adaptation;
-    using detail::Noise;
-    using detail::Stencil;
+    using fractal::Adaptation;
+    using fractal::Noise;
+    using fractal::Stencil;
     using MaybeNumber = std::optional<double>;
     keys.push_back(
         choice<DetailMethod>("detail.method", {{"midpoint", DetailMethod::midpoint}, {"none", DetailMethod::none}},

@@ -55,15 +55,15 @@ ordered_json heights_object(std::optional<PageHeights> const& heights) {
 ordered_json arcs_object(Terrain const& t, PageLines const& lines) {
     ordered_json id = ordered_json::array();
     ordered_json downstream = ordered_json::array();
-    ordered_json survives = ordered_json::array();
+    ordered_json persistence = ordered_json::array();
     ordered_json length = ordered_json::array();
     ordered_json z_up = ordered_json::array();
     ordered_json z_down = ordered_json::array();
     for (std::size_t a = 0; a < t.network.plan.arc_count(); ++a) {
         id.push_back(a + 1);
         downstream.push_back(t.network.plan.out(t.network.plan.to(a)) + 1);
-        double const until = t.network.plan.arc(a).survives;
-        survives.push_back(std::isfinite(until) ? ordered_json(to_millimetres(until)) : ordered_json(nullptr));
+        double const until = t.network.plan.arc(a).persistence;
+        persistence.push_back(std::isfinite(until) ? ordered_json(to_millimetres(until)) : ordered_json(nullptr));
         length.push_back(to_millimetres(t.network.plan.length_m(a)));
         z_up.push_back(to_millimetres(t.network.arc_z[a].front()));
         z_down.push_back(to_millimetres(t.network.arc_z[a].back()));
@@ -76,7 +76,7 @@ ordered_json arcs_object(Terrain const& t, PageLines const& lines) {
             {"strahler", t.orders.strahler},
             {"shreve", t.orders.shreve},
             {"hack", t.orders.hack},
-            {"survives", survives},
+            {"survives", persistence},
             {"length", length},
             {"z_up", z_up},
             {"z_down", z_down},
@@ -184,7 +184,7 @@ private:
 /// What [statistics] asks for under the name a residual has.
 std::optional<double> asked_for(Terrain const& t, char const* name) {
     if (t.projection) {
-        for (detail::Residual const& r : t.projection->residuals) {
+        for (fractal::Residual const& r : t.projection->residuals) {
             if (r.name == name) {
                 return r.asked;
             }

@@ -87,7 +87,7 @@ ordered_json power_object(std::optional<measure::PowerLaw> const& law, double un
     }
     ordered_json fit = ordered_json::array();
     for (measure::AreaBin const* end : {&law->bins.front(), &law->bins.back()}) {
-        fit.push_back({end->area_m2 / 1e6, law->coefficient * exact::pow(end->area_m2, law->exponent) / unit});
+        fit.push_back({end->area_m2 / 1e6, law->coefficient * portable::pow(end->area_m2, law->exponent) / unit});
     }
     return {{"bins", bins}, {"fit", fit}};
 }

@@ -22,7 +22,7 @@ namespace thalweg::pipeline {
 
 namespace {
 
-RaisedNetwork const* network_of(Scene const& scene) {
+ElevatedNetwork const* network_of(Scene const& scene) {
     return scene.network ? &*scene.network : nullptr;
 }
 

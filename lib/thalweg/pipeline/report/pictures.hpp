@@ -23,7 +23,7 @@ char const* name_of(PictureKind kind);
 /// What there is to draw; what is missing is empty.
 struct Scene {
     std::optional<Raster<float>> dem;
-    std::optional<RaisedNetwork> network;
+    std::optional<ElevatedNetwork> network;
     NetworkOrders orders;           ///< of the network
     std::vector<double> increments; ///< [m] of the surface, as used
     std::string increment;          ///< its name or expression

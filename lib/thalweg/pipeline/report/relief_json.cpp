@@ -19,8 +19,8 @@ using nlohmann::ordered_json;
 constexpr std::array<char const*, measure::form_count> form_names = {"flat",  "peak",   "ridge",     "shoulder", "spur",
                                                                      "slope", "hollow", "footslope", "valley",   "pit"};
 
-ordered_json rows_object(LandRelief const& relief) {
-    auto const lands = measure::real_lands();
+ordered_json rows_object(TerrainRelief const& relief) {
+    auto const lands = measure::reference_dems();
     ordered_json out = ordered_json::object();
     for (ReliefRow const& row : relief_rows(relief)) {
         ordered_json one{{"name", row.name},
@@ -53,7 +53,7 @@ ordered_json slope_area_object(std::optional<measure::PowerLaw> const& law) {
     }
     ordered_json fit = ordered_json::array();
     for (measure::AreaBin const* end : {&law->bins.front(), &law->bins.back()}) {
-        fit.push_back({end->area_m2 / 1e6, law->coefficient * exact::pow(end->area_m2, law->exponent)});
+        fit.push_back({end->area_m2 / 1e6, law->coefficient * portable::pow(end->area_m2, law->exponent)});
     }
     return {{"theta", -law->exponent},
             {"error", law->exponent_error},
@@ -96,10 +96,10 @@ ordered_json forms_object(std::array<double, measure::form_count> const& shares)
 
 } // namespace
 
-std::string relief_json(LandRelief const& relief) {
+std::string relief_json(TerrainRelief const& relief) {
     measure::Relief const& land = relief.land;
     ordered_json lands = ordered_json::array();
-    for (measure::RealLand const& real : measure::real_lands()) {
+    for (measure::ReferenceDem const& real : measure::reference_dems()) {
         lands.push_back({{"name", real.name},
                          {"source", real.source},
                          {"cell_m", real.cell_m},

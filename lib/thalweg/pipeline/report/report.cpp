@@ -216,9 +216,9 @@ ordered_json change_object(flow::DemChange const& c) {
             {"max_cut_m", c.max_cut_m},       {"raised_m3", c.raised_m3}, {"cut_m3", c.cut_m3}};
 }
 
-ordered_json statistics_object(detail::Projection const& p) {
+ordered_json statistics_object(fractal::MatchedDem const& p) {
     ordered_json residuals = ordered_json::array();
-    for (detail::Residual const& r : p.residuals) {
+    for (fractal::Residual const& r : p.residuals) {
         residuals.push_back({{"name", r.name}, {"asked", r.asked}, {"got", r.got}, {"error", r.error}});
     }
     return {{"converged", p.converged},
@@ -349,7 +349,7 @@ std::vector<std::string> files_of_report(std::string const& json) {
     return files;
 }
 
-std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws, LandRelief const* relief) {
+std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws, TerrainRelief const* relief) {
     ordered_json out = dem(statistics);
     if (laws != nullptr) {
         out["laws"] = dem_laws_object(*laws);

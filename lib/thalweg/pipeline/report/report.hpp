@@ -25,7 +25,7 @@ std::vector<std::string> files_of_report(std::string const& json);
 /// \return statistics as one JSON object, as they stand under "dem" in report.json; laws: of the DEM's rivers, or null;
 /// relief: or null.
 std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws = nullptr,
-                            LandRelief const* relief = nullptr);
+                            TerrainRelief const* relief = nullptr);
 
 /// \param checks the checks
 /// \return Checks as one JSON array, as they stand under "checks" in report.json.

@@ -17,7 +17,7 @@ namespace thalweg::pipeline {
 namespace {
 
 /// Whether every vertex of the network lies on the DEM's grid, as areas by its drainage need.
-bool lies_on(RaisedNetwork const& network, Grid const& grid) {
+bool lies_on(ElevatedNetwork const& network, Grid const& grid) {
     for (ArcId arc = 0; arc < network.plan.arc_count(); ++arc) {
         auto const& line = network.plan.arc(arc).line;
         if (!std::all_of(line.begin(), line.end(), [&](Vec2 p) { return grid.contains(grid.cell_of(p)); })) {
@@ -34,7 +34,7 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
     if (!scene.dem) {
         throw BadInput("pipeline.scene_page: there is no DEM to show");
     }
-    DrawnLand drawn;
+    DrawnTerrain drawn;
     drawn.recipe.output.title = scene.title;
     drawn.grid = scene.dem->grid();
     drawn.surface.emplace();
@@ -60,7 +60,7 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
         found.checks = topology.checks;
         found.findings = topology.findings;
     }
-    found.laws = laws_of_land(drawn, found.areas, found.statistics->cells, &drainage, run);
+    found.laws = laws_of_terrain(drawn, found.areas, found.statistics->cells, &drainage, run);
     found.relief = relief_of_dem(*scene.dem, run);
     Terrain const terrain = together({}, std::move(drawn), std::move(found));
     double const relief = terrain.statistics->max.z - terrain.statistics->min.z;

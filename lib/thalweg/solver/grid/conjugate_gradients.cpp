@@ -175,7 +175,7 @@ Convergence conjugate_gradients(ColouredProblem& problem, std::vector<CoarseLeve
                                            done, norm / zero, goal.tolerance));
         }
         if (norm < zero) {
-            share = std::clamp(exact::log(norm / zero) / exact::log(goal.tolerance), share, 1.0);
+            share = std::clamp(portable::log(norm / zero) / portable::log(goal.tolerance), share, 1.0);
         }
         run.at(share, "solve");
         norm = iteration.advance();

@@ -44,7 +44,7 @@ GridSolution iterate(DeviceEquations& equations, double height, PoissonParams co
     double share = 0.0;
     for (;; ++solution.iterations) {
         if (norm > 0.0) {
-            share = std::clamp(exact::log(norm) / exact::log(params.tolerance), share, 1.0);
+            share = std::clamp(portable::log(norm) / portable::log(params.tolerance), share, 1.0);
         }
         run.at(share, "solve");
         equations.precondition();

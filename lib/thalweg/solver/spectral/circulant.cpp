@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/normal.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
@@ -114,7 +114,7 @@ void draw_spectrum(Circulant const& torus, std::uint64_t seed, std::uint64_t sta
     std::size_t const columns = size(torus.width / 2 + 1);
     std::size_t const length = spectrum.size();
     for (std::size_t v = 0; v < length; v += 2) {
-        auto const words = chance_block(seed, stage, u, v / 2);
+        auto const words = random_block(seed, stage, u, v / 2);
         for (std::size_t i = 0; i < 2; ++i) {
             std::size_t const mirrored = std::min(v + i, length - v - i);
             double const weight = std::sqrt(torus.eigenvalues[mirrored * columns + u]);

@@ -48,7 +48,7 @@ Circulant circulant(TorusCovariance const& covariance, std::int64_t width, std::
 Quarter covariances(Circulant const& torus, Run const& run = {});
 
 /// A field of mean 0 with the torus' covariance on a corner of it.
-/// \pre a grid no larger than the torus; seed and stage, which name the chance.
+/// \pre a grid no larger than the torus; seed and stage, which name the random numbers.
 /// \param torus the embedding torus
 /// \param grid the grid
 /// \param seed random seed

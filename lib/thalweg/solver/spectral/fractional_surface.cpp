@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/normal.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
@@ -38,7 +38,7 @@ struct SteinCovariance {
 
     double operator()(double r_squared) const {
         if (r_squared <= 1.0) {
-            return constant - exact::pow(r_squared, hurst) + square * r_squared;
+            return constant - portable::pow(r_squared, hurst) + square * r_squared;
         }
         if (r_squared >= reach * reach) {
             return 0.0;
@@ -162,10 +162,10 @@ FractionalSurface fractional_surface(std::int64_t width, std::int64_t height, do
 
 Raster<double> sample(FractionalSurface const& surface, std::uint64_t seed, std::uint64_t stage, Run const& run) {
     Raster<double> field = sample(surface.torus, lattice_of(surface), seed, stage, run);
-    auto const words = chance_block(seed, stage, static_cast<std::uint64_t>(surface.torus.width), 1);
+    auto const words = random_block(seed, stage, static_cast<std::uint64_t>(surface.torus.width), 1);
     auto const tilt = normal_pair(words[0], words[1]);
     // The field and the plane differ by 2 (r/d)^(2H) in the mean square.
-    double const amplitude = std::sqrt(0.5) * exact::pow(surface.diagonal_cells, surface.hurst);
+    double const amplitude = std::sqrt(0.5) * portable::pow(surface.diagonal_cells, surface.hurst);
     double const slope = std::sqrt(2.0 * surface.square) / surface.diagonal_cells;
     double const origin = field[0];
     parallel_ranges(run, field.height(), 32, [&](std::int64_t first, std::int64_t last) {
@@ -187,7 +187,7 @@ void superpose_variograms(FractionalSurface const& surface, Raster<double>& weig
     multiply(surface.torus, weights, nothing, run);
     // (r/d)^(2H) is c0 + c2 (r/d)^2 less the covariance, and the first two follow from the weights' moments.
     double const d = surface.diagonal_cells;
-    double const amplitude = exact::pow(d, 2.0 * surface.hurst);
+    double const amplitude = portable::pow(d, 2.0 * surface.hurst);
     double const square = surface.square / (d * d);
     parallel_ranges(run, weights.height(), 32, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t r = first; r < last; ++r) {

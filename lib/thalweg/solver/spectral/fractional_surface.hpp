@@ -47,7 +47,7 @@ FractionalSurface fractional_surface(std::int64_t width, std::int64_t height, do
 void check_fractional_surface(std::int64_t width, std::int64_t height, double hurst);
 
 /// One surface, 0 in the north-western cell.
-/// \pre seed and stage, which name the chance.
+/// \pre seed and stage, which name the random numbers.
 /// \param surface the prepared surface
 /// \param seed random seed
 /// \param stage number of the stage that draws

@@ -12,7 +12,7 @@ namespace thalweg::solver {
 namespace {
 
 double stable(double dx, double dy, double exponent) {
-    return exact::exp(-exact::pow(dx * dx + dy * dy, exponent));
+    return portable::exp(-portable::pow(dx * dx + dy * dy, exponent));
 }
 
 } // namespace

@@ -13,7 +13,7 @@ namespace thalweg::solver {
 namespace {
 
 double one_over_e() {
-    return exact::exp(-1.0);
+    return portable::exp(-1.0);
 }
 
 /// Index of the first r at or below 1/e.
@@ -54,7 +54,7 @@ struct Fit {
     template <class Body> static void for_lags(std::vector<double> const& r, Body const& body) {
         for (std::size_t i = 0; i < r.size(); ++i) {
             if (r[i] > 0.0 && r[i] < 1.0) {
-                body(i, exact::log(static_cast<double>(i + 1)), exact::log(-exact::log(r[i])));
+                body(i, portable::log(static_cast<double>(i + 1)), portable::log(-portable::log(r[i])));
             }
         }
     }
@@ -84,7 +84,8 @@ CorrelationLength correlation_length(Correlogram const& correlogram) {
         return {static_cast<double>(*i) + (before - one_over_e()) / (before - r[*i]), false};
     }
     Fit const fit(r);
-    return fit.holds() ? CorrelationLength{exact::exp(fit.mean_x - fit.mean_u / fit.alpha), true} : CorrelationLength{};
+    return fit.holds() ? CorrelationLength{portable::exp(fit.mean_x - fit.mean_u / fit.alpha), true}
+                       : CorrelationLength{};
 }
 
 std::vector<double> correlation_length_slopes(Correlogram const& correlogram) {
@@ -107,7 +108,7 @@ std::vector<double> correlation_length_slopes(Correlogram const& correlogram) {
     Fit::for_lags(r, [&](std::size_t i, double x, double) {
         double const by_u =
             fit.mean_u / (fit.alpha * fit.alpha) * (x - fit.mean_x) / fit.spread - 1.0 / (fit.lags * fit.alpha);
-        slopes[i] = by_u / (r[i] * exact::log(r[i]));
+        slopes[i] = by_u / (r[i] * portable::log(r[i]));
     });
     return slopes;
 }

@@ -21,9 +21,9 @@ StableCovariance shared(StableCovariance const& plain, double fine_share) {
     double const exponent = 3.0 - plain.dimension;
     mixed.fine_share = fine_share;
     mixed.fine_cells = std::min(longest_fine_cells, length / 4.0);
-    double const fine = fine_share * exact::exp(-exact::pow(length / mixed.fine_cells, 2.0 * exponent));
-    double const coarse = (exact::exp(-1.0) - fine) / (1.0 - fine_share);
-    double const longer = exact::pow(-exact::log(coarse), -0.5 / exponent);
+    double const fine = fine_share * portable::exp(-portable::pow(length / mixed.fine_cells, 2.0 * exponent));
+    double const coarse = (portable::exp(-1.0) - fine) / (1.0 - fine_share);
+    double const longer = portable::pow(-portable::log(coarse), -0.5 / exponent);
     mixed.lx_cells *= longer;
     mixed.ly_cells *= longer;
     return mixed;
@@ -39,13 +39,13 @@ double expected_slope(StableCovariance const& covariance, double std) {
     double const y = 0.5 * std * std * (1.0 - covariance(0.0, 2.0));
     double sum = 0.0;
     for (int i = 0; i < angles; ++i) {
-        double const angle = 0.5 * exact::pi * (i + 0.5) / angles;
-        double const c = exact::cos(angle);
-        double const s = exact::sin(angle);
+        double const angle = 0.5 * portable::pi * (i + 0.5) / angles;
+        double const c = portable::cos(angle);
+        double const s = portable::sin(angle);
         double const scale = std::sqrt(x * c * c + y * s * s);
         for (int j = 0; j < radii; ++j) {
-            double const radius = std::sqrt(-2.0 * exact::log((j + 0.5) / radii));
-            sum += exact::atan2(scale * radius, 1.0);
+            double const radius = std::sqrt(-2.0 * portable::log((j + 0.5) / radii));
+            sum += portable::atan2(scale * radius, 1.0);
         }
     }
     return sum / (angles * radii);

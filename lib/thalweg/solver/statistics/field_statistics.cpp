@@ -187,7 +187,7 @@ FieldStatistics field_statistics(Raster<float> const& dem, Run const& run) {
     is.slope_rad = sum_cells(dem, run,
                              [&](float, Cell cell) {
                                  Gradient const g = gradient_at(dem, cell.col, cell.row);
-                                 return exact::atan2(std::sqrt(g.x * g.x + g.y * g.y), 1.0);
+                                 return portable::atan2(std::sqrt(g.x * g.x + g.y * g.y), 1.0);
                              }) /
                    n;
     is.along_row = correlogram(dem, is.mean, is.std, Axis::rows, run);

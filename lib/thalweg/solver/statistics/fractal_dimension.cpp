@@ -40,7 +40,7 @@ std::vector<double> weights(std::vector<Difference> const& differences) {
     std::vector<double> x;
     double mean = 0.0;
     for (Difference const& d : differences) {
-        x.push_back(exact::log(static_cast<double>(d.lag)));
+        x.push_back(portable::log(static_cast<double>(d.lag)));
         mean += x.back() / static_cast<double>(differences.size());
     }
     double spread = 0.0;
@@ -103,7 +103,7 @@ double fractal_dimension(std::vector<Difference> const& differences) {
         if (!(differences[i].square > 0.0)) {
             return std::numeric_limits<double>::quiet_NaN();
         }
-        h += weight[i] * 0.5 * exact::log(differences[i].square);
+        h += weight[i] * 0.5 * portable::log(differences[i].square);
     }
     return 3.0 - h;
 }

@@ -81,7 +81,7 @@ void add_noise(Raster<std::uint8_t> const& kind, Raster<float> const& z, Diffuse
                 auto const across = static_cast<double>(here.col - there.col);
                 auto const along = static_cast<double>(here.row - there.row);
                 double const distance = std::sqrt(across * across + along * along);
-                value[i] += params.noise_m * (1.0 - exact::exp(-distance / noise_reach_cells)) *
+                value[i] += params.noise_m * (1.0 - portable::exp(-distance / noise_reach_cells)) *
                             value_noise(params.seed, here, params.noise_cells);
             }
         }

@@ -17,7 +17,7 @@ namespace {
 std::vector<double> weights_of(double sigma_cells) {
     std::vector<double> weights;
     for (int x = 0; x <= std::max(1.0, std::floor(3.0 * sigma_cells)); ++x) {
-        weights.push_back(exact::exp(-0.5 * (x / sigma_cells) * (x / sigma_cells)));
+        weights.push_back(portable::exp(-0.5 * (x / sigma_cells) * (x / sigma_cells)));
     }
     return weights;
 }

@@ -260,16 +260,16 @@ Held land_at_target(Channels const& rivers, EquilibriumFields const& fields, Equ
     auto const off_by = [&](Held const& held) { // [log]
         Window const window{rivers.grid, fields.land, held.land.margin};
         double const share = share_of_target(held.land.level, window, held.metres, params);
-        return exact::log(std::max(share, 1e-6));
+        return portable::log(std::max(share, 1e-6));
     };
     Held best = held_land(rivers, fields, params, metres, run);
     double best_off = off_by(best);
-    double at = exact::log(metres);
+    double at = portable::log(metres);
     double off = best_off;
     double step = -1.5 * off;
     for (int solve = 1; solve < most_solves && std::fabs(best_off) > near_enough; ++solve) {
         step = std::clamp(step, -widest, widest);
-        Held next = held_land(rivers, fields, params, exact::exp(at + step), run);
+        Held next = held_land(rivers, fields, params, portable::exp(at + step), run);
         double const next_off = off_by(next);
         double const per_step = (next_off - off) / step;
         at += step;
@@ -289,8 +289,8 @@ Held land_at_target(Channels const& rivers, EquilibriumFields const& fields, Equ
 
 } // namespace
 
-EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
-                            Run const& run) {
+EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+                               Run const& run) {
     check_equilibrium(rivers, fields, params);
     run.check();
     Channels drawn = rivers;
@@ -299,7 +299,7 @@ EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fie
     Window const window{rivers.grid, fields.land, graded.margin};
     Raise const raise = raise_for(graded.level, rivers, window, params);
     if (!asks_heights(rivers, params)) {
-        EquilibriumLand land =
+        EquilibriumTerrain land =
             written_land(std::move(graded.level), rivers, window, raise, std::move(graded.shortened), run);
         land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
         return land;
@@ -309,7 +309,8 @@ EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fie
     Held held = params.bring_to_target ? land_at_target(rivers, fields, params, raise.metres, run)
                                        : held_land(rivers, fields, params, raise.metres, run);
     Raise const given{held.metres, static_cast<double>(base_of(rivers, params.edge)), raise.mean_tangent};
-    EquilibriumLand land = written_given_land(std::move(held.land.level), rivers, window, given, params.heights, run);
+    EquilibriumTerrain land =
+        written_given_land(std::move(held.land.level), rivers, window, given, params.heights, run);
     land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
     return land;
 }

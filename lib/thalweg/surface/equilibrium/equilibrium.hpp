@@ -52,7 +52,7 @@ struct EquilibriumParams {
 };
 
 /// What equilibrium() returns.
-struct EquilibriumLand {
+struct EquilibriumTerrain {
     Raster<float> dem;                   ///< [m] NaN at sea
     Raster<flow::Direction> direction;   ///< where the water of each cell goes; no_data at sea
     std::vector<std::int64_t> shortened; ///< numbers of channel cells that are none any more: tips that stood perched
@@ -83,7 +83,7 @@ struct EquilibriumLand {
 ///
 /// Source: \cite perron2009 (hillslope length); \cite braun2013 (order); \cite barnes2014 (flood); \cite stock2003
 /// (debris flows).
-EquilibriumLand equilibrium(Channels const& rivers, EquilibriumFields const& fields = {},
-                            EquilibriumParams const& params = {}, Run const& run = {});
+EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& fields = {},
+                               EquilibriumParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::surface

@@ -4,7 +4,7 @@
 
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/parallel.hpp>
-#include <thalweg/surface/equilibrium/internal/chance_bytes.hpp>
+#include <thalweg/surface/equilibrium/internal/random_bytes.hpp>
 
 #include <cmath>
 
@@ -36,7 +36,7 @@ void jitter(LandLevel& level, std::uint64_t seed, Run const& run) {
     parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             std::uint8_t* const codes = &level.shift[static_cast<std::size_t>(row * level.width)];
-            chance_bytes(seed, jitter_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
+            random_bytes(seed, jitter_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
                 codes[col] = static_cast<std::uint8_t>((byte & 7U) * jitter_stride + ((byte >> 3U) & 7U));
             });
         }

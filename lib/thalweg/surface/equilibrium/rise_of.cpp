@@ -36,11 +36,11 @@ public:
                 auto const middle =
                     std::bit_cast<float>(static_cast<std::uint32_t>(k << dropped) + (1U << (dropped - 1)));
                 double const tangent = k == 0 ? 0.0 : rise * static_cast<double>(middle);
-                sum += static_cast<double>(counts_[k]) * exact::atan2(tangent, 1.0);
+                sum += static_cast<double>(counts_[k]) * portable::atan2(tangent, 1.0);
                 count += static_cast<double>(counts_[k]);
             }
         }
-        return sum / count * (180.0 / exact::pi);
+        return sum / count * (180.0 / portable::pi);
     }
 
 private:
@@ -133,8 +133,8 @@ Rise rise_of(Raster<float> const& land, EquilibriumParams const& params) {
     if (tangents.empty()) {
         return {factor, 0.0};
     }
-    double const slope = tangents.mean_slope(factor) * (exact::pi / 180.0);
-    return {factor, exact::sin(slope) / exact::cos(slope)};
+    double const slope = tangents.mean_slope(factor) * (portable::pi / 180.0);
+    return {factor, portable::sin(slope) / portable::cos(slope)};
 }
 
 double share_of_target(Raster<float> const& land, double factor, EquilibriumParams const& params) {

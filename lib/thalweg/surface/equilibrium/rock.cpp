@@ -53,9 +53,9 @@ void set_rock(LandLevel& level, RockFields const& fields, EquilibriumParams cons
     parallel_ranges(run, level.cells(), 1 << 14, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             double const noise = level.cover[i] == Cover::river ? 0.0 : static_cast<double>(level.erodibility[i]);
-            double fifth_root = exact::exp(0.2 * params.roughness * noise);
+            double fifth_root = portable::exp(0.2 * params.roughness * noise);
             if (rocks) {
-                fifth_root *= exact::pow(static_cast<double>(rock[i]), 0.2);
+                fifth_root *= portable::pow(static_cast<double>(rock[i]), 0.2);
             }
             double const fourth = fifth_root * fifth_root * fifth_root * fifth_root;
             level.erodibility[i] = static_cast<float>(fourth * fifth_root);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/equilibrium/internal/rock_noise.hpp>
 
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/parallel.hpp>
 
 #include <algorithm>
@@ -23,11 +23,11 @@ constexpr double to_unit_variance = 5.0;
 class Octave {
 public:
     Octave(LandLevel const& level, RockNoise const& params, std::uint64_t number, double wave, Run const& run)
-        : per_col_(exact::cos(angle(number)) * level.side / wave),
-          per_row_(exact::sin(angle(number)) * level.side / wave) {
+        : per_col_(portable::cos(angle(number)) * level.side / wave),
+          per_row_(portable::sin(angle(number)) * level.side / wave) {
         double const first = (0.5 * level.side - level.side - params.margin) / wave; // centre of the frame's corner
-        double const cos = exact::cos(angle(number));
-        double const sin = exact::sin(angle(number));
+        double const cos = portable::cos(angle(number));
+        double const sin = portable::sin(angle(number));
         x0_ = cos * first - sin * first + 17.3 * static_cast<double>(number);
         y0_ = sin * first + cos * first + 91.7 * static_cast<double>(number);
         auto const across = static_cast<double>(level.width);
@@ -80,7 +80,7 @@ private:
                     std::int64_t const at = left + col + (std::int64_t{1} << 40);
                     if (at / a_block != held) {
                         held = at / a_block;
-                        words = chance_block(seed, rock_stage, number, static_cast<std::uint64_t>(top + row),
+                        words = random_block(seed, rock_stage, number, static_cast<std::uint64_t>(top + row),
                                              static_cast<std::uint64_t>(held));
                     }
                     auto const k = static_cast<std::uint64_t>(at % a_block);

@@ -3,7 +3,7 @@
 #include <thalweg/surface/equilibrium/internal/start_land.hpp>
 
 #include <thalweg/core/run/parallel.hpp>
-#include <thalweg/surface/equilibrium/internal/chance_bytes.hpp>
+#include <thalweg/surface/equilibrium/internal/random_bytes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ void set_heights(LandLevel& level, std::uint64_t seed, float rough, Run const& r
     level.z.resize(static_cast<std::size_t>(level.cells()));
     parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
-            chance_bytes(seed, start_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
+            random_bytes(seed, start_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
                 level.z[static_cast<std::size_t>(row * level.width + col)] =
                     height(col, row) + rough * level.side * static_cast<float>(byte) * 0x1p-8F;
             });
@@ -61,7 +61,7 @@ private:
 
     void draw(std::uint64_t seed, std::int64_t row, float side, float* out) const {
         constexpr std::uint64_t bends = 0x62656e64; // "bend"
-        chance_bytes(seed, bends, row, side, across_, [&](std::int64_t col, std::uint8_t byte) {
+        random_bytes(seed, bends, row, side, across_, [&](std::int64_t col, std::uint8_t byte) {
             out[col] = reach * (static_cast<float>(byte) * 0x1p-7F - 1.0F);
         });
     }

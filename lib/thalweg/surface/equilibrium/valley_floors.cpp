@@ -37,7 +37,7 @@ void valley_floors(LandLevel& level, double floor_width, std::uint64_t seed) {
     std::vector<float> widths(rivers.cell.size());
     std::vector<float> reach(widths.size());
     for (std::size_t n = 0; n < widths.size(); ++n) {
-        widths[n] = static_cast<float>(floor_width * exact::pow(level.area[rivers.cell[n]], growth));
+        widths[n] = static_cast<float>(floor_width * portable::pow(level.area[rivers.cell[n]], growth));
         reach[n] = reach_widths * widths[n];
     }
     NearestRiver near = nearest_river(level, reach, std::move(level.order));

@@ -109,7 +109,7 @@ void keep_below_asked(LandLevel& level, Channels const& rivers) {
     }
 }
 
-void tell_lowered(Raster<float> const& dem, Channels const& rivers, EquilibriumLand& out) {
+void tell_lowered(Raster<float> const& dem, Channels const& rivers, EquilibriumTerrain& out) {
     std::vector<double> lowered;
     for (std::size_t n = 0; n < rivers.z.size(); ++n) {
         if (!std::isnan(rivers.z[n])) {
@@ -135,9 +135,9 @@ double share_of_target(LandLevel const& level, Window const& window, double metr
     return share_of_target(cropped(level, window), metres / window.grid.cell_m, params);
 }
 
-EquilibriumLand written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
-                             std::vector<std::int64_t> shortened, Run const& run) {
-    EquilibriumLand out;
+EquilibriumTerrain written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
+                                std::vector<std::int64_t> shortened, Run const& run) {
+    EquilibriumTerrain out;
     out.rise = raise.metres / window.grid.cell_m;
     to_metres(level, raise);
     // A little lower than what counts as perched, for what is settled afterwards.
@@ -154,9 +154,9 @@ EquilibriumLand written_land(LandLevel level, Channels const& rivers, Window con
     return out;
 }
 
-EquilibriumLand written_given_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
-                                   RiverHeights heights, Run const& run) {
-    EquilibriumLand out;
+EquilibriumTerrain written_given_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
+                                      RiverHeights heights, Run const& run) {
+    EquilibriumTerrain out;
     out.rise = raise.metres / window.grid.cell_m;
     to_metres(level, raise);
     for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {

@@ -24,7 +24,7 @@
 
 using namespace thalweg::network;
 using thalweg::Cell;
-using thalweg::ChanceStream;
+using thalweg::RandomStream;
 
 namespace {
 
@@ -86,9 +86,9 @@ std::vector<Bin> unit_step_hits(std::vector<Cell> const& cluster, std::int64_t w
     }
     std::vector<Bin> bins;
     for (std::int64_t i = 0; i < walkers; ++i) {
-        ChanceStream chance(1001, 2, static_cast<std::uint64_t>(i));
-        unit_step::Steps steps(chance);
-        Site const hit = lattice.approach(lattice.born(chance), steps, chance);
+        RandomStream random(1001, 2, static_cast<std::uint64_t>(i));
+        unit_step::Steps steps(random);
+        Site const hit = lattice.approach(lattice.born(random), steps, random);
         bins.emplace_back(hit.x, hit.y);
     }
     return bins;
@@ -102,9 +102,9 @@ TEST(ExitLaw, smallest_square_is_a_unit_step) {
     ExitLaw law;
     law.prepare(1);
     std::map<std::pair<int, int>, int> seen;
-    ChanceStream chance(1, 1, 1);
+    RandomStream random(1, 1, 1);
     for (int i = 0; i < 1000; ++i) {
-        auto const step = law.leave(1, chance);
+        auto const step = law.leave(1, random);
         ++seen[{step.x, step.y}];
     }
     EXPECT_EQ(seen.size(), 4U);
@@ -157,9 +157,9 @@ TEST(ExitLaw, tables_sample_the_closed_form) {
         auto const p = exit_probabilities(half);
         std::vector<std::int64_t> seen(8 * p.size(), 0);
         std::vector<double> expected(seen.size());
-        ChanceStream chance(4, 1, static_cast<std::uint64_t>(half));
+        RandomStream random(4, 1, static_cast<std::uint64_t>(half));
         for (int i = 0; i < 1000000; ++i) {
-            auto const [x, y] = law.leave(half, chance);
+            auto const [x, y] = law.leave(half, random);
             ASSERT_EQ(std::max(std::abs(x), std::abs(y)), half);
             ASSERT_LT(std::min(std::abs(x), std::abs(y)), half);
             std::size_t const side = std::abs(x) == half ? (x > 0 ? 0U : 1U) : (y > 0 ? 2U : 3U);
@@ -225,14 +225,14 @@ TEST(FreeSquares, are_free_and_large) {
 }
 
 // Law: the mean of every z^k, k = 1 ... 4, is 0. Rounding to the lattice shifts it by no more than 1/birth^2.
-TEST(BirthCircle, births_lie_on_the_circle_on_all_sides_alike) {
-    BirthCircle const circle = birth_circle(996.0);
+TEST(LaunchCircle, births_lie_on_the_circle_on_all_sides_alike) {
+    LaunchCircle const circle = launch_circle(996.0);
     EXPECT_EQ(circle.birth, 1000.0);
-    ChanceStream chance(5, 1, 1);
+    RandomStream random(5, 1, 1);
     int const n = 400000;
     std::array<std::complex<double>, 4> mean{};
     for (int i = 0; i < n; ++i) {
-        Site const s = born(circle, chance);
+        Site const s = born(circle, random);
         ASSERT_NEAR(std::sqrt(static_cast<double>(squared(s))), circle.birth, 0.75);
         std::complex<double> const z = std::complex<double>(s.x, s.y) / circle.birth;
         std::complex<double> power = 1.0;
@@ -247,14 +247,14 @@ TEST(BirthCircle, births_lie_on_the_circle_on_all_sides_alike) {
 }
 
 // Law: 1/z^k is harmonic outside the circle and falls to 0, so that the mean over the hits is its value at the start.
-TEST(BirthCircle, return_from_afar_keeps_means_of_harmonic_functions) {
-    BirthCircle const circle = birth_circle(996.0);
+TEST(LaunchCircle, return_from_afar_keeps_means_of_harmonic_functions) {
+    LaunchCircle const circle = launch_circle(996.0);
     int const n = 400000;
     for (Site const from : {Site{1100, 0}, Site{-800, 900}, Site{300, -4000}}) {
-        ChanceStream chance(6, 1, 1);
+        RandomStream random(6, 1, 1);
         std::array<std::complex<double>, 4> mean{};
         for (int i = 0; i < n; ++i) {
-            Site const hit = back_from_afar(circle, from, chance);
+            Site const hit = back_from_afar(circle, from, random);
             ASSERT_NEAR(std::sqrt(static_cast<double>(squared(hit))), circle.birth, 0.75);
             std::complex<double> const inverse = circle.birth / std::complex<double>(hit.x, hit.y);
             std::complex<double> power = 1.0;

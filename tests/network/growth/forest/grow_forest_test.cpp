@@ -32,7 +32,7 @@ namespace {
 /// Some cells of a region that lie two steps apart, at least one.
 std::vector<Cell> random_seeds(Mask const& region, std::int64_t step, std::size_t most, std::uint64_t seed) {
     std::vector<Cell> seeds;
-    ChanceStream words(seed, 77, 0);
+    RandomStream words(seed, 77, 0);
     for (int tries = 0; tries < 4000 && seeds.size() < most; ++tries) {
         Cell const c =
             region.grid().at(static_cast<std::int64_t>(words.word() % static_cast<std::uint64_t>(region.cells())));

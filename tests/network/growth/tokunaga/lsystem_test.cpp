@@ -88,7 +88,7 @@ RC_GTEST_PROP(LSystem, TheWordKeepsTheTree, ()) {
     params.seed = *rc::gen::arbitrary<std::uint64_t>();
     params.generator = *rc::gen::inRange(1, 6);
     params.order = *rc::gen::inRange(1, 6);
-    params.banks = *rc::gen::element(BankRule::alternating, BankRule::chance);
+    params.banks = *rc::gen::element(BankRule::alternating, BankRule::random);
     auto const tree = network::grow_tokunaga(params);
     auto const word = write_lsystem(tree);
     RC_ASSERT(word == lsystem(params));

@@ -11,7 +11,7 @@ namespace thalweg::flow {
 /// Drains depressions with the least volume moved: of each, the cheapest of filling it, of cutting its lowest cell a
 /// way out, and, among rivers, of filling it part of the way (in eighths of its depth) and cutting from there. A cut
 /// leaves the smaller depressions in it to be treated in turn.
-/// Takes: as fill; least: what cells must not be cut below (raise_banks), NaN where any depth will do.
+/// Takes: as fill; least: what cells must not be cut below (confine_channels), NaN where any depth will do.
 /// Gives: drained as after fill, which does the rest; no more volume than fill would move; river cells as they were,
 /// no cell cut below its least. A cut follows the way on which it moves the least, and falls by small steps to a cell
 /// that drains: lower land, a river, the border or no data.

@@ -15,7 +15,7 @@ namespace thalweg::measure {
 /// over length, against the mean of the areas at their two ends, on bins of area: the exponent is -theta. Arcs that do
 /// not fall have no logarithm and are left out. Throws: BadInput when areas or heights are not one an arc.
 /// Source: Flint 1974; on the links of a network: Tarboton, Bras and Rodriguez-Iturbe 1991.
-std::optional<PowerLaw> concavity(RaisedNetwork const& network, flow::ContributingAreas const& areas,
+std::optional<PowerLaw> concavity(ElevatedNetwork const& network, flow::ContributingAreas const& areas,
                                   PowerLawParams const& params = {});
 
 } // namespace thalweg::measure

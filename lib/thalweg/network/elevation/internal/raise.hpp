@@ -30,6 +30,6 @@ void require_heights(StreamNetwork const& network, std::vector<double> const& no
 
 /// A network with heights of its nodes and vertices linear by length along the arcs.
 /// Throws: like require_heights.
-RaisedNetwork raise_linearly(StreamNetwork const& network, std::vector<double> node_z, std::string_view who);
+ElevatedNetwork raise_linearly(StreamNetwork const& network, std::vector<double> node_z, std::string_view who);
 
 } // namespace thalweg::network

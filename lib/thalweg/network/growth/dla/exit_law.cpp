@@ -15,15 +15,15 @@ std::vector<double> exit_probabilities(int half) {
     double const side = 2.0 * half;
     std::vector<double> p(static_cast<std::size_t>(half), 0.0);
     for (int k = 1; k < 2 * half; k += 2) {
-        double const angle = exact::pi * k / side;
-        double const s = exact::sin(0.5 * angle);
-        double const decay = side * exact::log(s + std::sqrt(1.0 + s * s));
+        double const angle = portable::pi * k / side;
+        double const s = portable::sin(0.5 * angle);
+        double const decay = side * portable::log(s + std::sqrt(1.0 + s * s));
         if (decay > 45.0) {
             break;
         }
-        double const weight = 2.0 / (side * (exact::exp(decay) + exact::exp(-decay)));
+        double const weight = 2.0 / (side * (portable::exp(decay) + portable::exp(-decay)));
         for (std::size_t j = 0; j < p.size(); ++j) {
-            p[j] += weight * exact::cos(angle * static_cast<double>(j));
+            p[j] += weight * portable::cos(angle * static_cast<double>(j));
         }
     }
     return p;

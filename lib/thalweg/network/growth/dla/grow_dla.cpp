@@ -115,9 +115,9 @@ std::vector<std::int64_t> find_parents(std::vector<Cell> const& cells, std::vect
 }
 
 /// One of the set bits, each as likely.
-std::uint8_t pick(unsigned mask, ChanceStream& chance) {
+std::uint8_t pick(unsigned mask, RandomStream& random) {
     int const count = std::popcount(mask);
-    int skip = count == 1 ? 0 : static_cast<int>(chance.real() * count);
+    int skip = count == 1 ? 0 : static_cast<int>(random.real() * count);
     for (; skip > 0; --skip) {
         mask &= mask - 1;
     }
@@ -148,7 +148,7 @@ public:
     }
 
 private:
-    static bool stick(double hold, Walker& walker) { return hold >= 1.0 || walker.chance.real() < hold; }
+    static bool stick(double hold, Walker& walker) { return hold >= 1.0 || walker.random.real() < hold; }
 
     /// Counts a visit; whether there were enough with it.
     bool count(Site site) {
@@ -197,7 +197,7 @@ Cluster grow_dla(DlaParams const& params, Run const& run) {
             }
             Fate const fate = gate.arrive(w, mask);
             if (fate == Fate::sticks) {
-                add(w.at, pick(mask, w.chance));
+                add(w.at, pick(mask, w.random));
             }
             if (fate != Fate::walks_on) {
                 break;

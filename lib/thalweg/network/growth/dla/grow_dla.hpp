@@ -51,7 +51,7 @@ void require_growth(DlaParams const& params);
 /// \param params sticking S and visit count M
 /// \param run progress, log, stop token and number of threads
 /// \return a 4-connected cluster; the walk is the simple random walk of the lattice released from afar, every walker
-/// with its own chance (seed, walker): the same cells for any number of threads.
+/// with its own random stream (seed, walker): the same cells for any number of threads.
 /// \throws Error like require_growth
 /// \throws Cancelled
 ///

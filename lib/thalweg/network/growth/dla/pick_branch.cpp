@@ -104,9 +104,9 @@ Branch pick_branch(Cluster const& cluster, BranchParams const& params) {
     auto const chosen = params.choice == BranchChoice::all ? std::vector<std::uint8_t>(cluster.cells.size(), 1)
                                                            : choose(cluster, params.choice);
     Branch branch;
-    double const turn = params.turn_deg / 180.0 * exact::pi;
-    double const c = params.turn_deg == 0.0 ? 1.0 : exact::cos(turn);
-    double const s = params.turn_deg == 0.0 ? 0.0 : exact::sin(turn);
+    double const turn = params.turn_deg / 180.0 * portable::pi;
+    double const c = params.turn_deg == 0.0 ? 1.0 : portable::cos(turn);
+    double const s = params.turn_deg == 0.0 ? 0.0 : portable::sin(turn);
     Vec2 low;
     Vec2 high;
     for (std::size_t p = 0; p < chosen.size(); ++p) {

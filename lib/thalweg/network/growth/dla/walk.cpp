@@ -18,14 +18,14 @@ constexpr std::uint64_t growth_stage = 1;
 } // namespace
 
 Walker walker(std::uint64_t seed, std::int64_t number) {
-    return {{}, ChanceStream(seed, growth_stage, static_cast<std::uint64_t>(number))};
+    return {{}, RandomStream(seed, growth_stage, static_cast<std::uint64_t>(number))};
 }
 
 void Walk::occupy(Site site) {
     double const distance = std::sqrt(static_cast<double>(squared(site)));
     if (distance > radius_ || circle_.far == 0) {
         radius_ = distance;
-        circle_ = birth_circle(distance);
+        circle_ = launch_circle(distance);
         squares_.reach(static_cast<std::int32_t>(distance) + 1);
         law_.prepare(circle_.far);
     }
@@ -44,7 +44,7 @@ unsigned Walk::approach(Walker& walker) const {
     for (;;) {
         std::int32_t const room = circle_.far - chebyshev(walker.at);
         if (room <= 0) {
-            walker.at = back_from_afar(circle_, walker.at, walker.chance);
+            walker.at = back_from_afar(circle_, walker.at, walker.random);
             continue;
         }
         std::int32_t const free = squares_.free_half(walker.at);
@@ -55,14 +55,14 @@ unsigned Walk::approach(Walker& walker) const {
             }
         }
         // A wider square would jump over the walker's first site that is far.
-        ExitLaw::Offset const jump = law_.leave(std::max(std::min(free, room), 1), walker.chance);
+        ExitLaw::Offset const jump = law_.leave(std::max(std::min(free, room), 1), walker.random);
         walker.at = {walker.at.x + jump.x, walker.at.y + jump.y};
     }
 }
 
 void Walk::step(Walker& walker) const {
     for (;;) {
-        Site const next = neighbour(walker.at, static_cast<unsigned>(walker.chance.word() >> 62));
+        Site const next = neighbour(walker.at, static_cast<unsigned>(walker.random.word() >> 62));
         if (!occupied(next)) {
             walker.at = next;
             return;

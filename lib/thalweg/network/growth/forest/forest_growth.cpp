@@ -83,8 +83,8 @@ template <class Visit> bool ForestGrowth::all_near(Cell c, Visit visit) const {
     return all;
 }
 
-Cell ForestGrowth::birth(ChanceStream& chance) const {
-    auto const k = static_cast<std::size_t>(chance.real() * static_cast<double>(births_.size()));
+Cell ForestGrowth::birth(RandomStream& random) const {
+    auto const k = static_cast<std::size_t>(random.real() * static_cast<double>(births_.size()));
     return births_[k];
 }
 

@@ -85,20 +85,20 @@ GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, Fore
         }
     };
     while (growth.open_cells() > 0 && (params.particles == 0 || size() < params.particles)) {
-        ChanceStream chance(params.seed, forest_stage, static_cast<std::uint64_t>(forest.walkers++));
+        RandomStream random(params.seed, forest_stage, static_cast<std::uint64_t>(forest.walkers++));
         look_up();
-        for (Cell at = growth.birth(chance); growth.free(at); look_up()) {
-            if (!growth.walk().approach(at, chance)) {
+        for (Cell at = growth.birth(random); growth.free(at); look_up()) {
+            if (!growth.walk().approach(at, random)) {
                 continue;
             }
             if (!growth.open(at) || !visits.enough(at)) {
                 break;
             }
-            if (params.sticking >= 1.0 || chance.real() < params.sticking) {
+            if (params.sticking >= 1.0 || random.real() < params.sticking) {
                 growth.add(at);
                 break;
             }
-            growth.walk().step(at, chance);
+            growth.walk().step(at, random);
         }
     }
     forest.stop = growth.open_cells() == 0 ? ForestStop::full : ForestStop::particles;

@@ -43,7 +43,7 @@ struct GrownForest {
 /// \return a particle hangs on the one nearest to it. It keeps 2 s from all others, but from the children of that one
 /// only s sqrt(3/2), and from its parent s sqrt(5/2): branches fork, but neither meet nor touch, of one tree or of two,
 /// and in all directions alike. Full: no cell that walkers from a seed could reach may hold a particle. Arrivals have
-/// the law of unit steps, each walker has its own chance (seed, walker): the same bytes for any Run.
+/// the law of unit steps, each walker has its own random stream (seed, walker): the same bytes for any Run.
 /// \throws BadParameter
 /// \throws BadInput for no seed, one outside the region or two that are too near
 /// \throws Cancelled

@@ -18,7 +18,7 @@ bool RegionWalk::beside_a_tree(Cell c) const {
     });
 }
 
-bool RegionWalk::approach(Cell& at, ChanceStream& chance) const {
+bool RegionWalk::approach(Cell& at, RandomStream& random) const {
     constexpr int most_jumps = 4096;
     for (int jumps = 0; jumps < most_jumps; ++jumps) {
         std::int32_t const free = trees_.free_half(site(at));
@@ -27,17 +27,17 @@ bool RegionWalk::approach(Cell& at, ChanceStream& chance) const {
         }
         std::int32_t const half = std::min<std::int32_t>(free, room_[framed(at)] - 1);
         if (half < 1) {
-            step(at, chance);
+            step(at, random);
             continue;
         }
-        ExitLaw::Offset const jump = law_.leave(half, chance);
+        ExitLaw::Offset const jump = law_.leave(half, random);
         at = {at.col + jump.x, at.row + jump.y};
     }
     return false;
 }
 
-void RegionWalk::step(Cell& at, ChanceStream& chance) const {
-    Site const offset = neighbour_offsets[chance.word() >> 62];
+void RegionWalk::step(Cell& at, RandomStream& random) const {
+    Site const offset = neighbour_offsets[random.word() >> 62];
     Cell const next{at.col + offset.x, at.row + offset.y};
     if (inside(next) && !occupied(next)) {
         at = next;

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/run/range.hpp>
@@ -24,21 +24,21 @@ namespace {
 constexpr std::uint64_t island_stage = 0x69736c616e643031; // "island01"
 constexpr double share_of_land = 0.42;                     // of the grid
 
-/// One octave of gradient noise, its lattice turned and moved by chance.
+/// One octave of gradient noise, its lattice turned and moved at random.
 class Octave {
 public:
     Octave(double wave_cells, double amplitude, std::uint64_t seed, std::uint64_t number, double span_cells)
         : amplitude_(amplitude) {
-        auto const words = chance_block(seed, island_stage, number);
-        double const turn = 2.0 * exact::pi * unit(words[0]);
-        along_ = {exact::cos(turn) / wave_cells, exact::sin(turn) / wave_cells};
+        auto const words = random_block(seed, island_stage, number);
+        double const turn = 2.0 * portable::pi * unit(words[0]);
+        along_ = {portable::cos(turn) / wave_cells, portable::sin(turn) / wave_cells};
         // The lattice covers the span whichever way it is turned.
         half_ = static_cast<std::int64_t>(std::ceil(span_cells / wave_cells)) + 2;
         offset_ = {unit(words[1]), unit(words[2])};
         auto const side = static_cast<std::uint64_t>(2 * half_ + 1);
         for (std::uint64_t i = 0; i < side * side; ++i) {
-            double const angle = 2.0 * exact::pi * unit(chance(seed, island_stage, number, 1, i));
-            gradients_.push_back({exact::cos(angle), exact::sin(angle)});
+            double const angle = 2.0 * portable::pi * unit(random_word(seed, island_stage, number, 1, i));
+            gradients_.push_back({portable::cos(angle), portable::sin(angle)});
         }
     }
 
@@ -165,10 +165,10 @@ Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) 
     double const bend = 0.35 * params.ruggedness * shorter;
     Vec2 const middle{sum(bends_x, 0.0, 0.0), sum(bends_y, 0.0, 0.0)};
     // Islands are longer than wide, in any direction.
-    auto const words = chance_block(params.seed, island_stage, 96);
-    double const turn = exact::pi * unit(words[0]);
+    auto const words = random_block(params.seed, island_stage, 96);
+    double const turn = portable::pi * unit(words[0]);
     double const slender = 1.0 + 0.5 * unit(words[1]) * params.ruggedness;
-    Vec2 const along{exact::cos(turn), exact::sin(turn)};
+    Vec2 const along{portable::cos(turn), portable::sin(turn)};
 
     Raster<float> above(grid, -std::numeric_limits<float>::infinity());
     parallel_ranges(run, grid.height, 16, [&](std::int64_t begin, std::int64_t end) {

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells/d8.hpp>
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 
@@ -51,10 +51,10 @@ std::vector<Candidate> candidates(Mask const& land, std::vector<Cell> const& coa
     all.reserve(coast.size());
     for (Cell const c : coast) {
         auto const words =
-            chance_block(seed, outlet_stage, static_cast<std::uint64_t>(c.col), static_cast<std::uint64_t>(c.row));
+            random_block(seed, outlet_stage, static_cast<std::uint64_t>(c.col), static_cast<std::uint64_t>(c.row));
         double const around = land_around(land, c);
         double const weight = around * around * around;
-        all.push_back({-exact::log(1.0 - unit(words[0])) / weight, 0.3 + 0.6 * unit(words[1]), c});
+        all.push_back({-portable::log(1.0 - unit(words[0])) / weight, 0.3 + 0.6 * unit(words[1]), c});
     }
     std::ranges::stable_sort(all, {}, &Candidate::turn);
     return all;

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/core/vec.hpp>
@@ -168,7 +168,7 @@ EmbeddedTree embed_tree(TokunagaTree const& tree, EmbedParams const& params, Run
     SettledLinks settled;
     std::int64_t most = -1;
     for (std::uint64_t k = 0; k < beginnings; ++k) {
-        forest.seed = k == 0 ? params.seed : chance(params.seed, embed_stage, k);
+        forest.seed = k == 0 ? params.seed : random_word(params.seed, embed_stage, k);
         SettledLinks found = settle_links(forest, spread_forest(forest, run));
         std::int64_t const placed = std::count(found.stays.begin(), found.stays.end(), std::uint8_t{1});
         if (placed > most) {

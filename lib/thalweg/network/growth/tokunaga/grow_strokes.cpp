@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/tokunaga/grow_strokes.hpp>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/growth/tokunaga/internal/balance_banks.hpp>
@@ -88,7 +88,7 @@ public:
 
     void plant(std::size_t stroke, Run const& run) {
         TokunagaParams params = params_.tree;
-        params.seed = chance(params_.tree.seed, stroke_stage, stroke);
+        params.seed = random_word(params_.tree.seed, stroke_stage, stroke);
         params.generator = drawn_.lines[stroke].lambda > 0 ? drawn_.lines[stroke].lambda : params.generator;
         params.order = depth_of(stroke) + 1;
         TokunagaTree tree = grow_tokunaga(params, run);

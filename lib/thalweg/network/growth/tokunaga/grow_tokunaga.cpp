@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 
@@ -36,7 +36,7 @@ public:
         links_.clear();
         tops_.assign(coarse.size(), -1);
         for (std::size_t i = 0; i < coarse.size(); ++i) {
-            words_ = chance_block(params_.seed, tokunaga_stage, static_cast<std::uint64_t>(step_), i);
+            words_ = random_block(params_.seed, tokunaga_stage, static_cast<std::uint64_t>(step_), i);
             TreeLink const& old = coarse[i];
             std::int64_t const below = old.down < 0 ? -1 : tops_[static_cast<std::size_t>(old.down)];
             bool const source = old.up[0] < 0;
@@ -82,7 +82,7 @@ private:
     }
 
     bool turned(int bit) const {
-        return params_.banks == BankRule::chance && (words_[1] >> static_cast<unsigned>(bit) & 1) != 0;
+        return params_.banks == BankRule::random && (words_[1] >> static_cast<unsigned>(bit) & 1) != 0;
     }
 
     /// As paper 003 writes its rules: G[--G] alone, else from the left; F[++G] alone, F[--G]F[++G].

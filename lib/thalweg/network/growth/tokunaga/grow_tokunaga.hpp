@@ -14,7 +14,7 @@ namespace thalweg::network {
 /// The banks on which side branches enter.
 enum class BankRule : std::uint8_t {
     alternating, ///< as the rules of the L-system are written
-    chance       ///< each by chance, either as likely
+    random       ///< each at random, either as likely
 };
 
 /// Options of grow_tokunaga().
@@ -23,7 +23,7 @@ struct TokunagaParams {
     int generator = 2;                  ///< [1, 50] lambda: 1 has no side branches, many make a feathered network
     int order = 5;                      ///< [1, 30] Strahler order of the outlet; each refinement raises it by one
     SideRule rule = SideRule::tokunaga; ///< side branches of an interior link
-    BankRule banks = BankRule::chance;  ///< their banks
+    BankRule banks = BankRule::random;  ///< their banks
     std::int64_t max_links = 2'000'000; ///< [1, ...] a network of more is refused
 };
 
@@ -44,10 +44,10 @@ struct TokunagaTree {
 };
 
 /// Grows a self-similar river network by refining: every source becomes a generator, every other link a chain with side
-/// branches, whose mean number is rounded up or down by chance.
+/// branches, whose mean number is rounded up or down at random.
 /// \param params the generator's number lambda and the order
 /// \param run progress, log, stop token and number of threads
-/// \return a binary tree of that order whose side branches have the means T_k = a c^(k-1), by chance (seed, refinement,
+/// \return a binary tree of that order whose side branches have the means T_k = a c^(k-1), at random (seed, refinement,
 /// link); for lambda = 2 exactly. One source more than other links.
 /// \throws BadParameter also where the tree has more than max_links links
 /// \throws Cancelled

@@ -203,7 +203,7 @@ std::vector<std::vector<Vec2>> draw_turtle(TokunagaTree const& tree, TurtleParam
     if (!(params.link_m > 0.0)) {
         throw BadParameter(fmt::format("network.draw_turtle: link_m is {}, it must be above 0", params.link_m));
     }
-    double const delta = params.delta_deg / 180.0 * exact::pi;
+    double const delta = params.delta_deg / 180.0 * portable::pi;
     std::vector<int> turns(tree.links.size(), 0);
     std::vector<std::vector<Vec2>> lines;
     for (std::size_t i = 0; i < tree.links.size(); ++i) {
@@ -212,7 +212,7 @@ std::vector<std::vector<Vec2>> draw_turtle(TokunagaTree const& tree, TurtleParam
         turns[i] = link.turn + (link.down < 0 ? 0 : turns[as_index(link.down)]);
         double const angle = delta * turns[i];
         lines.push_back(
-            {from, {from.x - params.link_m * exact::sin(angle), from.y + params.link_m * exact::cos(angle)}});
+            {from, {from.x - params.link_m * portable::sin(angle), from.y + params.link_m * portable::cos(angle)}});
     }
     return lines;
 }

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/geometry/point_grid.hpp>
 
 namespace thalweg::network {
@@ -121,7 +121,7 @@ Vec2 turn_upstream(ForestLayout const& layout, std::size_t i) {
 
 /// A random step, uniform in a square.
 Vec2 shaken(ForestLayout const& layout, int order, int sweep, std::size_t i) {
-    auto const words = chance_block(layout.forest.seed, spread_stage, static_cast<std::uint64_t>(order) << 32 | i,
+    auto const words = random_block(layout.forest.seed, spread_stage, static_cast<std::uint64_t>(order) << 32 | i,
                                     static_cast<std::uint64_t>(sweep));
     double const reach = shake * layout.spacing_m[i];
     return {reach * (2.0 * thalweg::unit(words[0]) - 1.0), reach * (2.0 * thalweg::unit(words[1]) - 1.0)};

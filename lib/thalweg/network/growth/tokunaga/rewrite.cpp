@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/chance.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg::network {
@@ -151,8 +151,8 @@ std::string rewritten(std::string const& word, LSystem const& system, std::uint6
             std::size_t const which =
                 words.size() == 1
                     ? 0
-                    : static_cast<std::size_t>(chance(seed, rewrite_stage, static_cast<std::uint64_t>(iteration), i) %
-                                               words.size());
+                    : static_cast<std::size_t>(
+                          random_word(seed, rewrite_stage, static_cast<std::uint64_t>(iteration), i) % words.size());
             next += words[which];
         }
         if (next.size() > most_signs) {
@@ -196,7 +196,7 @@ std::string rewrite(LSystem const& system, std::uint64_t seed, Run const& run) {
 }
 
 std::vector<std::vector<Vec2>> draw_word(std::string_view word, double angle_deg, Run const& run) {
-    double const angle = angle_deg / 180.0 * exact::pi;
+    double const angle = angle_deg / 180.0 * portable::pi;
     std::vector<std::vector<Vec2>> lines;
     std::vector<Turtle> remembered;
     Turtle turtle;
@@ -207,9 +207,9 @@ std::vector<std::vector<Vec2>> draw_word(std::string_view word, double angle_deg
         }
         char const sign = word[i];
         if ((sign >= 'A' && sign <= 'Z') || (sign >= 'a' && sign <= 'z')) {
-            double const bearing = angle * turtle.turns + exact::pi * (turtle.halves % 2);
+            double const bearing = angle * turtle.turns + portable::pi * (turtle.halves % 2);
             Vec2 const from = turtle.at;
-            turtle.at = {from.x - exact::sin(bearing), from.y + exact::cos(bearing)};
+            turtle.at = {from.x - portable::sin(bearing), from.y + portable::cos(bearing)};
             bool const draws = sign <= 'Z';
             if (draws && !is_drawing) {
                 lines.push_back({from});

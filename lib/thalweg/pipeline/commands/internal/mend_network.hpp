@@ -19,7 +19,7 @@ struct MendNetworkParams {
 
 /// A network without the faults of its file.
 struct MendedNetwork {
-    RaisedNetwork network;
+    ElevatedNetwork network;
     NetworkOrders orders;
     std::vector<double> us_area_m2; ///< by arc
     std::vector<double> ds_area_m2; ///< by arc

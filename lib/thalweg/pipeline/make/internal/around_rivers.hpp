@@ -3,7 +3,7 @@
 #pragma once
 
 #include <thalweg/core/feature_points.hpp>
-#include <thalweg/pipeline/make/drawn_land.hpp>
+#include <thalweg/pipeline/make/drawn_terrain.hpp>
 #include <thalweg/pipeline/make/internal/diary.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
 
@@ -12,9 +12,9 @@ namespace thalweg::pipeline {
 
 /// Draws the land that the rivers' recipe asks for through their cells, which keep their heights, and through the
 /// points.
-DrawnLand draw_around_rivers(Rivers const& rivers, FeaturePoints const& points, Diary& diary, Run const& run);
+DrawnTerrain draw_around_rivers(Rivers const& rivers, FeaturePoints const& points, Diary& diary, Run const& run);
 
 /// Rivers without land around them.
-DrawnLand without_land(Rivers const& rivers);
+DrawnTerrain without_land(Rivers const& rivers);
 
 } // namespace thalweg::pipeline

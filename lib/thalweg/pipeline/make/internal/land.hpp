@@ -3,7 +3,7 @@
 #pragma once
 
 #include <thalweg/core/feature_points.hpp>
-#include <thalweg/pipeline/make/drawn_land.hpp>
+#include <thalweg/pipeline/make/drawn_terrain.hpp>
 #include <thalweg/pipeline/make/internal/diary.hpp>
 
 /// Land from numbers and from points (paper 001). Private to this room.
@@ -22,7 +22,8 @@ void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string 
 Check points_missing(std::int64_t missing, std::int64_t wanted, Run const& run);
 
 /// Land without rivers: a random one or that of points, with fractal detail, brought to the statistics.
-DrawnLand make_land(Recipe const& recipe, Grid const& grid, FeaturePoints const& points, Diary& diary, Run const& run);
+DrawnTerrain make_land(Recipe const& recipe, Grid const& grid, FeaturePoints const& points, Diary& diary,
+                       Run const& run);
 
 /// How many times detail halves the cells; 0 without it.
 int levels_of(Recipe const& recipe);

@@ -4,7 +4,7 @@
 
 #include <thalweg/flow/flow_field.hpp>
 #include <thalweg/flow/routing/route.hpp>
-#include <thalweg/pipeline/make/drawn_land.hpp>
+#include <thalweg/pipeline/make/drawn_terrain.hpp>
 #include <thalweg/pipeline/make/internal/diary.hpp>
 
 /// Land in equilibrium with its rivers. Private to this room.
@@ -20,9 +20,9 @@ double usual_slope_deg(double cell_m);
 /// Draws the land around the planned rivers, takes tips off these that would stand perched, and gives them and their
 /// cells the land's heights. Takes: a network in plan; its heights too, where they are asked for; heights_of_file:
 /// these are taken because the lines have them, and give way where they would need walls.
-DrawnLand draw_in_equilibrium(DrawnLand drawn, bool heights_of_file, Diary& diary, Run const& run);
+DrawnTerrain draw_in_equilibrium(DrawnTerrain drawn, bool heights_of_file, Diary& diary, Run const& run);
 
 /// Makes arcs of the side valleys the land has grown, where the recipe wants them.
-DrawnLand with_side_valleys(DrawnLand drawn, flow::FlowField const& drainage, Diary& diary, Run const& run);
+DrawnTerrain with_side_valleys(DrawnTerrain drawn, flow::FlowField const& drainage, Diary& diary, Run const& run);
 
 } // namespace thalweg::pipeline

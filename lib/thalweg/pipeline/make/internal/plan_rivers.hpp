@@ -23,7 +23,7 @@ struct Planned {
     Recipe recipe; ///< with what follows from where the rivers come from: CRS, cell, turn, heights
     StreamNetwork plan;
     Grid grid;
-    std::optional<RaisedNetwork> file_heights = {};
+    std::optional<ElevatedNetwork> file_heights = {};
     Mask land = {}; ///< 0: sea; without cells: all is land
     RiverFile file = {};
     NetworkStory story = {};

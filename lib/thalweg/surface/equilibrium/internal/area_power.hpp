@@ -18,13 +18,13 @@ namespace thalweg::surface {
 class AreaPower {
 public:
     explicit AreaPower(double exponent, double bend_area = 0.0) {
-        double const least = bend_area > 0.0 ? exact::pow(bend_area, sharpness * exponent) : 0.0;
+        double const least = bend_area > 0.0 ? portable::pow(bend_area, sharpness * exponent) : 0.0;
         for (std::size_t i = 0; i < table_.size(); ++i) {
             auto const bits = static_cast<std::uint32_t>((i + first) << dropped);
             auto const area = static_cast<double>(std::bit_cast<float>(bits));
             table_[i] = static_cast<float>(
-                least > 0.0 ? exact::pow(exact::pow(area, sharpness * exponent) + least, 1.0 / sharpness)
-                            : exact::pow(area, exponent));
+                least > 0.0 ? portable::pow(portable::pow(area, sharpness * exponent) + least, 1.0 / sharpness)
+                            : portable::pow(area, exponent));
         }
     }
 

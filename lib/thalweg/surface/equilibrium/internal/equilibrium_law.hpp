@@ -14,7 +14,7 @@ namespace thalweg::surface {
 struct EquilibriumLaw {
     explicit EquilibriumLaw(EquilibriumParams const& params)
         : power(params.theta), land_power(params.theta, debris_area),
-          creep(static_cast<float>(exact::pow(params.hillslope_cells, 2.0 * params.theta + 1.0))) {}
+          creep(static_cast<float>(portable::pow(params.hillslope_cells, 2.0 * params.theta + 1.0))) {}
 
     static constexpr double debris_area = 16.0; ///< [finest cells]
 

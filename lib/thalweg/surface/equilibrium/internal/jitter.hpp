@@ -24,7 +24,7 @@ inline constexpr int jitter_codes = (jitter_places - 1) * (jitter_stride + 1);
 using JitteredPerLength = std::array<std::array<float, 2 * jitter_codes + 1>, 4>;
 JitteredPerLength jittered_per_length();
 
-/// Gives every node of a level its place, by chance.
+/// Gives every node of a level its place, at random.
 void jitter(LandLevel& level, std::uint64_t seed, Run const& run);
 
 } // namespace thalweg::surface

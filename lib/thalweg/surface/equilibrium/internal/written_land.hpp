@@ -34,11 +34,11 @@ double share_of_target(LandLevel const& level, Window const& window, double metr
 
 /// The caller's grid out of a solved finest level, in metres, with the ways of its water. Tips that are still perched
 /// are given up besides those that are shortened already.
-EquilibriumLand written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
-                             std::vector<std::int64_t> shortened, Run const& run);
+EquilibriumTerrain written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
+                                std::vector<std::int64_t> shortened, Run const& run);
 
 /// The same with rivers at the heights that are given, or below them; tells which stand on walls and what was lowered.
-EquilibriumLand written_given_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
-                                   RiverHeights heights, Run const& run);
+EquilibriumTerrain written_given_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
+                                      RiverHeights heights, Run const& run);
 
 } // namespace thalweg::surface

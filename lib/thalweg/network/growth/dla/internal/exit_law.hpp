@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 
 namespace thalweg::network {
 
@@ -32,9 +32,9 @@ public:
     void prepare(int longest);
 
     /// Leaves the largest square that has a table and a half side of at most `free`; [1, ...].
-    Offset leave(int free, ChanceStream& chance) const {
+    Offset leave(int free, RandomStream& random) const {
         Table const& table = tables_[slot(free < longest_ ? free : longest_)];
-        std::uint64_t const word = chance.word();
+        std::uint64_t const word = random.word();
         std::uint64_t const spot = (word >> 12) * table.half;
         std::uint64_t const entry = table.entries[spot >> 52];
         std::uint64_t const along = (spot & low_52_bits) < entry >> 12 ? spot >> 52 : entry & low_12_bits;

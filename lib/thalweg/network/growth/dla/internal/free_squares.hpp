@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/network/growth/dla/internal/birth_circle.hpp>
+#include <thalweg/network/growth/dla/internal/launch_circle.hpp>
 #include <thalweg/network/growth/dla/internal/tiled_bytes.hpp>
 
 namespace thalweg::network {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include <thalweg/core/grid.hpp>
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/network/growth/dla/internal/birth_circle.hpp>
 #include <thalweg/network/growth/dla/internal/exit_law.hpp>
 #include <thalweg/network/growth/dla/internal/free_squares.hpp>
+#include <thalweg/network/growth/dla/internal/launch_circle.hpp>
 
 namespace thalweg::network {
 
@@ -25,7 +25,7 @@ inline Site neighbour(Site s, unsigned direction) {
 /// One random walker and its own chance.
 struct Walker {
     Site at;
-    ChanceStream chance;
+    RandomStream random;
 };
 
 /// The walker with this number, not yet born.
@@ -46,7 +46,7 @@ public:
     } ///< the cluster and its neighbours lie in -half <= x, y < half
 
     /// Puts a walker on the birth circle.
-    void release(Walker& walker) const { walker.at = born(circle_, walker.chance); }
+    void release(Walker& walker) const { walker.at = born(circle_, walker.random); }
 
     /// Walks until the walker stands on a free site with an occupied neighbour; there it may be already.
     /// Gives: the occupied neighbours, bit d for direction d.
@@ -60,7 +60,7 @@ private:
 
     FreeSquares squares_;
     ExitLaw law_;
-    BirthCircle circle_;
+    LaunchCircle circle_;
     double radius_ = 0.0;
 };
 

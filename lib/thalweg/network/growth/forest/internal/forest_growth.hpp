@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/numbers/chance.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/network/growth/forest/internal/region_walk.hpp>
 
@@ -27,7 +27,7 @@ public:
     bool free(Cell c) const { return state_[c] != State::barren; }
 
     /// A cell where a walker starts, each as likely: those from which it could not come to an open cell are left out.
-    Cell birth(ChanceStream& chance) const;
+    Cell birth(RandomStream& random) const;
 
     /// A particle holds at an open cell.
     void add(Cell c);

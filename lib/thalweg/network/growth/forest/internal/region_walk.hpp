@@ -30,10 +30,10 @@ public:
     /// Walks until the walker stands on a free cell with an occupied 4-neighbour; there it may be already.
     /// Takes: a free cell of a part of the region in which some cell is occupied.
     /// Gives: whether it is there; not yet after some thousand jumps, so that who walks far can be stopped.
-    bool approach(Cell& at, ChanceStream& chance) const;
+    bool approach(Cell& at, RandomStream& random) const;
 
     /// One step to a 4-neighbour, each as likely; none where that is occupied or outside the region.
-    void step(Cell& at, ChanceStream& chance) const;
+    void step(Cell& at, RandomStream& random) const;
 
 private:
     Site site(Cell c) const {

@@ -63,7 +63,7 @@ enum class Placement : std::uint8_t { first, move };
 bool may_lie(ForestLayout const& layout, std::size_t link, Vec2 to, Placement placement);
 
 /// Moves every free node once: towards the centres of the places nearest to it and to its links, towards a straight
-/// course, tributaries upstream, and by chance in the first sweeps. progress: [0, 1) of the sweeps of this order.
+/// course, tributaries upstream, and at random in the first sweeps. progress: [0, 1) of the sweeps of this order.
 void relax_nodes(ForestLayout& layout, int order, int sweep, double progress);
 
 } // namespace thalweg::network

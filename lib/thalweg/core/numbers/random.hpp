@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace thalweg {
+
+/// Random words as a hash of seed and place: Philox4x64-10 (Salmon et al. 2011), the same words on every machine.
+/// \pre the seed and up to four numbers that name the place (stage, row, column, ...).
+/// \param seed random seed
+/// \param a first number of the place
+/// \param b second number of the place
+/// \param c third number of the place
+/// \param d fourth number of the place
+/// \return four independent uniform 64-bit words.
+std::array<std::uint64_t, 4> random_block(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0,
+                                          std::uint64_t d = 0);
+
+/// \param seed random seed
+/// \param a first number of the place
+/// \param b second number of the place
+/// \param c third number of the place
+/// \param d fourth number of the place
+/// \return first word of random_block.
+inline std::uint64_t random_word(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0,
+                                 std::uint64_t d = 0) {
+    return random_block(seed, a, b, c, d)[0];
+}
+
+/// \param word a random word
+/// \return a word as a real number in [0,1), a multiple of 2^-53.
+inline double unit(std::uint64_t word) {
+    return static_cast<double>(word >> 11) * 0x1p-53;
+}
+
+/// An endless row of words that belongs to one place: the words of (seed, stage, item), block by block.
+class RandomStream {
+public:
+    RandomStream(std::uint64_t seed, std::uint64_t stage, std::uint64_t item)
+        : seed_(seed), stage_(stage), item_(item) {}
+
+    std::uint64_t word() {
+        if (next_ == words_.size()) {
+            refill();
+        }
+        return words_[next_++];
+    }
+    double real() { return unit(word()); }
+
+private:
+    void refill();
+
+    std::uint64_t seed_;
+    std::uint64_t stage_;
+    std::uint64_t item_;
+    std::uint64_t block_ = 0;
+    std::array<std::uint64_t, 16> words_{};
+    std::size_t next_ = 16;
+};
+
+} // namespace thalweg

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// All public headers of the module.
+#include <thalweg/fractal/check_targets.hpp>
+#include <thalweg/fractal/estimate_fractal.hpp>
+#include <thalweg/fractal/fine_forms.hpp>
+#include <thalweg/fractal/match_statistics.hpp>
+#include <thalweg/fractal/midpoint.hpp>
+#include <thalweg/fractal/noise_row.hpp>
+#include <thalweg/fractal/refine.hpp>
+#include <thalweg/fractal/stencil_weights.hpp>

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+
+namespace thalweg::fractal {
+
+/// Least and greatest Hurst exponent that is estimated or taken.
+inline constexpr double least_hurst = 0.05;
+inline constexpr double greatest_hurst = 0.95;
+
+enum class Differences : std::uint8_t {
+    squares, ///< mean squares: S(k) = sigma^2 k^(2H)
+    absolute ///< mean absolute values, as of normal differences: E|dz| = sqrt(2/pi) sigma k^H
+};
+
+/// Options of estimate_fractal().
+struct EstimateParams {
+    Differences differences = Differences::squares;
+    std::optional<double> hurst; ///< [0.05, 0.95] held, so that only sigma is estimated; empty: estimated
+};
+
+/// A fractional Brownian surface, E (z(p) - z(q))^2 = sigma^2 |p - q|^(2H) with distances in cells.
+struct Fractal {
+    double hurst = 0.5;     ///< [0.05, 0.95] H; the fractal dimension is 3 - H
+    double sigma = 0.0;     ///< [m] root mean square difference of two heights one cell apart
+    int lags = 0;           ///< [0, 4] lags with differences other than 0
+    std::int64_t pairs = 0; ///< of cells compared, over all lags
+};
+
+/// Cells [col, col + width) x [row, row + height).
+struct CellWindow {
+    std::int64_t col = 0;
+    std::int64_t row = 0;
+    std::int64_t width = 0;
+    std::int64_t height = 0;
+};
+
+/// H and sigma of a raster by a straight line through ln S(k) over ln k, k = 1 .. 4 cells, by least squares.
+/// \param dem NaN cells are left out, with every pair they belong to. S(k) is the mean of its values along rows and
+/// along columns, or the one of them there is
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return H clamped to [0.05, 0.95], then sigma at that H. From one lag: H = 0.5 (unless held) and sigma. From none,
+/// as of a flat raster: sigma = 0. The same bits for any number of threads.
+/// \throws BadInput an infinite height
+/// \throws BadParameter H held outside [0.05, 0.95]
+/// \throws Cancelled
+///
+/// Source: \cite zhang, section on fractal interpolation (H and sigma of the initial grid); specification 1.6.
+Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params = {}, Run const& run = {});
+
+/// \param dem [m] heights by cell; NaN: no data
+/// \param window the cells that count
+/// \param params options, each with its default, unit and range
+/// \return the same from the pairs inside a window, which lies inside the raster.
+Fractal estimate_fractal(Raster<float> const& dem, CellWindow const& window, EstimateParams const& params = {});
+
+} // namespace thalweg::fractal

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/measure/relief/relief_metrics.hpp>
+
+#include <limits>
+
+namespace thalweg::measure {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+double over(std::int64_t a, std::int64_t b) {
+    return b > 0 ? static_cast<double>(a) / static_cast<double>(b) : unknown;
+}
+
+constexpr std::array<ReliefMetric, relief_metric_count> figures = {{
+    {"slope_mean", "slope, mean", "°", Judges::yes, [](Relief const& r) { return r.slopes.mean_deg; }},
+    {"slope_std", "slope, deviation", "°", Judges::yes, [](Relief const& r) { return r.slopes.std_deg; }},
+    {"slope_p5", "slope, 5th percentile", "°", Judges::yes,
+     [](Relief const& r) { return r.slopes.percentile_deg.front(); }},
+    {"slope_p50", "slope, median", "°", Judges::yes, [](Relief const& r) { return r.slopes.percentile_deg[3]; }},
+    {"slope_p95", "slope, 95th percentile", "°", Judges::yes,
+     [](Relief const& r) { return r.slopes.percentile_deg.back(); }},
+    {"slope_cv", "slope, variation of the tangent", "", Judges::yes,
+     [](Relief const& r) { return r.slopes.tangent_cv; }},
+    {"theta", "concavity θ of the DEM’s rivers", "", Judges::yes,
+     [](Relief const& r) { return r.slope_area ? -r.slope_area->exponent : unknown; }},
+    {"theta_r2", "slope against area, r²", "", Judges::yes,
+     [](Relief const& r) { return r.slope_area ? r.slope_area->r2 : unknown; }},
+    {"chi_r2", "height against χ on main stems, r²", "", Judges::yes,
+     [](Relief const& r) { return r.chi ? r.chi->r2 : unknown; }},
+    {"hypsometric_integral", "hypsometric integral", "", Judges::yes,
+     [](Relief const& r) { return r.hypsometric_integral; }},
+    {"peaks", "peaks per thousand cells", "", Judges::yes,
+     [](Relief const& r) { return 1000.0 * over(r.extremes.peaks, r.extremes.cells); }},
+    {"pits_over_peaks", "pits over peaks", "", Judges::no,
+     [](Relief const& r) { return over(r.extremes.pits, r.extremes.peaks); }},
+    {"valleys_over_ridges", "valley over ridge cells", "", Judges::yes,
+     [](Relief const& r) { return r.valleys_over_ridges; }},
+    {"hollows_over_noses", "hollow over nose cells", "", Judges::yes,
+     [](Relief const& r) { return r.hollows_over_noses; }},
+    {"aspects_along_grid", "aspects along the grid, over even ones", "", Judges::yes,
+     [](Relief const& r) { return r.slopes.aspects_along_grid; }},
+    {"aspects_on_grid", "D8 bias: aspects right on the grid", "", Judges::yes,
+     [](Relief const& r) { return r.slopes.aspects_on_grid; }},
+    {"length_x", "correlation length over extent, rows", "", Judges::yes, [](Relief const& r) { return r.length_x; }},
+    {"length_y", "correlation length over extent, columns", "", Judges::yes,
+     [](Relief const& r) { return r.length_y; }},
+    {"density", "drainage density × √support", "", Judges::yes, [](Relief const& r) { return r.scaled_density; }},
+}};
+
+} // namespace
+
+std::array<ReliefMetric, relief_metric_count> const& relief_metrics() {
+    return figures;
+}
+
+} // namespace thalweg::measure

@@ -1,0 +1,397 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/import/internal/import_channels.hpp>
+#include <thalweg/network/import/internal/import_tree.hpp>
+
+// Every node gets one main branch out of it. These make trees but for circles, which are opened; of the other branches
+// those stay that nobody knows the direction of for certain and that close no loop: orient may turn them round.
+namespace thalweg::network::import_steps {
+namespace {
+
+constexpr std::size_t no_piece = static_cast<std::size_t>(-1);
+
+constexpr char const* minor_channel = "minor channel";
+constexpr char const* closes_loop = "closes a loop";
+constexpr char const* circle = "runs in a circle";
+constexpr char const* ring = "closed ring";
+
+class Sets {
+public:
+    explicit Sets(std::size_t count) : root_(count) { std::iota(root_.begin(), root_.end(), std::size_t{0}); }
+    std::size_t of(std::size_t n) {
+        while (root_[n] != n) {
+            n = root_[n] = root_[root_[n]];
+        }
+        return n;
+    }
+    /// False when they were one already.
+    bool join(std::size_t a, std::size_t b) {
+        a = of(a);
+        b = of(b);
+        root_[std::max(a, b)] = std::min(a, b);
+        return a != b;
+    }
+
+private:
+    std::vector<std::size_t> root_;
+};
+
+/// Pieces and nodes that hang together, both ascending.
+struct Component {
+    std::vector<std::size_t> pieces;
+    std::vector<std::size_t> nodes;
+    bool has_loops() const { return pieces.size() >= nodes.size(); }
+};
+
+std::vector<Component> components_of(Pieces const& p) {
+    Sets sets(p.nodes.size());
+    for (auto const& piece : p.pieces) {
+        sets.join(piece.from, piece.to);
+    }
+    std::vector<Component> components;
+    std::vector<std::size_t> number(p.nodes.size(), no_piece);
+    for (std::size_t n = 0; n < p.nodes.size(); ++n) {
+        std::size_t& of = number[sets.of(n)];
+        if (of == no_piece) {
+            of = components.size();
+            components.emplace_back();
+        }
+        components[of].nodes.push_back(n);
+    }
+    for (std::size_t k = 0; k < p.pieces.size(); ++k) {
+        components[number[sets.of(p.pieces[k].from)]].pieces.push_back(k);
+    }
+    return components;
+}
+
+class Divider {
+public:
+    Divider(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation)
+        : p_(pieces), lines_(lines), file_(file), orientation_(orientation),
+          evidence_(evidence_of(pieces, lines, file, orientation)), main_(pieces.nodes.size(), no_piece),
+          kept_(pieces.nodes.size()) {
+        divided_.reason.assign(p_.pieces.size(), nullptr);
+        divided_.runs.assign(p_.pieces.size(), 0);
+        reached_.assign(p_.nodes.size(), 0);
+        state_.assign(p_.nodes.size(), 0);
+        border_m_ = border_distances(p_, lines);
+    }
+
+    Divided divide(Run const& run) {
+        auto const components = components_of(p_);
+        for (Component const& component : components) {
+            take_directions(component);
+        }
+        length_above_ = lengths_above(p_, divided_);
+        for (Component const& component : components) {
+            run.check();
+            divide(component);
+        }
+        for (auto& at : p_.at_node) {
+            std::erase_if(at, [&](std::size_t k) { return divided_.reason[k] != nullptr; });
+        }
+        return std::move(divided_);
+    }
+
+private:
+    void take_directions(Component const& c) {
+        Evidence const* const certain = evidence_for(c);
+        for (std::size_t const k : c.pieces) {
+            int const vote = certain == nullptr ? 0 : certain->votes[k];
+            divided_.runs[k] = vote != 0 || orientation_ == Orientation::topology ? vote : 1;
+            if (p_.pieces[k].from == p_.pieces[k].to) {
+                leave_out(k, ring);
+            }
+        }
+    }
+
+    void divide(Component const& c) {
+        Evidence const* const certain = evidence_for(c);
+        if (certain == nullptr && !c.has_loops()) {
+            return;
+        }
+        if (orientation_ == Orientation::topology) {
+            span(c, outermost(c));
+            return;
+        }
+        choose_mains(c);
+        open_circles(c);
+        keep_mains(c);
+        sort_out_others(c, certain);
+        if (certain == nullptr) {
+            doubt(c);
+        }
+    }
+
+    Evidence const* evidence_for(Component const& c) const {
+        for (Evidence const& e : evidence_) {
+            if (std::ranges::any_of(c.pieces, [&](std::size_t k) { return e.votes[k] != 0; })) {
+                return &e;
+            }
+        }
+        return nullptr;
+    }
+
+    void leave_out(std::size_t k, char const* reason) { divided_.reason[k] = reason; }
+    bool is_out(std::size_t k) const { return divided_.reason[k] != nullptr; }
+    bool leaves(std::size_t k, std::size_t node) const {
+        auto const& piece = p_.pieces[k];
+        return (divided_.runs[k] > 0 ? piece.from : piece.to) == node;
+    }
+    std::size_t below(std::size_t k) const {
+        auto const& piece = p_.pieces[k];
+        return divided_.runs[k] > 0 ? piece.to : piece.from;
+    }
+    std::size_t above(std::size_t k) const { return other_end(p_.pieces[k], below(k)); }
+    std::vector<double> const& size_of(std::size_t k) const { return lines_[p_.pieces[k].line].size; }
+
+    std::vector<std::size_t> branches(std::size_t node) const {
+        std::vector<std::size_t> result;
+        std::ranges::copy_if(p_.at_node[node], std::back_inserter(result),
+                             [&](std::size_t k) { return !is_out(k) && leaves(k, node); });
+        return result;
+    }
+
+    void choose_mains(Component const& c) {
+        for (std::size_t const n : c.nodes) {
+            auto const out = branches(n);
+            main_[n] = out.empty() ? no_piece : main_of(p_, lines_, divided_, length_above_, n, out);
+        }
+    }
+
+    /// The nodes of the circle that the mains from a node lead into; empty where they end.
+    std::vector<std::size_t> circle_from(std::size_t start) {
+        std::vector<std::size_t> way;
+        std::size_t n = start;
+        while (main_[n] != no_piece && state_[n] == 0) {
+            state_[n] = 1;
+            way.push_back(n);
+            n = below(main_[n]);
+        }
+        bool const closed = main_[n] != no_piece && state_[n] == 1;
+        auto const begin = closed ? std::ranges::find(way, n) : way.end();
+        std::vector<std::size_t> result(begin, way.end());
+        for (std::size_t const m : way) {
+            state_[m] = closed ? 0 : 2;
+        }
+        return result;
+    }
+
+    void open_circles(Component const& c) {
+        for (std::size_t const start : c.nodes) {
+            for (auto on = circle_from(start); !on.empty(); on = circle_from(start)) {
+                open(on);
+            }
+        }
+    }
+
+    /// Takes another way out of a circle where there is one, else its smallest piece away.
+    void open(std::vector<std::size_t> on) {
+        std::ranges::sort(on);
+        std::size_t exit = no_piece;
+        std::size_t at = no_piece;
+        for (std::size_t const n : on) {
+            auto out = branches(n);
+            std::erase_if(out,
+                          [&](std::size_t k) { return k == main_[n] || std::ranges::binary_search(on, below(k)); });
+            if (out.empty()) {
+                continue;
+            }
+            std::size_t const best = main_of(p_, lines_, divided_, length_above_, n, out);
+            if (exit == no_piece || size_of(best) > size_of(exit)) {
+                exit = best;
+                at = n;
+            }
+        }
+        if (exit != no_piece) {
+            leave_out(main_[at], circle);
+            main_[at] = exit;
+            return;
+        }
+        auto const key = [&](std::size_t n) {
+            return std::tuple(size_of(main_[n]), p_.pieces[main_[n]].length_m, main_[n]);
+        };
+        std::size_t const least = *std::ranges::min_element(on, {}, key);
+        leave_out(main_[least], circle);
+        auto const others = branches(least);
+        main_[least] = others.empty() ? no_piece : main_of(p_, lines_, divided_, length_above_, least, others);
+    }
+
+    void keep_mains(Component const& c) {
+        for (std::size_t const n : c.nodes) {
+            if (main_[n] != no_piece) {
+                kept_.join(n, below(main_[n]));
+            }
+        }
+    }
+
+    void sort_out_others(Component const& c, Evidence const* certain) {
+        std::vector<std::size_t> others;
+        std::ranges::copy_if(c.pieces, std::back_inserter(others),
+                             [&](std::size_t k) { return !is_out(k) && main_[above(k)] != k; });
+        std::ranges::stable_sort(others, std::greater(), [&](std::size_t k) {
+            return std::tuple<std::vector<double> const&, double>(size_of(k), p_.pieces[k].length_m);
+        });
+        for (std::size_t const k : others) {
+            if (certain != nullptr && (certain->votes[k] != 0 || ends_the_links(k, *certain))) {
+                refuse_pit(k, *certain);
+                leave_out(k, minor_channel);
+            } else if (!kept_.join(p_.pieces[k].from, p_.pieces[k].to)) {
+                leave_out(k, closes_loop);
+            }
+        }
+    }
+
+    /// Drawn away from others and linked to none: no tributary, which would name what it flows into.
+    bool ends_the_links(std::size_t k, Evidence const& by) const {
+        return by.kind == Evidence::Kind::links && lines_[p_.pieces[k].line].down == 0;
+    }
+
+    /// Heights and ranks that lead from one place into two pits are wrong in one of them.
+    void refuse_pit(std::size_t k, Evidence const& by) {
+        if (by.kind != Evidence::Kind::height && by.kind != Evidence::Kind::rank) {
+            return;
+        }
+        auto const end_of = [&](std::size_t n) {
+            while (main_[n] != no_piece) {
+                n = below(main_[n]);
+            }
+            return n;
+        };
+        std::size_t const own = end_of(below(k));
+        std::size_t const other = end_of(above(k));
+        bool const is_pit = own != other && p_.at_node[own].size() > 1;
+        bool const other_is_pit = own != other && p_.at_node[other].size() > 1;
+        if (!is_pit && !other_is_pit) {
+            return;
+        }
+        Vec2 const at = p_.nodes[above(k)];
+        Vec2 const pit = p_.nodes[is_pit ? own : other];
+        throw BadInput(
+            fmt::format("network.import_lines: rivers {} and {} in {} both run away from ({:.6f}, {:.6f}) by {}, "
+                        "one of them into ({:.6f}, {:.6f}), which no river leaves: correct the {} there, or "
+                        "orient by something else",
+                        lines_[p_.pieces[k].line].feature, lines_[p_.pieces[main_[above(k)]].line].feature, file_.name,
+                        at.x, at.y, by.name, pit.x, pit.y, by.name));
+    }
+
+    /// Drawn directions that contradict one another say nothing.
+    void doubt(Component const& c) {
+        constexpr std::int64_t share = 4; // a quarter
+        std::int64_t total = 0;
+        for (std::size_t const k : c.pieces) {
+            total += is_out(k) ? 0 : weight(p_.pieces[k]);
+        }
+        auto const [outlet, turned] = least_turned(c);
+        if (turned > total / share) {
+            span(c, outlet);
+        }
+    }
+
+    /// The end of the component's tree as it stands that turns the least, and how much.
+    std::pair<std::size_t, std::int64_t> least_turned(Component const& c) {
+        std::vector<std::vector<std::size_t>> whole;
+        for (std::size_t const n : c.nodes) {
+            whole.push_back(p_.at_node[n]);
+            std::erase_if(p_.at_node[n], [&](std::size_t k) { return is_out(k); });
+        }
+        towards_.resize(p_.nodes.size(), -1);
+        cost_.resize(p_.nodes.size(), 0);
+        drawn_.resize(p_.pieces.size(), 1);
+        Tree tree{{}, towards_};
+        root_at(p_, c.nodes.front(), tree);
+        auto const turned = against(p_, tree, drawn_, cost_);
+        auto const key = [&](std::size_t i) {
+            std::size_t const n = tree.nodes[i];
+            return std::tuple(turned[i], p_.at_node[n].size() > 1, border_m_[n], n);
+        };
+        std::size_t best = 0;
+        for (std::size_t i = 1; i < tree.nodes.size(); ++i) {
+            best = key(i) < key(best) ? i : best;
+        }
+        for (std::size_t i = 0; i < c.nodes.size(); ++i) {
+            p_.at_node[c.nodes[i]] = std::move(whole[i]);
+        }
+        return {tree.nodes[best], turned[best]};
+    }
+
+    /// An end of a line where there is one, the nearest to the border of the box.
+    std::size_t outermost(Component const& c) const {
+        return *std::ranges::min_element(
+            c.nodes, {}, [&](std::size_t n) { return std::tuple(p_.at_node[n].size() > 1, border_m_[n], n); });
+    }
+
+    /// Keeps the tree of the largest, then shortest ways to an outlet (Prim 1957; Dijkstra 1959).
+    void span(Component const& c, std::size_t outlet) {
+        struct Step {
+            std::vector<double> const* size;
+            double way_m;
+            std::size_t piece;
+            std::size_t to;
+            bool operator<(Step const& o) const { // the queue gives the greatest
+                return std::forward_as_tuple(*size, -way_m, o.piece) < std::forward_as_tuple(*o.size, -o.way_m, piece);
+            }
+        };
+        for (std::size_t const k : c.pieces) {
+            divided_.runs[k] = 0;
+            if (p_.pieces[k].from != p_.pieces[k].to) {
+                leave_out(k, closes_loop);
+            }
+        }
+        std::priority_queue<Step> queue;
+        auto const reach = [&](std::size_t n, double way_m) {
+            reached_[n] = 1;
+            for (std::size_t const k : p_.at_node[n]) {
+                auto const& piece = p_.pieces[k];
+                if (reached_[other_end(piece, n)] == 0) {
+                    queue.push({&size_of(k), way_m + piece.length_m, k, other_end(piece, n)});
+                }
+            }
+        };
+        reach(outlet, 0.0);
+        while (!queue.empty()) {
+            Step const next = queue.top();
+            queue.pop();
+            if (reached_[next.to] == 0) {
+                divided_.reason[next.piece] = nullptr;
+                reach(next.to, next.way_m);
+            }
+        }
+    }
+
+    Pieces& p_;
+    std::vector<RiverLine> const& lines_;
+    RiverLines const& file_;
+    Orientation orientation_;
+    std::vector<Evidence> evidence_;
+    std::vector<std::size_t> main_; ///< by node: the piece that leaves it and stays
+    std::vector<char> state_ = {};  ///< by node: 1 on the way that is walked, 2 known to lead out
+    std::vector<double> length_above_ = {};
+    std::vector<double> border_m_ = {};
+    std::vector<char> reached_ = {};         ///< by node, while its component is spanned
+    std::vector<std::int64_t> towards_ = {}; ///< room for a tree
+    std::vector<std::int64_t> cost_ = {};    ///< likewise
+    Votes drawn_ = {};
+    Sets kept_;
+    Divided divided_ = {};
+};
+
+} // namespace
+
+Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
+               Run const& run) {
+    return Divider(pieces, lines, file, orientation).divide(run);
+}
+
+} // namespace thalweg::network::import_steps

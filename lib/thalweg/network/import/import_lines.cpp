@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/import/import_lines.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/import/internal/import_steps.hpp>
+
+namespace thalweg::network {
+namespace {
+
+using import_steps::Piece;
+using import_steps::Pieces;
+
+void refuse_unusable(RiverLines const& file) {
+    if (file.lines.empty()) {
+        throw BadInput("network.import_lines: " + file.name + " holds no lines");
+    }
+    for (auto const& line : file.lines) {
+        auto const& v = line.vertices;
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            if (!std::isfinite(v[i].x) || !std::isfinite(v[i].y) || (file.has_z && !std::isfinite(v[i].z))) {
+                throw BadInput(
+                    fmt::format("network.import_lines: vertex {} of river {} in {} is not finite: ({}, {}, {}); "
+                                "correct the file",
+                                i + 1, line.feature, file.name, v[i].x, v[i].y, v[i].z));
+            }
+        }
+        bool const is_point =
+            std::ranges::all_of(v, [&](Vec3 const& p) { return p.x == v.front().x && p.y == v.front().y; });
+        if (is_point) {
+            throw BadInput(
+                fmt::format("network.import_lines: river {} in {} has no length{}; remove it", line.feature, file.name,
+                            v.empty() ? std::string() : fmt::format(" at ({:.6f}, {:.6f})", v.front().x, v.front().y)));
+        }
+    }
+}
+
+double diagonal_of(std::vector<RiverLine> const& lines) {
+    Vec3 low = lines.front().vertices.front();
+    Vec3 high = low;
+    for (auto const& line : lines) {
+        for (auto const& v : line.vertices) {
+            low = {std::min(low.x, v.x), std::min(low.y, v.y), 0.0};
+            high = {std::max(high.x, v.x), std::max(high.y, v.y), 0.0};
+        }
+    }
+    return distance({low.x, low.y}, {high.x, high.y});
+}
+
+// The pieces, each with the direction in which it runs.
+struct Flow {
+    Pieces const& pieces;
+    std::vector<RiverLine> const& lines;
+    std::vector<std::int64_t> leaves; // by node: the piece that leaves it, -1 at outlets
+
+    // Its vertices, upstream first.
+    std::vector<Vec3> vertices(std::size_t node) const {
+        auto const& piece = pieces.pieces[static_cast<std::size_t>(leaves[node])];
+        auto const& v = lines[piece.line].vertices;
+        std::vector<Vec3> out(v.begin() + static_cast<std::ptrdiff_t>(piece.first),
+                              v.begin() + static_cast<std::ptrdiff_t>(piece.last) + 1);
+        if (piece.from != node) {
+            std::ranges::reverse(out);
+        }
+        return out;
+    }
+    std::size_t downstream(std::size_t node) const {
+        auto const& piece = pieces.pieces[static_cast<std::size_t>(leaves[node])];
+        return piece.from == node ? piece.to : piece.from;
+    }
+    RiverLine const& line(std::size_t node) const {
+        return lines[pieces.pieces[static_cast<std::size_t>(leaves[node])].line];
+    }
+};
+
+// Every node after the node downstream of it.
+std::vector<std::size_t> upstream_order(Flow const& flow) {
+    std::vector<std::vector<std::size_t>> above(flow.leaves.size());
+    std::vector<std::size_t> order;
+    for (std::size_t n = 0; n < flow.leaves.size(); ++n) {
+        if (flow.leaves[n] < 0) {
+            order.push_back(n);
+        } else {
+            above[flow.downstream(n)].push_back(n);
+        }
+    }
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        auto const& up = above[order[i]];
+        order.insert(order.end(), up.begin(), up.end());
+    }
+    return order;
+}
+
+// One height for each node: the lowest of those that meet there, so that nothing rises into it, but not below the next
+// vertex of the river that leaves it.
+std::vector<double> node_heights(Flow const& flow, std::vector<Finding>& repairs) {
+    std::vector<double> z(flow.leaves.size(), 0.0);
+    for (std::size_t const n : upstream_order(flow)) {
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
+        for (std::size_t const k : flow.pieces.at_node[n]) {
+            auto const& piece = flow.pieces.pieces[k];
+            double const end = flow.lines[piece.line].vertices[piece.from == n ? piece.first : piece.last].z;
+            low = std::min(low, end);
+            high = std::max(high, end);
+        }
+        z[n] = low;
+        if (flow.leaves[n] >= 0) {
+            auto const v = flow.vertices(n);
+            z[n] = std::max(low, v.size() == 2 ? z[flow.downstream(n)] : v[1].z);
+        }
+        if (high - low > import_steps::same_point_m) {
+            auto const& piece = flow.pieces.pieces[flow.pieces.at_node[n].front()];
+            Vec2 const at = flow.pieces.nodes[n];
+            repairs.push_back({"height", flow.lines[piece.line].feature, at, high - low,
+                               fmt::format("rivers meet at ({:.6f}, {:.6f}) in heights from {:.7g} to {:.7g} m; "
+                                           "{:.7g} m is taken",
+                                           at.x, at.y, low, high, z[n])});
+        }
+    }
+    return z;
+}
+
+// Nodes where one river ends and another goes on vanish, unless its type changes.
+std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
+    std::size_t const nodes = flow.leaves.size();
+    constexpr std::int64_t none = -1;
+    std::vector<std::int64_t> above(nodes, none);
+    std::vector<int> arriving(nodes, 0);
+    for (std::size_t n = 0; n < nodes; ++n) {
+        if (flow.leaves[n] >= 0) {
+            above[flow.downstream(n)] = static_cast<std::int64_t>(n);
+            ++arriving[flow.downstream(n)];
+        }
+    }
+    std::vector<char> result(nodes, 0);
+    for (std::size_t n = 0; n < nodes; ++n) {
+        if (arriving[n] != 1 || flow.leaves[n] < 0) {
+            continue;
+        }
+        auto const& upper = flow.line(static_cast<std::size_t>(above[n]));
+        auto const& lower = flow.line(n);
+        if (upper.type != lower.type) {
+            continue;
+        }
+        result[n] = 1;
+        if (upper.feature != lower.feature) {
+            auto const& piece = flow.pieces.pieces[static_cast<std::size_t>(flow.leaves[n])];
+            Vec2 const at = flow.pieces.nodes[n];
+            repairs.push_back({"joined", upper.feature, at, piece.length_m,
+                               fmt::format("river {} goes on as river {} at ({:.6f}, {:.6f}): one arc", upper.feature,
+                                           lower.feature, at.x, at.y)});
+        }
+    }
+    return result;
+}
+
+void add_stretch(std::vector<Stretch>& stretches, std::int64_t feature, double length_m) {
+    double const from_m = stretches.empty() ? 0.0 : stretches.back().to_m;
+    if (stretches.empty() || stretches.back().feature != feature) {
+        stretches.push_back({feature, from_m, from_m});
+    }
+    stretches.back().to_m += length_m;
+}
+
+// Of several as long the most upstream.
+std::int64_t longest_of(std::vector<Stretch> const& stretches) {
+    return std::ranges::max_element(stretches, {}, [](Stretch const& s) { return s.to_m - s.from_m; })->feature;
+}
+
+void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& node_z, bool join) {
+    auto const inner = join ? vanishing(flow, imported.repairs) : std::vector<char>(flow.leaves.size(), 0);
+    auto const heads = [&] {
+        std::vector<std::size_t> by_piece; // arcs are numbered in the order of the file
+        for (std::size_t n = 0; n < flow.leaves.size(); ++n) {
+            if (flow.leaves[n] >= 0 && inner[n] == 0) {
+                by_piece.push_back(n);
+            }
+        }
+        std::ranges::sort(by_piece, {}, [&](std::size_t n) { return flow.leaves[n]; });
+        return by_piece;
+    }();
+    constexpr NodeId none = std::numeric_limits<NodeId>::max();
+    NetworkDraft network;
+    std::vector<NodeId> ids(flow.leaves.size(), none);
+    auto const node = [&](std::size_t n) {
+        if (ids[n] == none) {
+            ids[n] = network.add_node(flow.pieces.nodes[n]);
+        }
+        return ids[n];
+    };
+    for (std::size_t const head : heads) {
+        Arc arc;
+        std::vector<double> z;
+        std::vector<Stretch> stretches;
+        std::size_t n = head;
+        do {
+            auto const& piece = flow.pieces.pieces[static_cast<std::size_t>(flow.leaves[n])];
+            arc.type = flow.line(n).type;
+            add_stretch(stretches, flow.line(n).feature, piece.length_m);
+            auto const vertices = flow.vertices(n);
+            for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+                arc.line.push_back({vertices[i].x, vertices[i].y});
+                z.push_back(i == 0 && !node_z.empty() ? node_z[n] : vertices[i].z);
+            }
+            n = flow.downstream(n);
+        } while (inner[n] != 0);
+        arc.line.push_back(flow.pieces.nodes[n]);
+        arc.feature = longest_of(stretches);
+        imported.stretches.push_back(std::move(stretches));
+        NodeId const from = node(head);
+        network.add_arc(from, node(n), std::move(arc));
+        if (!node_z.empty()) {
+            z.push_back(node_z[n]);
+            imported.arc_z.push_back(std::move(z));
+        }
+    }
+    imported.network = std::move(network);
+}
+
+} // namespace
+
+Imported import_lines(RiverLines const& file, ImportParams const& params, Run const& run) {
+    if (!(params.snap_m >= 0.0) || !std::isfinite(params.snap_m)) {
+        throw BadParameter(fmt::format("network.import_lines: snap_m = {}, it is a distance [m] >= 0", params.snap_m));
+    }
+    refuse_unusable(file);
+    auto lines = file.lines;
+    Imported imported;
+    auto& repairs = imported.repairs;
+    auto const repeats = import_steps::drop_repeats(lines);
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        if (repeats[l] > 0) {
+            auto const& first = lines[l].vertices.front();
+            repairs.push_back(
+                {"removed",
+                 lines[l].feature,
+                 {first.x, first.y},
+                 static_cast<double>(repeats[l]),
+                 fmt::format("{} repeated vertices of river {} are left out", repeats[l], lines[l].feature)});
+        }
+    }
+    double const snap_m = params.snap_m > 0.0 ? params.snap_m : 1e-6 * diagonal_of(lines);
+    import_steps::Left left{repairs, imported.secondary};
+    import_steps::drop_copies(lines, snap_m, left, run);
+    import_steps::snap(lines, snap_m, left, run);
+    for (RiverLine const& line : file.lines) { // as they were drawn
+        if (std::ranges::find(left.too_short, line.feature) != left.too_short.end()) {
+            imported.secondary.push_back({line.feature, line.vertices, "too short", line.feature});
+        }
+    }
+    if (lines.empty()) {
+        throw BadInput(fmt::format("network.import_lines: every river in {} is shorter than the snapping distance {} m",
+                                   file.name, snap_m));
+    }
+    run.at(0.2, "adopt");
+    import_steps::split(lines, run);
+    run.at(0.7, "adopt");
+    auto pieces = import_steps::cut(lines, left);
+    std::vector<std::int64_t> leaves;
+    if (params.divergences == Divergences::error) {
+        import_steps::refuse_cycles(pieces, lines, file.name);
+        leaves = import_steps::orient(pieces, lines, file, params);
+    } else {
+        auto divided = import_steps::divide(pieces, lines, file, params.orientation, run);
+        leaves = import_steps::orient(pieces, lines, file, params);
+        import_steps::drop_unfed(pieces, divided, leaves);
+        auto const branches = import_steps::secondary_lines(pieces, divided, lines, repairs);
+        imported.secondary.insert(imported.secondary.end(), branches.begin(), branches.end());
+    }
+    import_steps::report_turned(pieces, lines, leaves, repairs);
+    Flow const flow{pieces, lines, std::move(leaves)};
+    if (std::ranges::all_of(flow.leaves, [](std::int64_t k) { return k < 0; })) {
+        throw BadInput(
+            fmt::format("network.import_lines: the lines of {} are closed rings: no river runs anywhere", file.name));
+    }
+    add_arcs(imported, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join);
+    run.at(1.0, "adopt");
+    return imported;
+}
+
+} // namespace thalweg::network

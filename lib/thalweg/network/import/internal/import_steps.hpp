@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <thalweg/core/finding.hpp>
+#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/network/import/import_lines.hpp>
+
+/// The steps of adopt, in their order. Private to this room.
+namespace thalweg::network::import_steps {
+
+/// [m] Points closer than this are the same point: the step to which coordinates are rounded when they are read.
+inline constexpr double same_point_m = 1e-6;
+
+/// The plan of the lines.
+std::vector<std::vector<Vec2>> plan_of(std::vector<RiverLine> const& lines);
+
+/// A place on a segment, for a vertex to be added there.
+struct Insertion {
+    std::size_t line = 0;
+    std::size_t segment = 0;
+    double along = 0.0; ///< [0,1]
+    Vec2 at;
+};
+
+/// Adds vertices, their heights interpolated. Insertions on one segment come in its order where `along` is equal.
+void insert(std::vector<RiverLine>& lines, std::vector<Insertion> insertions);
+
+/// Drops vertices that repeat the one before them; a line of one vertex is left over where all were the same.
+/// Gives: how many were dropped, by line.
+std::vector<std::int64_t> drop_repeats(std::vector<RiverLine>& lines);
+
+/// What is not in the network, and why.
+struct Left {
+    std::vector<Finding>& repairs;
+    std::vector<SecondaryLine>& secondary;
+    std::vector<std::int64_t> too_short = {}; ///< features that shrank to a point
+};
+
+/// Drops every line whose vertices all lie within snap_m of those of an earlier one, in either direction.
+void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run);
+
+/// Joins ends to other lines within snap_m, and drops what shrinks to a point.
+void snap(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run);
+
+/// Adds a vertex to every line wherever it meets another or itself, until lines meet in common vertices only.
+/// Throws BadInput naming the place where that comes to no end.
+void split(std::vector<RiverLine>& lines, Run const& run);
+
+/// A part of a line between two nodes, without nodes inside.
+struct Piece {
+    std::size_t line = 0;
+    std::size_t first = 0; ///< its vertices are first ... last of the line
+    std::size_t last = 0;
+    std::size_t from = 0; ///< node of vertex first
+    std::size_t to = 0;   ///< node of vertex last
+    double length_m = 0.0;
+};
+
+/// Lines cut where they meet: pieces over the nodes.
+struct Pieces {
+    std::vector<Piece> pieces;
+    std::vector<Vec2> nodes;
+    std::vector<std::vector<std::size_t>> at_node; ///< pieces that end in the node, ascending
+};
+
+/// Cuts split lines into pieces; what lies on an earlier line is dropped.
+Pieces cut(std::vector<RiverLine> const& lines, Left& left);
+
+/// Throws BadInput naming rivers and place when pieces form a cycle.
+void refuse_cycles(Pieces const& pieces, std::vector<RiverLine> const& lines, std::string const& name);
+
+/// Which pieces are not in the network, and what is known of the direction of all.
+struct Divided {
+    std::vector<char const*> reason; ///< by piece: why it is secondary; null where it is not
+    std::vector<int> runs;           ///< by piece: 1 as drawn, -1 against it, 0 nobody knows
+};
+
+/// Keeps the main path wherever water could go more than one way, and takes the pieces of the others out of
+/// pieces.at_node: what stays there is a forest.
+Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
+               Run const& run);
+
+/// The piece that leaves each node, by node; -1 at outlets. The network flows along pieces towards them.
+/// Takes: a forest. Throws: BadInput naming rivers and place where two run away, under Divergences::error.
+std::vector<std::int64_t> orient(Pieces const& pieces, std::vector<RiverLine> const& lines, RiverLines const& file,
+                                 ImportParams const& params);
+
+/// Takes out of the network what a minor channel fed alone: from there down to the next node where something else
+/// flows in.
+void drop_unfed(Pieces& pieces, Divided& divided, std::vector<std::int64_t>& leaves);
+
+/// Tells of the lines that run against their drawn direction.
+void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::vector<std::int64_t> const& leaves,
+                   std::vector<Finding>& repairs);
+
+/// The secondary pieces as lines, each with a finding.
+std::vector<SecondaryLine> secondary_lines(Pieces const& pieces, Divided const& divided,
+                                           std::vector<RiverLine> const& lines, std::vector<Finding>& repairs);
+
+} // namespace thalweg::network::import_steps

@@ -1,0 +1,650 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/import/import_lines.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <stop_token>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <thalweg/core/run/error.hpp>
+
+using namespace thalweg;
+using network::Divergences;
+using network::import_lines;
+using network::Imported;
+using network::ImportParams;
+using network::Orientation;
+
+namespace {
+
+constexpr ImportParams strictly{.divergences = Divergences::error};
+constexpr double no_z = std::numeric_limits<double>::quiet_NaN();
+
+RiverLine flat(std::int64_t feature, std::vector<Vec2> const& plan) {
+    RiverLine line;
+    line.feature = feature;
+    for (auto const p : plan) {
+        line.vertices.push_back({p.x, p.y, no_z});
+    }
+    return line;
+}
+
+RiverLines flats(std::vector<std::vector<Vec2>> const& plans) {
+    RiverLines lines;
+    lines.name = "rivers.gpkg";
+    for (auto const& plan : plans) {
+        lines.lines.push_back(flat(static_cast<std::int64_t>(lines.lines.size()) + 1, plan));
+    }
+    return lines;
+}
+
+RiverLines with_heights(std::vector<std::vector<Vec3>> const& all) {
+    RiverLines lines;
+    lines.name = "rivers.gpkg";
+    lines.has_z = true;
+    for (auto const& vertices : all) {
+        lines.lines.push_back({static_cast<std::int64_t>(lines.lines.size()) + 1, vertices, "", 0});
+    }
+    return lines;
+}
+
+std::vector<Arc> arcs_of(Imported const& imported) {
+    return imported.network.arcs();
+}
+
+std::int64_t count(Imported const& imported, std::string const& kind) {
+    return std::ranges::count(imported.repairs, kind, &Finding::kind);
+}
+
+Finding first(Imported const& imported, std::string const& kind) {
+    auto const found = std::ranges::find(imported.repairs, kind, &Finding::kind);
+    return found == imported.repairs.end() ? Finding{} : *found;
+}
+
+template <class Call> std::string message(Call const& call) {
+    try {
+        call();
+    } catch (BadInput const& e) {
+        return e.what();
+    }
+    return "";
+}
+
+bool has(std::string const& text, std::string const& part) {
+    return text.find(part) != std::string::npos;
+}
+
+using Step = std::pair<std::pair<double, double>, std::pair<double, double>>;
+
+// Every segment of the network, downstream.
+std::set<Step> steps(StreamNetwork const& net) {
+    std::set<Step> result;
+    for (ArcId a = 0; a < net.arc_count(); ++a) {
+        auto const& line = net.arc(a).line;
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            result.insert({{line[i].x, line[i].y}, {line[i + 1].x, line[i + 1].y}});
+        }
+    }
+    return result;
+}
+
+// Law: trees; lines end bit for bit in their nodes; nothing repeats.
+void expect_trees(StreamNetwork const& net) {
+    EXPECT_EQ(net.node_count(), net.arc_count() + net.outlets().size());
+    EXPECT_EQ(net.upstream_order().size(), net.node_count());
+    for (NodeId n = 0; n < net.node_count(); ++n) {
+        EXPECT_LE(net.out_arcs(n).size(), 1U);
+        EXPECT_GT(net.basin(n), 0);
+    }
+    for (std::size_t i = 0; i < net.arc_count(); ++i) {
+        auto const& line = net.arc(i).line;
+        EXPECT_EQ(line.front(), net.node(net.from(i)).at);
+        EXPECT_EQ(line.back(), net.node(net.to(i)).at);
+        EXPECT_GT(net.length_m(i), 0.0);
+        EXPECT_EQ(std::adjacent_find(line.begin(), line.end()), line.end());
+    }
+    EXPECT_EQ(steps(net).size(), [&] {
+        std::size_t sum = 0;
+        for (ArcId a = 0; a < net.arc_count(); ++a) {
+            sum += net.arc(a).line.size() - 1;
+        }
+        return sum;
+    }());
+}
+
+// Law: from every vertex of a line the network leads to the next one, over added vertices on the segment only.
+void expect_kept(StreamNetwork const& net, std::vector<RiverLine> const& lines) {
+    std::map<std::pair<double, double>, std::vector<std::pair<double, double>>> beside;
+    for (auto const& [a, b] : steps(net)) {
+        beside[a].push_back(b);
+        beside[b].push_back(a);
+    }
+    for (auto const& line : lines) {
+        for (std::size_t i = 0; i + 1 < line.vertices.size(); ++i) {
+            Vec2 const a{line.vertices[i].x, line.vertices[i].y};
+            Vec2 const b{line.vertices[i + 1].x, line.vertices[i + 1].y};
+            double const length = distance(a, b);
+            std::pair<double, double> here{a.x, a.y};
+            double along = 0.0;
+            while (here != std::pair{b.x, b.y}) {
+                auto const next = std::ranges::find_if(beside[here], [&](auto const& p) {
+                    double const t = ((p.first - a.x) * (b.x - a.x) + (p.second - a.y) * (b.y - a.y)) / length;
+                    double const off = ((p.first - a.x) * (b.y - a.y) - (p.second - a.y) * (b.x - a.x)) / length;
+                    return std::fabs(off) <= 1e-6 && t > along && t <= length + 1e-6;
+                });
+                ASSERT_NE(next, beside[here].end())
+                    << "river " << line.feature << " is lost after (" << here.first << ", " << here.second << ")";
+                here = *next;
+                along = ((here.first - a.x) * (b.x - a.x) + (here.second - a.y) * (b.y - a.y)) / length;
+            }
+        }
+    }
+}
+
+} // namespace
+
+TEST(AdoptRefuses, Nothing) {
+    EXPECT_TRUE(has(message([] { import_lines(flats({})); }), "rivers.gpkg holds no lines"));
+}
+
+TEST(AdoptRefuses, NoLength) {
+    EXPECT_TRUE(has(message([] {
+                        import_lines(flats({{{0, 0}, {1, 0}}, {}}));
+                    }),
+                    "river 2 in rivers.gpkg has no length"));
+    EXPECT_TRUE(has(message([] { import_lines(flats({{{4, 5}}})); }), "river 1 in rivers.gpkg has no length at (4.0"));
+    EXPECT_TRUE(has(message([] {
+                        import_lines(flats({{{0, 0}, {1, 0}}, {{7, 7}, {7, 7}, {7, 7}}}));
+                    }),
+                    "river 2 in rivers.gpkg has no length at (7.000000, 7.000000)"));
+}
+
+TEST(AdoptRefuses, NotFinite) {
+    EXPECT_TRUE(has(message([] {
+                        import_lines(flats({{{0, 0}, {1, no_z}, {2, 0}}}));
+                    }),
+                    "vertex 2 of river 1 in rivers.gpkg"));
+    EXPECT_TRUE(has(message([] { import_lines(flats({{{INFINITY, 0}, {1, 0}}})); }), "vertex 1 of river 1"));
+    EXPECT_TRUE(has(message([] { import_lines(with_heights({{{0, 0, 1}, {1, 0, no_z}}})); }), "vertex 2 of river 1"));
+}
+
+TEST(AdoptRefuses, BadSnap) {
+    EXPECT_THROW(import_lines(flats({{{0, 0}, {1, 0}}}), {.snap_m = -1.0}), BadParameter);
+    EXPECT_THROW(import_lines(flats({{{0, 0}, {1, 0}}}), {.snap_m = no_z}), BadParameter);
+    auto const cross = flats({{{0, -15}, {0, 15}}, {{-17, 0}, {17, 0}}});
+    EXPECT_TRUE(has(message([&] { import_lines(cross, {.snap_m = 20.0}); }), "every river in rivers.gpkg is shorter"));
+}
+
+TEST(AdoptRefuses, Cycles) {
+    auto const triangle = message([] {
+        import_lines(flats({{{0, 0}, {4, 0}}, {{4, 0}, {2, 3}}, {{2, 3}, {0, 0}}, {{9, 9}, {4, 0}}}), strictly);
+    });
+    EXPECT_TRUE(has(triangle, "rivers 1, 2 and 3 in rivers.gpkg form a cycle through (2.000000, 3.000000)"))
+        << triangle;
+    auto const braid = message([] {
+        import_lines(flats({{{0, 0}, {2, 1}, {4, 0}}, {{0, 0}, {2, -1}, {4, 0}}}), strictly);
+    });
+    EXPECT_TRUE(has(braid, "rivers 1 and 2 in rivers.gpkg form a cycle")) << braid;
+    auto const ring = message([] { import_lines(flats({{{0, 0}, {2, 1}, {4, 0}, {0, 0}}}), strictly); });
+    EXPECT_TRUE(has(ring, "river 1 in rivers.gpkg forms a cycle")) << ring;
+    auto const knot = message([] { import_lines(flats({{{0, 0}, {4, 0}, {2, 2}, {2, -2}}}), strictly); });
+    EXPECT_TRUE(has(knot, "river 1 in rivers.gpkg forms a cycle through (2.000000, 0.000000)")) << knot;
+    auto const twice = message([] { import_lines(flats({{{0, 0}, {9, 0}}, {{1, 1}, {2, -1}, {3, 1}}}), strictly); });
+    EXPECT_TRUE(has(twice, "rivers 1 and 2 in rivers.gpkg form a cycle through")) << twice;
+}
+
+TEST(AdoptRefuses, Bifurcations) {
+    auto const by_height = message([] {
+        import_lines(with_heights({{{0, 0, 9}, {0, -5, 5}}, {{0, -5, 5}, {-4, -9, 1}}, {{0, -5, 5}, {3, -9, 2}}}),
+                     strictly);
+    });
+    EXPECT_TRUE(has(by_height, "rivers 3 and 2 in rivers.gpkg both run away from (0.000000, -5.000000) by height"))
+        << by_height;
+    auto const fork = flats({{{0, 0}, {0, -5}}, {{0, -5}, {-4, -9}}, {{0, -5}, {3, -9}}});
+    auto const drawn =
+        message([&] { import_lines(fork, {.orientation = Orientation::as_drawn, .divergences = Divergences::error}); });
+    EXPECT_TRUE(has(drawn, "both run away from (0.000000, -5.000000) by the drawn direction")) << drawn;
+    auto ranked = flats({{{0, 0}, {1, 0}}, {{1, 0}, {2, 0}}, {{2, 0}, {3, 0}}});
+    ranked.lines[0].rank = 1;
+    ranked.lines[1].rank = 5;
+    ranked.lines[2].rank = 2;
+    auto const by_rank = message([&] { import_lines(ranked, strictly); });
+    EXPECT_TRUE(has(by_rank, "both run away from") && has(by_rank, "by rank")) << by_rank;
+}
+
+TEST(AdoptRefuses, EvidenceThatIsNotThere) {
+    auto const line = flats({{{0, 0}, {1, 0}}});
+    EXPECT_TRUE(has(message([&] { import_lines(line, {.orientation = Orientation::height}); }), "no heights"));
+    EXPECT_TRUE(has(message([&] { import_lines(line, {.orientation = Orientation::rank}); }), "no rank"));
+    EXPECT_TRUE(has(message([&] { network::take_file_heights(import_lines(line), line); }), "carry no heights"));
+}
+
+TEST(Import, StopsWhenAsked) {
+    std::stop_source source;
+    source.request_stop();
+    thalweg::Run run;
+    run.stop = source.get_token();
+    EXPECT_THROW(import_lines(flats({{{0, 0}, {1, 0}}}), {}, run), Cancelled);
+}
+
+TEST(Import, OneLine) {
+    auto const imported = import_lines(flats({{{5, 1}, {3, 2}, {1, 1}}}));
+    auto const arcs = arcs_of(imported);
+    ASSERT_EQ(arcs.size(), 1U);
+    EXPECT_EQ(arcs[0].line, (std::vector<Vec2>{{5, 1}, {3, 2}, {1, 1}}));
+    EXPECT_EQ(arcs[0].feature, 1);
+    EXPECT_TRUE(imported.repairs.empty());
+    EXPECT_TRUE(imported.arc_z.empty());
+    expect_trees(imported.network);
+}
+
+TEST(Import, RepeatedVerticesAreDropped) {
+    auto const imported = import_lines(flats({{{0, 0}, {0, 0}, {1, 0}, {1, 0}, {1, 0}, {2, 1}}}));
+    EXPECT_EQ(arcs_of(imported)[0].line, (std::vector<Vec2>{{0, 0}, {1, 0}, {2, 1}}));
+    ASSERT_EQ(imported.repairs.size(), 1U);
+    EXPECT_EQ(imported.repairs[0].kind, "removed");
+    EXPECT_EQ(imported.repairs[0].amount, 3.0);
+}
+
+TEST(Import, SeveralBasins) {
+    auto const imported = import_lines(flats({{{0, 0}, {1, 0}}, {{0, 5}, {1, 5}}, {{0, 4}, {1, 5}}}));
+    EXPECT_EQ(imported.network.outlets().size(), 2U);
+    EXPECT_EQ(imported.network.arc_count(), 3U);
+    expect_trees(imported.network);
+}
+
+TEST(AdoptSnaps, EndsThatAreApart) {
+    auto const imported = import_lines(flats({{{0, 0}, {10, 0}}, {{10.25, 0}, {20, 0}}}), {.snap_m = 0.5});
+    auto const arcs = arcs_of(imported);
+    ASSERT_EQ(arcs.size(), 1U);
+    EXPECT_EQ(arcs[0].line, (std::vector<Vec2>{{0, 0}, {10, 0}, {20, 0}}));
+    EXPECT_EQ(arcs[0].feature, 1);
+    EXPECT_EQ(first(imported, "snapped").feature, 2);
+    EXPECT_EQ(first(imported, "snapped").amount, 0.25);
+    EXPECT_EQ(first(imported, "joined").feature, 1);
+    EXPECT_EQ(import_lines(flats({{{0, 0}, {10, 0}}, {{10.25, 0}, {20, 0}}}), {.snap_m = 0.24}).network.arc_count(),
+              2U);
+}
+
+TEST(AdoptSnaps, AnEndShortOfALine) {
+    auto const lines = flats({{{0, 0}, {10, 0}}, {{5, 9}, {5, 0.25}}});
+    auto const imported = import_lines(lines, {.snap_m = 0.5});
+    EXPECT_EQ(imported.network.arc_count(), 3U);
+    EXPECT_EQ(first(imported, "snapped").where, (Vec2{5, 0}));
+    EXPECT_EQ(first(imported, "snapped").amount, 0.25);
+    EXPECT_EQ(first(imported, "split").feature, 1);
+    expect_trees(imported.network);
+    EXPECT_EQ(import_lines(lines, {.snap_m = 0.2}).network.outlets().size(), 2U);
+}
+
+TEST(AdoptSnaps, AnEndBeyondALine) {
+    auto const imported = import_lines(flats({{{0, 0}, {10, 0}}, {{5, 9}, {5, -0.25}}}), {.snap_m = 0.5});
+    EXPECT_EQ(imported.network.arc_count(), 3U);
+    EXPECT_EQ(first(imported, "snapped").where, (Vec2{5, 0}));
+    expect_trees(imported.network);
+}
+
+TEST(AdoptSnaps, AnEndNearAVertexTakesTheVertex) {
+    auto const imported = import_lines(flats({{{0, 0}, {5, 0}, {10, 0}}, {{5, 9}, {5.2, 0.1}}}), {.snap_m = 0.5});
+    EXPECT_EQ(first(imported, "snapped").where, (Vec2{5, 0}));
+    EXPECT_EQ(imported.network.arc_count(), 3U);
+}
+
+TEST(AdoptSnaps, AnEndOnALineStaysWhereItIs) {
+    // (1, 1/3) lies beside the line from (0, 0) to (3, 1) by less than a unit in the last place.
+    auto const lines = flats({{{0, 0}, {3, 1}}, {{1, 5}, {1, 1.0 / 3.0}}});
+    auto const imported = import_lines(lines);
+    EXPECT_EQ(imported.network.arc_count(), 3U);
+    EXPECT_EQ(count(imported, "snapped"), 0);
+    expect_kept(imported.network, lines.lines);
+}
+
+TEST(AdoptSnaps, ALineShorterThanTheDistanceIsRemoved) {
+    auto const imported =
+        import_lines(flats({{{0, 0}, {10, 0}}, {{10, 0}, {10, 0.1}}, {{10, 0.1}, {20, 0}}}), {.snap_m = 0.5});
+    EXPECT_EQ(imported.network.arc_count(), 1U);
+    EXPECT_EQ(first(imported, "removed").feature, 2);
+}
+
+TEST(AdoptSplits, AtACrossing) {
+    auto const lines = flats({{{0, 1}, {3, 1}}, {{1, 0}, {2, 3}}}); // they cross at (4/3, 1)
+    auto const imported = import_lines(lines);
+    EXPECT_EQ(imported.network.arc_count(), 4U);
+    EXPECT_EQ(count(imported, "split"), 2);
+    EXPECT_EQ(first(imported, "split").where, (Vec2{4.0 / 3.0, 1}));
+    expect_trees(imported.network);
+    expect_kept(imported.network, lines.lines);
+}
+
+TEST(AdoptSplits, WhereALineTouchesAVertex) {
+    auto const imported = import_lines(flats({{{0, 0}, {5, 0}, {10, 0}}, {{5, 7}, {5, 0}}}));
+    EXPECT_EQ(imported.network.arc_count(), 3U);
+    EXPECT_EQ(count(imported, "split"), 1);
+    expect_trees(imported.network);
+}
+
+TEST(AdoptSplits, ThreeLinesThroughOnePoint) {
+    auto const lines = flats({{{0, 0}, {1, 1}}, {{0, 1}, {0.5, 0}}, {{1, 0}, {0, 0.5}}});
+    auto const imported = import_lines(lines);
+    EXPECT_EQ(imported.network.arc_count(), 6U);
+    expect_trees(imported.network);
+    expect_kept(imported.network, lines.lines);
+}
+
+TEST(AdoptSplits, ThreeLinesNearlyThroughOnePoint) {
+    // Exactly they form a triangle of 1e-9 m: that is one confluence, not a cycle.
+    auto const lines = flats({{{-10, 0}, {10, 0}}, {{0, -10}, {0, 10}}, {{-10, -10 + 1e-9}, {10, 10 + 1e-9}}});
+    auto const imported = import_lines(lines);
+    EXPECT_EQ(imported.network.arc_count(), 6U);
+    expect_trees(imported.network);
+    expect_kept(imported.network, lines.lines);
+}
+
+TEST(AdoptDropsDuplicates, IdenticalReversedAndNear) {
+    auto const imported =
+        import_lines(flats({{{0, 0}, {5, 1}, {9, 0}}, {{0, 0}, {5, 1}, {9, 0}}, {{9, 0}, {5, 1}, {0, 0}}}));
+    EXPECT_EQ(imported.network.arc_count(), 1U);
+    EXPECT_EQ(count(imported, "duplicate"), 2);
+    auto const near = import_lines(flats({{{0, 0}, {5, 1}, {9, 0}}, {{9, 0.1}, {5, 1.1}, {0, 0}}}), {.snap_m = 0.5});
+    EXPECT_EQ(near.network.arc_count(), 1U);
+    EXPECT_EQ(first(near, "duplicate").feature, 2);
+}
+
+TEST(AdoptDropsDuplicates, APartThatOverlaps) {
+    auto const lines = flats({{{0, 0}, {4, 0}, {8, 0}}, {{2, 0}, {4, 0}, {6, 0}, {6, 5}}});
+    auto const imported = import_lines(lines);
+    EXPECT_EQ(first(imported, "duplicate").feature, 2);
+    EXPECT_EQ(first(imported, "duplicate").amount, 4.0);
+    EXPECT_EQ(imported.network.arc_count(), 3U);
+    expect_trees(imported.network);
+    expect_kept(imported.network, lines.lines);
+}
+
+TEST(AdoptOrients, ByHeight) {
+    auto const imported =
+        import_lines(with_heights({{{0, 0, 1}, {5, 0, 4}}, {{5, 0, 4}, {9, 0, 7}}, {{5, 0, 4}, {5, 9, 8}}}));
+    EXPECT_EQ(count(imported, "reversed"), 3);
+    EXPECT_EQ(first(imported, "reversed").amount, 5.0);
+    ASSERT_EQ(imported.network.outlets().size(), 1U);
+    EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at, (Vec2{0, 0}));
+    expect_trees(imported.network);
+}
+
+TEST(AdoptOrients, ByRankWhateverWasDrawn) {
+    auto lines = flats({{{0, 0}, {5, 0}}, {{9, 0}, {5, 0}}, {{5, 0}, {5, 9}}});
+    lines.lines[0].rank = 10;
+    lines.lines[1].rank = 30;
+    lines.lines[2].rank = 20;
+    auto const imported = import_lines(lines);
+    EXPECT_EQ(imported.network.node(imported.network.outlets().at(0)).at, (Vec2{0, 0}));
+    EXPECT_EQ(count(imported, "reversed"), 2);
+}
+
+TEST(AdoptOrients, TheOneReachDrawnTheWrongWay) {
+    auto const lines = flats({{{0, 90}, {0, 60}}, {{0, 40}, {0, 60}}, {{0, 40}, {0, 0}}, {{50, 60}, {0, 40}}});
+    auto const imported = import_lines(lines);
+    EXPECT_EQ(imported.network.node(imported.network.outlets().at(0)).at, (Vec2{0, 0}));
+    EXPECT_EQ(count(imported, "reversed"), 1);
+    EXPECT_EQ(first(imported, "reversed").feature, 2);
+}
+
+TEST(AdoptOrients, ByTopologyToTheEndNearestTheBorder) {
+    // A second basin sets the box; of the first one only (50, 1) is beside its border.
+    auto const lines = flats(
+        {{{50, 1}, {50, 30}}, {{50, 30}, {40, 50}}, {{50, 30}, {60, 50}}, {{0, 0}, {0, 100}}, {{100, 0}, {100, 100}}});
+    auto const imported = import_lines(lines, {.orientation = Orientation::topology});
+    ASSERT_EQ(imported.network.outlets().size(), 3U);
+    EXPECT_TRUE(std::ranges::any_of(imported.network.outlets(), [&](NodeId n) {
+        return imported.network.node(n).at == Vec2{50, 1};
+    }));
+    expect_trees(imported.network);
+}
+
+TEST(AdoptJoins, UnlessTheTypeChanges) {
+    auto lines = flats({{{0, 0}, {10, 0}}, {{10, 0}, {30, 0}}, {{30, 0}, {40, 0}}});
+    lines.lines[0].type = "A";
+    lines.lines[1].type = "A";
+    lines.lines[2].type = "C";
+    auto const arcs = arcs_of(import_lines(lines));
+    ASSERT_EQ(arcs.size(), 2U);
+    EXPECT_EQ(arcs[0].type, "A");
+    EXPECT_EQ(arcs[0].feature, 2);
+    EXPECT_EQ(arcs[0].line.size(), 3U);
+    EXPECT_EQ(arcs[1].type, "C");
+}
+
+TEST(AdoptHeights, CrossingTakesTheLowerInterpolation) {
+    auto const lines = with_heights({{{0, 0, 8}, {10, 0, 4}}, {{5, 10, 9}, {5, 0, 5}}});
+    auto const imported = import_lines(lines);
+    auto const raised = network::take_file_heights(imported, lines);
+    EXPECT_EQ(first(imported, "height").amount, 1.0);
+    EXPECT_EQ(raised.arc_z, (std::vector<std::vector<double>>{{8, 5}, {5, 4}, {9, 5}}));
+    for (std::size_t i = 0; i < raised.plan.arc_count(); ++i) {
+        EXPECT_EQ(raised.arc_z[i].front(), raised.node_z[raised.plan.from(i)]);
+        EXPECT_EQ(raised.arc_z[i].back(), raised.node_z[raised.plan.to(i)]);
+    }
+}
+
+TEST(AdoptHeights, NodeIsNotBelowTheNextVertexDownstream) {
+    auto const lines = with_heights({{{0, 0, 8}, {5, 0, 6}, {10, 0, 5}}, {{5, 10, 9}, {5, 0, 4.5}}});
+    auto const raised = network::take_file_heights(import_lines(lines), lines);
+    EXPECT_EQ(raised.arc_z, (std::vector<std::vector<double>>{{8, 5}, {5, 5}, {9, 5}}));
+}
+
+TEST(AdoptHeights, UphillNamesRiverAndVertices) {
+    auto const uphill = with_heights({{{0, 0, 20}, {1, 0, 9}},
+                                      {{0, 5, 20}, {1, 5, 9}},
+                                      {{0, 9, 20}, {1, 9, 18}, {2, 9, 13}, {3, 9, 12.1}, {4, 9, 12.9}, {5, 9, 3}}});
+    EXPECT_EQ(message([&] { network::take_file_heights(import_lines(uphill), uphill); }),
+              "river 3 in rivers.gpkg runs uphill between vertex 4 (12.1 m) and 5 (12.9 m). Reverse the line, or leave "
+              "heights to [network] heights.");
+    auto const turned = with_heights({{{5, 9, 3}, {4, 9, 12.9}, {3, 9, 12.1}, {2, 9, 13}}});
+    EXPECT_TRUE(has(message([&] { network::take_file_heights(import_lines(turned), turned); }),
+                    "river 1 in rivers.gpkg runs uphill between vertex 3 (12.1 m) and 2 (12.9 m)"));
+    auto const hardly = with_heights({{{0, 0, 20}, {1, 0, 9}, {2, 0, 9.000000001}, {3, 0, 1}}});
+    EXPECT_TRUE(has(message([&] { network::take_file_heights(import_lines(hardly), hardly); }), "(9.000000001 m)"));
+}
+
+TEST(AdoptHeights, LevelIsNotUphill) {
+    auto const level = with_heights({{{0, 0, 5}, {1, 0, 5}, {2, 0, 4}, {3, 0, 4}}});
+    EXPECT_EQ(network::take_file_heights(import_lines(level), level).arc_z[0], (std::vector<double>{5, 5, 4, 4}));
+}
+
+namespace {
+
+// A tree on a lattice of 100 m whose vertices are shaken by up to 20 m: its edges meet in common vertices only.
+struct Tree {
+    std::vector<Vec2> at;
+    std::vector<int> down; // vertex 0 is the outlet
+    std::vector<double> z;
+};
+
+Tree random_tree(int size) {
+    Tree tree;
+    std::map<std::pair<int, int>, int> taken;
+    std::vector<std::pair<int, int>> cell;
+    auto const add = [&](std::pair<int, int> c, int down) {
+        taken[c] = static_cast<int>(cell.size());
+        cell.push_back(c);
+        auto const shake = [] { return *rc::gen::inRange(-20000, 20001) * 1e-3; };
+        tree.at.push_back({c.first * 100.0 + shake(), c.second * 100.0 + shake()});
+        tree.down.push_back(down);
+        tree.z.push_back(down < 0 ? 0.0 : tree.z[static_cast<std::size_t>(down)] + 1.0);
+    };
+    add({0, 0}, -1);
+    constexpr std::pair<int, int> beside[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    for (int tries = 0; tries < 3 * size && static_cast<int>(cell.size()) < size; ++tries) {
+        int const from = *rc::gen::inRange(0, static_cast<int>(cell.size()));
+        auto const [dx, dy] = beside[*rc::gen::inRange(0, 4)];
+        auto const [x, y] = cell[static_cast<std::size_t>(from)];
+        if (!taken.contains({x + dx, y + dy}) && (from != 0 || cell.size() == 1)) {
+            add({x + dx, y + dy}, from);
+        }
+    }
+    return tree;
+}
+
+// Draws the tree as lines down from its heads, each until it meets one drawn before, cut in places.
+RiverLines draw(Tree const& tree) {
+    RiverLines file;
+    file.name = "tree";
+    file.has_z = true;
+    std::vector<char> drawn(tree.at.size(), 0);
+    std::vector<char> has_up(tree.at.size(), 0);
+    for (int const d : tree.down) {
+        if (d >= 0) {
+            has_up[static_cast<std::size_t>(d)] = 1;
+        }
+    }
+    auto const vertex = [&](std::size_t v) { return Vec3{tree.at[v].x, tree.at[v].y, tree.z[v]}; };
+    for (std::size_t head = 0; head < tree.at.size(); ++head) {
+        if (has_up[head] != 0 || tree.down[head] < 0) {
+            continue;
+        }
+        RiverLine line;
+        line.vertices = {vertex(head)};
+        for (std::size_t v = head; tree.down[v] >= 0 && drawn[v] == 0; v = static_cast<std::size_t>(tree.down[v])) {
+            drawn[v] = 1;
+            auto const next = static_cast<std::size_t>(tree.down[v]);
+            line.vertices.push_back(vertex(next));
+            bool const ends = tree.down[next] < 0 || drawn[next] != 0;
+            if (ends || *rc::gen::inRange(0, 4) == 0) {
+                line.feature = static_cast<std::int64_t>(file.lines.size()) + 1;
+                file.lines.push_back(line);
+                line.vertices = {vertex(next)};
+            }
+        }
+    }
+    return file;
+}
+
+std::set<Step> steps(Tree const& tree) {
+    std::set<Step> result;
+    for (std::size_t v = 1; v < tree.at.size(); ++v) {
+        Vec2 const d = tree.at[static_cast<std::size_t>(tree.down[v])];
+        result.insert({{tree.at[v].x, tree.at[v].y}, {d.x, d.y}});
+    }
+    return result;
+}
+
+void spoil(RiverLines& file) {
+    std::size_t const count = file.lines.size();
+    for (std::size_t l = 0; l < count; ++l) {
+        int const what = *rc::gen::inRange(0, 4);
+        if (what == 1 || what == 3) {
+            std::ranges::reverse(file.lines[l].vertices);
+        }
+        if (what >= 2) {
+            file.lines.push_back(file.lines[l]);
+            file.lines.back().feature = static_cast<std::int64_t>(file.lines.size());
+            if (*rc::gen::inRange(0, 2) == 0) {
+                std::ranges::reverse(file.lines.back().vertices);
+            }
+        }
+    }
+}
+
+} // namespace
+
+// Law: a tree of lines cut into pieces, turned round and repeated is found again, every vertex bit for bit.
+TEST(AdoptLaws, TheTreeIsFound) {
+    bool const ok = rc::check([] {
+        auto const tree = random_tree(*rc::gen::inRange(2, 60));
+        auto file = draw(tree);
+        auto const lines = file.lines;
+        spoil(file);
+        auto const imported = import_lines(file);
+        RC_ASSERT(steps(imported.network) == steps(tree));
+        RC_ASSERT(imported.network.node_count() == imported.network.arc_count() + 1);
+        for (NodeId n = 0; n < imported.network.node_count(); ++n) {
+            RC_ASSERT(kind_of(imported.network, n) != NodeKind::pseudo);
+        }
+        auto const raised = network::take_file_heights(imported, file);
+        std::map<std::pair<double, double>, double> z;
+        for (std::size_t v = 0; v < tree.at.size(); ++v) {
+            z[{tree.at[v].x, tree.at[v].y}] = tree.z[v];
+        }
+        for (std::size_t i = 0; i < raised.plan.arc_count(); ++i) {
+            auto const& line = raised.plan.arc(i).line;
+            for (std::size_t v = 0; v < line.size(); ++v) {
+                RC_ASSERT(raised.arc_z[i][v] == z.at({line[v].x, line[v].y}));
+            }
+        }
+    });
+    ASSERT_TRUE(ok);
+}
+
+// Law: without heights or rank the file's own direction tells the same.
+TEST(AdoptLaws, AsDrawn) {
+    bool const ok = rc::check([] {
+        auto const tree = random_tree(*rc::gen::inRange(2, 60));
+        auto file = draw(tree);
+        file.has_z = false;
+        RC_ASSERT(steps(import_lines(file, {.orientation = Orientation::as_drawn}).network) == steps(tree));
+        RC_ASSERT(steps(import_lines(file).network) == steps(tree));
+    });
+    ASSERT_TRUE(ok);
+}
+
+// Law: ends moved by less than half of snap_m are found together again; no vertex moves further than snap_m.
+TEST(AdoptLaws, MovedEndsAreSnapped) {
+    bool const ok = rc::check([] {
+        double const snap_m = 4.0;
+        auto const tree = random_tree(*rc::gen::inRange(2, 60));
+        auto file = draw(tree);
+        spoil(file);
+        for (auto& line : file.lines) {
+            for (auto* const end : {&line.vertices.front(), &line.vertices.back()}) {
+                end->x += *rc::gen::inRange(-1400, 1401) * 1e-3;
+                end->y += *rc::gen::inRange(-1400, 1401) * 1e-3;
+            }
+        }
+        auto const imported = import_lines(file, {.snap_m = snap_m});
+        auto const cell = [](double x, double y) { // of the lattice: vertices are within 26 m of its points
+            return std::pair{std::floor(x / 100.0 + 0.5), std::floor(y / 100.0 + 0.5)};
+        };
+        auto const coarse = [&](std::set<Step> const& fine) {
+            std::set<Step> result;
+            for (auto const& [a, b] : fine) {
+                result.insert({cell(a.first, a.second), cell(b.first, b.second)});
+            }
+            return result;
+        };
+        RC_ASSERT(coarse(steps(imported.network)) == coarse(steps(tree)));
+        RC_ASSERT(steps(imported.network).size() == steps(tree).size());
+        for (auto const& repair : imported.repairs) {
+            RC_ASSERT((repair.kind != "snapped" || repair.amount <= snap_m));
+        }
+    });
+    ASSERT_TRUE(ok);
+}
+
+// Law: rivers that cross once each keep all their vertices and gain exactly one each crossing.
+TEST(AdoptLaws, CrossingsAreAllThatIsAdded) {
+    bool const ok = rc::check([] {
+        int const rivers = *rc::gen::inRange(1, 12);
+        auto const some = [](int low, int high) { return *rc::gen::inRange(low, high + 1) * 1e-6; };
+        std::vector<std::vector<Vec2>> plans(1);
+        for (int i = 0; i <= rivers; ++i) {
+            double const x = 100.0 * i;
+            plans[0].push_back({x, some(-8000000, 8000000)});
+            if (i < rivers) {
+                plans.push_back({{x + some(10000000, 90000000), 500}, {x + some(10000000, 90000000), -500}});
+            }
+        }
+        auto const file = flats(plans);
+        auto const imported = import_lines(file);
+        expect_trees(imported.network);
+        expect_kept(imported.network, file.lines);
+        RC_ASSERT(!::testing::Test::HasFailure());
+        RC_ASSERT(imported.network.arc_count() == static_cast<std::size_t>(3 * rivers + 1));
+        RC_ASSERT(steps(imported.network).size() == static_cast<std::size_t>(rivers + 3 * rivers));
+    });
+    ASSERT_TRUE(ok);
+}

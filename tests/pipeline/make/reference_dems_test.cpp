@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/measure/relief/reference_dems.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/pipeline/make/relief.hpp>
+
+using namespace thalweg;
+using measure::Relief;
+
+namespace {
+
+struct Land {
+    char const* name;
+    char const* file;
+    char const* source;
+};
+
+constexpr std::array<Land, 2> lands = {{
+    {"Big Tujunga", "bigtujunga_srtm1_utm11.tif", "NASA/USGS SRTM 1 arcsec, San Gabriel Mountains, California"},
+    {"Jacksboro", "jacksboro_utm16.tif", "SRTM 3 arcsec, Jacksboro fault, Tennessee and Kentucky, in UTM"},
+}};
+
+struct Measured {
+    Relief relief;
+    double cell_m = 0.0;
+};
+
+Measured measured(Land const& land) {
+    Raster<float> const dem = io::read_dem(std::string(THALWEG_SOURCE_DIR "/samples/") + land.file);
+    return {pipeline::relief_of_dem(dem).land, dem.grid().cell_m};
+}
+
+template <class Numbers> std::string listed(Numbers const& numbers) {
+    std::string out;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        out += fmt::format("{}{:.6g}", i == 0 ? "" : i % 8 == 0 ? ",\n      " : ", ", numbers[i]);
+    }
+    return out;
+}
+
+std::array<double, measure::relief_metric_count> figures_of(Relief const& relief) {
+    std::array<double, measure::relief_metric_count> out{};
+    for (std::size_t f = 0; f < out.size(); ++f) {
+        out[f] = measure::relief_metrics()[f].of(relief);
+    }
+    return out;
+}
+
+void write_anew() {
+    std::ofstream out(THALWEG_SOURCE_DIR "/lib/thalweg/measure/real_lands.inc");
+    out << "// SPDX-FileCopyrightText: the thalweg authors\n// SPDX-License-Identifier: GPL-3.0-or-later\n"
+           "// Measured from samples/ by tests/pipeline/real_lands_test.cpp, which writes this file under "
+           "THALWEG_RENEW=1.\n";
+    std::string table;
+    for (std::size_t l = 0; l < lands.size(); ++l) {
+        Measured const m = measured(lands[l]);
+        auto const& bins = m.relief.slope_area->bins;
+        out << fmt::format("constexpr std::array<AreaBin, {}> bins_{} = {{{{\n", bins.size(), l);
+        for (measure::AreaBin const& bin : bins) {
+            out << fmt::format("    {{{:.6g}, {:.6g}, {}}},\n", bin.area_m2, bin.value, bin.places);
+        }
+        out << "}};\n";
+        table +=
+            fmt::format("    {{\"{}\",\n     \"{}\",\n     \"{}\",\n     {},\n     {{{{{}}}}},\n     {{{{{}}}}},\n     "
+                        "{{{{{}}}}},\n     bins_{}}},\n",
+                        lands[l].name, lands[l].file, lands[l].source, m.cell_m, listed(figures_of(m.relief)),
+                        listed(m.relief.slopes.shares), listed(m.relief.forms), l);
+    }
+    out << fmt::format("constexpr std::array<RealLand, {}> lands = {{{{\n{}}}}};\n", lands.size(), table);
+}
+
+void expect_near(double found, double committed, std::string const& what) {
+    EXPECT_NEAR(found, committed, 1e-5 * std::fabs(committed) + 1e-12) << what;
+}
+
+} // namespace
+
+// The committed figures of reference DEM are those that the code finds in the committed files.
+TEST(ReferenceDems, AsMeasuredFromTheirFiles) {
+    if (std::getenv("THALWEG_RENEW") != nullptr) {
+        write_anew();
+        FAIL() << "lib/thalweg/measure/real_lands.inc is written anew; build again and look at it";
+    }
+    ASSERT_EQ(measure::reference_dems().size(), lands.size());
+    for (std::size_t l = 0; l < lands.size(); ++l) {
+        measure::ReferenceDem const& committed = measure::reference_dems()[l];
+        EXPECT_EQ(committed.name, lands[l].name);
+        EXPECT_EQ(committed.file, lands[l].file);
+        Measured const m = measured(lands[l]);
+        EXPECT_EQ(committed.cell_m, m.cell_m);
+        auto const figures = figures_of(m.relief);
+        for (std::size_t f = 0; f < figures.size(); ++f) {
+            expect_near(figures[f], committed.figures[f], std::string(measure::relief_metrics()[f].key));
+        }
+        ASSERT_EQ(m.relief.slopes.shares.size(), committed.slopes.size());
+        for (std::size_t s = 0; s < committed.slopes.size(); ++s) {
+            expect_near(m.relief.slopes.shares[s], committed.slopes[s], fmt::format("slope {}", s));
+        }
+        for (std::size_t f = 0; f < measure::form_count; ++f) {
+            expect_near(m.relief.forms[f], committed.forms[f], fmt::format("form {}", f));
+        }
+        ASSERT_EQ(m.relief.slope_area->bins.size(), committed.slope_area.size());
+        for (std::size_t b = 0; b < committed.slope_area.size(); ++b) {
+            expect_near(m.relief.slope_area->bins[b].value, committed.slope_area[b].value, fmt::format("bin {}", b));
+            expect_near(m.relief.slope_area->bins[b].area_m2, committed.slope_area[b].area_m2,
+                        fmt::format("bin {}", b));
+        }
+    }
+}
+
+// What GRASS 8.2.1 finds in the same files: r.geomorphon search=15 skip=0 flat=1, fifteen cells of border left out.
+TEST(ReferenceDems, FormsAsGrassHasThem) {
+    constexpr std::array<std::array<double, measure::form_count>, 2> grass = {{
+        {0.0, 0.0116, 0.0964, 0.0, 0.2174, 0.3608, 0.1913, 0.0001, 0.1136, 0.0089},
+        {0.0, 0.0470, 0.1554, 0.0, 0.1882, 0.2514, 0.1486, 0.0001, 0.1530, 0.0562},
+    }};
+    for (std::size_t l = 0; l < grass.size(); ++l) {
+        EXPECT_LT(measure::total_variation(measure::reference_dems()[l].forms, grass[l]), 0.0005);
+    }
+}
+
+// Every reference DEM lies in the range that the others are judged by.
+TEST(ReferenceDems, LieInTheirOwnRange) {
+    for (measure::ReferenceDem const& land : measure::reference_dems()) {
+        for (std::size_t f = 0; f < measure::relief_metric_count; ++f) {
+            measure::ReliefRange const range = measure::relief_range(f);
+            EXPECT_GE(land.figures[f], range.low);
+            EXPECT_LE(land.figures[f], range.high);
+            EXPECT_GT(range.low, 0.0);
+        }
+    }
+}
