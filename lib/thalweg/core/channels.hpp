@@ -9,10 +9,10 @@
 
 namespace thalweg {
 
-/// The cells in which rivers run and where the water of each goes: what a land is brought into equilibrium with. Law:
-/// every cell is there once; receiver[i] < i, so downstream comes first, or -1 where the water leaves the land (on the
-/// grid's border or the coast) or ends in a sink; a cell and its receiver are neighbours, by side or corner. The
-/// vectors are parallel.
+/// The cells in which rivers run and where the water of each goes: what equilibrium terrain is built around. Law: every
+/// cell is there once; receiver[i] < i, so downstream comes first, or -1 where the water leaves the land (on the grid's
+/// border or the coast) or ends in a sink; a cell and its receiver are neighbours, by side or corner. The vectors are
+/// parallel.
 struct Channels {
     Grid grid;
     std::vector<std::int64_t> cell;     ///< index in the grid

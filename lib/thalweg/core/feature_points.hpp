@@ -9,7 +9,7 @@
 
 namespace thalweg {
 
-/// Points whose heights the land shall have: surveyed, read from a file, or drawn at random (paper 001). Law:
+/// Points whose heights the terrain must have: surveyed, read from a file, or drawn at random (Zhang, Liu and Li). Law:
 /// coordinates and heights are finite.
 struct FeaturePoints {
     std::vector<Vec3> points; ///< [m]

@@ -28,7 +28,7 @@ struct NetworkFile {
         double dist_out_m = untold;
         double area_m2 = untold;
     };
-    /// A node as a file has it.
+    /// A node as in a file.
     struct FileNode {
         std::int64_t id = 0;
         Vec3 at; ///< [m]
@@ -47,7 +47,7 @@ struct NetworkFile {
         double dist_out_m = untold;
         double slope = untold;
     };
-    /// An arc as a file has it.
+    /// An arc as in a file.
     struct FileArc {
         std::int64_t id = 0;
         std::int64_t from_node = 0;
@@ -66,7 +66,7 @@ struct NetworkFile {
         Channel channel = Channel::unknown; ///< likewise
         std::int64_t rank = 0;              ///< likewise
         std::string name = {};              ///< likewise
-        std::string unnatural = {};         ///< why it is no natural watercourse, or ""
+        std::string unnatural = {};         ///< why it is not a natural watercourse, or ""
         std::vector<Stretch> sources = {};  ///< the features it is made of, where the file has them
         std::string type = {};
         bool braided = false;

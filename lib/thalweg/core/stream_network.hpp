@@ -153,7 +153,7 @@ struct NetworkOrders {
     std::vector<int> topological;        ///< [1, ...] by arc: 1 at the outlet, growing upstream
     std::vector<std::int64_t> arc_basin; ///< [1, ...] by arc
     std::vector<std::int64_t> node_basin;
-    std::vector<int> node_strahler;      ///< order of the stream that leaves the node (outlet: of that which enters)
+    std::vector<int> node_strahler;      ///< order of the stream that leaves the node (outlet: of the one that enters)
     std::vector<double> node_dist_out_m; ///< [m] along the stream to the outlet
 };
 

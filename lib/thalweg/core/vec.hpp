@@ -67,7 +67,7 @@ constexpr Vec2 plan(Vec3 const& p) {
 }
 
 /// \param v [m] a value
-/// \return rounded to 1e-6 m, what files hold and nobody can measure; never -0.
+/// \return rounded to 1e-6 m, the precision of files; never -0.
 inline double rounded(double v) {
     return std::floor(v * 1e6 + 0.5) / 1e6 + 0.0;
 }

@@ -19,7 +19,7 @@ struct CurveParams {
 
 /// \param increments increments [m] of x = 1, 2, ...; none give empty axes that say so
 /// \param params options, each with its default, unit and range
-/// \return the increment dh(x) and its sum H(d), as in Table 1 of paper 000, in two diagrams.
+/// \return the increment dh(x) and its sum H(d), as in Table 1 of Cao, Long and Lü 2009, in two diagrams.
 /// \throws BadParameter
 /// \throws BadInput when an increment is not finite
 Picture curve(std::vector<double> const& increments, CurveParams const& params = {});

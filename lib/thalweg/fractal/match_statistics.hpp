@@ -13,13 +13,14 @@
 
 namespace thalweg::fractal {
 
-/// A height that a cell shall have.
+/// A height that a cell must have.
 struct FixedHeight {
     Cell cell;
     double z = 0.0; ///< [m]
 };
 
-/// The statistics a land shall have, as measure::statistics estimates them; one that is not named is left as it comes.
+/// The statistics that a DEM must have, as measure::statistics estimates them; one that is not named is left as it
+/// comes.
 struct Targets {
     std::optional<double> mean{};      ///< [m]
     std::optional<double> std{};       ///< [m] > 0
@@ -62,7 +63,7 @@ inline constexpr std::size_t most_fixed = 2000;
 
 /// Changes a land as little as it takes to have all the statistics asked for at once, extremes and fixed heights
 /// exactly.
-/// \pre a DEM, NaN where there shall be none: such cells do not count and stay; targets; heights to keep, at most
+/// \pre a DEM, NaN where there is no data: such cells do not count and stay; targets; heights to keep, at most
 /// most_fixed with the extremes; params, of which the prior says what "little" means.
 /// \param dem [m] heights by cell; NaN: no data
 /// \param targets the target statistics

@@ -22,7 +22,7 @@ struct Crossing {
 
 /// Every point where polylines meet: proper crossings, touching ends and vertices, ends of overlaps.
 /// \param lines polylines of finite coordinates. A repeated vertex counts once; a polyline that is one repeated point
-/// is that point; one of fewer than two vertices is passed over
+/// is that point; one of fewer than two vertices is skipped
 /// \param run progress, log, stop token and number of threads
 /// \return for each such point one entry for each polyline and segment it lies on, sorted by line, segment and place;
 /// neighbouring segments of one line meeting at their common vertex do not count (folding back on each other does).

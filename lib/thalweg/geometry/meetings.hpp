@@ -28,7 +28,7 @@ struct Meeting {
 using EndNodes = std::array<std::size_t, 2>;
 
 /// Where polylines of a network meet though they should not: everywhere but in their common nodes.
-/// \pre polylines without repeated vertices; those of fewer than two are passed over.
+/// \pre polylines without repeated vertices; those of fewer than two are skipped.
 /// \param lines the polylines
 /// \param nodes by polyline
 /// \param run progress, log, stop token and number of threads

@@ -6,7 +6,7 @@
 
 namespace thalweg::skeleton {
 
-/// What a random land shall be like on average; one realisation departs from it.
+/// What a random terrain is like in expectation; one realisation departs from it.
 struct FieldParams {
     double mean = 0.0;      ///< [m]
     double std = 1.0;       ///< [m] >= 0

@@ -17,7 +17,7 @@ struct GrfParams {
     solver::StableCovariance covariance{};
     std::uint64_t seed = 0;
     int embedding =
-        4; ///< [1, 64] the torus is at least so many times max(N, 5 L) wide; less memory, more negative_share
+        4; ///< [1, 64] the torus is at least this factor times max(N, 5 L) wide; less memory, more negative_share
 };
 
 /// What grf() returns.

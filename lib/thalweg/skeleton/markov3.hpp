@@ -8,7 +8,7 @@
 
 namespace thalweg::skeleton {
 
-/// The paper's recursion, for comparison: each height from its neighbours to the west and the north.
+/// The recursion of Zhang, Liu and Li, for comparison: each height from its neighbours to the west and the north.
 /// \param grid a grid; params, of whose lengths the mean L = (lx + ly)/2 counts
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads

@@ -19,7 +19,8 @@ enum class SlopeMode : std::uint8_t {
     mean    ///< root of the mean square over the grid's cells
 };
 
-/// The eighth term: the paper's text lost an exponent. x2y2 completes the products {1, x, x^2} {1, y, y^2}.
+/// The eighth term: the text of Zhang, Liu and Li lost an exponent. x2y2 completes the products {1, x, x^2} {1, y,
+/// y^2}.
 enum class EighthTerm : std::uint8_t { x2y2, x3y };
 
 /// Options of regress().
@@ -29,7 +30,8 @@ struct RegressParams {
     double frequency_x = 1.0; ///< [cycles a grid width] >= 0; 0 leaves its term out
     double frequency_y = 1.0; ///< [cycles a grid height] >= 0; 0 leaves its term out
     SlopeMode slope = SlopeMode::none;
-    double slope_rad = 0.0; ///< (0, pi/2) arctan of metres a cell, as the paper counts slopes; of centre and mean
+    double slope_rad =
+        0.0; ///< (0, pi/2) arctan of metres a cell, as Zhang, Liu and Li measure slopes; of centre and mean
     EighthTerm eighth = EighthTerm::x2y2;
 };
 
@@ -51,13 +53,13 @@ struct Regression {
 /// \param grid the grid
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return the least sum of squared residuals (with a slope: among all surfaces that have it, to 1e-10). Lost rank is
-/// reported, and the surface is then that of a small ridge.
+/// \return the least sum of squared residuals (with a slope: among all surfaces with that slope, to 1e-10). Lost rank
+/// is reported, and the surface is then that of a small ridge.
 /// \throws BadParameter
 /// \throws BadInput too few points, a coordinate that is not finite, or (under centre) terms beside x and y that the
 /// points do not tell apart
 ///
-/// Source: \cite zhang, equations 12 and 13 (specification 1.4); c_a, which cannot be told from c_0 to c_2, is 1.
+/// Source: \cite zhang, equations 12 and 13 (specification 1.4); c_a, which cannot be told apart from c_0 to c_2, is 1.
 Regression regress(FeaturePoints const& points, Grid const& grid, RegressParams const& params = {},
                    Run const& run = {});
 

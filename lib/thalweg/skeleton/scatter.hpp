@@ -18,7 +18,7 @@ enum class HeightLaw : std::uint8_t { uniform, normal };
 /// What the deviation of scattered points is.
 enum class Deviation : std::uint8_t {
     exact,  ///< that of the points themselves, as equation 9 brings it about
-    printed ///< as equation 8 has it: heights are mean + deviation (2 u - 1), or mean + deviation n by the normal law
+    printed ///< as in equation 8: heights are mean + deviation (2 u - 1), or mean + deviation n by the normal law
 };
 
 /// Options of scatter().

@@ -12,7 +12,7 @@ namespace thalweg {
 /// \param seed random seed
 /// \param cell the cell
 /// \param lattice_cells [cells] >= 1, spacing of the lattice
-/// \return Smooth noise in [-1, 1]: random numbers on a lattice of so many cells, joined by x^2 (3 - 2 x).
+/// \return Smooth noise in [-1, 1]: random numbers on a lattice with this spacing, joined by x^2 (3 - 2 x).
 double value_noise(std::uint64_t seed, Cell cell, double lattice_cells);
 
 } // namespace thalweg

@@ -8,8 +8,8 @@
 namespace thalweg {
 
 /// \param bytes the number of bytes
-/// \return memory [bytes] aligned to 2 MiB, for which the system is asked for pages of that size: touching it first
-/// costs a third of what small pages cost, which is more than most kernels here.
+/// \return memory [bytes] aligned to 2 MiB, in pages of that size if the system has them: touching it first costs a
+/// third of what small pages cost, which is more than most kernels here.
 /// \throws std::bad_alloc
 void* take_large_pages(std::size_t bytes);
 void give_large_pages(void* memory) noexcept;

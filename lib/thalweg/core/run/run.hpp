@@ -29,9 +29,9 @@ struct Run {
     /// Reports progress.
     /// \param share [0, 1] share of the work
     /// \param what what is being done
-    /// \throws Cancelled when the work shall stop
+    /// \throws Cancelled when the work must stop
     void at(double share, char const* what) const;
-    /// \throws Cancelled when the work shall stop
+    /// \throws Cancelled when the work must stop
     void check() const;
     /// Logs a line about a stage, its name in a column of its own: "grow       100000 particles".
     /// \param stage name of the stage
@@ -44,7 +44,7 @@ struct Run {
     }
 };
 
-/// Cells that a loop may pass before it looks whether it shall stop.
+/// Cells that a loop may pass before it looks whether it must stop.
 inline constexpr std::int64_t cells_between_checks = 1 << 18;
 
 } // namespace thalweg

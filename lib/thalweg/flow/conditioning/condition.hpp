@@ -21,7 +21,7 @@ struct ConditionParams {
 /// What condition() returns.
 struct ConditionedDem {
     Raster<float> dem;
-    DemChange banks;       ///< raised so that rivers keep their water (confine_channels)
+    DemChange banks;       ///< raised so that rivers stay in their channels (confine_channels)
     DemChange depressions; ///< filled or cut after that
 };
 

@@ -28,7 +28,7 @@ FlowField route(Raster<float> const& dem, Run const& run = {});
 /// \param sinks indices of the cells at which water ends
 /// \param run progress, log, stop token and number of threads
 /// \return the same of a DEM with closed basins: water also leaves from sinks, which are cells with data, and what
-/// drains to them is no depression.
+/// drains to them is not a depression.
 /// \throws BadInput for a sink off the grid or without data, too
 FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks, Run const& run = {});
 

@@ -22,7 +22,7 @@ struct ExtractStreamsParams {
     std::int64_t support_cells = 200; ///< [1, ...] cells that must drain through a cell for a river to run there
 };
 
-/// The network of all cells through which at least so many cells drain by D8.
+/// The network of all cells through which at least `support` cells drain by D8.
 /// \pre a DEM and its drainage.
 /// \param drainage the flow field of the DEM
 /// \param dem [m] heights by cell; NaN: no data

@@ -20,8 +20,8 @@ enum class Existing {
 /// ever replaced or removed. Takes: folder, which need not exist; old_files: every file an earlier run left in it,
 /// report.json included, by its name relative to it ("inputs/rivers.gpkg"); an empty list when it holds no report.
 /// \throws BadParameter when folder is ""
-/// \throws BadInput when it is no folder, holds something and existing is refuse, holds something and old_files is
-/// empty under replace, or when an old name is absolute, climbs out with "..", is no plain file, or passes through a
+/// \throws BadInput when it is not a folder, holds something and existing is refuse, holds something and old_files is
+/// empty under replace, or when an old name is absolute, climbs out with "..", is not a plain file, or passes through a
 /// link
 /// \throws IoError with the path and the system's reason
 class OutputFolder {

@@ -11,7 +11,7 @@ namespace thalweg::io {
 /// An output file that appears whole or not at all: it is written at staging() and moved by commit(); without it
 /// nothing is left.
 /// \throws BadParameter when path is ""
-/// \throws BadInput when it exists and existing is refuse, is no plain file, or its folder does not exist
+/// \throws BadInput when it exists and existing is refuse, is not a plain file, or its folder does not exist
 /// \throws IoError with the system's reason
 class OutputFile {
 public:

@@ -13,7 +13,7 @@ namespace thalweg::io {
 /// \param of_a what the first is, for messages
 /// \param of_b what the second is, for messages
 /// \return whether two CRS ("EPSG:n", WKT, "" for none) have the same horizontal coordinates.
-/// \throws BadInput when exactly one of them is "", naming both sides; of_a and of_b say in words whose they are
+/// \throws BadInput when exactly one of them is "", naming both sides; of_a and of_b name both sides in the message
 bool same_crs(std::string const& a, std::string const& b, std::string const& of_a, std::string const& of_b);
 
 /// \param a a grid

@@ -13,7 +13,7 @@ namespace thalweg::io {
 /// \param crs "EPSG:n" or WKT; "": none
 /// \return what of a file changes when it is read into a grid's CRS in metres, each as a sentence: coordinates of
 /// another CRS are reprojected, heights in another unit are converted, heights of a CRS in feet that have no unit of
-/// their own are taken for metres.
+/// their own count as metres.
 std::vector<std::string> conversions_of(std::string const& path, std::string const& layer, std::string const& crs);
 
 } // namespace thalweg::io

@@ -27,14 +27,15 @@ struct ReadPointsParams {
 };
 
 /// Reads points with heights. Text: one a line, x y z in the first three columns or in those a first line names (x, y,
-/// z in any case and order), parted by commas, semicolons or blanks; empty lines and those that begin with # are passed
-/// over. OGR: points and multi-points, their Z or the field z, reprojected and rounded to 1e-6 m as read_rivers does.
+/// z in any case and order), parted by commas, semicolons or blanks; empty lines and those that begin with # are
+/// skipped. OGR: points and multi-points, their Z or the field z, reprojected and rounded to 1e-6 m as read_rivers
+/// does.
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
 /// \return the points
 /// \throws BadInput naming file and line or feature: missing file, layer or height, several layers of points, no
-/// points, something that is no point or no number, NaN or infinite values, no CRS (not in text), coordinates that
-/// cannot be reprojected
+/// points, something that is not a point or not a number, NaN or infinite values, no CRS (not in text), coordinates
+/// that cannot be reprojected
 /// \throws IoError when the file cannot be read to its end
 /// \throws Cancelled
 FeaturePoints read_points(ReadPointsParams const& params, Run const& run = {});

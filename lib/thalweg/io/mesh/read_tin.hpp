@@ -19,7 +19,7 @@ struct TinFile {
 /// \return whether a file's name ends in that of a mesh that read_tin reads: .2dm, .obj or .off.
 bool holds_tin(std::string const& path);
 
-/// Reads a mesh of triangles: 2DM (E3T, ND), Wavefront OBJ (v, f) or OFF; other words of 2DM and OBJ are passed over.
+/// Reads a mesh of triangles: 2DM (E3T, ND), Wavefront OBJ (v, f) or OFF; other words of 2DM and OBJ are skipped.
 /// \param path path of the file
 /// \param run progress, log, stop token and number of threads
 /// \return vertices and triangles in the file's order; of what write_tin writes in these formats the same TIN.

@@ -44,7 +44,7 @@ enum class PointClass : std::uint8_t {
 /// Options of write_points().
 struct WritePointsParams {
     PointFormat format = PointFormat::las;
-    std::int64_t every = 1; ///< [1, ...] of so many points one, of so many rows and columns one: the first
+    std::int64_t every = 1; ///< [1, ...] one point, or row and column, of this many: the first
 };
 
 /// Writes points, or the centres of all cells with a height, as a new file; gives how many there are.

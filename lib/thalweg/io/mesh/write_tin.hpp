@@ -29,7 +29,7 @@ enum class TinFormat : std::uint8_t {
 struct TinFormatName {
     TinFormat format;
     char const* name;   ///< "2dm", "ply-points"
-    char const* ending; ///< ".2dm"; "" where another format has it
+    char const* ending; ///< ".2dm"; "" if another format has that ending
 };
 std::vector<TinFormatName> const& tin_formats();
 

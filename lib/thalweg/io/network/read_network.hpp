@@ -19,7 +19,7 @@ struct ReadNetworkParams {
     std::string arcs_layer = {};  ///< "" takes the layer arcs, else the only layer of lines that is understood
     std::string nodes_layer = {}; ///< "" takes the layer nodes of a network in the native schema, if it is there
     bool any_lines = false;       ///< lines of which neither schema nor fields are known are taken by their features
-    std::string crs = {};         ///< to bring it into, projected in metres; "" for its own, or its UTM zone
+    std::string crs = {};         ///< to reproject it to, projected in metres; "" for its own, or its UTM zone
 };
 
 /// Reads anyone's network as it stands: ids may repeat, links lead nowhere, lines be empty or wrong.
@@ -32,19 +32,18 @@ struct ReadNetworkParams {
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
 /// \return arcs drawn downstream (where the lines of most linked arcs are drawn up, all are turned), in metres (what is
-/// not in a projected CRS in metres is brought into its UTM zone, to 1e-6 m), areas in m2; NetworkFile::says tells
+/// not in a projected CRS in metres is reprojected to its UTM zone, to 1e-6 m), areas in m2; NetworkFile::says tells
 /// which columns there were. Without a layer of nodes a node is made for each id of an end, at the place that most of
 /// these ends have, or, where ends have no ids, for each place in plan. Without ds_arc it is the arc that begins where
-/// an arc ends. What had to be bent or passed over is in NetworkFile::findings, each where its arc begins and by the
-/// number that the file has; whatever is wrong is left for a check to find. Kinds of finding (feature; amount), the
-/// first thousand of a kind and how many more there are: missing_field (none; fields), missing_nodes (none; 0),
-/// text_number (none; 0), null_number and not_a_number (arc; 0), which stand as 0; not_a_line (none; features passed
-/// over), multi_part (arc; parts: when they join end to end they are one line, else each is an arc of the same id),
-/// curve (arc; vertices of its line), measures (none; arcs whose M is left out), no_heights (none; arcs), no_crs (none;
-/// 0), reprojected (none; 0), heights_converted (none; metres of a unit), turned (none; arcs), by_feature (none; arcs
-/// of a file taken so under any_lines), as_text (none; columns of a type that is kept as texts), not_utf8 (none; texts
-/// of which bytes are kept as \\xNN), cut_below (arc; the number of the arc downstream, which the file does not hold:
-/// an outlet).
+/// an arc ends. What had to be bent or skipped is in NetworkFile::findings, each where its arc begins and by the number
+/// that the file has; whatever is wrong is left for a check to find. Kinds of finding (feature; amount), the first
+/// thousand of a kind and how many more there are: missing_field (none; fields), missing_nodes (none; 0), text_number
+/// (none; 0), null_number and not_a_number (arc; 0), which stand as 0; not_a_line (none; features skipped), multi_part
+/// (arc; parts: when they join end to end they are one line, else each is an arc of the same id), curve (arc; vertices
+/// of its line), measures (none; arcs whose M is left out), no_heights (none; arcs), no_crs (none; 0), reprojected
+/// (none; 0), heights_converted (none; metres of a unit), turned (none; arcs), by_feature (none; arcs of a file taken
+/// so under any_lines), as_text (none; columns of a type that is kept as texts), not_utf8 (none; texts of which bytes
+/// are kept as \\xNN), cut_below (arc; the number of the arc downstream, which the file does not hold: an outlet).
 /// \throws BadInput no such file or layer, several layers, a schema that is not recognised (lists what was looked for),
 /// no field of arc ids, a field without numbers, arcs and nodes in different CRS
 /// \throws IoError the file is damaged, locked, or left in the middle of a change
@@ -54,7 +53,7 @@ NetworkFile read_network(std::string const& path, ReadNetworkParams const& param
 /// Reads a network in the native schema with all its layers and fields, lines with Z, numbers that are there and whole.
 /// \param path path of the file
 /// \param run progress, log, stop token and number of threads
-/// \return the network as its file has it
+/// \return the network as in its file
 /// \throws Error like the other, and BadInput instead of every finding
 NetworkFile read_network(std::string const& path, Run const& run = {});
 

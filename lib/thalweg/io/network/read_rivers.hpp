@@ -37,8 +37,8 @@ struct ReadRiversParams {
 /// \param run progress, log, stop token and number of threads
 /// \return the lines
 /// \throws BadInput naming file, layer and feature: missing file, layer or named field, no or several line layers, no
-/// features, something that is no line, no CRS, coordinates that are not finite or cannot be reprojected, nothing left,
-/// a lambda that is no whole number from 1 to 50
+/// features, something that is not a line, no CRS, coordinates that are not finite or cannot be reprojected, nothing
+/// left, a lambda that is not a whole number from 1 to 50
 /// \throws IoError when the file cannot be read to its end
 /// \throws Cancelled
 RiverLines read_rivers(ReadRiversParams const& params, Run const& run = {});

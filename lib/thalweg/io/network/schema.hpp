@@ -78,7 +78,7 @@ enum class Quantity : std::uint8_t {
 /// \return the name by which a user names a quantity: of the columns of the network schema theirs.
 std::string_view name_of(Quantity quantity);
 /// \param name its name
-/// \return nothing where there is none of this name.
+/// \return nothing for an unknown name.
 std::optional<Quantity> quantity_of(std::string_view name);
 
 /// A field of a schema.

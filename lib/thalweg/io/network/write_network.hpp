@@ -39,17 +39,17 @@ struct NetworkTables {
     std::vector<SecondaryLine> const* secondary = nullptr; ///< layer secondary of the GeoPackage; likewise
     UserData const* user = nullptr;                        ///< none when null
     HeightUnit unit = HeightUnit::metre; ///< of heights in the native schema; feet add the column z_unit
-    bool heights = true;                 ///< else nobody knows them, and 0 stands for each
+    bool heights = true;                 ///< else they are unknown and written as 0
     std::vector<NodeId> sinks = {};      ///< outlets where water ends inland, ascending: nodes of the kind sink
 };
 
 /// Writes PATH (.gpkg is added where it is missing): layers arcs (LineStringZ) and nodes (PointZ), table run, with the
 /// fields of the network schema and five more by arc: survives (real [cells]; -1 for infinity), feature (integer), type
 /// (text; none where there is none), braided (integer, 1 or 0) and given (integer, 0 for a side valley that the land
-/// has grown, else 1). dist_out of an arc counts from its downstream end, as NHDPlus (Pathlength) and HydroRIVERS
-/// (DIST_DN_KM) have it. arc_id is the arc's number + 1, node_id the node's + 1. Where there are ridges, also the layer
-/// ridges (LineStringZ): ridge_id, the ridge's number + 1; left and right, the labels of its streams; length [m] in
-/// plan; z_min and z_max [m]. Where there are lines that are not in the network, also the layer secondary (LineString):
+/// has grown, else 1). dist_out of an arc counts from its downstream end, as in NHDPlus (Pathlength) and HydroRIVERS
+/// (DIST_DN_KM). arc_id is the arc's number + 1, node_id the node's + 1. Where there are ridges, also the layer ridges
+/// (LineStringZ): ridge_id, the ridge's number + 1; left and right, the labels of its streams; length [m] in plan;
+/// z_min and z_max [m]. Where there are lines that are not in the network, also the layer secondary (LineString):
 /// feature, reason (text) and length [m]. Shapefiles have neither. With user data: its columns in arcs and secondary,
 /// those with a name of ours as u_NAME, and the table sources: arc_id, feature, from_m and to_m [m] along the arc from
 /// its upstream end.

@@ -11,7 +11,7 @@
 
 namespace thalweg::io {
 
-/// A DEM brought into a shape that can be drawn, and in words what was done to it.
+/// A DEM in a form that can be drawn, and in words what was done to it.
 struct Drawable {
     Raster<float> dem;
     std::vector<std::string> notes;

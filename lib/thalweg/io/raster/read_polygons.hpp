@@ -15,8 +15,8 @@ namespace thalweg::io {
 bool holds_polygons(std::string const& path);
 
 /// \param path path of the file
-/// \return the CRS in metres in which a file's polygons are read where none is asked for: the file's own when it is
-/// projected in metres, else the UTM zone of the middle of its box.
+/// \return the CRS in metres in which a file's polygons are read where none is set: the file's own when it is projected
+/// in metres, else the UTM zone of the middle of its box.
 /// \throws BadInput as read_polygons, and for a file without CRS
 std::string crs_for_polygons(std::string const& path);
 
@@ -27,7 +27,7 @@ std::string crs_for_polygons(std::string const& path);
 /// \param run progress, log, stop token and number of threads
 /// \return vertices reprojected and rounded to 1e-6 of a unit.
 /// \throws BadInput naming file, layer and feature: missing file, no or several layers of polygons, no features,
-/// something that is no polygon, coordinates that are not finite or cannot be reprojected, a CRS on one side only
+/// something that is not a polygon, coordinates that are not finite or cannot be reprojected, a CRS on one side only
 /// (naming both)
 /// \throws IoError when the file cannot be read to its end
 /// \throws Cancelled

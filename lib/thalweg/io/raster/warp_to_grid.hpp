@@ -17,7 +17,7 @@ namespace thalweg::io {
 /// \param run progress, log, stop token and number of threads
 /// \return the DEM as it stands where CRS and cell size are the grid's; else warped (bilinear, means where cells become
 /// larger) to squares of the grid's size on the lattice that the grid's own are part of; NaN where it has no data.
-/// \throws BadInput when only one of both has a CRS, naming both; when it cannot be brought into the grid's or becomes
+/// \throws BadInput when only one of both has a CRS, naming both; when it cannot be warped to the grid's or becomes
 /// larger than memory
 /// \throws IoError
 /// \throws Cancelled

@@ -35,8 +35,8 @@ struct CatchmentCount {
 
 /// Writes a new GeoPackage of outlines along the edges of cells (MultiPolygon), in the grid's CRS. Layer catchments:
 /// arc_id, ds_arc, basin_id, cells (integer), area and ds_area [m2] (real): of the catchment, and of all that drains to
-/// the arc's lower end, as arcs have it; an arc without cells has no catchment. Layer basins: basin_id, arcs, cells
-/// (integer), area.
+/// the arc's lower end, as in the layer arcs; an arc without cells has no catchment. Layer basins: basin_id, arcs,
+/// cells (integer), area.
 /// \param tables the values of the tables
 /// \param path path of the file
 /// \param run progress, log, stop token and number of threads

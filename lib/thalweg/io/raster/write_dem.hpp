@@ -17,7 +17,7 @@ namespace thalweg::io {
 /// \param dem [m] heights by cell; NaN: no data
 /// \param path path of the file
 /// \param run progress, log, stop token and number of threads
-/// \throws BadInput at an infinite height or one of -9999 m, or when grid.crs is no CRS
+/// \throws BadInput at an infinite height or one of -9999 m, or when grid.crs is not a CRS
 /// \throws IoError
 /// \throws Cancelled
 void write_dem(Raster<float> const& dem, std::string const& path, Run const& run = {});

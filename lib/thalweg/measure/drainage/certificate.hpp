@@ -14,7 +14,7 @@
 
 namespace thalweg::measure {
 
-/// How far cells found agree with a river's, within so many cells.
+/// How far cells found agree with a river's, within this many cells.
 struct Agreement {
     double precision = 0.0; ///< share of the cells found that have a river cell within the distance
     double recall = 0.0;    ///< share of the river cells that have a found one within it
@@ -47,7 +47,7 @@ struct Certificate {
     double max_area_difference = 0.0; ///< greatest relative difference of it from that of the DEM
     std::vector<Finding> findings;    ///< feature: the reach's id
 
-    /// \return what holds for a network that the DEM drains; the rest is told.
+    /// \return what holds for a network that the DEM drains; the rest is reported.
     std::vector<Check> checks() const;
 };
 

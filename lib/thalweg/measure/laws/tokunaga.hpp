@@ -17,7 +17,7 @@ struct TokunagaLaw {
     std::int64_t terms = 0;   ///< T_k that were fitted
 };
 
-/// Tokunaga's law as drawn rivers have it.
+/// Tokunaga's law of drawn rivers.
 /// \param side_branches T_1, T_2, ..., means over the streams of all orders
 /// \return the line of least squares through ln T_k over k - 1; a T_k of 0 has no logarithm and is left out, with fewer
 /// than two others there is no law.

@@ -15,7 +15,7 @@ inline constexpr std::size_t slope_share_count = 45;
 /// What relief() finds in the DEM of a reference DEM.
 struct ReferenceDem {
     std::string_view name;
-    std::string_view file; ///< in samples/, where PROVENANCE.md tells whence it is
+    std::string_view file; ///< in samples/, where PROVENANCE.md names its source
     std::string_view source;
     double cell_m = 0.0;
     std::array<double, relief_metric_count> figures{}; ///< as relief_metrics

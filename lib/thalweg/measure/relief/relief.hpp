@@ -19,7 +19,7 @@
 
 namespace thalweg::measure {
 
-/// The statistics by which experts judge land. NaN where the land is too small to tell.
+/// Morphometric indices of a DEM. NaN where the land is too small to tell.
 struct Relief {
     Slopes slopes;
     std::optional<PowerLaw> slope_area; ///< exponent -theta

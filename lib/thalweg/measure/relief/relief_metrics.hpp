@@ -10,7 +10,7 @@
 
 namespace thalweg::measure {
 
-/// Whether a figure tells land from what is none, wherever it lies.
+/// Whether a metric tells terrain from noise in any region.
 enum class Judges : std::uint8_t { yes, no };
 
 /// One number of a Relief.
@@ -24,7 +24,7 @@ struct ReliefMetric {
 
 inline constexpr std::size_t relief_metric_count = 19;
 
-/// \return the figures by which land is held against reference DEM, always the same in the same order.
+/// \return the metrics compared with reference DEMs, always the same in the same order.
 std::array<ReliefMetric, relief_metric_count> const& relief_metrics();
 
 } // namespace thalweg::measure

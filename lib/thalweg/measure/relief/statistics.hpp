@@ -24,7 +24,8 @@ struct Statistics {
     double std = 0.0;  ///< [m] population
     Extreme min;
     Extreme max;
-    double slope_rad = 0.0; ///< [rad] mean of arctan |grad z| with z in metres and a spacing of one cell (paper 001)
+    double slope_rad =
+        0.0; ///< [rad] mean of arctan |grad z| with z in metres and a spacing of one cell (Zhang, Liu and Li)
     double slope_true_deg = 0.0; ///< [deg] mean slope with the cell's size
 
     // NaN where the heights tell none: on a plain, or along an axis of fewer than four cells or so.

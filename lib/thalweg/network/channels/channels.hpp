@@ -41,7 +41,7 @@ struct ChannelsOfArcs {
 /// has a neighbour among those look_cells but the next, unless a diagonal lies between. Sources stay. Outlets inside
 /// the grid are roots too.
 /// \throws BadParameter
-/// \throws BadInput for a vertex outside the grid or a network that is no forest
+/// \throws BadInput for a vertex outside the grid or a network that is not a forest
 /// \throws Cancelled
 ChannelsOfArcs channels(StreamNetwork const& network, Grid const& grid, ChannelsParams const& params = {},
                         Run const& run = {});

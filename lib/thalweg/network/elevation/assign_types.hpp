@@ -42,8 +42,7 @@ struct RiverTypes {
 /// (n - 1) counted from 0, halves upwards; the highest order, also where it is 1, has the last. Braided are D, DA and
 /// what lies near the coast; that changes no type.
 /// \throws BadParameter
-/// \throws BadInput naming the arc, its feature and place for a type nobody knows, or when the orders are another
-/// network's
+/// \throws BadInput naming the arc, its feature and place for an unknown type, or when the orders are another network's
 ///
 /// Source: \cite nenu2015, section 3 and table 2; specification 3.3.
 RiverTypes assign_types(StreamNetwork const& network, NetworkOrders const& orders, AssignTypesParams const& params = {},

@@ -13,7 +13,7 @@ namespace thalweg::network {
 /// \param dem [m] heights by cell; NaN: no data
 /// \return at each vertex the height of its cell, or the least of all vertices upstream where that is lower: heights
 /// never rise downstream.
-/// \throws BadInput naming the place, when a vertex lies where the DEM has no height, or a component is no tree
+/// \throws BadInput naming the place, when a vertex lies where the DEM has no height, or a component is not a tree
 ElevatedNetwork drape(StreamNetwork const& network, Raster<float> const& dem);
 
 } // namespace thalweg::network

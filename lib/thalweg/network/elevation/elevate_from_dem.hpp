@@ -17,7 +17,7 @@ namespace thalweg::network {
 /// cell stands as high as that cell, a source and an outlet as high as the cell they lie in, what lies between linear
 /// by length, and so does what would rise. Where the land falls along every channel, each arc falls, but those of a
 /// basin within one cell; where it is level, they are.
-/// \throws BadInput for a network that is no forest, a vertex outside the grid, a land on another grid or without a
+/// \throws BadInput for a network that is not a forest, a vertex outside the grid, a land on another grid or without a
 /// height where a river runs
 ElevatedNetwork elevate_from_dem(StreamNetwork const& network, Channels const& channels, Raster<float> const& land);
 

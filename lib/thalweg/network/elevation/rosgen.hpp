@@ -29,7 +29,8 @@ SlopeRange slope_range(Rosgen type);
 char const* name_of(Rosgen type);
 
 /// \param name its name
-/// \return the type of a name in these very letters, or nothing; "A+", as the paper's text has it, is Aa+.
+/// \return the type of a name in these very letters, or nothing; "A+", as in the text of Northeast Normal University
+/// 2015, is Aa+.
 std::optional<Rosgen> rosgen_of(std::string_view name);
 
 /// \param type the type

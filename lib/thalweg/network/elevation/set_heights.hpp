@@ -18,7 +18,7 @@ enum class HeightMode : std::uint8_t {
 /// Options of set_heights().
 struct HeightParams {
     HeightMode mode = HeightMode::straight_repaired;
-    double slope = 0.087; ///< [m/m] > 0, s: tan 5 degrees in paper 000
+    double slope = 0.087; ///< [m/m] > 0, s: tan 5 degrees in Cao, Long and Lü 2009
 };
 
 /// What set_heights() changed.
@@ -43,7 +43,7 @@ struct Elevated {
 /// \param run progress, log, stop token and number of threads
 /// \return under straight_repaired and along_stream every arc falls strictly; no node is lowered below straight.
 /// \throws BadParameter
-/// \throws BadInput for an arc of no length or a network that is no forest
+/// \throws BadInput for an arc of no length or a network that is not a forest
 ///
 /// Source: \cite cao2009, section 3.3, figure 5; specification 0.3 (majorant with least slope 0.01 s).
 Elevated set_heights(StreamNetwork const& network, HeightParams const& params = {}, Run const& run = {});

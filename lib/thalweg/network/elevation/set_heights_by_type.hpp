@@ -31,7 +31,7 @@ struct HeightsByTypeParams {
 /// \return z_up = z_down + slope of the arc's type times its length, the slope within the type's range; under uniform
 /// it belongs to the seed and the place of the arc's upper end. Every arc falls strictly; vertices are linear by
 /// length.
-/// \throws BadInput for an arc of no length, a network that is no forest, or types of another network
+/// \throws BadInput for an arc of no length, a network that is not a forest, or types of another network
 ///
 /// Source: \cite nenu2015, section 3 and table 2; specification 3.3.
 ElevatedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,

@@ -34,8 +34,8 @@ struct Graded {
 /// k_s for all, such that the main stem (the longest flow path of all; ties: the lower node) falls by `slope` in the
 /// mean. Every arc falls strictly.
 /// \throws BadParameter
-/// \throws BadInput for an arc of no length, a network that is no forest, areas that are not one for each arc, below 0
-/// or no number
+/// \throws BadInput for an arc of no length, a network that is not a forest, areas that are not one for each arc, below
+/// 0 or no number
 ///
 /// Source: \cite flint1974, stream gradient as a function of order, magnitude and discharge.
 Graded set_heights_graded(StreamNetwork const& network, std::vector<double> const& us_area_m2,

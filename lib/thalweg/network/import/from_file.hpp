@@ -22,14 +22,14 @@ struct FileNetwork {
 };
 
 /// Builds the network that a file describes.
-/// \param file the network as its file has it
+/// \param file the network as in its file
 /// \return arcs in the order of their ids, nodes in that of theirs, or where arcs name none as they come along the
 /// arcs; lines and heights bit for bit, but the ends of arcs take the heights of nodes that were made for them;
 /// feature, type and survives as the file has them. Orders and basins follow from the network: those of the file are
 /// not taken.
-/// \throws BadInput naming the first fault, for a file that is no set of trees: ids that repeat, a node that is missing
-/// or has no arc, an end that is not its node, a line without length or with a coordinate that is not a number, a
-/// height where others have none, two arcs leaving a node, a cycle, a downstream arc that is another
+/// \throws BadInput naming the first fault, for a file that is not a set of trees: ids that repeat, a node that is
+/// missing or has no arc, an end that is not its node, a line without length or with a coordinate that is not a number,
+/// a height where others have none, two arcs leaving a node, a cycle, a downstream arc that is another
 FileNetwork from_file(NetworkFile const& file);
 
 } // namespace thalweg::network

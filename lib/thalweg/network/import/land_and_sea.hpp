@@ -31,9 +31,9 @@ struct LandAndSea {
 /// \throws Cancelled
 LandAndSea land_and_sea(RiverLines const& coastlines, RiverLines const& rivers, Grid const& grid, Run const& run = {});
 
-/// Divides a grid where outlets that lie inside it are taken for the mouths of rivers at the sea: the sea begins before
-/// each of them, in the direction in which its river ends; a cell farther away is like the nearest one that is decided,
-/// by an outlet or because a river runs there. So the coast runs from outlet to outlet.
+/// Divides a grid where outlets that lie inside it count as the mouths of rivers at the sea: the sea begins before each
+/// of them, in the direction in which its river ends; a cell farther away is like the nearest one that is decided, by
+/// an outlet or because a river runs there. So the coast runs from outlet to outlet.
 /// \pre a network of trees inside the grid.
 /// \param network the network
 /// \param grid the grid

@@ -15,7 +15,7 @@ namespace thalweg::network {
 /// \param orders the network's orders
 /// \return by arc number labels from 1, numbered by the streams' last arcs: where an arc flows into one of its own
 /// order both have one label, elsewhere they differ.
-/// \throws BadInput when the orders are of another network, or a component is no tree
+/// \throws BadInput when the orders are of another network, or a component is not a tree
 ///
 /// Source: \cite strahler1957.
 std::vector<std::int64_t> streams(StreamNetwork const& network, NetworkOrders const& orders);

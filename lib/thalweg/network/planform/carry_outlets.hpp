@@ -36,7 +36,7 @@ struct Carried {
 /// \return drawn vertices kept bit for bit; no crossing added, neither of lines nor of the cells they are drawn into.
 /// notes: "carried_outlet" or "joined_outlet" (amount: metres), or "closed_basin", an outlet without a way out, left
 /// where it is; feature: the line's id in its file, or the number of the arc, from 1.
-/// \throws BadInput for a vertex outside the grid or a network that is no forest
+/// \throws BadInput for a vertex outside the grid or a network that is not a forest
 Carried carry_outlets(StreamNetwork const& network, Grid const& grid, CarryParams const& params = {});
 
 /// \pre land, 0 for sea; every cell of a river is land.

@@ -43,7 +43,7 @@ struct Meandered {
 /// least 10 cells. Coordinates are rounded to 1e-6 m. Random numbers are a hash of (seed, node).
 /// \throws BadParameter
 /// \throws BadInput for areas of other arcs, a vertex outside the grid, arcs that meet elsewhere, or a network that is
-/// no forest
+/// not a forest
 /// \throws Cancelled
 ///
 /// Source: wavelengths of 10 to 14 widths, \cite leopold1960.

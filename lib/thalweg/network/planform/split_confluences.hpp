@@ -35,11 +35,11 @@ struct Split {
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
 /// \return a network of the same laws with at most max_upstream arcs ending in a node. Arcs and nodes keep their
-/// numbers; the new ones follow, one of each a piece, which has what the arc it was cut off has. Lines are drawn anew
+/// numbers; the new ones follow, one of each a piece, which has what the arc it was cut off has. Lines are redrawn
 /// within a distance times the tributaries to be moved of the node; nothing meets that did not meet before (exact), no
 /// arc is without length, and where heights did not rise they do not. Where an arc is short the distance is, too.
 /// \throws BadParameter
-/// \throws BadInput naming the place, when a component is no tree or lines leave no room
+/// \throws BadInput naming the place, when a component is not a tree or lines leave no room
 /// \throws Cancelled
 Split split_confluences(ElevatedNetwork const& network, SplitParams const& params = {}, Run const& run = {});
 

@@ -23,9 +23,9 @@ struct Pruned {
     std::int64_t arcs_before = 0;
 };
 
-/// Removes the shortest leaf arc, merges what it leaves at its confluence, and begins anew until no leaf is shorter
-/// than L. Of equal leaves the one with the northernmost source goes first, then the westernmost. A merged arc keeps
-/// the feature and type of its longest piece; a basin whose every arc is too short vanishes.
+/// Removes the shortest leaf arc, merges what it leaves at its confluence, and repeats until no leaf is shorter than L.
+/// Of equal leaves the one with the northernmost source goes first, then the westernmost. A merged arc keeps the
+/// feature and type of its longest piece; a basin whose every arc is too short vanishes.
 /// \param network the network
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads

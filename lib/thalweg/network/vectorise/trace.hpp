@@ -23,7 +23,7 @@ struct TraceParams {
 /// cells with no or several cells upstream, arcs the paths between, with one vertex in each cell's centre; nodes and
 /// arcs are numbered by cell index (arcs by that of their upstream end). A component of one cell is left out.
 /// \throws BadInput for a skeleton without two neighbouring cells
-/// \throws BadParameter for a mouth that is no position
+/// \throws BadParameter for a mouth that is not a position
 ///
 /// Source: \cite cao2009, section 3.2; specification 0.2.
 StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& run = {});

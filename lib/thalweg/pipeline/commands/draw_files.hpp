@@ -26,7 +26,7 @@ struct Drawn {
     std::vector<std::string> notes; ///< what was changed or chosen, in words
 };
 
-/// Draws pictures of a folder that make left, or of a raster, into files, whole or not at all.
+/// Draws pictures of a folder written by make, or of a raster, into files, whole or not at all.
 /// \param source the file or DEM to take from
 /// \param output a folder, which may hold other things, for WHAT.FORMAT each and page.html; or the name of one picture,
 /// ending in .png, .svg or .pdf, or of a report page, ending in .html

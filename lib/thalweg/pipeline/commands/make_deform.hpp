@@ -24,7 +24,7 @@ struct MakeDeformParams {
 /// \param run progress, log, stop token and number of threads
 /// \return as blend::deform.
 /// \throws BadParameter
-/// \throws BadInput as the stage and the doors do, also when a handle lies outside the target or nothing is asked for
+/// \throws BadInput as the stage and the doors do, also when a handle lies outside the target or no change is set
 /// \throws NotConverged
 /// \throws IoError
 /// \throws Cancelled

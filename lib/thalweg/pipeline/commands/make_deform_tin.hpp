@@ -35,7 +35,7 @@ struct DeformedTin {
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
 /// \return vertices outside the region bit for bit; without a rotation all x and y too; as blend::paste_tin.
-/// \throws BadParameter nothing is asked for
+/// \throws BadParameter no change is set
 /// \throws BadInput as read_tin, read_polygons and paste_tin do, no vertex in the region
 /// \throws NotConverged
 /// \throws IoError

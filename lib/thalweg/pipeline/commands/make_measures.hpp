@@ -16,9 +16,9 @@ namespace thalweg::pipeline {
 
 /// Options of make_measures().
 struct MakeMeasuresParams {
-    std::string dem;               ///< a folder that make left, or any raster of heights
+    std::string dem;               ///< a folder written by make, or any raster of heights
     std::string network;           ///< "" takes that of the folder, if there is one
-    io::ReadNetworkParams read;    ///< how the network is understood; it is brought into the DEM's CRS
+    io::ReadNetworkParams read;    ///< how the network is understood; it is reprojected to the DEM's CRS
     std::vector<std::string> what; ///< names of measures; none takes d8, dinf and, with a network, catchments
 };
 
@@ -31,7 +31,7 @@ struct MeasuredCatchments {
     std::int64_t arcs = 0;          ///< of the network
     std::int64_t arcs_cut = 0;      ///< that leave the DEM
     std::int64_t arcs_outside = 0;  ///< that have no part on it
-    std::int64_t arcs_nowhere = 0;  ///< of these, with a vertex that is no number
+    std::int64_t arcs_nowhere = 0;  ///< of these, with a vertex that is not a number
     std::int64_t cells_without = 0; ///< whose water leaves the DEM before it meets a river
 };
 

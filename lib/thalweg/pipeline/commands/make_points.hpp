@@ -35,7 +35,7 @@ struct MadePoints {
 /// \param output a file that is not there yet
 /// \param run progress, log, stop token and number of threads
 /// \return what io::write_points does.
-/// \throws BadParameter also for a skeleton of what is no folder
+/// \throws BadParameter also for a skeleton of what is not a folder
 /// \throws BadInput when a file is missing, the coordinates are not metres or the frames differ
 /// \throws IoError
 /// \throws Cancelled

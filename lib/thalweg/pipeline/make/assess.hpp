@@ -29,7 +29,7 @@ struct WaterAreas {
     Raster<double> dinf;
 };
 
-/// What is measured of land and rivers, and whether they are what was asked for.
+/// What is measured of land and rivers, and whether they are what the recipe sets.
 struct Assessment {
     flow::ContributingAreas areas; ///< of the arcs
     RiverLaws laws;

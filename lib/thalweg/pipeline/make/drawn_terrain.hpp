@@ -78,7 +78,7 @@ struct DrawnTerrain {
     std::optional<fractal::MatchedDem> projection; ///< how the statistics came out; its dem is moved to surface
     double fine_forms_cells = 0.0; ///< [cells] below which forms had to come from a Gaussian land to meet them; 0: none
     std::vector<Finding> notes;    ///< what became of rivers
-    std::vector<Check> checks;     ///< of what was asked of the surface
+    std::vector<Check> checks;     ///< of the recipe's request of the surface
     std::vector<Finding> findings; ///< of these
 };
 

@@ -12,7 +12,7 @@
 
 namespace thalweg::pipeline {
 
-/// 45 degrees north on the central meridian of UTM zone 31, where nobody's land is meant.
+/// 45 degrees north on the central meridian of UTM zone 31, which stands for no real place.
 inline constexpr double default_west = 500000.0;
 inline constexpr double default_north = 5000000.0;
 
@@ -41,7 +41,7 @@ FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wante
 /// \param wanted the grid of the recipe; 0: chosen
 /// \return the grid asked for, or the lines' box and 5 % around it on multiples of the cell.
 /// \throws BadInput naming the first line outside an asked grid, unless clip is set; like require_no_stray_vertex where
-/// no size is asked for
+/// no size is set
 Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted);
 
 /// \param links number of links

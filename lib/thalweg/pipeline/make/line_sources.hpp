@@ -29,8 +29,8 @@ public:
     /// \param network the network
     /// \return the stretches of arcs that are made of the network's vertices.
     std::vector<std::vector<Stretch>> of(StreamNetwork const& network) const;
-    /// The stretches of arcs of which some are cut and some were drawn anew, as split_confluences leaves them: what is
-    /// drawn anew came from the feature of what it replaced.
+    /// The stretches of arcs of which some are cut and some were redrawn, as split_confluences leaves them: what is
+    /// redrawn came from the feature of what it replaced.
     /// \param network the network
     /// \return arcs made of features wholly still are so.
     std::vector<std::vector<Stretch>> redrawn(StreamNetwork const& network) const;

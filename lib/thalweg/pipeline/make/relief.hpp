@@ -25,7 +25,7 @@ struct TerrainRelief {
 /// \param dem [m] heights by cell; NaN: no data
 /// \param run progress, log, stop token and number of threads
 /// \return relief of any DEM, drained for it, with the side that its cells have on the ground (io::ground_cell): a
-/// geographic one's too, though its cells are taken for squares.
+/// geographic one's too, though its cells count as squares.
 /// \throws Error as measure::statistics and ground_cell do
 /// \throws Cancelled
 TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run = {});

@@ -180,7 +180,7 @@ struct SurfaceRecipe {
 /// The land that the statistics are brought to.
 enum class Prior : std::uint8_t { grf, separable, markov3, points };
 
-/// What the land as a whole shall be; what is not named is left as it comes.
+/// Targets for the terrain as a whole; others stay free.
 struct StatisticsRecipe {
     std::optional<double> mean;                  ///< [m]
     std::optional<double> std;                   ///< [m] > 0

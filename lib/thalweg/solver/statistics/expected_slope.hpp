@@ -20,7 +20,7 @@ double expected_slope(StableCovariance const& covariance, double std);
 /// \param std [m] standard deviation of the heights
 /// \param slope_rad [rad] (0, pi/2) mean slope
 /// \return one with the same correlation lengths, whose coarse forms are longer for that; as it was when its lands are
-/// steep enough already; at most half of the variance is fine. Real lands need it: their ridges and valleys are far
+/// steep enough already; at most half of the variance is fine. Reference DEMs need it: their ridges and valleys are far
 /// steeper than a power law between the lags 1 to 5 and the correlation length tells.
 StableCovariance with_slope(StableCovariance covariance, double std, double slope_rad);
 

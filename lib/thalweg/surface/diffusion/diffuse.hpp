@@ -12,13 +12,13 @@ namespace thalweg::surface {
 
 enum class Diffusion : std::uint8_t {
     steady,         ///< its end: what it is after any time
-    explicit_sweeps ///< the paper's: as many steps as asked for
+    explicit_sweeps ///< as printed: as many steps as asked for
 };
 
 /// Where explicit sweeps begin.
 enum class DiffusionStart : std::uint8_t {
     coarse, ///< the steady state on cells eight times as large
-    zero    ///< the paper's: 0 everywhere off the skeleton
+    zero    ///< as printed: 0 everywhere off the skeleton
 };
 
 /// Options of diffuse().

@@ -13,7 +13,7 @@
 namespace thalweg::surface {
 
 enum class Metric : std::uint8_t {
-    cityblock, ///< the paper's 4-neighbourhood
+    cityblock, ///< the 4-neighbourhood of Cao, Long and Lü
     euclid     ///< exact Euclidean distance, H interpolated linearly; barriers do not lengthen the way
 };
 
@@ -31,7 +31,7 @@ struct Expansion {
     Raster<float> base;         ///< [m] height of the valley cell it rises from; NaN where none comes
 };
 
-/// The paper's successive dilation, level by level from a frontier of (level, base).
+/// The successive dilation of Cao, Long and Lü, level by level from a frontier of (level, base).
 /// \param valley [m] heights of the river cells
 /// \param inside of the valley's frame; cells with 0 are barriers, and a valley cell there does not count
 /// \param run progress, log, stop token and number of threads

@@ -17,11 +17,11 @@ struct IncrementParams {
                                                    ///< function, called for x >= 1, by one thread at a time
 };
 
-/// The increment dh(x) of the x-th dilation, x = 1 .. levels, as values[x - 1], in the papers' units.
+/// The increment dh(x) of the x-th dilation, x = 1 .. levels, as values[x - 1], in the units of Cao, Long and Lü.
 /// \param levels number of dilations
 /// \param params options, each with its default, unit and range
-/// \return Table 1 of paper 000 for the three names; an expression or a function rounded to 2^-32 (from 16 up, to 36
-/// significant bits), the same on every machine: a function gives the bytes of the expression it computes.
+/// \return Table 1 of Cao, Long and Lü 2009 for the three names; an expression or a function rounded to 2^-32 (from 16
+/// up, to 36 significant bits), the same on every machine: a function gives the bytes of the expression it computes.
 /// \throws BadParameter not a name (did you mean ...) and not an expression; a value that is not finite; what the
 /// function throws
 ///
@@ -31,7 +31,7 @@ std::vector<double> increments(std::int64_t levels, IncrementParams const& param
 /// A place where increments jump.
 struct IncrementJump {
     double x = 0.0;    ///< dilations
-    double from = 0.0; ///< increment before it, in the papers' units
+    double from = 0.0; ///< increment before it, in the units of Cao, Long and Lü
     double to = 0.0;   ///< and behind it
 };
 

@@ -59,7 +59,7 @@ struct EquilibriumTerrain {
     std::vector<std::int64_t> walled;    ///< numbers of channel cells that stand on walls (fixed, soft)
     double max_lowered_m = 0.0;          ///< soft: greatest depth below the given heights
     double p95_lowered_m = 0.0;          ///< soft: 95th percentile of it over the channel cells with heights
-    double target_share = 1.0;           ///< mean slope or relief that came out, over what was asked
+    double target_share = 1.0;           ///< mean slope or relief that came out, over the target
     double rise = 0.0;                   ///< factor from the solver's heights (in cells) to metres, over the cell size
 };
 

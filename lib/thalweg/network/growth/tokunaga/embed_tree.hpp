@@ -41,7 +41,7 @@ struct EmbeddedTree {
 /// the length of the shorter and by min_spacing_m, those that do meet at 20 degrees at least; links for which this
 /// cannot be kept are left out with all above them, streams of high order last; where min_spacing_m is more than so
 /// many links can keep, the streams of the lowest orders. Coordinates are rounded to 1e-6 m. Random numbers are a hash
-/// of (seed, order and link). \throws BadParameter when the region is no ring of three different places at least,
+/// of (seed, order and link). \throws BadParameter when the region is not a ring of at least three different places,
 /// crosses itself, is too small for so many links (spacing below 1e-3 m), or the outlet lies outside \throws Cancelled
 ///
 /// Source: \cite nenu2015, section 2.2, figure 1 (a); order first, evened out by \cite lloyd1982.

@@ -40,8 +40,8 @@ struct GrownStrokes {
 /// meet but in shared nodes.
 /// \throws BadParameter
 /// \throws BadInput naming the stroke and the place: fewer than two different vertices, half a cell or less, a vertex
-/// outside the grid, a type nobody knows, a stroke that meets itself, two that cross, end on one another, begin or join
-/// at the same place
+/// outside the grid, an unknown type, a stroke that meets itself, two that cross, end on one another, begin or join at
+/// the same place
 /// \throws Cancelled
 ///
 /// Source: \cite nenu2015, equation 9.

@@ -30,7 +30,7 @@ struct TokunagaParams {
 /// A piece of river between two junctions, or from a source to the first of them.
 struct TreeLink {
     std::int64_t down = -1;                   ///< the link it flows into, a lower number; -1 for the outlet's
-    std::array<std::int64_t, 2> up{{-1, -1}}; ///< those that flow into it: that which continues its stream first; -1,
+    std::array<std::int64_t, 2> up{{-1, -1}}; ///< those that flow into it: the one that continues its stream first; -1,
                                               ///< -1 for a source
     int order = 1;                            ///< Strahler order
     int turn = 0; ///< against the link below: 0 straight on, 1 and -1 the left and right of a fork, 2 and -2 a side

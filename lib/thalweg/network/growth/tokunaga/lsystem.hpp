@@ -30,8 +30,7 @@ std::string write_lsystem(TokunagaTree const& tree);
 std::string lsystem(TokunagaParams const& params = {}, Run const& run = {});
 
 /// Reads a word back.
-/// \param word F, G, +, -, [ and ]; blanks are passed over. After F come two branches, or one and the stream's next
-/// link
+/// \param word F, G, +, -, [ and ]; blanks are skipped. After F come two branches, or one and the stream's next link
 /// \return the tree, numbered as written, with Strahler orders and link_length 1.
 /// \throws BadInput naming the position, from 1
 TokunagaTree read_lsystem(std::string_view word);
