@@ -25,6 +25,7 @@ int main() {
     network::Cluster const cluster = network::grow_dla({.particles = 20000, .sticking = 0.85, .visits = 3, .seed = 7});
     //! [verb]
 
+    //! [network]
     // One arm of the cluster becomes a basin: its mouth is the seed of the cluster.
     network::Branch const branch = network::pick_branch(cluster, {network::BranchChoice::largest});
 
@@ -39,6 +40,7 @@ int main() {
     // Short leaves are burrs of the skeleton: none under 300 m, ten cells, is left.
     network::Pruned const pruned = network::prune(traced, {.length_m = 300.0, .cell_m = 30.0});
     NetworkOrders const orders = network::order(pruned.network);
+    //! [network]
 
     //! [walk]
     // A stream begins where no arc of its own order flows in.
