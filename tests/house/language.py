@@ -4,7 +4,8 @@
 status 1 when there is one. Usage: language.py [ROOT]
 
 Users read: README.md, CHANGELOG.md and docs/, the samples, the string literals of lib/ and tools/ (help, messages,
-findings, reports), those of web/src/ (the report page), and what scripts/demo prints."""
+findings, reports), the comments of the library's public headers (the reference), the string literals of web/src/ (the
+report page), and what scripts/demo prints."""
 import pathlib
 import re
 import sys
@@ -71,6 +72,19 @@ def literals(text):
         yield joined
 
 
+def comments(text):
+    """What a header says to Doxygen as (line number, text), lines that follow one another as one."""
+    first, words = 0, []
+    for number, line in enumerate([*text.splitlines(), ""], 1):
+        found = re.search(r"///<? ?(.*)", line)
+        if found and (not words or first + len(words) == number):
+            first = first if words else number
+            words.append(found[1])
+        elif words:
+            yield first, "\n".join(words)
+            first, words = number, [found[1]] if found else []
+
+
 def script_literals(text):
     """The string literals of a script as (line number, text)."""
     for number, line in enumerate(text.splitlines(), 1):
@@ -87,6 +101,8 @@ def texts_of(name, text):
         yield from enumerate(text.splitlines(), 1)
     elif path.suffix in (".cpp", ".hpp"):
         yield from literals(text)
+        if path.suffix == ".hpp" and path.parts[0] == "lib" and "internal" not in path.parts:
+            yield from comments(text)
     elif path.suffix == ".js":
         yield from script_literals(text)
 

@@ -9,6 +9,7 @@ import rules
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MESSAGE = "lib/thalweg/io/raster/read_dem.cpp"
+HEADER = "lib/thalweg/io/raster/read_dem.hpp"
 
 # file, its text, line and beginning of what must be said of it
 PLANTED = [
@@ -27,6 +28,8 @@ PLANTED = [
     ("tools/make.cpp", 'app.add_flag("-a", a, "Files of others stay.");', 1, "'Files of others'"),
     ("tools/make.cpp", 'app.add_flag("-a", a, "Make it so many times as high.");', 1, "'so many times'"),
     ("tools/draw.cpp", 'app.add_option("S", s, "A folder that make left.");', 1, "'make left'"),
+    (HEADER, "int a; // whence\n/// Gives a file, that\n/// which was there.\nint b;", 2, "'that which'"),
+    (HEADER, "int a; ///< at places by chance", 1, "'by chance'"),
     ("web/src/a.js", "const a = `nearer than ${real} land`;\nconst b = 'beside real land';", 2, "'real land'"),
 ]
 # What users do not read, and what only looks like a phrase that is ruled out.
@@ -36,6 +39,8 @@ INNOCENT = [
     (MESSAGE, 'f("there is no folder {}"); f("arc 3 is no longer than a cell"); f("its is", " no DEM");'),
     (MESSAGE, 'f("the rivers lie so close that they cannot be told apart");'),
     ("tests/io/read_dem_test.cpp", 'EXPECT_EQ(a, "found anew");'),
+    (HEADER, "// whence\nint anew; /// plain"),
+    ("lib/thalweg/io/internal/a.hpp", "/// whence"),
     ("docs/a.md", 'The key `surface.base = "paper"` and the land around paper mills; has its own.'),
     ("docs/decisions/0001-a.md", "Found anew by chance, as the paper has it."),
     ("web/src/a.js", "// whence\nconst anew = 'again'; // 'whence'"),
