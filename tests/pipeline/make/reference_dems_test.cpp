@@ -56,9 +56,9 @@ std::array<double, measure::relief_metric_count> figures_of(Relief const& relief
 }
 
 void write_anew() {
-    std::ofstream out(THALWEG_SOURCE_DIR "/lib/thalweg/measure/real_lands.inc");
+    std::ofstream out(THALWEG_SOURCE_DIR "/lib/thalweg/measure/relief/internal/reference_dems.inc");
     out << "// SPDX-FileCopyrightText: the thalweg authors\n// SPDX-License-Identifier: GPL-3.0-or-later\n"
-           "// Measured from samples/ by tests/pipeline/real_lands_test.cpp, which writes this file under "
+           "// Measured from samples/ by tests/pipeline/make/reference_dems_test.cpp, which writes this file under "
            "THALWEG_RENEW=1.\n";
     std::string table;
     for (std::size_t l = 0; l < lands.size(); ++l) {
@@ -75,7 +75,7 @@ void write_anew() {
                         lands[l].name, lands[l].file, lands[l].source, m.cell_m, listed(figures_of(m.relief)),
                         listed(m.relief.slopes.shares), listed(m.relief.forms), l);
     }
-    out << fmt::format("constexpr std::array<RealLand, {}> lands = {{{{\n{}}}}};\n", lands.size(), table);
+    out << fmt::format("constexpr std::array<ReferenceDem, {}> lands = {{{{\n{}}}}};\n", lands.size(), table);
 }
 
 void expect_near(double found, double committed, std::string const& what) {
@@ -88,7 +88,7 @@ void expect_near(double found, double committed, std::string const& what) {
 TEST(ReferenceDems, AsMeasuredFromTheirFiles) {
     if (std::getenv("THALWEG_RENEW") != nullptr) {
         write_anew();
-        FAIL() << "lib/thalweg/measure/real_lands.inc is written anew; build again and look at it";
+        FAIL() << "lib/thalweg/measure/relief/internal/reference_dems.inc is written anew; build again and look at it";
     }
     ASSERT_EQ(measure::reference_dems().size(), lands.size());
     for (std::size_t l = 0; l < lands.size(); ++l) {
