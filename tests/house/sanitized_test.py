@@ -11,7 +11,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SAMPLE = {"asan": ["core"], "tsan": ["flow"]}
 BELOW = ["core"]  # what a module of the sample stands on
-MODULES = ["core", "geometry", "solver", "flow", "network", "skeleton", "surface", "detail", "blend", "measure", "draw", "io",
+MODULES = ["core", "geometry", "solver", "flow", "network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io",
            "pipeline"]
 
 
