@@ -50,16 +50,16 @@ void set_cells(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0));
 }
 
-void BM_drain_relief(benchmark::State& state) {
+void BM_route_relief(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
     for (auto _ : state) {
         benchmark::DoNotOptimize(flow::route(dem));
     }
     set_cells(state);
 }
-BENCHMARK(BM_drain_relief)->Arg(1024)->Arg(2048)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_route_relief)->Arg(1024)->Arg(2048)->Arg(4096)->Unit(benchmark::kMillisecond);
 
-void BM_drain_dinf(benchmark::State& state) {
+void BM_route_dinf(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
     flow::FlowField const d8 = flow::route(dem);
     for (auto _ : state) {
@@ -67,9 +67,9 @@ void BM_drain_dinf(benchmark::State& state) {
     }
     set_cells(state);
 }
-BENCHMARK(BM_drain_dinf)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_route_dinf)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
 
-void BM_drain_noise(benchmark::State& state) {
+void BM_route_noise(benchmark::State& state) {
     Raster<float> dem(Grid{state.range(0), state.range(0), 1.0, 0.0, 0.0, ""});
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         dem[i] = static_cast<float>(unit(random_word(1, static_cast<std::uint64_t>(i))));
@@ -79,19 +79,19 @@ void BM_drain_noise(benchmark::State& state) {
     }
     set_cells(state);
 }
-BENCHMARK(BM_drain_noise)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_route_noise)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 
-void BM_relief_statistics(benchmark::State& state) {
+void BM_statistics_relief(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
     for (auto _ : state) {
         benchmark::DoNotOptimize(measure::statistics(dem));
     }
     set_cells(state);
 }
-BENCHMARK(BM_relief_statistics)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_statistics_relief)->Arg(4096)->Unit(benchmark::kMillisecond);
 
-/// Against drain/relief: what making a land drain costs beside measuring it.
-void BM_carve_relief(benchmark::State& state) {
+/// Against BM_route_relief: what making a land drain costs beside measuring it.
+void BM_condition_relief(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
     Valley const none{Raster<float>(dem.grid(), std::numeric_limits<float>::quiet_NaN())};
     auto const method = state.range(1) == 0 ? flow::Conditioning::fill : flow::Conditioning::carve;
@@ -101,7 +101,7 @@ void BM_carve_relief(benchmark::State& state) {
     }
     set_cells(state);
 }
-BENCHMARK(BM_carve_relief)
+BENCHMARK(BM_condition_relief)
     ->ArgsProduct({{1024, 2048, 4096}, {0, 1}})
     ->ArgNames({"side", "carve"})
     ->Unit(benchmark::kMillisecond);

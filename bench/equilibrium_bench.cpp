@@ -60,7 +60,7 @@ BENCHMARK(BM_equilibrium)
     ->Unit(benchmark::kMillisecond);
 
 /// The yardstick: what finding the ways of water on the finished land costs.
-void BM_drain_equilibrium(benchmark::State& state) {
+void BM_route_equilibrium(benchmark::State& state) {
     Run run;
     run.threads = 1;
     Raster<float> const dem = surface::equilibrium(rivers(state.range(0)), {}, {}, run).dem;
@@ -69,6 +69,6 @@ void BM_drain_equilibrium(benchmark::State& state) {
     }
     state.SetItemsProcessed(state.iterations() * dem.cells());
 }
-BENCHMARK(BM_drain_equilibrium)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_route_equilibrium)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
 
 } // namespace

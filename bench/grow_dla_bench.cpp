@@ -30,7 +30,7 @@ template <class Grow> void measure(benchmark::State& state, Grow grow) {
     state.SetItemsProcessed(state.iterations() * params.particles);
 }
 
-void BM_unit_step_dla(benchmark::State& state) {
+void BM_grow_dla_unit_steps(benchmark::State& state) {
     measure(state, unit_step::grow);
 }
 
@@ -40,7 +40,7 @@ void BM_grow_dla(benchmark::State& state) {
 
 } // namespace
 
-BENCHMARK(BM_unit_step_dla)->Args({10000, 100, 1})->Args({10000, 85, 3})->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_grow_dla_unit_steps)->Args({10000, 100, 1})->Args({10000, 85, 3})->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_grow_dla)
     ->Args({10000, 100, 1})
     ->Args({10000, 85, 3})

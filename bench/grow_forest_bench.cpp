@@ -23,7 +23,7 @@ thalweg::Grid square(std::int64_t side) {
     return grid;
 }
 
-void BM_plain_forest_by_steps(benchmark::State& state) {
+void BM_plant_forest_unit_steps(benchmark::State& state) {
     thalweg::Mask const land(square(state.range(0)), 1);
     thalweg::network::ForestParams params;
     params.step_cells = state.range(1);
@@ -56,7 +56,7 @@ void BM_shape_island(benchmark::State& state) {
 
 } // namespace
 
-BENCHMARK(BM_plain_forest_by_steps)->Args({40, 5})->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_plant_forest_unit_steps)->Args({40, 5})->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_plant_forest)
     ->Args({40, 5})
     ->Args({512, 5})

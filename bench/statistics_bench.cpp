@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lands from numbers: the transform, the random field, the statistics and the projection, on every core.
-// Arguments are sides of square grids but for BM_project_table_4, the land of table 4 of paper 001.
+// Arguments are sides of square grids but for BM_match_statistics_table_4, the land of table 4 of paper 001.
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/fractal/match_statistics.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
@@ -59,7 +59,7 @@ void BM_statistics(benchmark::State& state) {
     count(state, dem.cells());
 }
 
-void BM_project(benchmark::State& state) {
+void BM_match_statistics(benchmark::State& state) {
     std::int64_t const side = state.range(0);
     Raster<float> const dem = land(side);
     fractal::Targets targets;
@@ -79,7 +79,7 @@ void BM_project(benchmark::State& state) {
     count(state, dem.cells());
 }
 
-void BM_project_table_4(benchmark::State& state) {
+void BM_match_statistics_table_4(benchmark::State& state) {
     fractal::Targets targets;
     targets.mean = 536.0;
     targets.std = 131.6;
@@ -101,7 +101,7 @@ void BM_project_table_4(benchmark::State& state) {
 BENCHMARK(BM_fft)->Arg(512)->Arg(2048)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_grf)->Arg(256)->Arg(1024)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_statistics)->Arg(512)->Arg(2048)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(BM_project)->Arg(256)->Arg(1024)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(BM_project_table_4)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(BM_match_statistics)->Arg(256)->Arg(1024)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(BM_match_statistics_table_4)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 } // namespace

@@ -44,7 +44,7 @@ void BM_meetings(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
-void BM_all_pairs(benchmark::State& state) {
+void BM_meetings_all_pairs(benchmark::State& state) {
     Arcs const arcs(faults::clean_of(static_cast<std::size_t>(state.range(0)), 1));
     std::vector<std::pair<Vec2, Vec2>> segments;
     for (auto const& line : arcs.lines) {
@@ -71,6 +71,6 @@ void BM_all_pairs(benchmark::State& state) {
 
 BENCHMARK(BM_check_topology)->Arg(1000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_meetings)->Arg(1000)->Arg(100000)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(BM_all_pairs)->Arg(1000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(BM_meetings_all_pairs)->Arg(1000)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 } // namespace
