@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands.hpp"
-#include "complaint.hpp"
-#include "describe.hpp"
-#include "interrupt.hpp"
-#include "terminal.hpp"
-#include "threads.hpp"
+#include "commands/commands.hpp"
+#include "help/complaint.hpp"
+#include "help/describe.hpp"
+#include "terminal/interrupt.hpp"
+#include "terminal/terminal.hpp"
+#include "terminal/threads.hpp"
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/memory.hpp>

@@ -30,6 +30,8 @@ FOREIGN_ANYWHERE = ["fmt/", "boost/graph/", "boost/property_map/"]
 # Shows a StreamNetwork to Boost's algorithms: the one header of ours with foreign ones in it, for .cpp files alone.
 GRAPH_HEADER = "thalweg/core/stream_network_graph.hpp"
 FOREIGN_IN_HEADERS = {"lib/" + GRAPH_HEADER: ["boost/graph/", "boost/iterator/", "boost/property_map/"]}
+# The folders of tools, with those each may include; main.cpp includes any.
+TOOLS = {"commands": ["help", "terminal"], "help": [], "terminal": []}
 SYSTEM = re.compile(r"[a-z_0-9]+$|(sys/[a-z]+|unistd|fcntl|signal|dlfcn)\.h$")  # C++ headers have no suffix
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -98,10 +100,20 @@ def begins(name, beginnings):
     return any(name.startswith(b) for b in beginnings)
 
 
+def check_own_include(name, header):
+    """What is wrong with an include of one file in tools by another, or None."""
+    folder, target = (pathlib.PurePath(path).parent.as_posix() for path in (name.removeprefix("tools/"), header))
+    if target not in TOOLS:
+        return f'"{header}": write "FOLDER/FILE.hpp", FOLDER one of {", ".join(TOOLS)}'
+    if folder not in (".", target) and target not in TOOLS.get(folder, []):
+        return f'{folder} includes "{header}": dependencies point one way'
+    return None
+
+
 def check_include(name, room, quoted, header):
     """What is wrong with one include of a file in lib or tools, or None."""
     if quoted:
-        return None if room == "tools" and "/" not in header else f'"{header}": write <thalweg/...>'
+        return check_own_include(name, header) if room == "tools" else f'"{header}": write <thalweg/...>'
     if header == GRAPH_HEADER and name.endswith(".hpp"):
         return f"<{header}> includes Boost: it belongs in a .cpp file"
     if header.startswith("thalweg/"):

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bar.hpp"
-#include "terminal.hpp"
+#include "terminal/bar.hpp"
+#include "terminal/terminal.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage_times.hpp"
+#include "terminal/stage_times.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

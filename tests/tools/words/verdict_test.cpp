@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "verdict.hpp"
+#include "commands/verdict.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/commands.hpp"
+#include "commands/network_options.hpp"
+#include "commands/verdict.hpp"
+#include "terminal/terminal.hpp"
+
+#include <thalweg/core/run/printable.hpp>
+#include <thalweg/pipeline/commands/check_files.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace thalweg::tools {
+
+namespace {
+
+struct CheckOptions {
+    pipeline::CheckJob job;
+    NetworkOptions source;
+};
+
+void print_some(std::vector<Finding> const& findings, char const* before, Session const& session) {
+    std::size_t const shown = session.verbose ? findings.size() : 50;
+    for (std::size_t i = 0; i < std::min(shown, findings.size()); ++i) {
+        fmt::print("{}{}\n", before, printable(findings[i].text));
+    }
+    if (findings.size() > shown) {
+        fmt::print("{}... and {} more; --verbose prints all\n", before, findings.size() - shown);
+    }
+}
+
+void print_certificate(measure::Certificate const& c) {
+    fmt::print("{} river cells, {} with the flow direction of their river; {} of {} sources reach their outlet\n",
+               c.river_cells, c.following_cells, c.arriving_sources, c.sources);
+    auto const print_agreement = [](char const* what, measure::Agreements const& agreements) {
+        for (std::size_t k = 0; k < agreements.size(); ++k) {
+            fmt::print("{} within {} cells: precision {:.4f}  recall {:.4f}  F {:.4f}\n", what, k,
+                       agreements[k].precision, agreements[k].recall, agreements[k].f());
+        }
+    };
+    print_agreement("traced", c.traced);
+    print_agreement(fmt::format("extracted from {} cells,", c.threshold_cells).c_str(), c.extracted);
+    if (c.compared_areas > 0) {
+        fmt::print("{} of {} contributing areas within 5 % of the DEM's\n", c.close_areas, c.compared_areas);
+    }
+}
+
+void print_table(pipeline::CheckedFiles const& checked, std::string const& network, Session const& session) {
+    fmt::print("{} arcs, {} nodes\n", checked.arcs, checked.nodes);
+    for (Check const& c : checked.checks) {
+        fmt::print("{:<24}{:>8.6g}  {}\n", c.name, c.value,
+                   c.ok ? toned(Tone::good, "ok", stdout)
+                        : toned(Tone::bad, "FAILED", stdout) + fmt::format(" ({})", limit_in_words(c)));
+    }
+    if (checked.certificate) {
+        print_certificate(*checked.certificate);
+    }
+    if (!checked.ok()) {
+        print_some(checked.findings, "", session);
+    } else if (!checked.findings.empty()) {
+        fmt::print("{} findings that fail no check; --findings FILE or --json lists them\n", checked.findings.size());
+    }
+    print_some(checked.notes, "note: ", session);
+    print_some(checked.mended, "mended: ", session);
+    for (std::string const& file : checked.written) {
+        fmt::print("{}\n", file);
+    }
+    fmt::print("{}\n",
+               toned(checked.ok() ? Tone::good : Tone::bad, printable(verdict(network, checked.checks)), stdout));
+}
+
+int check(CheckOptions& options, Session const& session) {
+    options.job.network = options.source.path;
+    options.job.read = options.source.params();
+    pipeline::CheckedFiles const checked = pipeline::check_files(options.job, session.run);
+    if (session.json) {
+        fmt::print("{}", pipeline::as_json(checked));
+    } else {
+        print_table(checked, options.job.network, session);
+    }
+    return checked.ok() ? Exit::done : Exit::check_failed;
+}
+
+} // namespace
+
+Command add_check(CLI::App& app, Session& session) {
+    auto const options = std::make_shared<CheckOptions>();
+    add_network_options(app, options->source, "--schema,--from");
+    app.add_option("--dem", options->job.dem,
+                   "Also check that this DEM drains, and by these rivers. It must have the network's CRS.")
+        ->type_name("FILE(tif)");
+    app.add_option(
+           "--fix", options->job.fix,
+           "Write a repaired copy in the native schema and list the repairs. Nothing is written if faults remain. "
+           "NETWORK may then be any file of lines.")
+        ->type_name("FILE(gpkg,shp)");
+    app.add_option("--findings", options->job.findings, "Write the findings as a point layer, for QGIS.")
+        ->type_name("FILE(gpkg)");
+    app.add_option(
+           "--near", options->job.near_m,
+           "Report line ends closer than this that do not meet [m]. Default: a millionth of the network's extent.")
+        ->type_name("M")
+        ->check(CLI::NonNegativeNumber);
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    app.add_flag("--overwrite", options->job.overwrite, "Replace existing --fix and --findings files.");
+    app.footer("Every arc is checked: it runs from node to node and downhill, meets other arcs at its ends only, and "
+               "has the right orders and downstream arc. A file in another schema is checked for what it contains. A "
+               "fault is reported once, without its consequences. The exit status is 3 when a check fails, also when a "
+               "repaired copy was written. NETWORK itself is never changed.\n\n"
+               "With --dem, these also fail: depressions, rivers along the border of the DEM, sources whose water does "
+               "not reach their outlet, flow paths of which less than 99 % lie within a cell of the rivers, and rivers "
+               "of which flow paths cover less than 95 %. Agreement by contributing area is reported only: a DEM may "
+               "have more valleys than rivers.\n\n"
+               "Examples:\n"
+               "  thalweg check valley\n"
+               "  thalweg check valley --dem valley/dem.tif\n"
+               "  thalweg check valley/network_arcs.shp --json\n"
+               "  thalweg check rivers.gpkg --fix mended.gpkg --findings check.gpkg\n"
+               "  thalweg check net.shp --schema taudem\n"
+               "  thalweg check rivers.fgb --field arc_id=ID --field ds_arc=NEXT\n");
+    return [options, &session] { return check(*options, session); };
+}
+
+} // namespace thalweg::tools

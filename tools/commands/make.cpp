@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/commands.hpp"
+#include "commands/forecast_words.hpp"
+#include "commands/network_options.hpp"
+#include "commands/seed.hpp"
+#include "commands/verdict.hpp"
+#include "terminal/terminal.hpp"
+
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/write_terrain.hpp>
+#include <thalweg/pipeline/recipe/forecast.hpp>
+#include <thalweg/pipeline/recipe/make_input.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/recipe/user_files.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace thalweg::tools {
+
+namespace {
+
+struct MakeOptions {
+    std::string input;
+    std::string folder = "valley";
+    std::vector<std::string> set;
+    std::optional<std::uint64_t> seed;
+    std::string crs;
+    std::string units;
+    std::string schema;
+    bool overwrite = false;
+    bool dry_run = false;
+};
+
+pipeline::Recipe recipe_of(MakeOptions const& options) {
+    pipeline::Recipe recipe = options.input.empty() ? pipeline::default_recipe() : pipeline::recipe_from(options.input);
+    for (std::string const& assignment : options.set) {
+        pipeline::set_key(recipe, assignment);
+    }
+    if (options.seed) {
+        pipeline::set_key(recipe, fmt::format("seed={}", *options.seed));
+    }
+    if (!options.crs.empty()) {
+        pipeline::set_key(recipe, "grid.crs=" + options.crs);
+    }
+    if (!options.units.empty()) {
+        pipeline::set_key(recipe, "output.units=" + options.units);
+    }
+    if (!options.schema.empty()) {
+        pipeline::set_key(recipe, fmt::format("output.schema={}", options.schema));
+    }
+    return recipe;
+}
+
+void tell_all(char const* what, std::vector<Finding> const& findings, Run const& run) {
+    for (Finding const& finding : findings) {
+        run.tell(what, finding.text);
+    }
+}
+
+int make(MakeOptions const& options, Session const& session) {
+    auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
+    pipeline::Recipe recipe = recipe_of(options);
+    pipeline::UserFiles const files(recipe, session.run);
+    if (options.dry_run) {
+        fmt::print("{}", forecast_in_words(pipeline::forecast(recipe, session.run), session.json));
+        return Exit::done;
+    }
+    pipeline::check_folder(options.folder, existing);
+    pipeline::Terrain const terrain = pipeline::make_terrain(recipe, session.run);
+    pipeline::write_terrain(terrain, options.folder, existing, session.run);
+    if (session.verbose) {
+        tell_all("repair", terrain.story.repairs, session.run);
+        tell_all("finding", terrain.findings, session.run);
+    }
+    for (Check const& check : terrain.checks) {
+        if (!check.ok) {
+            session.run.tell("check", fmt::format("{}  {}", in_words(check), toned(Tone::bad, "FAILED", stderr)));
+        }
+    }
+    if (terrain.passed()) {
+        std::string words = fmt::format("{} checks", terrain.checks.size());
+        if (terrain.recipe.network) {
+            std::size_t const outlets = terrain.network.plan.outlets().size();
+            words += fmt::format(", {} outlet{}", outlets, outlets == 1 ? "" : "s");
+        }
+        if (terrain.surface) {
+            words += fmt::format(", {} cells in pits", terrain.pits);
+        }
+        session.run.tell("check", fmt::format("{:<56}      {}", words, toned(Tone::good, "ok", stderr)));
+    }
+    session.run.tell(
+        "open", fmt::format("{}   (no internet needed)", toned(Tone::name, options.folder + "/report.html", stderr)));
+    fmt::print("{}", session.json ? io::read_text(options.folder + "/report.json", 1 << 30) : options.folder + "\n");
+    return terrain.passed() ? Exit::done : Exit::check_failed;
+}
+
+} // namespace
+
+Command add_make(CLI::App& app, Session& session) {
+    auto const options = std::make_shared<MakeOptions>();
+    app.add_option(
+           "INPUT", options->input,
+           "A recipe (TOML), or rivers: any file of lines that GDAL reads, or a folder written by make or convert. "
+           "Without it, thalweg grows a valley on 1024x1024 cells.")
+        ->type_name("FILE(toml,gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)");
+    app.add_option("-o,--output", options->folder, "Write to this folder.")->type_name("DIR")->capture_default_str();
+    app.add_option(
+           "--set", options->set,
+           "Set a key of the recipe; it overrides the file. May be repeated; the last value wins. File names are "
+           "relative to the current folder.")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--seed", options->seed, "Set the random seed; the same as --set seed=N.")->check(is_seed);
+    app.add_option("--crs", options->crs,
+                   "Make the terrain in this projected CRS in metres; the same as --set grid.crs=CRS.")
+        ->type_name("EPSG:N");
+    app.add_option("--units", options->units,
+                   "Write heights in metres or in international feet (dem.tif, networks, contours, TINs); the same as "
+                   "--set output.units=UNIT. Lengths stay in m, areas in m2.")
+        ->check(CLI::IsMember({"m", "ft"}));
+    app.add_option(
+           "--schema", options->schema,
+           "Also write the network in this schema, as network_SCHEMA.gpkg; the same as --set output.schema=SCHEMA.")
+        ->check(CLI::IsMember(schema_names()));
+    app.add_flag("--dry-run", options->dry_run,
+                 "Check the recipe and its input files, and print the stages, the grid, and estimates of memory and "
+                 "time. Nothing is written.");
+    app.add_flag("--json", session.json, "Print report.json to stdout instead of the name of the folder.");
+    app.add_flag("--overwrite", options->overwrite,
+                 "Replace the files that an earlier make wrote to the folder. Other files in the folder are kept.");
+    app.footer(
+        "Rivers are grown, or read from a file of lines; they get heights, and the terrain is shaped around "
+        "them. The recipe holds everything that decides the result: the same recipe gives the same bytes on any "
+        "machine. The folder is written completely or not at all.\n\n"
+        "Rivers need no recipe: thalweg chooses the grid and its cell size from the data and makes equilibrium "
+        "terrain around them. `thalweg recipe --for RIVERS` prints the recipe that it uses. From a folder written "
+        "by make or convert it takes the arcs.\n\n"
+        "Examples:\n"
+        "  thalweg make\n"
+        "  thalweg make samples/dla.toml --seed 8 --set network.prune=40 -o out/sparse\n"
+        "  thalweg make out/sparse/recipe.toml -o out/again\n"
+        "  thalweg make samples/walker_nhdplus.gpkg -o out/walker\n"
+        "  thalweg make samples/walker_nhdplus.gpkg --crs EPSG:26910 --set grid.cell=30 -o out/utm\n"
+        "  thalweg make out/walker --seed 8 -o out/other\n"
+        "  thalweg make samples/walker_nhdplus.gpkg --dry-run\n");
+    return [options, &session] { return make(*options, session); };
+}
+
+} // namespace thalweg::tools

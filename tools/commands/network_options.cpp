@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/network_options.hpp"
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/network/schema.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace thalweg::tools {
+
+io::ReadNetworkParams NetworkOptions::params() const {
+    io::ReadNetworkParams read;
+    if (!schema.empty()) {
+        read.schema = io::schema_named(schema);
+    }
+    for (std::string const& field : fields) {
+        std::size_t const equals = field.find('=');
+        if (equals == std::string::npos || equals == 0 || equals + 1 == field.size()) {
+            throw BadParameter(fmt::format("--field {}: write QUANTITY=NAME, such as ds_arc=NEXT_DOWN", field));
+        }
+        read.fields[field.substr(0, equals)] = field.substr(equals + 1);
+    }
+    read.arcs_layer = layer;
+    read.nodes_layer = nodes_layer;
+    return read;
+}
+
+void add_network_options(CLI::App& app, NetworkOptions& options, char const* schema_flag) {
+    app.add_option("NETWORK", options.path,
+                   "A network: any vector file GDAL reads, a folder written by make, or a database (PG:dbname=rivers).")
+        ->type_name("FILE(gpkg,shp,fgb,geojson)")
+        ->required();
+    app.add_option(schema_flag, options.schema, "Set the schema of NETWORK. Default: recognised by its fields.")
+        ->check(CLI::IsMember(schema_names()));
+    app.add_option("--field", options.fields,
+                   "Name the field of NETWORK that holds a quantity of the native schema, such as ds_arc=NEXT_DOWN. "
+                   "May be repeated.")
+        ->type_name("QUANTITY=NAME")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--layer,--arcs-layer", options.layer, "Read arcs from this layer.")->type_name("NAME");
+    app.add_option("--nodes-layer", options.nodes_layer, "Read nodes from this layer.")->type_name("NAME");
+}
+
+std::vector<std::string> schema_names() {
+    std::vector<std::string> names;
+    for (io::SchemaTable const& table : io::all_schemas()) {
+        names.emplace_back(table.name);
+    }
+    return names;
+}
+
+} // namespace thalweg::tools

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/commands.hpp"
+#include "help/print_keys.hpp"
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/printable.hpp>
+#include <thalweg/pipeline/recipe/make_input.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace thalweg::tools {
+
+namespace {
+
+int print_keys(std::string const& word, Session const& session) {
+    std::vector<pipeline::KeyHelp> const keys = keys_named(word);
+    fmt::print("{}", session.json       ? keys_as_json(keys)
+                     : keys.size() == 1 ? key_as_text(keys.front())
+                                        : keys_as_list(keys));
+    return Exit::done;
+}
+
+int print_for(std::string const& rivers, Session const& session) {
+    if (!is_utf8(std::filesystem::absolute(rivers).string())) {
+        throw BadInput(fmt::format("the path of {} is not UTF-8, and recipes are: rename it", rivers));
+    }
+    pipeline::Recipe const recipe = pipeline::settled_recipe(pipeline::rivers_recipe(rivers), session.run);
+    fmt::print("{}", pipeline::write_recipe(recipe));
+    return Exit::done;
+}
+
+} // namespace
+
+Command add_recipe(CLI::App& app, Session& session) {
+    auto const dump = std::make_shared<bool>(false);
+    auto const rivers = std::make_shared<std::string>();
+    auto const key = std::make_shared<std::string>();
+    app.add_option("KEY", *key,
+                   "Show this key, such as network.prune, or the keys of this section. Default: every key.");
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    app.add_flag("--dump", *dump, "Print the default recipe as a TOML file.");
+    app.add_option("--for", *rivers,
+                   "Print the recipe that make uses for these rivers: a file of lines, or a folder written by make or "
+                   "convert.")
+        ->type_name("FILE(gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)");
+    app.footer("Prints keys with their unit, range and default. thalweg-recipe(5) is the same as a manual page.\n\n"
+               "Examples:\n"
+               "  thalweg recipe\n"
+               "  thalweg recipe network.prune\n"
+               "  thalweg recipe surface --json\n"
+               "  thalweg recipe --dump > mine.toml\n"
+               "  thalweg recipe --for samples/walker_nhdplus.gpkg > walker.toml\n");
+    return [dump, rivers, key, &session] {
+        if (!rivers->empty()) {
+            return print_for(*rivers, session);
+        }
+        if (*dump) {
+            fmt::print("{}", pipeline::write_recipe(pipeline::default_recipe()));
+            return static_cast<int>(Exit::done);
+        }
+        return print_keys(*key, session);
+    };
+}
+
+} // namespace thalweg::tools

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/commands.hpp"
+#include "terminal/terminal.hpp"
+
+#include <thalweg/core/run/printable.hpp>
+#include <thalweg/pipeline/recipe/replay.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+namespace thalweg::tools {
+
+namespace {
+
+int replay(std::string const& folder, Session const& session) {
+    pipeline::Replayed const found = pipeline::replay(folder, session.run);
+    for (std::string const& name : found.same) {
+        fmt::print("{}     {}\n", toned(Tone::good, "same", stdout), printable(name));
+    }
+    for (std::string const& name : found.differ) {
+        fmt::print("{}  {}\n", toned(Tone::bad, "DIFFERS", stdout), printable(name));
+    }
+    for (std::string const& name : found.missing) {
+        fmt::print("{}  {}\n", toned(Tone::bad, "MISSING", stdout), printable(name));
+    }
+    return found.verified() ? Exit::done : Exit::check_failed;
+}
+
+} // namespace
+
+Command add_replay(CLI::App& app, Session& session) {
+    auto const folder = std::make_shared<std::string>();
+    auto const verify = std::make_shared<bool>(true);
+    app.add_option("DIR", *folder, "A folder written by make.")->type_name("DIR")->required();
+    app.add_flag("--verify", *verify, "Compare the bytes. This is always done; the option makes scripts readable.");
+    app.footer("Runs recipe.toml again in a temporary folder and compares each file. The exit status is 3 when a file "
+               "differs or is missing. Nothing is changed.\n\n"
+               "Examples:\n"
+               "  thalweg replay valley --verify\n");
+    return [folder, verify, &session] { return replay(*folder, session); };
+}
+
+} // namespace thalweg::tools

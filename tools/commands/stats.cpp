@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/commands.hpp"
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/printable.hpp>
+#include <thalweg/io/gdal/conversions.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/pipeline/commands/dem_in_metres.hpp>
+#include <thalweg/pipeline/make/laws.hpp>
+#include <thalweg/pipeline/make/relief.hpp>
+#include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
+#include <thalweg/pipeline/report/law_rows.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace thalweg::tools {
+
+namespace {
+
+std::string known(double figure, int digits) {
+    return std::isnan(figure) ? "unknown" : fmt::format("{:.{}f}", figure, digits);
+}
+
+std::string length(solver::CorrelationLength const& l) {
+    return known(l.cells, 2) + (l.extrapolated ? " (extrapolated)" : "");
+}
+
+struct StatsOptions {
+    std::string path;
+    bool recipe = false;
+    bool laws = false;
+    bool relief = false;
+    std::int64_t support_cells = pipeline::DemLawsParams{}.support_cells;
+};
+
+void print_laws(pipeline::DemLaws const& found) {
+    fmt::print("\nrivers where at least {} cells ({:.3g} km²) drain\n{:58}  in nature\n", found.support_cells,
+               found.support_m2 / 1e6, "");
+    for (pipeline::LawRow const& row : pipeline::law_rows(found.laws)) {
+        std::string const value =
+            row.value ? fmt::format("{:.4g}{}{}", *row.value, row.unit.empty() ? "" : " ", row.unit) : "unknown";
+        std::string const range =
+            row.nature != nullptr ? fmt::format("{:g} to {:g}", row.nature->low, row.nature->high) : "";
+        std::string fit;
+        for (auto const& [name, figure] : row.details) {
+            if (name == "r2" && !std::isnan(figure)) {
+                fit = fmt::format("r2 {:.3f}", figure);
+            }
+        }
+        fmt::print("{:<28}  {:<16}  {:<10}  {}\n", row.name, value, fit, range);
+    }
+}
+
+void print_relief(pipeline::TerrainRelief const& found) {
+    fmt::print("\n{:<42}{:>8}", "relief", "here");
+    for (measure::ReferenceDem const& land : measure::reference_dems()) {
+        fmt::print("  {:>11}", land.name);
+    }
+    fmt::print("  reference range\n");
+    for (pipeline::ReliefRow const& row : pipeline::relief_rows(found)) {
+        fmt::print("{:<42}{:>8}", row.name, row.value ? fmt::format("{:.3g}", *row.value) : "unknown");
+        for (double const figure : row.beside) {
+            fmt::print("  {:>11.3g}", figure);
+        }
+        if (row.range) {
+            fmt::print("  {:.3g} to {:.3g}{}", row.range->low, row.range->high, row.ok() ? "" : ": outside");
+        }
+        fmt::print("\n");
+    }
+}
+
+void print_recipe(pipeline::DemRecipe const& made) {
+    for (std::string const& note : made.notes) {
+        fmt::print("# {}\n", printable(note));
+    }
+    fmt::print("{}", pipeline::write_recipe(made.recipe));
+}
+
+int stats(StatsOptions const& options, Session const& session) {
+    if (options.recipe && session.json) {
+        throw BadParameter("thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
+    }
+    // A recipe has cells of its own: recipe_of_dem says how large.
+    pipeline::MetricDem const read = options.recipe ? pipeline::MetricDem{io::read_dem(options.path, session.run), {}}
+                                                    : pipeline::dem_in_metres(options.path, session.run);
+    Raster<float> const& dem = read.dem;
+    for (std::string const& words : read.notes) {
+        session.run.say("note   " + words);
+    }
+    if (read.notes.empty()) {
+        for (std::string const& words : io::conversions_of(options.path, "", dem.grid().crs)) {
+            session.run.say("note   " + words);
+        }
+    }
+    measure::Statistics const s = measure::statistics(dem, session.run);
+    std::optional<pipeline::DemLaws> laws;
+    if (options.laws) {
+        laws = pipeline::laws_of_dem(dem, {.support_cells = options.support_cells}, session.run);
+    }
+    std::optional<pipeline::TerrainRelief> relief;
+    if (options.relief) {
+        relief = pipeline::relief_of_dem(dem, session.run);
+    }
+    if (options.recipe) {
+        print_recipe(pipeline::recipe_of_dem(dem, s, options.path));
+        return Exit::done;
+    }
+    if (session.json) {
+        fmt::print("{}", pipeline::statistics_json(s, laws ? &*laws : nullptr, relief ? &*relief : nullptr));
+        return Exit::done;
+    }
+    fmt::print("cells      {} with data, {} without ({} x {})\n", s.cells, s.nodata, dem.width(), dem.height());
+    fmt::print("mean       {:.3f} m\n", s.mean);
+    fmt::print("std        {:.3f} m\n", s.std);
+    fmt::print("min        {:.3f} m at column {}, row {}\n", s.min.z, s.min.cell.col, s.min.cell.row);
+    fmt::print("max        {:.3f} m at column {}, row {}\n", s.max.z, s.max.cell.col, s.max.cell.row);
+    fmt::print("slope      {:.4f} rad in metres per cell, {:.2f} degrees on the ground\n", s.slope_rad,
+               s.slope_true_deg);
+    fmt::print("shape      skew {}, kurtosis {} (both 0 for a normal distribution)\n", known(s.skew, 3),
+               known(s.kurtosis, 3));
+    fmt::print("roughness  {} m between neighbours\n", known(s.roughness_m, 3));
+    fmt::print("length     {} cells along rows, {} along columns\n", length(s.lx), length(s.ly));
+    fmt::print("dimension  {} from lags 1 to 5, {} from lags 1 to 32\n", known(s.dimension, 3),
+               known(s.dimension_dyadic, 3));
+    if (laws) {
+        print_laws(*laws);
+    }
+    if (relief) {
+        print_relief(*relief);
+    }
+    return Exit::done;
+}
+
+} // namespace
+
+Command add_stats(CLI::App& app, Session& session) {
+    auto const options = std::make_shared<StatsOptions>();
+    app.add_option("DEM", options->path, "Any height raster GDAL reads.")->type_name("FILE")->required();
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    CLI::Option* const recipe = app.add_flag("--recipe", options->recipe,
+                                             "Print a recipe of other terrain with the same statistics, for make.");
+    CLI::Option* const laws =
+        app.add_flag("--laws", options->laws,
+                     "Print network laws of the streams extracted from the DEM, with natural ranges.")
+            ->excludes(recipe);
+    app.add_flag("--relief", options->relief, "Print morphometric indices, with those of reference DEMs.")
+        ->excludes(recipe);
+    app.add_option("--support", options->support_cells, "Start a stream where this many cells drain.")
+        ->type_name("CELLS")
+        ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+        ->capture_default_str()
+        ->needs(laws);
+    app.footer("Prints count, mean, standard deviation, lowest and highest cell, mean slope, skewness and kurtosis, "
+               "roughness, correlation lengths and fractal dimension. Cells without data are left out. With --laws: "
+               "Horton's ratios, "
+               "Tokunaga's a and c, Hack's exponent, concavity, drainage density, junction angles and links. "
+               "With --relief: slopes, slope against area, pits, geomorphons, aspects (docs/relief_measures.md).\n\n"
+               "Examples:\n"
+               "  thalweg stats valley/dem.tif\n"
+               "  thalweg stats samples/bigtujunga_srtm1.tif --laws --support 500\n"
+               "  thalweg stats samples/jacksboro_srtm3.tif --recipe > alike.toml\n");
+    return [options, &session] { return stats(*options, session); };
+}
+
+} // namespace thalweg::tools

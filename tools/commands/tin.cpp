@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/commands.hpp"
+
+#include <thalweg/io/files/output_file.hpp>
+#include <thalweg/io/mesh/write_tin.hpp>
+#include <thalweg/pipeline/commands/make_tin.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace thalweg::tools {
+
+namespace {
+
+struct TinOptions {
+    pipeline::MakeTinParams source;
+    std::string file;
+    std::string format;
+    bool overwrite = false;
+};
+
+std::string as_json(pipeline::MadeTin const& made, std::string const& file) {
+    nlohmann::ordered_json json{{"file", file},
+                                {"source", made.source},
+                                {"crs", made.crs},
+                                {"vertices", made.tin.vertices.size()},
+                                {"triangles", made.tin.triangles.size()},
+                                {"merged", made.merged},
+                                {"merged_dz_m", made.merged_dz_m},
+                                {"crossings", made.crossings},
+                                {"crossings_dz_m", made.crossings_dz_m},
+                                {"left_out", made.left_out}};
+    if (made.error_m) {
+        json["error_m"] = *made.error_m;
+    }
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string tin_in_words(pipeline::MadeTin const& made) {
+    std::string words = fmt::format("{} vertices, {} triangles", made.tin.vertices.size(), made.tin.triangles.size());
+    if (made.error_m) {
+        words += fmt::format(", within {:.3f} m", *made.error_m);
+    }
+    if (made.left_out > 0) {
+        words += fmt::format("; {} isolated cells are left out", made.left_out);
+    }
+    if (made.merged > 0 && (made.source == "points" || made.merged_dz_m > 0.0)) { // arcs of a network meet anyway
+        words += fmt::format("; {} duplicate points, up to {:.3f} m apart in height: the first is kept", made.merged,
+                             made.merged_dz_m);
+    }
+    if (made.crossings > 0) {
+        words += fmt::format("; {} line crossings, up to {:.3f} m apart in height: the first line is kept",
+                             made.crossings, made.crossings_dz_m);
+    }
+    return words;
+}
+
+int tin(TinOptions const& options, Session const& session) {
+    auto const format = io::tin_format(options.format, options.file);
+    io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
+    pipeline::MadeTin const made = pipeline::make_tin(options.source, session.run);
+    io::write_tin(made.tin, made.crs, file.staging(), format, HeightUnit::metre, session.run);
+    file.commit();
+    session.run.tell("tin", tin_in_words(made));
+    fmt::print("{}", session.json ? as_json(made, options.file) : options.file + "\n");
+    return Exit::done;
+}
+
+} // namespace
+
+Command add_tin(CLI::App& app, Session& session) {
+    auto const options = std::make_shared<TinOptions>();
+    std::string formats;
+    for (auto const& f : io::tin_formats()) {
+        formats += (formats.empty() ? "" : ", ") + std::string(f.name);
+    }
+    app.add_option("SOURCE", options->source.path,
+                   "A DEM, points (CSV or XYZ text, any point layer), lines with heights, or a folder written by make.")
+        ->required();
+    app.add_option("-o,--output", options->file, "Write this file.")->required();
+    app.add_option("--error", options->source.error_m, "Limit the vertical error of a DEM's TIN [m]. Default: 1.");
+    app.add_option("--breaklines", options->source.breaklines,
+                   "Use these lines with heights as edges, in addition to points.");
+    app.add_option("--crs", options->source.crs,
+                   "Set the CRS of text points, or reproject points and lines to this CRS.");
+    app.add_option("--format", options->format, formats + ". Default: by the file extension.");
+    app.add_flag("--json", session.json, "Print one JSON object.");
+    app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
+    return [options, &session] { return tin(*options, session); };
+}
+
+} // namespace thalweg::tools

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace thalweg::tools {
+
+std::string limit_in_words(Check const& check) {
+    return fmt::format("{} {:.6g}", check.bound == Bound::at_least ? "at least" : "at most", check.limit);
+}
+
+std::string in_words(Check const& check) {
+    return fmt::format("{} {:.6g} ({})", check.name, check.value, limit_in_words(check));
+}
+
+std::string verdict(std::string const& of, std::vector<Check> const& checks) {
+    auto const failed = std::count_if(checks.begin(), checks.end(), [](Check const& c) { return !c.ok; });
+    std::string const count = fmt::format("{} check{}", checks.size(), checks.size() == 1 ? "" : "s");
+    return failed == 0 ? fmt::format("{}: ok, {}", of, count) : fmt::format("{}: FAILED, {} of {}", of, failed, count);
+}
+
+} // namespace thalweg::tools
