@@ -9,12 +9,12 @@
 
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/make/write_terrain.hpp>
-#include <thalweg/pipeline/recipe/forecast.hpp>
-#include <thalweg/pipeline/recipe/make_input.hpp>
+#include <thalweg/pipeline/plan/forecast.hpp>
+#include <thalweg/pipeline/plan/make_input.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/recipe/user_files.hpp>
 #include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/pipeline/report/write_terrain.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

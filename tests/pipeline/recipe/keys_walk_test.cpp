@@ -3,8 +3,8 @@
 // Every key of the table in a small recipe of every method: where the table says that it has an effect, another value
 // changes the terrain or a file; where it says that it has none, the recipe is refused.
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/make/write_terrain.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/report/write_terrain.hpp>
 
 #include <thalweg/core/run/error.hpp>
 

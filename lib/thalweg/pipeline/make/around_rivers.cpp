@@ -9,7 +9,8 @@
 #include <thalweg/network/order/streams.hpp>
 #include <thalweg/pipeline/make/internal/land.hpp>
 #include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
-#include <thalweg/pipeline/make/internal/read_cells.hpp>
+#include <thalweg/pipeline/plan/internal/read_cells.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>

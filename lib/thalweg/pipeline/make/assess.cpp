@@ -7,10 +7,11 @@
 #include <thalweg/flow/flow_field.hpp>
 #include <thalweg/flow/routing/route_dinf.hpp>
 #include <thalweg/measure/topology/topology.hpp>
-#include <thalweg/pipeline/commands/internal/append.hpp>
 #include <thalweg/pipeline/make/internal/catchment_rows.hpp>
-#include <thalweg/pipeline/make/internal/diary.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/plan/internal/append.hpp>
+#include <thalweg/pipeline/plan/internal/diary.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 
 #include <fmt/format.h>
 

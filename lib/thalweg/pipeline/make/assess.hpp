@@ -19,7 +19,7 @@
 #include <thalweg/pipeline/make/drawn_terrain.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
-#include <thalweg/pipeline/make/timings.hpp>
+#include <thalweg/pipeline/plan/timings.hpp>
 
 namespace thalweg::pipeline {
 

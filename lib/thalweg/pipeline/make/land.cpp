@@ -12,15 +12,15 @@
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/mesh/read_points.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/pipeline/make/frame.hpp>
-#include <thalweg/pipeline/make/internal/read_cells.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
+#include <thalweg/pipeline/plan/internal/read_cells.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/grf.hpp>
 #include <thalweg/skeleton/markov3.hpp>
 #include <thalweg/skeleton/separable_ar.hpp>
 #include <thalweg/skeleton/shift_mean.hpp>
-#include <thalweg/solver/spectral/fractional_surface.hpp>
 #include <thalweg/solver/statistics/expected_slope.hpp>
 #include <thalweg/surface/diffusion/diffuse.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
@@ -35,10 +35,6 @@
 #include <utility>
 
 namespace thalweg::pipeline {
-
-int levels_of(Recipe const& recipe) {
-    return recipe.detail && recipe.detail->method == DetailMethod::midpoint ? recipe.detail->midpoint.levels : 0;
-}
 
 namespace {
 
@@ -71,19 +67,6 @@ solver::StableCovariance covariance_of(StatisticsRecipe const& s, double step) {
     // Slopes are counted between neighbours: they say nothing of coarser cells.
     return s.slope && step == 1.0 ? solver::with_slope(covariance, s.std.value_or(default_std_m), *s.slope)
                                   : covariance;
-}
-
-/// The coarse cells that detail starts from: every 2^levels-th of the grid, as many as cover it.
-Grid coarse_grid(Grid const& grid, int levels) {
-    std::int64_t const step = std::int64_t{1} << levels;
-    Grid coarse = grid;
-    coarse.width = (grid.width - 1 + step - 1) / step + 1;
-    coarse.height = (grid.height - 1 + step - 1) / step + 1;
-    coarse.cell_m = grid.cell_m * static_cast<double>(step);
-    double const shift = 0.5 * (coarse.cell_m - grid.cell_m);
-    coarse.west = grid.west - shift;
-    coarse.north = grid.north + shift;
-    return coarse;
 }
 
 Raster<float> drawn_to_extremes(Raster<float> land, StatisticsRecipe const& s, int levels) {
@@ -491,31 +474,6 @@ DrawnTerrain make_land(Recipe const& recipe, Grid const& grid, FeaturePoints con
     drawn.surface.emplace();
     drawn.surface->dem = std::move(land);
     return drawn;
-}
-
-void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height) {
-    int const levels = levels_of(recipe);
-    if (levels == 0 || recipe.detail->midpoint.stencil != fractal::Stencil::exact) {
-        return;
-    }
-    auto const coarse_at = [&](int halved) { return coarse_grid({width, height, 1.0, 0.0, 0.0, ""}, halved); };
-    auto const coarse_cells = [&](int halved) { return coarse_at(halved).cells(); };
-    if (coarse_cells(levels) <= fractal::most_conditioning_cells) {
-        Grid const coarse = coarse_at(levels);
-        solver::check_fractional_surface(((coarse.width - 1) << levels) + 1, ((coarse.height - 1) << levels) + 1,
-                                         recipe.detail->midpoint.hurst.value_or(fractal::least_hurst));
-        return;
-    }
-    constexpr int most_levels = 12;
-    int enough = levels;
-    while (enough <= most_levels && coarse_cells(enough) > fractal::most_conditioning_cells) {
-        ++enough;
-    }
-    throw BadParameter(fmt::format(
-        "pipeline.check_detail: detail.stencil = \"exact\" takes up to {} coarse cells, and {} x {} cells at "
-        "detail.levels = {} have {}; set {}detail.stencil = 16",
-        fractal::most_conditioning_cells, width, height, levels, coarse_cells(levels),
-        enough <= most_levels ? fmt::format("detail.levels = {}, or ", enough) : ""));
 }
 
 Detailed detail_alone(Recipe recipe, Grid const& grid, Run const& run) {

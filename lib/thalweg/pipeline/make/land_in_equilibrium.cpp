@@ -16,9 +16,10 @@
 #include <thalweg/network/elevation/elevate_from_dem.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
-#include <thalweg/pipeline/commands/internal/append.hpp>
-#include <thalweg/pipeline/make/internal/read_cells.hpp>
 #include <thalweg/pipeline/make/internal/type_rivers.hpp>
+#include <thalweg/pipeline/plan/internal/append.hpp>
+#include <thalweg/pipeline/plan/internal/read_cells.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>
@@ -295,10 +296,6 @@ double usual_slope_deg(double cell_m) {
     double const tangent = portable::sin(fine) / portable::cos(fine) * share(cell_m) / share(finest_m);
     double const degrees = portable::atan2(tangent, 1.0) / portable::pi * 180.0;
     return std::max(0.5, std::round(2.0 * degrees) / 2.0);
-}
-
-bool in_equilibrium(Recipe const& recipe) {
-    return recipe.network && recipe.surface && recipe.surface->method == Method::equilibrium;
 }
 
 DrawnTerrain draw_in_equilibrium(DrawnTerrain drawn, bool heights_of_file, Diary& diary, Run const& run) {

@@ -12,9 +12,9 @@
 #include <thalweg/network/growth/forest/shape_island.hpp>
 #include <thalweg/network/growth/forest/spread_outlets.hpp>
 #include <thalweg/network/import/clip_lines.hpp>
-#include <thalweg/pipeline/make/frame.hpp>
 #include <thalweg/pipeline/make/internal/plan_rivers.hpp>
-#include <thalweg/pipeline/make/internal/read_cells.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
+#include <thalweg/pipeline/plan/internal/read_cells.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>

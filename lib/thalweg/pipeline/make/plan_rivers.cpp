@@ -16,9 +16,10 @@
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/network/vectorise/thin.hpp>
 #include <thalweg/network/vectorise/trace.hpp>
-#include <thalweg/pipeline/make/frame.hpp>
 #include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
-#include <thalweg/pipeline/make/internal/stray_vertex.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
+#include <thalweg/pipeline/plan/internal/stray_vertex.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>

@@ -6,8 +6,8 @@
 #include <thalweg/io/raster/read_polygons.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/growth/tokunaga/grow_strokes.hpp>
-#include <thalweg/pipeline/make/frame.hpp>
 #include <thalweg/pipeline/make/internal/plan_rivers.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>

@@ -18,6 +18,7 @@
 #include <thalweg/pipeline/make/internal/plan_rivers.hpp>
 #include <thalweg/pipeline/make/internal/type_rivers.hpp>
 #include <thalweg/pipeline/recipe/internal/conversions.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>

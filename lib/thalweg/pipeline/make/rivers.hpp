@@ -9,7 +9,7 @@
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/pipeline/make/network_story.hpp>
 #include <thalweg/pipeline/make/river_file.hpp>
-#include <thalweg/pipeline/make/timings.hpp>
+#include <thalweg/pipeline/plan/timings.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {

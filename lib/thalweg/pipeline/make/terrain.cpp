@@ -8,14 +8,15 @@
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/flow/routing/route_dinf.hpp>
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/pipeline/commands/internal/append.hpp>
 #include <thalweg/pipeline/make/internal/around_rivers.hpp>
-#include <thalweg/pipeline/make/internal/diary.hpp>
 #include <thalweg/pipeline/make/internal/land.hpp>
 #include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/make/internal/paste_patches.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/plan/internal/append.hpp>
+#include <thalweg/pipeline/plan/internal/diary.hpp>
 #include <thalweg/pipeline/recipe/internal/conversions.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/pipeline/recipe/internal/unused_keys.hpp>
 

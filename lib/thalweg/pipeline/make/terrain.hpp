@@ -34,7 +34,7 @@
 #include <thalweg/pipeline/make/network_story.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/make/river_file.hpp>
-#include <thalweg/pipeline/make/timings.hpp>
+#include <thalweg/pipeline/plan/timings.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
@@ -101,9 +101,5 @@ using Keep = std::function<void(std::string_view, Raster<float> const&)>;
 /// \throws IoError
 /// \throws Cancelled
 Terrain make_terrain(Recipe const& recipe, Run const& run = {}, Keep const& keep = {});
-
-/// \param cells the cells
-/// \return memory [bytes] that a terrain of this many cells takes while it is made, at most.
-std::int64_t bytes_needed(std::int64_t cells);
 
 } // namespace thalweg::pipeline

@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report/report.hpp>
 
-#include <thalweg/pipeline/make/internal/user_data.hpp>
-
-#include <thalweg/pipeline/commands/check_files.hpp>
-
 #include <thalweg/core/run/memory.hpp>
-
 #include <thalweg/flow/conditioning/dem_change.hpp>
 #include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
+#include <thalweg/pipeline/make/internal/user_data.hpp>
+#include <thalweg/pipeline/report/internal/report_parts.hpp>
 #include <thalweg/pipeline/report/law_rows.hpp>
 
 #include <nlohmann/json.hpp>
@@ -360,20 +357,12 @@ std::string statistics_json(measure::Statistics const& statistics, DemLaws const
     return out.dump() + "\n";
 }
 
-std::string as_json(CheckedFiles const& checked) {
-    ordered_json out{{"ok", checked.ok()},
-                     {"arcs", checked.arcs},
-                     {"nodes", checked.nodes},
-                     {"schema", checked.schema},
-                     {"checks", checks_array(checked.checks)},
-                     {"findings", findings_array(checked.findings)},
-                     {"notes", findings_array(checked.notes)},
-                     {"mended", findings_array(checked.mended)},
-                     {"written", checked.written}};
-    if (checked.certificate) {
-        out["certificate"] = certificate_object(*checked.certificate);
-    }
-    return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+std::string findings_json(std::vector<Finding> const& findings) {
+    return findings_array(findings).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+std::string certificate_json(measure::Certificate const& certificate) {
+    return certificate_object(certificate).dump();
 }
 
 } // namespace thalweg::pipeline

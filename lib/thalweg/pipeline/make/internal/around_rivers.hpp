@@ -4,8 +4,8 @@
 
 #include <thalweg/core/feature_points.hpp>
 #include <thalweg/pipeline/make/drawn_terrain.hpp>
-#include <thalweg/pipeline/make/internal/diary.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
+#include <thalweg/pipeline/plan/internal/diary.hpp>
 
 /// The land around rivers. Private to this room.
 namespace thalweg::pipeline {

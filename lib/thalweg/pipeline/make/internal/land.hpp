@@ -4,7 +4,7 @@
 
 #include <thalweg/core/feature_points.hpp>
 #include <thalweg/pipeline/make/drawn_terrain.hpp>
-#include <thalweg/pipeline/make/internal/diary.hpp>
+#include <thalweg/pipeline/plan/internal/diary.hpp>
 
 /// Land from numbers and from points (paper 001). Private to this room.
 namespace thalweg::pipeline {
@@ -24,13 +24,6 @@ Check points_missing(std::int64_t missing, std::int64_t wanted, Run const& run);
 /// Land without rivers: a random one or that of points, with fractal detail, brought to the statistics.
 DrawnTerrain make_land(Recipe const& recipe, Grid const& grid, FeaturePoints const& points, Diary& diary,
                        Run const& run);
-
-/// How many times detail halves the cells; 0 without it.
-int levels_of(Recipe const& recipe);
-
-/// Throws BadParameter where the recipe's detail cannot be made on a grid of this size: exact detail is made from few
-/// coarse cells, on a lattice whose torus is not too large (where H is estimated, the smallest that may come of it).
-void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height);
 
 /// Land with fractal detail, and the recipe with H and sigma as used.
 struct Detailed {

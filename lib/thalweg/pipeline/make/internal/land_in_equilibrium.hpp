@@ -5,13 +5,10 @@
 #include <thalweg/flow/flow_field.hpp>
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/pipeline/make/drawn_terrain.hpp>
-#include <thalweg/pipeline/make/internal/diary.hpp>
+#include <thalweg/pipeline/plan/internal/diary.hpp>
 
 /// Land in equilibrium with its rivers. Private to this room.
 namespace thalweg::pipeline {
-
-/// Whether the recipe draws its land in equilibrium with rivers.
-bool in_equilibrium(Recipe const& recipe);
 
 /// The usual mean slope [degrees] of land in cells of this size: the coarser, the gentler. Within 6 % of the mean
 /// slopes of Big Tujunga averaged to cells of 75 to 1200 m.

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <thalweg/pipeline/make/drawn_terrain.hpp>
-#include <thalweg/pipeline/make/internal/diary.hpp>
+#include <thalweg/pipeline/plan/internal/diary.hpp>
 
 /// Real relief in the land. Private to this room.
 namespace thalweg::pipeline {

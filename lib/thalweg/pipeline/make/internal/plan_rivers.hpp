@@ -10,9 +10,9 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/pipeline/make/internal/diary.hpp>
 #include <thalweg/pipeline/make/network_story.hpp>
 #include <thalweg/pipeline/make/river_file.hpp>
+#include <thalweg/pipeline/plan/internal/diary.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 /// Where rivers run. Private to this room.

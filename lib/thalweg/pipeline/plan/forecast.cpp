@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/recipe/forecast.hpp>
+#include <thalweg/pipeline/plan/forecast.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
@@ -11,11 +11,12 @@
 #include <thalweg/io/raster/read_polygons.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
-#include <thalweg/pipeline/make/frame.hpp>
 #include <thalweg/pipeline/make/internal/land.hpp>
 #include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/make/internal/plan_rivers.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 

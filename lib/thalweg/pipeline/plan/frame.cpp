@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/frame.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/memory.hpp>
-#include <thalweg/pipeline/make/internal/stray_vertex.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/plan/internal/stray_vertex.hpp>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/write_terrain.hpp>
+#include <thalweg/pipeline/report/write_terrain.hpp>
 
 #include <thalweg/core/run/printable.hpp>
 #include <thalweg/draw/curve.hpp>

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/make/timings.hpp>
+#include <thalweg/pipeline/plan/timings.hpp>
 
 /// Private to this room.
 namespace thalweg::pipeline {

@@ -55,6 +55,10 @@ Grid frame_tree(std::int64_t links, GridRecipe const& wanted);
 /// \throws BadInput naming the first polygon that leaves an asked grid, unless clip is set
 Grid frame_polygons(Polygons const& polygons, GridRecipe const& wanted);
 
+/// \param cells the cells
+/// \return memory [bytes] that a terrain of this many cells takes while it is made, at most.
+std::int64_t bytes_needed(std::int64_t cells);
+
 /// \param width [cells] number of columns
 /// \param height [cells] number of rows
 /// \throws BadInput when a terrain on this grid needs more memory than is free

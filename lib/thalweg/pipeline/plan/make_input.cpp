@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/recipe/make_input.hpp>
+#include <thalweg/pipeline/plan/make_input.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/printable.hpp>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What make leaves needs no other file: every key that names one.
+#include <thalweg/pipeline/commands/replay.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/make/write_terrain.hpp>
-#include <thalweg/pipeline/recipe/replay.hpp>
+#include <thalweg/pipeline/report/write_terrain.hpp>
 
 #include <gtest/gtest.h>
 
