@@ -17,9 +17,9 @@
 #include <thalweg/pipeline/commands/replay.hpp>
 #include <thalweg/pipeline/make/assess.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>
-#include <thalweg/pipeline/make/drawn_terrain.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/make/network_story.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/make/river_file.hpp>
@@ -28,6 +28,7 @@
 #include <thalweg/pipeline/plan/forecast.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/plan/make_input.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/pipeline/plan/timings.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/recipe/recipe_of_dem.hpp>

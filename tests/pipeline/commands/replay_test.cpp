@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What make leaves needs no other file: every key that names one.
 #include <thalweg/pipeline/commands/replay.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/report/write_terrain.hpp>
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ void expect_replayed(std::string const& toml, std::string const& copy) {
         WalkFiles const files;
         Recipe recipe = read_recipe(toml, "r.toml");
         recipe.folder = files.folder();
-        write_terrain(make_terrain(recipe), out, io::Existing::refuse);
+        write_terrain(make(recipe), out, io::Existing::refuse);
         EXPECT_EQ(bytes_of(out + "/" + copy), bytes_of(files / fs::path(copy).filename().string()));
     }
     Replayed const again = replay(out);
@@ -95,7 +95,7 @@ TEST(Replay, EstimatedDetailIsWrittenAsItWasUsed) {
         WalkFiles const files;
         Recipe recipe = read_recipe(toml, "r.toml");
         recipe.folder = files.folder();
-        Terrain const t = make_terrain(recipe);
+        Made const t = make(recipe);
         ASSERT_TRUE(t.recipe.detail->midpoint.hurst && t.recipe.detail->midpoint.sigma);
         Recipe const resolved = read_recipe(write_recipe(t.recipe), "again.toml");
         EXPECT_EQ(resolved.detail->midpoint.hurst, t.recipe.detail->midpoint.hurst);
@@ -103,12 +103,12 @@ TEST(Replay, EstimatedDetailIsWrittenAsItWasUsed) {
         expect_replayed(toml, "inputs/points/points.csv");
     }
     std::string const rivers =
-        write_recipe(make_terrain(read_recipe(dla + "[surface]\n[detail]\nsigma = 10\nlevels = 3\n", "r.toml")).recipe);
+        write_recipe(make(read_recipe(dla + "[surface]\n[detail]\nsigma = 10\nlevels = 3\n", "r.toml")).recipe);
     EXPECT_NE(rivers.find("hurst = 0.6"), std::string::npos) << rivers;
 }
 
 TEST(Replay, DefaultsThatAreReckonedAreWritten) {
-    std::string const text = write_recipe(make_terrain(read_recipe(dla + "[surface]\n", "r.toml")).recipe);
+    std::string const text = write_recipe(make(read_recipe(dla + "[surface]\n", "r.toml")).recipe);
     for (char const* line : {"mean_slope = 25.0\n", "heights = 'graded'\n", "edge = 'open'\n", "drain = 'carve'\n",
                              "meander = 1.0\n", "rotate = "}) {
         EXPECT_NE(text.find(line), std::string::npos) << line << text;

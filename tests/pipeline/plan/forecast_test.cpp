@@ -4,7 +4,8 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
 
 #include <gtest/gtest.h>
 
@@ -31,15 +32,15 @@ Recipe recipe_in(fs::path const& place) {
 
 void expect_as_foretold(Recipe const& recipe, std::string const& name) {
     Forecast const said = forecast(recipe);
-    Terrain const made = make_terrain(recipe);
+    Made const made = make(recipe);
     std::vector<std::string> stages;
-    for (auto const& [stage, seconds] : made.timings_s) {
+    for (auto const& [stage, seconds] : timings_of(made)) {
         stages.push_back(stage);
     }
     EXPECT_EQ(said.stages, stages) << name;
     if (said.grid) {
-        EXPECT_EQ(*said.grid, made.grid) << name;
-        EXPECT_EQ(said.cells, made.grid.cells()) << name;
+        EXPECT_EQ(*said.grid, made.terrain.grid) << name;
+        EXPECT_EQ(said.cells, made.terrain.grid.cells()) << name;
     }
     EXPECT_GT(said.cells, 0) << name;
     EXPECT_GT(said.memory_bytes, bytes_needed(said.cells)) << name;
@@ -103,7 +104,7 @@ TEST(Forecast, OfAGridThatIsStillUnknown) {
     recipe.surface.reset();
     Forecast const said = forecast(recipe);
     EXPECT_FALSE(said.grid);
-    auto const ratio = static_cast<double>(said.cells) / static_cast<double>(make_terrain(recipe).grid.cells());
+    auto const ratio = static_cast<double>(said.cells) / static_cast<double>(make(recipe).terrain.grid.cells());
     EXPECT_GT(ratio, 1.0 / 3.0);
     EXPECT_LT(ratio, 3.0);
 }

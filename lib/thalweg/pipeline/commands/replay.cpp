@@ -5,7 +5,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/files/temporary_folder.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/pipeline/report/write_terrain.hpp>
@@ -29,7 +29,7 @@ Replayed replay(std::string const& folder, Run const& run) {
     io::TemporaryFolder const aside("thalweg-replay");
     std::string const again = (aside.path() / "again").string();
     Replayed out;
-    for (std::string const& name : write_terrain(make_terrain(recipe, run), again, io::Existing::refuse, run)) {
+    for (std::string const& name : write_terrain(make(recipe, run), again, io::Existing::refuse, run)) {
         if (name.rfind("report.", 0) == 0) {
             continue; // times differ
         }

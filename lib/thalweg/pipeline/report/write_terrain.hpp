@@ -7,7 +7,7 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 
 namespace thalweg::pipeline {
 
@@ -17,14 +17,14 @@ namespace thalweg::pipeline {
 void check_folder(std::string const& folder, io::Existing existing);
 
 /// Writes everything `make` leaves behind into a folder, whole or not at all.
-/// \param terrain the terrain
+/// \param made a terrain with all that led to it
 /// \param folder the folder
 /// \param existing what to do with an output that exists
 /// \param run progress, log, stop token and number of threads
 /// \return the names of the files, report.json last. Under replace it removes what the old report.json lists, nothing
 /// else.
 /// \throws BadInput (the folder is taken), IoError, Cancelled: then nothing has changed
-std::vector<std::string> write_terrain(Terrain const& terrain, std::string const& folder,
+std::vector<std::string> write_terrain(Made const& made, std::string const& folder,
                                        io::Existing existing = io::Existing::refuse, Run const& run = {});
 
 } // namespace thalweg::pipeline

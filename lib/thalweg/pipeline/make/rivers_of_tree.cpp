@@ -1,19 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/projection.hpp>
-#include <thalweg/io/network/read_rivers.hpp>
-#include <thalweg/io/raster/read_polygons.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/growth/tokunaga/grow_strokes.hpp>
-#include <thalweg/pipeline/make/internal/plan_rivers.hpp>
-#include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/make/internal/rivers_in_plan.hpp>
+#include <thalweg/pipeline/plan/internal/trees.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace thalweg::pipeline {
@@ -83,19 +78,6 @@ std::vector<std::int64_t> downstream(network::TokunagaTree const& tree) {
     return down;
 }
 
-constexpr char const* more_room = "lower network.tokunaga.order or spacing, or take a larger grid (or smaller cells)";
-
-/// Throws before a network is laid out that has no chance: links would lie at less than half the distance they keep.
-void require_room(std::int64_t links, Grid const& grid, double spacing_cells) {
-    double const apart = std::sqrt(static_cast<double>(grid.cells()) / static_cast<double>(links));
-    double const kept = std::max(spacing_cells, 1.0);
-    if (links > 1 && apart < 0.5 * kept) {
-        throw BadInput(fmt::format("[network.tokunaga]: {} links on {} x {} cells lie {:.2g} cells apart, and keep {} "
-                                   "cells from one another: {}",
-                                   links, grid.width, grid.height, apart, kept, more_room));
-    }
-}
-
 /// Throws where less than half of a network found room; warns where much of it did not.
 void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Run const& run) {
     std::int64_t const all = placed + dropped;
@@ -109,25 +91,15 @@ void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Run
     }
 }
 
-Planned fill_region(Recipe recipe, Diary& diary, Run const& run) {
-    TokunagaRecipe const& wanted = recipe.network->tokunaga;
-    recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
-    network::TokunagaTree const tree =
-        diary.stage("grow", [&] { return network::grow_tokunaga(tree_of(recipe), run); });
+RiversInPlan fill_region(Plan const& plan, Diary& diary, Run const& run) {
+    TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
+    network::TokunagaTree const& tree = *plan.tree;
+    Grid const& grid = *plan.grid;
     TokunagaStory story;
     story.tree = network::count_streams(downstream(tree));
-    diary.say(fmt::format("lambda {}  order {}  {} links", wanted.generator, wanted.order, tree.links.size()));
-
-    std::optional<Polygons> polygons;
-    if (!wanted.region.empty()) {
-        polygons = io::read_polygons(file_in(recipe, wanted.region), recipe.grid.crs, run);
-    }
-    Grid const grid = polygons ? frame_polygons(*polygons, recipe.grid)
-                               : frame_tree(static_cast<std::int64_t>(tree.links.size()), recipe.grid);
-    require_room(static_cast<std::int64_t>(tree.links.size()), grid, wanted.spacing_cells);
-    Region const region = polygons ? inside(*polygons, wanted.mouth) : within(grid, wanted.mouth);
+    Region const region = plan.region ? inside(*plan.region, wanted.mouth) : within(grid, wanted.mouth);
     network::EmbedParams params;
-    params.seed = recipe.seed;
+    params.seed = plan.recipe.seed;
     params.region = region.ring;
     params.mouth = region.mouth;
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
@@ -137,60 +109,30 @@ Planned fill_region(Recipe recipe, Diary& diary, Run const& run) {
     diary.say(
         fmt::format("{} of {} links placed, {:.0f} m apart", embedded.placed, tree.links.size(), embedded.spacing_m));
     judge_room(embedded.placed, embedded.dropped, grid, run);
-    return {.recipe = std::move(recipe),
-            .plan = std::move(embedded.network),
-            .grid = grid,
-            .story = {.tokunaga = std::move(story)}};
+    return {.network = std::move(embedded.network), .grid = grid, .story = {.tokunaga = std::move(story)}};
 }
 
-Planned follow_strokes(Recipe recipe, Diary& diary, Run const& run) {
-    TokunagaRecipe const& wanted = recipe.network->tokunaga;
-    std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
-    RiverLines const strokes = diary.stage("read", [&] {
-        return io::read_rivers({.path = file_in(recipe, wanted.strokes), .layer = wanted.layer, .crs = crs}, run);
-    });
-    if (!strokes.findings.empty()) { // who draws strokes means each of them
-        Finding const& none = strokes.findings.front();
-        throw BadInput(
-            fmt::format("pipeline.plan_tokunaga: stroke {} of {} at ({:.3f}, {:.3f}) is a single point or has no "
-                        "geometry; remove it",
-                        none.feature, strokes.name, none.where.x, none.where.y));
-    }
-    recipe.grid.crs = strokes.crs;
-    diary.say(fmt::format("{} strokes from {}", strokes.lines.size(), strokes.name));
-    Grid const grid = frame_lines(strokes, recipe.grid);
+RiversInPlan follow_strokes(Plan const& plan, Diary& diary, Run const& run) {
+    TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
+    Grid const& grid = *plan.grid;
     network::StrokesParams params;
-    params.tree = tree_of(recipe);
+    params.tree = tree_of(plan.recipe);
     params.max_depth = std::max(wanted.order - 1, 1); // each refinement raises the order by one
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
     network::GrownStrokes grown =
-        diary.stage("grow", [&] { return network::grow_strokes(strokes, grid, params, run); });
+        diary.stage("grow", [&] { return network::grow_strokes(plan.lines, grid, params, run); });
     TokunagaStory story;
     story.placed = grown.placed;
     story.dropped = grown.dropped;
     diary.say(fmt::format("{} of {} links placed", grown.placed, grown.placed + grown.dropped));
     judge_room(grown.placed, grown.dropped, grid, run);
-    return {.recipe = std::move(recipe),
-            .plan = std::move(grown.network),
-            .grid = grid,
-            .story = {.tokunaga = std::move(story)}};
+    return {.network = std::move(grown.network), .grid = grid, .story = {.tokunaga = std::move(story)}};
 }
 
 } // namespace
 
-network::TokunagaParams tree_of(Recipe const& recipe) {
-    TokunagaRecipe const& wanted = recipe.network->tokunaga;
-    network::TokunagaParams params;
-    params.seed = recipe.seed;
-    params.generator = wanted.generator;
-    params.order = wanted.order;
-    params.rule = wanted.rule;
-    return params;
-}
-
-Planned plan_tokunaga(Recipe recipe, Diary& diary, Run const& run) {
-    bool const fills = recipe.network->tokunaga.strokes.empty();
-    return fills ? fill_region(std::move(recipe), diary, run) : follow_strokes(std::move(recipe), diary, run);
+RiversInPlan rivers_of_tree(Plan const& plan, Diary& diary, Run const& run) {
+    return plan.tree ? fill_region(plan, diary, run) : follow_strokes(plan, diary, run);
 }
 
 } // namespace thalweg::pipeline

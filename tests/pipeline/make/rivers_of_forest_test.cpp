@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
@@ -61,10 +61,10 @@ private:
     ScratchFolder folder_;
 };
 
-Terrain made(std::string const& toml, std::string const& folder = "") {
+Made made(std::string const& toml, std::string const& folder = "") {
     Recipe recipe = read_recipe(toml, "test");
     recipe.folder = folder;
-    return make_terrain(recipe);
+    return make(recipe);
 }
 
 std::string fault_of(std::string const& toml, std::string const& folder = "") {
@@ -85,15 +85,17 @@ std::int64_t count(std::vector<Finding> const& notes, std::string const& kind) {
 }
 
 /// Law: land has heights and the sea has none; every outlet lies on the coast or the grid's border; every check holds.
-void expect_lawful(Terrain const& t) {
-    EXPECT_TRUE(t.passed());
-    auto const is_land = [&](Cell c) { return t.grid.contains(c) && (t.land.values().empty() || t.land[c] != 0); };
-    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
-        ASSERT_EQ(std::isfinite(t.surface->dem[i]), is_land(t.grid.at(i))) << i;
+void expect_lawful(Made const& t) {
+    EXPECT_TRUE(t.assessment.passed());
+    auto const is_land = [&](Cell c) {
+        return t.terrain.grid.contains(c) && (t.terrain.land.values().empty() || t.terrain.land[c] != 0);
+    };
+    for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
+        ASSERT_EQ(std::isfinite(t.terrain.surface->dem[i]), is_land(t.terrain.grid.at(i))) << i;
     }
-    EXPECT_FALSE(t.network.plan.outlets().empty());
-    for (NodeId const n : t.network.plan.outlets()) {
-        Cell const c = t.grid.cell_of(t.network.plan.node(n).at);
+    EXPECT_FALSE(t.terrain.network.plan.outlets().empty());
+    for (NodeId const n : t.terrain.network.plan.outlets()) {
+        Cell const c = t.terrain.grid.cell_of(t.terrain.network.plan.node(n).at);
         EXPECT_TRUE(is_land(c));
         EXPECT_FALSE(is_land({c.col - 1, c.row}) && is_land({c.col + 1, c.row}) && is_land({c.col, c.row - 1}) &&
                      is_land({c.col, c.row + 1}));
@@ -123,43 +125,43 @@ TEST(PlanForest, WrittenRecipeReadsBack) {
 }
 
 TEST(PlanForest, TheWholeGridDrainsOverItsBorder) {
-    Terrain const t = made(small_grid + forest + dilated);
+    Made const t = made(small_grid + forest + dilated);
     expect_lawful(t);
-    EXPECT_TRUE(t.land.values().empty());
-    EXPECT_TRUE(t.story.full);
-    EXPECT_GT(t.network.plan.outlets().size(), 5U);
+    EXPECT_TRUE(t.terrain.land.values().empty());
+    EXPECT_TRUE(t.rivers.story.full);
+    EXPECT_GT(t.terrain.network.plan.outlets().size(), 5U);
 }
 
 TEST(PlanForest, AnIslandIsDiffusedAndTriangulatedToo) {
     for (char const* method : {"dilate", "diffuse", "tin"}) {
-        Terrain const t = made(small_grid + forest + "[network.forest]\nshape = \"island\"\n[surface]\nmethod = \"" +
-                               std::string(method) + "\"\n");
+        Made const t = made(small_grid + forest + "[network.forest]\nshape = \"island\"\n[surface]\nmethod = \"" +
+                            std::string(method) + "\"\n");
         expect_lawful(t);
-        EXPECT_EQ(t.land[0], 0) << method;
+        EXPECT_EQ(t.terrain.land[0], 0) << method;
     }
 }
 
 // A land in equilibrium: no river moves, every cell of the land drains.
 TEST(PlanForest, AnIslandComesIntoEquilibrium) {
-    Terrain const t = made(small_grid + forest + "[network.forest]\nshape = \"island\"\n[surface]\nedge = \"coast\"\n");
+    Made const t = made(small_grid + forest + "[network.forest]\nshape = \"island\"\n[surface]\nedge = \"coast\"\n");
     expect_lawful(t);
-    EXPECT_EQ(t.pits, 0);
+    EXPECT_EQ(t.assessment.pits, 0);
     EXPECT_TRUE(has(fault_of(small_grid + forest + "meander = 1\n[network.forest]\nshape = \"island\"\n[surface]\n"),
                     "network.meander cannot bend rivers that end on a coast"));
 }
 
 TEST(PlanForest, ARegionsPolygonsAreTheLandAndFrameTheGrid) {
     Files const files;
-    Terrain const t =
+    Made const t =
         made(forest + "prune = 0\n[network.forest]\nregion = \"region.geojson\"\n" + dilated, files.folder());
     expect_lawful(t);
-    EXPECT_EQ(t.grid.crs, "EPSG:32631");
+    EXPECT_EQ(t.terrain.grid.crs, "EPSG:32631");
     // The lagoon is sea, the islet is land.
-    EXPECT_EQ(t.land[t.grid.cell_of({502500, 5002000})], 0);
-    EXPECT_EQ(t.land[t.grid.cell_of({505300, 5000300})], 1);
-    auto const land = static_cast<double>(std::ranges::count(t.land.values(), std::uint8_t{1}));
+    EXPECT_EQ(t.terrain.land[t.terrain.grid.cell_of({502500, 5002000})], 0);
+    EXPECT_EQ(t.terrain.land[t.terrain.grid.cell_of({505300, 5000300})], 1);
+    auto const land = static_cast<double>(std::ranges::count(t.terrain.land.values(), std::uint8_t{1}));
     EXPECT_NEAR(land * 900.0, 4500.0 * 3600.0 - 1000.0 * 1000.0 + 600.0 * 600.0, 40.0 * 900.0);
-    EXPECT_EQ(t.grid.width, 206); // 5600 m and 5 % on both sides
+    EXPECT_EQ(t.terrain.grid.width, 206); // 5600 m and 5 % on both sides
 }
 
 TEST(PlanForest, ARegionThatLeavesTheGridIsRefusedOrCut) {
@@ -182,36 +184,36 @@ TEST(PlanForest, PointsMoveToTheCoast) {
     Files const files;
     std::string const recipe =
         forest + "prune = 0\n[network.forest]\nregion = \"region.geojson\"\noutlets = \"points.csv\"\n";
-    Terrain const t = made(recipe + dilated, files.folder());
+    Made const t = made(recipe + dilated, files.folder());
     expect_lawful(t);
-    EXPECT_EQ(count(t.story.repairs, "moved_outlet"), 1);
-    EXPECT_EQ(count(t.story.repairs, "added_outlet"), 1); // the islet's
-    EXPECT_EQ(t.network.plan.outlets().size(), 3U);
+    EXPECT_EQ(count(repairs_of(t), "moved_outlet"), 1);
+    EXPECT_EQ(count(repairs_of(t), "added_outlet"), 1); // the islet's
+    EXPECT_EQ(t.terrain.network.plan.outlets().size(), 3U);
     EXPECT_TRUE(has(fault_of(recipe + "seeds = 4\n" + dilated, files.folder()), "leave network.forest.seeds out"));
 }
 
 TEST(PlanForest, LinesAndPolygonsTellWhereTheCoastHasOutlets) {
     Files const files;
     std::string const region = forest + "prune = 0\n[network.forest]\nregion = \"region.geojson\"\nseeds = 4\n";
-    Terrain const west = made(region + "outlets = \"west.geojson\"\n" + dilated, files.folder());
+    Made const west = made(region + "outlets = \"west.geojson\"\n" + dilated, files.folder());
     expect_lawful(west);
     std::int64_t on_line = 0;
-    for (NodeId const n : west.network.plan.outlets()) {
-        on_line += west.network.plan.node(n).at.x < 500400 ? 1 : 0;
+    for (NodeId const n : west.terrain.network.plan.outlets()) {
+        on_line += west.terrain.network.plan.node(n).at.x < 500400 ? 1 : 0;
     }
     EXPECT_EQ(on_line, 4);
-    Terrain const lake = made(region + "outlets = \"lake.geojson\"\n" + dilated, files.folder());
+    Made const lake = made(region + "outlets = \"lake.geojson\"\n" + dilated, files.folder());
     expect_lawful(lake);
-    EXPECT_EQ(lake.land[lake.grid.cell_of({501200, 5001200})], 0);
+    EXPECT_EQ(lake.terrain.land[lake.terrain.grid.cell_of({501200, 5001200})], 0);
     EXPECT_TRUE(has(fault_of(region + "outlets = \"inland.geojson\"\n" + dilated, files.folder()),
                     "no coast of the land lies within"));
 }
 
 TEST(PlanForest, OutletsThatArePrunedAwayAreTold) {
-    Terrain const all = made(small_grid + forest + "prune = 0\n" + dilated);
-    Terrain const some = made(small_grid + forest + "prune = 40\n" + dilated);
-    std::size_t const before = all.network.plan.outlets().size();
-    std::size_t const after = some.network.plan.outlets().size();
+    Made const all = made(small_grid + forest + "prune = 0\n" + dilated);
+    Made const some = made(small_grid + forest + "prune = 40\n" + dilated);
+    std::size_t const before = all.terrain.network.plan.outlets().size();
+    std::size_t const after = some.terrain.network.plan.outlets().size();
     EXPECT_LT(after, before);
-    EXPECT_EQ(count(some.story.repairs, "pruned_outlet"), static_cast<std::int64_t>(before - after));
+    EXPECT_EQ(count(repairs_of(some), "pruned_outlet"), static_cast<std::int64_t>(before - after));
 }

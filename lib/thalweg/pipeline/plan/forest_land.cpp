@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/plan/internal/forest_land.hpp>
+
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/cells/cells_around.hpp>
 #include <thalweg/core/run/error.hpp>
@@ -12,7 +14,6 @@
 #include <thalweg/network/growth/forest/shape_island.hpp>
 #include <thalweg/network/growth/forest/spread_outlets.hpp>
 #include <thalweg/network/import/clip_lines.hpp>
-#include <thalweg/pipeline/make/internal/plan_rivers.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/plan/internal/read_cells.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
@@ -26,16 +27,6 @@
 namespace thalweg::pipeline {
 
 namespace {
-
-/// The recipe with the CRS of its grid.
-Recipe with_crs(Recipe recipe) {
-    std::string const& region = recipe.network->forest.region;
-    std::string& crs = recipe.grid.crs;
-    crs = !crs.empty()     ? io::projected_crs(crs)
-          : region.empty() ? io::projected_crs("EPSG:32631")
-                           : io::crs_for_polygons(file_in(recipe, region));
-    return recipe;
-}
 
 /// The land on its grid: the region's polygons, an island, or all of it.
 Mask land_of(Recipe const& recipe, Run const& run) {
@@ -147,55 +138,21 @@ std::vector<Cell> outlets_of(Recipe const& recipe, Mask& land, std::vector<Findi
 
 } // namespace
 
-Planned plan_forest(Recipe given, Diary& diary, Run const& run) {
-    NetworkStory story;
-    std::vector<Finding>& notes = story.repairs;
-    Recipe recipe;
-    Mask land = diary.stage("shape", [&] {
-        recipe = with_crs(std::move(given));
-        return land_of(recipe, run);
-    });
-    ForestRecipe const& wanted = recipe.network->forest;
-    std::vector<Cell> const outlets = outlets_of(recipe, land, notes, run);
-    network::ForestParams params = wanted.growth;
-    params.step_cells = wanted.spacing_cells / 2;
-    params.seed = recipe.seed;
-    network::PlantedForest planted =
-        diary.stage("grow", [&] { return network::plant_forest(land, outlets, params, run); });
-    notes.insert(notes.end(), planted.notes.begin(), planted.notes.end());
-    diary.say(fmt::format("{} trees of {} particles  seed {}", planted.outlets, planted.particles, recipe.seed));
-    story.particles = planted.particles;
-    story.walkers = planted.walkers;
-    story.full = planted.stop == network::ForestStop::full;
-    Grid const grid = land.grid();
-    bool const all_land = std::ranges::all_of(land.values(), [](std::uint8_t v) { return v != 0; });
-    return {.recipe = std::move(recipe),
-            .plan = std::move(planted.network),
-            .grid = grid,
-            .land = all_land ? Mask{} : std::move(land),
-            .story = std::move(story)};
+Recipe on_crs_of_region(Recipe recipe) {
+    std::string const& region = recipe.network->forest.region;
+    std::string& crs = recipe.grid.crs;
+    crs = !crs.empty()     ? io::projected_crs(crs)
+          : region.empty() ? io::projected_crs("EPSG:32631")
+                           : io::crs_for_polygons(file_in(recipe, region));
+    return recipe;
 }
 
-std::vector<Finding> pruned_outlets(StreamNetwork const& before, StreamNetwork const& after) {
-    auto const places = [](StreamNetwork const& network) {
-        std::vector<Vec2> at;
-        for (NodeId const n : network.outlets()) {
-            at.push_back(network.node(n).at);
-        }
-        std::ranges::sort(at, [](Vec2 a, Vec2 b) { return a.y != b.y ? a.y > b.y : a.x < b.x; });
-        return at;
-    };
-    std::vector<Vec2> const left = places(after);
-    std::vector<Finding> notes;
-    for (Vec2 const p : places(before)) {
-        if (std::ranges::find(left, p) == left.end()) {
-            notes.push_back({"pruned_outlet", 0, p, 0.0,
-                             fmt::format("the river that ended at ({:.1f}, {:.1f}) was pruned away, its branches are "
-                                         "all too short",
-                                         p.x, p.y)});
-        }
-    }
-    return notes;
+ForestLand forest_land(Recipe const& recipe, Diary& diary, Run const& run) {
+    ForestLand found;
+    found.land = diary.stage("shape", [&] { return land_of(recipe, run); });
+    found.outlets = outlets_of(recipe, found.land, found.notes, run);
+    found.has_sea = std::ranges::any_of(found.land.values(), [](std::uint8_t v) { return v == 0; });
+    return found;
 }
 
 } // namespace thalweg::pipeline
