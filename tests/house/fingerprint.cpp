@@ -60,8 +60,8 @@
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/network/vectorise/thin.hpp>
 #include <thalweg/network/vectorise/trace.hpp>
-#include <thalweg/pipeline/make/frame.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/report/law_rows.hpp>
 #include <thalweg/skeleton/attract.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>

@@ -24,7 +24,7 @@
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/thin.hpp>
 #include <thalweg/network/vectorise/trace.hpp>
-#include <thalweg/pipeline/make/frame.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
 
 using namespace thalweg;
 using skeleton::ridges;

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <thalweg/pipeline/recipe/forecast.hpp>
+#include <thalweg/pipeline/plan/forecast.hpp>
 
 namespace thalweg::tools {
 

@@ -8,13 +8,13 @@
 #include "terminal/terminal.hpp"
 
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/make/write_terrain.hpp>
-#include <thalweg/pipeline/recipe/forecast.hpp>
-#include <thalweg/pipeline/recipe/make_input.hpp>
+#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/pipeline/plan/forecast.hpp>
+#include <thalweg/pipeline/plan/make_input.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/recipe/user_files.hpp>
 #include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/pipeline/report/write_terrain.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -77,32 +77,32 @@ int make(MakeOptions const& options, Session const& session) {
         return Exit::done;
     }
     pipeline::check_folder(options.folder, existing);
-    pipeline::Terrain const terrain = pipeline::make_terrain(recipe, session.run);
-    pipeline::write_terrain(terrain, options.folder, existing, session.run);
+    pipeline::Made const made = pipeline::make(recipe, session.run);
+    pipeline::write_terrain(made, options.folder, existing, session.run);
     if (session.verbose) {
-        tell_all("repair", terrain.story.repairs, session.run);
-        tell_all("finding", terrain.findings, session.run);
+        tell_all("repair", pipeline::repairs_of(made), session.run);
+        tell_all("finding", made.assessment.findings, session.run);
     }
-    for (Check const& check : terrain.checks) {
+    for (Check const& check : made.assessment.checks) {
         if (!check.ok) {
             session.run.tell("check", fmt::format("{}  {}", in_words(check), toned(Tone::bad, "FAILED", stderr)));
         }
     }
-    if (terrain.passed()) {
-        std::string words = fmt::format("{} checks", terrain.checks.size());
-        if (terrain.recipe.network) {
-            std::size_t const outlets = terrain.network.plan.outlets().size();
+    if (made.assessment.passed()) {
+        std::string words = fmt::format("{} checks", made.assessment.checks.size());
+        if (made.recipe.network) {
+            std::size_t const outlets = made.terrain.network.plan.outlets().size();
             words += fmt::format(", {} outlet{}", outlets, outlets == 1 ? "" : "s");
         }
-        if (terrain.surface) {
-            words += fmt::format(", {} cells in pits", terrain.pits);
+        if (made.terrain.surface) {
+            words += fmt::format(", {} cells in pits", made.assessment.pits);
         }
         session.run.tell("check", fmt::format("{:<56}      {}", words, toned(Tone::good, "ok", stderr)));
     }
     session.run.tell(
         "open", fmt::format("{}   (no internet needed)", toned(Tone::name, options.folder + "/report.html", stderr)));
     fmt::print("{}", session.json ? io::read_text(options.folder + "/report.json", 1 << 30) : options.folder + "\n");
-    return terrain.passed() ? Exit::done : Exit::check_failed;
+    return made.assessment.passed() ? Exit::done : Exit::check_failed;
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/printable.hpp>
-#include <thalweg/pipeline/recipe/make_input.hpp>
+#include <thalweg/pipeline/plan/make_input.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 #include <CLI/CLI.hpp>

@@ -4,7 +4,7 @@
 #include "terminal/terminal.hpp"
 
 #include <thalweg/core/run/printable.hpp>
-#include <thalweg/pipeline/recipe/replay.hpp>
+#include <thalweg/pipeline/commands/replay.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

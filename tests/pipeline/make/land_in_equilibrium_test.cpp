@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recipes of land in equilibrium, from keys to checks.
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/routing/route.hpp>
@@ -88,10 +88,10 @@ private:
     ScratchFolder folder_;
 };
 
-Terrain made(std::string const& toml, Files const& files) {
+Made made(std::string const& toml, Files const& files) {
     Recipe recipe = read_recipe(toml, "test");
     recipe.folder = files.folder();
-    return make_terrain(recipe);
+    return make(recipe);
 }
 
 std::string fault_of(std::string const& toml, Files const& files) {
@@ -107,39 +107,39 @@ bool has(std::string const& text, std::string const& part) {
     return text.find(part) != std::string::npos;
 }
 
-std::int64_t count(Terrain const& t, std::string const& kind) {
-    return std::ranges::count(t.story.repairs, kind, &Finding::kind);
+std::int64_t count(Made const& t, std::string const& kind) {
+    return std::ranges::count(repairs_of(t), kind, &Finding::kind);
 }
 
 /// Law: every check holds, the land has no depression and needed no carving, and rivers have its heights.
-void expect_lawful(Terrain const& t) {
-    for (Check const& c : t.checks) {
+void expect_lawful(Made const& t) {
+    for (Check const& c : t.assessment.checks) {
         EXPECT_TRUE(c.ok) << c.name << " " << c.value;
     }
-    EXPECT_EQ(t.pits, 0);
-    ASSERT_TRUE(t.drained);
-    EXPECT_EQ(t.drained->banks.raised_cells, 0);
-    EXPECT_EQ(t.drained->depressions.raised_cells + t.drained->depressions.cut_cells, 0);
-    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
-        EXPECT_TRUE(std::isnan(t.valley.z[i]) || t.valley.z[i] == t.surface->dem[i]);
+    EXPECT_EQ(t.assessment.pits, 0);
+    ASSERT_TRUE(t.terrain.drained);
+    EXPECT_EQ(t.terrain.drained->banks.raised_cells, 0);
+    EXPECT_EQ(t.terrain.drained->depressions.raised_cells + t.terrain.drained->depressions.cut_cells, 0);
+    for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
+        EXPECT_TRUE(std::isnan(t.terrain.valley.z[i]) || t.terrain.valley.z[i] == t.terrain.surface->dem[i]);
     }
 }
 
-Check const& check_of(Terrain const& t, std::string const& name) {
-    auto const found = std::ranges::find(t.checks, name, &Check::name);
-    if (found == t.checks.end()) {
+Check const& check_of(Made const& t, std::string const& name) {
+    auto const found = std::ranges::find(t.assessment.checks, name, &Check::name);
+    if (found == t.assessment.checks.end()) {
         throw BadInput("no check " + name);
     }
     return *found;
 }
 
-double mean_of(Terrain const& t, std::int64_t from_column, std::int64_t to_column) {
+double mean_of(Made const& t, std::int64_t from_column, std::int64_t to_column) {
     double sum = 0.0;
     std::int64_t cells = 0;
-    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
-        std::int64_t const column = t.grid.at(i).col;
+    for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
+        std::int64_t const column = t.terrain.grid.at(i).col;
         if (column >= from_column && column < to_column) {
-            sum += static_cast<double>(t.surface->dem[i]);
+            sum += static_cast<double>(t.terrain.surface->dem[i]);
             ++cells;
         }
     }
@@ -167,62 +167,62 @@ TEST(LandInEquilibrium, KeysThatDoNotGoTogetherAreNamed) {
 
 TEST(LandInEquilibrium, ReliefOrMeanSlopeIsWhatWasAsked) {
     Files const files;
-    Terrain const sloped = made(lines + path + "[surface]\nmean_slope = 15\n", files);
+    Made const sloped = made(lines + path + "[surface]\nmean_slope = 15\n", files);
     expect_lawful(sloped);
-    EXPECT_NEAR(sloped.relief->land.slopes.mean_deg, 15.0, 0.2);
-    Terrain const high = made(lines + path + "[surface]\nrelief = 400\n", files);
+    EXPECT_NEAR(sloped.assessment.relief->land.slopes.mean_deg, 15.0, 0.2);
+    Made const high = made(lines + path + "[surface]\nrelief = 400\n", files);
     expect_lawful(high);
-    EXPECT_NEAR(high.statistics->max.z - high.statistics->min.z, 400.0, 0.1);
+    EXPECT_NEAR(high.assessment.statistics->max.z - high.assessment.statistics->min.z, 400.0, 0.1);
 }
 
 TEST(LandInEquilibrium, HeightsOfRiversAreKeptOrUpperBounds) {
     Files const files;
-    Terrain const fixed = made(lines + "heights = \"fixed\"\nslope = 0.08\n" + path + equilibrium, files);
-    Terrain const soft = made(lines + "heights = \"soft\"\nslope = 0.08\n" + path + equilibrium, files);
-    Terrain const ends = made(lines + "heights = \"ends\"\nslope = 0.08\n" + path + equilibrium, files);
+    Made const fixed = made(lines + "heights = \"fixed\"\nslope = 0.08\n" + path + equilibrium, files);
+    Made const soft = made(lines + "heights = \"soft\"\nslope = 0.08\n" + path + equilibrium, files);
+    Made const ends = made(lines + "heights = \"ends\"\nslope = 0.08\n" + path + equilibrium, files);
     expect_lawful(soft);
-    for (Terrain const* t : {&fixed, &ends}) {
+    for (Made const* t : {&fixed, &ends}) {
         EXPECT_LE(check_of(*t, "walled_cells").value, 4.0); // heads: even slopes are none of nature's
         EXPECT_EQ(check_of(*t, "sources_astray").value, 0.0);
     }
     // The sources lie some 2000 m from the outlet.
-    double const source = fixed.network.node_z[0];
+    double const source = fixed.terrain.network.node_z[0];
     EXPECT_GT(source, 100.0);
-    EXPECT_NEAR(ends.network.node_z[0], source, 0.1);
-    EXPECT_LE(soft.network.node_z[0], source + 0.1);
-    EXPECT_EQ(fixed.equilibrium->max_lowered_m, 0.0);
+    EXPECT_NEAR(ends.terrain.network.node_z[0], source, 0.1);
+    EXPECT_LE(soft.terrain.network.node_z[0], source + 0.1);
+    EXPECT_EQ(fixed.terrain.equilibrium->max_lowered_m, 0.0);
 }
 
 TEST(LandInEquilibrium, LakesAreLevelAndTold) {
     Files const files;
-    Terrain const t = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files);
+    Made const t = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files);
     expect_lawful(t);
-    EXPECT_EQ(t.lakes, 1);
-    EXPECT_GT(t.certificate->lake_cells, 5);
-    Cell const middle = t.grid.cell_of({502050, 5001400});
+    EXPECT_EQ(t.terrain.lakes, 1);
+    EXPECT_GT(t.assessment.certificate->lake_cells, 5);
+    Cell const middle = t.terrain.grid.cell_of({502050, 5001400});
     std::int64_t level = 0;
-    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
-        level += t.surface->dem[i] == t.surface->dem[middle] ? 1 : 0;
+    for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
+        level += t.terrain.surface->dem[i] == t.terrain.surface->dem[middle] ? 1 : 0;
     }
     EXPECT_GT(level, 100); // of 13 x 16 cells
-    Terrain const dry = made(lines + path + "[surface]\nlakes = \"dry.geojson\"\n", files);
+    Made const dry = made(lines + path + "[surface]\nlakes = \"dry.geojson\"\n", files);
     expect_lawful(dry);
-    EXPECT_EQ(dry.lakes, 0);
+    EXPECT_EQ(dry.terrain.lakes, 0);
     EXPECT_EQ(count(dry, "lake_left_out"), 1);
-    Terrain const ponds = made(lines + path + "[surface]\nlakes = \"ponds.geojson\"\n", files);
-    EXPECT_EQ(ponds.lakes, 1);
+    Made const ponds = made(lines + path + "[surface]\nlakes = \"ponds.geojson\"\n", files);
+    EXPECT_EQ(ponds.terrain.lakes, 1);
     EXPECT_EQ(count(ponds, "lake_left_out"), 1); // a pond between cells' centres and one off the grid
-    EXPECT_TRUE(std::ranges::equal(ponds.surface->dem.values(), t.surface->dem.values()));
+    EXPECT_TRUE(std::ranges::equal(ponds.terrain.surface->dem.values(), t.terrain.surface->dem.values()));
 }
 
 TEST(LandInEquilibrium, HardRockAndUpliftMakeHighLand) {
     Files const files;
-    Terrain const even = made(lines + path + equilibrium, files);
-    Terrain const rock = made(lines + path + "[surface]\nerodibility = \"rock.geojson\"\n", files);
+    Made const even = made(lines + path + equilibrium, files);
+    Made const rock = made(lines + path + "[surface]\nerodibility = \"rock.geojson\"\n", files);
     files.raster("uplift.asc", [](int c, int) { return c < 84 ? 1 : 4; });
-    Terrain const lifted = made(lines + path + "[surface]\nuplift = \"uplift.asc\"\n", files);
-    auto const contrast = [](Terrain const& t) { return mean_of(t, 95, 140) / mean_of(t, 0, 75); };
-    for (Terrain const* t : {&even, &rock, &lifted}) {
+    Made const lifted = made(lines + path + "[surface]\nuplift = \"uplift.asc\"\n", files);
+    auto const contrast = [](Made const& t) { return mean_of(t, 95, 140) / mean_of(t, 0, 75); };
+    for (Made const* t : {&even, &rock, &lifted}) {
         expect_lawful(*t);
     }
     EXPECT_GT(contrast(rock), 1.3 * contrast(even));
@@ -244,57 +244,58 @@ TEST(LandInEquilibrium, FieldsThatMakeNoSenseAreRefusedByPlace) {
 TEST(LandInEquilibrium, RiversThatEndInsideAreCarriedOrSinks) {
     Files const files;
     std::string const inland = "[network.lines]\npath = \"inland.geojson\"\n";
-    Terrain const carried = made(lines + inland + equilibrium, files);
+    Made const carried = made(lines + inland + equilibrium, files);
     expect_lawful(carried);
     EXPECT_EQ(count(carried, "carried_outlet"), 1);
-    Terrain const sink = made(lines + "inland = \"sink\"\n" + inland + "[surface]\ndrain = \"none\"\n", files);
+    Made const sink = made(lines + "inland = \"sink\"\n" + inland + "[surface]\ndrain = \"none\"\n", files);
     EXPECT_EQ(count(sink, "carried_outlet"), 0);
-    flow::FlowField const drainage = flow::route(sink.surface->dem);
+    flow::FlowField const drainage = flow::route(sink.terrain.surface->dem);
     EXPECT_EQ(drainage.depressions.size(), 1U);
-    Terrain const drained = made(lines + "inland = \"sink\"\n" + inland + "[surface]\n", files);
-    for (Check const& c : drained.checks) {
+    Made const drained = made(lines + "inland = \"sink\"\n" + inland + "[surface]\n", files);
+    for (Check const& c : drained.assessment.checks) {
         EXPECT_TRUE(c.ok) << c.name << " " << c.value;
     }
-    ASSERT_EQ(drained.sinks.size(), 1U);
-    EXPECT_EQ(drained.network.plan.node(drained.sinks.front()).at, (Vec2{502000.0, 5001500.0}));
+    ASSERT_EQ(drained.assessment.sinks.size(), 1U);
+    EXPECT_EQ(drained.terrain.network.plan.node(drained.assessment.sinks.front()).at, (Vec2{502000.0, 5001500.0}));
 }
 
 TEST(LandInEquilibrium, GivenHeightsGetTheSlopeThatIsAsked) {
     Files const files;
     for (std::string const heights : {"fixed", "soft"}) {
         for (double const slope : {8.0, 15.0, 30.0}) {
-            Terrain const t = made(lines + "heights = \"" + heights + "\"\nslope = 0.03\n" + path + "[surface]\n" +
-                                       "mean_slope = " + std::to_string(slope) + "\n",
-                                   files);
+            Made const t = made(lines + "heights = \"" + heights + "\"\nslope = 0.03\n" + path + "[surface]\n" +
+                                    "mean_slope = " + std::to_string(slope) + "\n",
+                                files);
             Check const& error = check_of(t, "mean_slope_error");
             EXPECT_TRUE(error.ok) << heights << " " << slope << ": " << error.value;
-            EXPECT_NEAR(t.statistics->slope_true_deg, slope, 0.06 * slope) << heights;
+            EXPECT_NEAR(t.assessment.statistics->slope_true_deg, slope, 0.06 * slope) << heights;
         }
     }
 }
 
 TEST(LandInEquilibrium, ATargetThatRiversRuleOutFailsItsCheck) {
     Files const files;
-    Terrain const t = made(lines + "heights = \"fixed\"\nslope = 0.2\n" + path + "[surface]\nrelief = 100\n", files);
+    Made const t = made(lines + "heights = \"fixed\"\nslope = 0.2\n" + path + "[surface]\nrelief = 100\n", files);
     Check const& error = check_of(t, "relief_error");
     EXPECT_FALSE(error.ok);
     EXPECT_GT(error.value, 3.0); // rivers alone span more than 600 m
-    EXPECT_TRUE(std::ranges::any_of(t.findings, [](Finding const& f) { return f.kind == "target_missed"; }));
-    Terrain const met = made(lines + path + "[surface]\nrelief = 700\n", files);
+    EXPECT_TRUE(std::ranges::any_of(t.assessment.findings, [](Finding const& f) { return f.kind == "target_missed"; }));
+    Made const met = made(lines + path + "[surface]\nrelief = 700\n", files);
     EXPECT_TRUE(check_of(met, "relief_error").ok);
 }
 
 TEST(LandInEquilibrium, HeightsOfAFileThatNeedWallsBecomeSoftUnlessTheyAreAskedFor) {
     Files const files;
     std::string const high = "[network.lines]\npath = \"high.geojson\"\n";
-    Terrain const kept = made(lines + "heights = \"file\"\n" + high + "[surface]\nmean_slope = 8\n", files);
+    Made const kept = made(lines + "heights = \"file\"\n" + high + "[surface]\nmean_slope = 8\n", files);
     EXPECT_FALSE(check_of(kept, "walled_cells").ok);
-    EXPECT_TRUE(std::ranges::any_of(kept.findings, [](Finding const& f) { return f.kind == "walled_cell"; }));
-    Terrain const free = made(lines + high + "[surface]\nmean_slope = 8\n", files);
+    EXPECT_TRUE(
+        std::ranges::any_of(kept.assessment.findings, [](Finding const& f) { return f.kind == "walled_cell"; }));
+    Made const free = made(lines + high + "[surface]\nmean_slope = 8\n", files);
     EXPECT_EQ(free.recipe.network->heights, Heights::soft);
     EXPECT_TRUE(check_of(free, "walled_cells").ok) << check_of(free, "walled_cells").value;
-    EXPECT_GT(free.equilibrium->max_lowered_m, 100.0);
-    Terrain const gentle = made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\n", files);
+    EXPECT_GT(free.terrain.equilibrium->max_lowered_m, 100.0);
+    Made const gentle = made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\n", files);
     EXPECT_EQ(gentle.recipe.network->heights, Heights::file);
     EXPECT_TRUE(check_of(gentle, "walled_cells").ok) << check_of(gentle, "walled_cells").value;
     EXPECT_FALSE(gentle.recipe.surface->equilibrium.mean_slope_deg) << "nobody asked for one";
@@ -302,26 +303,26 @@ TEST(LandInEquilibrium, HeightsOfAFileThatNeedWallsBecomeSoftUnlessTheyAreAskedF
 
 TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {
     Files const files;
-    Terrain const t = made(lines + "fill_space = true\nsupport = 60\n" + path + equilibrium, files);
+    Made const t = made(lines + "fill_space = true\nsupport = 60\n" + path + equilibrium, files);
     expect_lawful(t);
-    EXPECT_GT(t.equilibrium->side_valleys, 30);
+    EXPECT_GT(t.terrain.equilibrium->side_valleys, 30);
     std::int64_t grown = 0;
-    for (ArcId arc = 0; arc < t.network.plan.arc_count(); ++arc) {
-        grown += t.network.plan.arc(arc).is_input ? 0 : 1;
+    for (ArcId arc = 0; arc < t.terrain.network.plan.arc_count(); ++arc) {
+        grown += t.terrain.network.plan.arc(arc).is_input ? 0 : 1;
     }
-    EXPECT_EQ(grown, t.equilibrium->side_valleys);
-    EXPECT_EQ(t.relief->perched, 0);
+    EXPECT_EQ(grown, t.terrain.equilibrium->side_valleys);
+    EXPECT_EQ(t.assessment.relief->perched, 0);
 }
 
 TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToWander) {
     Files const files;
-    Terrain const still = made(lines + path + equilibrium, files);
-    Terrain const bent = made(lines + "meander = 1\n" + path + equilibrium, files);
+    Made const still = made(lines + path + equilibrium, files);
+    Made const bent = made(lines + "meander = 1\n" + path + equilibrium, files);
     expect_lawful(bent);
     EXPECT_EQ(still.recipe.network->meander, 0.0);
-    auto const length = [](Terrain const& t) {
+    auto const length = [](Made const& t) {
         double sum = 0.0;
-        for (double const one : t.network.plan.length_m()) {
+        for (double const one : t.terrain.network.plan.length_m()) {
             sum += one;
         }
         return sum;
@@ -331,26 +332,26 @@ TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToWander) {
 
 TEST(LandInEquilibrium, TwoRiversInOneCellBecomeOne) {
     Files const files;
-    Terrain const t = made(lines + "[network.lines]\npath = \"double.geojson\"\n" + equilibrium, files);
+    Made const t = made(lines + "[network.lines]\npath = \"double.geojson\"\n" + equilibrium, files);
     EXPECT_GE(count(t, "captured"), 1);
-    for (Check const& c : t.checks) { // two rivers in one cell cannot both be followed cell for cell
+    for (Check const& c : t.assessment.checks) { // two rivers in one cell cannot both be followed cell for cell
         EXPECT_EQ(c.ok, c.name != "trace_f_same_cell") << c.name << " " << c.value;
     }
 }
 
 TEST(LandInEquilibrium, ARiverAlongTheBorderIsTold) {
     Files const files;
-    Terrain const t = made(lines + "[network.lines]\npath = \"border.geojson\"\n" + equilibrium, files);
-    auto const found = std::ranges::find(t.findings, "border_cell", &Finding::kind);
-    ASSERT_NE(found, t.findings.end());
+    Made const t = made(lines + "[network.lines]\npath = \"border.geojson\"\n" + equilibrium, files);
+    auto const found = std::ranges::find(t.assessment.findings, "border_cell", &Finding::kind);
+    ASSERT_NE(found, t.assessment.findings.end());
     EXPECT_LT(found->where.x, 500030.0);
-    EXPECT_FALSE(t.passed());
+    EXPECT_FALSE(t.assessment.passed());
 }
 
 TEST(LandInEquilibrium, HeightsThatRiseAreLowered) {
     Files const files;
-    Terrain const t = made(lines + "heights = \"straight\"\nslope = 0.08\n" + path + equilibrium, files);
-    for (std::vector<double> const& z : t.network.arc_z) {
+    Made const t = made(lines + "heights = \"straight\"\nslope = 0.08\n" + path + equilibrium, files);
+    for (std::vector<double> const& z : t.terrain.network.arc_z) {
         EXPECT_TRUE(std::is_sorted(z.rbegin(), z.rend()));
     }
 }
@@ -358,22 +359,22 @@ TEST(LandInEquilibrium, HeightsThatRiseAreLowered) {
 /// Law: with closed edges a forest's basins tile the map: water leaves it at the outlets alone, from every cell.
 TEST(LandInEquilibrium, AForestTilesALargeMap) {
     Files const files;
-    Terrain const t = made("[grid]\nwidth = 2048\nheight = 2048\n[network]\nsource = \"forest\"\nprune = 20\n"
-                           "[surface]\nedge = \"closed\"\n",
-                           files);
+    Made const t = made("[grid]\nwidth = 2048\nheight = 2048\n[network]\nsource = \"forest\"\nprune = 20\n"
+                        "[surface]\nedge = \"closed\"\n",
+                        files);
     expect_lawful(t);
     std::vector<std::int64_t> outlets;
-    for (NodeId const n : t.network.plan.outlets()) {
-        outlets.push_back(t.grid.index(t.grid.cell_of(t.network.plan.node(n).at)));
+    for (NodeId const n : t.terrain.network.plan.outlets()) {
+        outlets.push_back(t.terrain.grid.index(t.terrain.grid.cell_of(t.terrain.network.plan.node(n).at)));
     }
     EXPECT_GT(outlets.size(), 50U);
-    flow::FlowField const drainage = flow::route(t.surface->dem);
+    flow::FlowField const drainage = flow::route(t.terrain.surface->dem);
     std::int64_t drained = 0;
-    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
+    for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
         if (!goes_on(drainage.direction[i])) {
-            EXPECT_EQ(std::ranges::count(outlets, i), 1) << t.grid.at(i).col << " " << t.grid.at(i).row;
+            EXPECT_EQ(std::ranges::count(outlets, i), 1) << t.terrain.grid.at(i).col << " " << t.terrain.grid.at(i).row;
             drained += drainage.area_cells[i];
         }
     }
-    EXPECT_EQ(drained, t.grid.cells());
+    EXPECT_EQ(drained, t.terrain.grid.cells());
 }

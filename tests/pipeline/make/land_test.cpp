@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
@@ -23,10 +23,10 @@ namespace {
 
 std::string const rivers = "[grid]\nwidth = 160\nheight = 120\n[network]\nprune = 6\n[network.dla]\nparticles = 3000\n";
 
-Terrain made(std::string const& toml, std::string const& folder = "") {
+Made made(std::string const& toml, std::string const& folder = "") {
     Recipe recipe = read_recipe(toml, "test");
     recipe.folder = folder;
-    return make_terrain(recipe);
+    return make(recipe);
 }
 
 /// What make says of these increments.
@@ -35,21 +35,21 @@ std::string said(std::string const& increment) {
     Run run;
     run.log = [&words](std::string_view line) { words += std::string(line) + "\n"; };
     std::string const surface = "[surface]\nmethod = \"dilate\"\nrelief = 100\nincrement = \"";
-    make_terrain(read_recipe(rivers + surface + increment + "\"\n", "test"), run);
+    make(read_recipe(rivers + surface + increment + "\"\n", "test"), run);
     return words;
 }
 
-void expect_valley_kept(Terrain const& t) {
+void expect_valley_kept(Made const& t) {
     std::int64_t valley = 0;
-    for (std::int64_t i = 0; i < t.grid.cells(); ++i) {
-        ASSERT_TRUE(std::isfinite(t.surface->dem[i]));
-        if (!std::isnan(t.valley.z[i])) {
+    for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
+        ASSERT_TRUE(std::isfinite(t.terrain.surface->dem[i]));
+        if (!std::isnan(t.terrain.valley.z[i])) {
             ++valley;
-            ASSERT_EQ(t.valley.z[i], t.surface->dem[i]);
+            ASSERT_EQ(t.terrain.valley.z[i], t.terrain.surface->dem[i]);
         }
     }
     EXPECT_GT(valley, 100);
-    EXPECT_TRUE(t.passed());
+    EXPECT_TRUE(t.assessment.passed());
 }
 
 /// Greatest step between a cell and its eastern or southern neighbour [m].
@@ -92,53 +92,54 @@ std::string const from_points =
 } // namespace
 
 TEST(Land, OverTheTrianglesOfRivers) {
-    Terrain const t = made(rivers + "[surface]\nmethod = \"tin\"\n");
+    Made const t = made(rivers + "[surface]\nmethod = \"tin\"\n");
     expect_valley_kept(t);
-    ASSERT_TRUE(t.tin);
-    double low = t.network.node_z[0];
+    ASSERT_TRUE(t.terrain.tin);
+    double low = t.terrain.network.node_z[0];
     double high = low;
-    for (double const z : t.network.node_z) {
+    for (double const z : t.terrain.network.node_z) {
         low = std::min(low, z);
         high = std::max(high, z);
     }
-    EXPECT_GE(t.statistics->min.z, low - 1e-3);
-    EXPECT_LE(t.statistics->max.z, high + 1e-3);
-    for (ArcId arc = 0; arc < t.network.plan.arc_count(); ++arc) {
-        for (Vec2 const p : t.network.plan.arc(arc).line) {
-            EXPECT_TRUE(std::any_of(t.tin->vertices.begin(), t.tin->vertices.end(),
+    EXPECT_GE(t.assessment.statistics->min.z, low - 1e-3);
+    EXPECT_LE(t.assessment.statistics->max.z, high + 1e-3);
+    for (ArcId arc = 0; arc < t.terrain.network.plan.arc_count(); ++arc) {
+        for (Vec2 const p : t.terrain.network.plan.arc(arc).line) {
+            EXPECT_TRUE(std::any_of(t.terrain.tin->vertices.begin(), t.terrain.tin->vertices.end(),
                                     [&](Vec3 const& v) { return v.x == p.x && v.y == p.y; }));
         }
     }
 }
 
 TEST(Land, ABaseOfTrianglesTakesTheScarpsAway) {
-    Terrain const paper =
+    Made const paper =
         made(rivers + "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\nbase = \"paper\"\n");
-    Terrain const smooth =
+    Made const smooth =
         made(rivers + "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\nbase = \"tin\"\n");
     expect_valley_kept(paper);
     expect_valley_kept(smooth);
-    EXPECT_FALSE(paper.tin);
-    EXPECT_LT(greatest_step(smooth.surface->dem), 0.5 * greatest_step(paper.surface->dem));
-    Terrain const harmonic =
+    EXPECT_FALSE(paper.terrain.tin);
+    EXPECT_LT(greatest_step(smooth.terrain.surface->dem), 0.5 * greatest_step(paper.terrain.surface->dem));
+    Made const harmonic =
         made(rivers + "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\n"); // what comes unasked
     expect_valley_kept(harmonic);
-    EXPECT_FALSE(harmonic.tin);
-    EXPECT_LT(greatest_step(harmonic.surface->dem), 0.5 * greatest_step(paper.surface->dem));
-    Raster<float> const base = surface::rasterise_tin(*smooth.tin, smooth.grid);
-    for (std::int64_t i = 0; i < smooth.grid.cells(); ++i) {
-        EXPECT_TRUE(std::isnan(base[i]) || !std::isnan(smooth.valley.z[i]) || smooth.surface->dem[i] > base[i] - 1e-3F);
+    EXPECT_FALSE(harmonic.terrain.tin);
+    EXPECT_LT(greatest_step(harmonic.terrain.surface->dem), 0.5 * greatest_step(paper.terrain.surface->dem));
+    Raster<float> const base = surface::rasterise_tin(*smooth.terrain.tin, smooth.terrain.grid);
+    for (std::int64_t i = 0; i < smooth.terrain.grid.cells(); ++i) {
+        EXPECT_TRUE(std::isnan(base[i]) || !std::isnan(smooth.terrain.valley.z[i]) ||
+                    smooth.terrain.surface->dem[i] > base[i] - 1e-3F);
     }
 }
 
 TEST(Land, ClustersStopAtTheirRadius) {
     std::string const radius = "radius = 40\n";
-    Terrain const free = made(rivers);
-    Terrain const bound = made(rivers + radius);
-    EXPECT_FALSE(free.story.wide);
-    EXPECT_EQ(free.story.particles, 3000);
-    EXPECT_TRUE(bound.story.wide);
-    EXPECT_LT(bound.story.particles, 3000);
+    Made const free = made(rivers);
+    Made const bound = made(rivers + radius);
+    EXPECT_FALSE(free.rivers.story.wide);
+    EXPECT_EQ(free.rivers.story.particles, 3000);
+    EXPECT_TRUE(bound.rivers.story.wide);
+    EXPECT_LT(bound.rivers.story.particles, 3000);
 }
 
 TEST(Land, IncrementsThatJumpAreWarnedOf) {
@@ -150,11 +151,11 @@ TEST(Land, IncrementsThatJumpAreWarnedOf) {
 TEST(Land, RidgesAskedForAreComparedWithThoseOfTheSurface) {
     std::string const tokunaga = "[grid]\nwidth = 200\nheight = 200\n[network]\nsource = \"tokunaga\"\n"
                                  "[network.tokunaga]\norder = 3\n[surface]\nmethod = \"diffuse\"\n";
-    EXPECT_FALSE(made(tokunaga).surface_ridges);
-    Terrain const t = made(tokunaga + "[skeleton]\nridges = \"segments\"\n");
-    ASSERT_TRUE(t.surface_ridges);
-    EXPECT_GT(t.surface_ridges->ridge_cells, 500);
-    measure::Agreements const& found = t.surface_ridges->extracted;
+    EXPECT_FALSE(made(tokunaga).assessment.surface_ridges);
+    Made const t = made(tokunaga + "[skeleton]\nridges = \"segments\"\n");
+    ASSERT_TRUE(t.assessment.surface_ridges);
+    EXPECT_GT(t.assessment.surface_ridges->ridge_cells, 500);
+    measure::Agreements const& found = t.assessment.surface_ridges->extracted;
     EXPECT_GT(found[1].f(), 0.4);
     EXPECT_GE(found[2].f(), found[1].f());
     EXPECT_GE(found[1].f(), found[0].f());
@@ -167,37 +168,38 @@ TEST(Land, RandomPointsBetweenTheRivers) {
          {std::string("method = \"dilate\"\nrelief = 200\nbase = \"tin\"\n"),
           "method = \"dilate\"\nrelief = 200\nbase = \"tin\"\n" + detail, std::string("method = \"tin\"\n"),
           "method = \"tin\"\n" + detail, std::string("method = \"diffuse\"\n")}) {
-        Terrain const plain = made(rivers + "[surface]\n" + how);
-        Terrain const with = made(rivers + skeleton + "[surface]\n" + how);
+        Made const plain = made(rivers + "[surface]\n" + how);
+        Made const with = made(rivers + skeleton + "[surface]\n" + how);
         expect_valley_kept(with);
-        ASSERT_TRUE(with.certificate) << how;
-        EXPECT_TRUE(std::equal(plain.valley.z.values().begin(), plain.valley.z.values().end(),
-                               with.valley.z.values().begin(),
+        ASSERT_TRUE(with.assessment.certificate) << how;
+        EXPECT_TRUE(std::equal(plain.terrain.valley.z.values().begin(), plain.terrain.valley.z.values().end(),
+                               with.terrain.valley.z.values().begin(),
                                [](float a, float b) {
                                    return a == b || (std::isnan(a) && std::isnan(b)); // rivers do not follow points
                                }))
             << how;
-        if (plain.tin) {
-            EXPECT_EQ(with.tin->vertices.size(), plain.tin->vertices.size() + 120) << how;
+        if (plain.terrain.tin) {
+            EXPECT_EQ(with.terrain.tin->vertices.size(), plain.terrain.tin->vertices.size() + 120) << how;
         }
-        EXPECT_GT(with.statistics->mean, plain.statistics->mean + 1.0) << how;
+        EXPECT_GT(with.assessment.statistics->mean, plain.assessment.statistics->mean + 1.0) << how;
     }
-    Terrain const crowded = made(rivers + "[skeleton]\nscatter = 600\nspacing = 5\n[surface]\nmethod = \"tin\"\n");
-    EXPECT_FALSE(crowded.passed()); // with as many as have room, which is said
-    for (Check const& c : crowded.checks) {
+    Made const crowded = made(rivers + "[skeleton]\nscatter = 600\nspacing = 5\n[surface]\nmethod = \"tin\"\n");
+    EXPECT_FALSE(crowded.assessment.passed()); // with as many as have room, which is said
+    for (Check const& c : crowded.assessment.checks) {
         EXPECT_EQ(c.ok, c.name != "points_missing") << c.name;
     }
 }
 
 TEST(Land, DetailLeavesTheRiversAlone) {
     std::string const surface = "[surface]\nmethod = \"dilate\"\nmetric = \"euclid\"\nrelief = 300\n";
-    Terrain const smooth = made(rivers + surface);
-    Terrain const rough = made(rivers + surface + "[detail]\nsigma = 20\nlevels = 4\n");
+    Made const smooth = made(rivers + surface);
+    Made const rough = made(rivers + surface + "[detail]\nsigma = 20\nlevels = 4\n");
     expect_valley_kept(rough);
     double square = 0.0;
-    for (std::int64_t i = 0; i < smooth.grid.cells(); ++i) {
-        double const off = static_cast<double>(rough.surface->dem[i]) - static_cast<double>(smooth.surface->dem[i]);
-        square += off * off / static_cast<double>(smooth.grid.cells());
+    for (std::int64_t i = 0; i < smooth.terrain.grid.cells(); ++i) {
+        double const off =
+            static_cast<double>(rough.terrain.surface->dem[i]) - static_cast<double>(smooth.terrain.surface->dem[i]);
+        square += off * off / static_cast<double>(smooth.terrain.grid.cells());
     }
     EXPECT_GT(square, 1.0);
     EXPECT_LT(square, 400.0);
@@ -205,47 +207,47 @@ TEST(Land, DetailLeavesTheRiversAlone) {
 }
 
 TEST(Land, TheSkeletonsTriangleAloneChangeNothing) {
-    Terrain const plain = made(rivers + "[surface]\n");
-    Terrain const with = made(rivers + "[skeleton]\ntin = true\n[surface]\n");
-    EXPECT_TRUE(with.tin);
-    EXPECT_TRUE(std::equal(plain.surface->dem.values().begin(), plain.surface->dem.values().end(),
-                           with.surface->dem.values().begin()));
+    Made const plain = made(rivers + "[surface]\n");
+    Made const with = made(rivers + "[skeleton]\ntin = true\n[surface]\n");
+    EXPECT_TRUE(with.terrain.tin);
+    EXPECT_TRUE(std::equal(plain.terrain.surface->dem.values().begin(), plain.terrain.surface->dem.values().end(),
+                           with.terrain.surface->dem.values().begin()));
 }
 
 TEST(Land, ThroughPoints) {
     PointsFile const file;
     for (char const* how : {"", "[surface]\nmethod = \"tin\"\ninterpolation = \"natural\"\n",
                             "[surface]\nmethod = \"regress\"\n", "[detail]\nlevels = 2\n"}) {
-        Terrain const t = made(from_points + how, file.folder());
-        EXPECT_TRUE(t.passed());
-        EXPECT_EQ(t.statistics->nodata, 0);
-        EXPECT_NEAR(t.statistics->mean, 155.0, 8.0) << how;
+        Made const t = made(from_points + how, file.folder());
+        EXPECT_TRUE(t.assessment.passed());
+        EXPECT_EQ(t.assessment.statistics->nodata, 0);
+        EXPECT_NEAR(t.assessment.statistics->mean, 155.0, 8.0) << how;
         EXPECT_EQ(t.recipe.grid.crs, "EPSG:32631");
     }
-    Terrain const framed = made("[skeleton]\npoints = \"points.csv\"\n", file.folder());
-    EXPECT_GE(framed.grid.width, 60);
-    EXPECT_GE(framed.grid.height, 40);
+    Made const framed = made("[skeleton]\npoints = \"points.csv\"\n", file.folder());
+    EXPECT_GE(framed.terrain.grid.width, 60);
+    EXPECT_GE(framed.terrain.grid.height, 40);
 }
 
 TEST(Land, StatisticsWithGivenPointsKept) {
     PointsFile const file;
-    Terrain const t =
+    Made const t =
         made(from_points + "[statistics]\nskeleton = \"points\"\nstd = 30\ndimension = 2.3\n", file.folder());
-    EXPECT_TRUE(t.passed());
-    EXPECT_NEAR(t.statistics->std, 30.0, 0.3);
-    EXPECT_NEAR(t.statistics->dimension, 2.3, 0.02);
+    EXPECT_TRUE(t.assessment.passed());
+    EXPECT_NEAR(t.assessment.statistics->std, 30.0, 0.3);
+    EXPECT_NEAR(t.assessment.statistics->dimension, 2.3, 0.02);
     std::ifstream in(file.folder() + "/points.csv");
     std::string line;
     std::getline(in, line);
-    std::vector<bool> seen(static_cast<std::size_t>(t.grid.cells()), false);
+    std::vector<bool> seen(static_cast<std::size_t>(t.terrain.grid.cells()), false);
     while (std::getline(in, line)) {
         double x = 0.0;
         double y = 0.0;
         double z = 0.0;
         ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf", &x, &y, &z), 3);
-        auto const i = t.grid.index(t.grid.cell_of({x, y}));
+        auto const i = t.terrain.grid.index(t.terrain.grid.cell_of({x, y}));
         if (!seen[static_cast<std::size_t>(i)]) { // the first of a cell counts
-            EXPECT_NEAR(static_cast<double>(t.surface->dem[i]), z, 1e-3);
+            EXPECT_NEAR(static_cast<double>(t.terrain.surface->dem[i]), z, 1e-3);
         }
         seen[static_cast<std::size_t>(i)] = true;
     }
@@ -260,19 +262,21 @@ TEST(Land, EveryPriorMeetsTable4) {
                             "skeleton = \"points\"\n[skeleton]\nscatter = 180\nspacing = 3\n[detail]\nlevels = 2\n",
                             "skeleton = \"points\"\n[skeleton]\nscatter = 180\n[surface]\nmethod = \"regress\"\n"
                             "[detail]\nlevels = 3\n"}) {
-        Terrain const t = made(table + how);
-        EXPECT_TRUE(t.passed()) << how;
-        EXPECT_LE(t.fine_forms_cells, 1.0) << how;
-        EXPECT_EQ(t.statistics->max.z, 1038.0);
-        EXPECT_EQ(t.statistics->max.cell, (Cell{91, 1}));
-        EXPECT_EQ(t.statistics->min.z, 276.0);
-        EXPECT_EQ(t.statistics->min.cell, (Cell{129, 26}));
-        EXPECT_EQ(std::count(t.surface->dem.values().begin(), t.surface->dem.values().end(), 1038.0F), 1);
-        EXPECT_EQ(std::count(t.surface->dem.values().begin(), t.surface->dem.values().end(), 276.0F), 1);
-        EXPECT_NEAR(t.statistics->std, 131.6, 1.3);
-        EXPECT_NEAR(t.statistics->lx.cells, 20.68, 0.2);
-        EXPECT_NEAR(t.statistics->ly.cells, 39.74, 0.4);
-        EXPECT_NEAR(t.statistics->slope_rad, 1.499, 0.015);
-        EXPECT_NEAR(t.statistics->dimension, 2.39, 0.02);
+        Made const t = made(table + how);
+        EXPECT_TRUE(t.assessment.passed()) << how;
+        EXPECT_LE(t.terrain.fine_forms_cells, 1.0) << how;
+        EXPECT_EQ(t.assessment.statistics->max.z, 1038.0);
+        EXPECT_EQ(t.assessment.statistics->max.cell, (Cell{91, 1}));
+        EXPECT_EQ(t.assessment.statistics->min.z, 276.0);
+        EXPECT_EQ(t.assessment.statistics->min.cell, (Cell{129, 26}));
+        EXPECT_EQ(std::count(t.terrain.surface->dem.values().begin(), t.terrain.surface->dem.values().end(), 1038.0F),
+                  1);
+        EXPECT_EQ(std::count(t.terrain.surface->dem.values().begin(), t.terrain.surface->dem.values().end(), 276.0F),
+                  1);
+        EXPECT_NEAR(t.assessment.statistics->std, 131.6, 1.3);
+        EXPECT_NEAR(t.assessment.statistics->lx.cells, 20.68, 0.2);
+        EXPECT_NEAR(t.assessment.statistics->ly.cells, 39.74, 0.4);
+        EXPECT_NEAR(t.assessment.statistics->slope_rad, 1.499, 0.015);
+        EXPECT_NEAR(t.assessment.statistics->dimension, 2.39, 0.02);
     }
 }

@@ -14,7 +14,7 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/order/count_streams.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/report/law_rows.hpp>
 
 using namespace thalweg;
@@ -109,20 +109,21 @@ TEST(Laws, TheDemsRiversAreAsLongAsTheNetwork) {
     recipe.grid.height = 120;
     recipe.network->dla.particles = 3000;
     recipe.network->prune_cells = 8.0;
-    Terrain const terrain = make_terrain(recipe);
-    ASSERT_TRUE(terrain.laws.network && terrain.laws.dem);
-    DemLaws const& dem = *terrain.laws.dem;
+    Made const terrain = make(recipe);
+    ASSERT_TRUE(terrain.assessment.laws.network && terrain.assessment.laws.dem);
+    DemLaws const& dem = *terrain.assessment.laws.dem;
     EXPECT_TRUE(dem.as_dense);
-    EXPECT_GE(dem.laws.drainage_density_m, terrain.laws.network->drainage_density_m);
-    flow::FlowField const drainage = flow::route(terrain.surface->dem);
-    auto const sparser = laws_of_dem(terrain.surface->dem, drainage, flow::flow_lengths(drainage),
+    EXPECT_GE(dem.laws.drainage_density_m, terrain.assessment.laws.network->drainage_density_m);
+    flow::FlowField const drainage = flow::route(terrain.terrain.surface->dem);
+    auto const sparser = laws_of_dem(terrain.terrain.surface->dem, drainage, flow::flow_lengths(drainage),
                                      {.support_cells = dem.support_cells + 1});
-    EXPECT_LT(sparser.laws.drainage_density_m, terrain.laws.network->drainage_density_m);
+    EXPECT_LT(sparser.laws.drainage_density_m, terrain.assessment.laws.network->drainage_density_m);
     EXPECT_FALSE(sparser.as_dense);
-    EXPECT_EQ(dem.support_m2, static_cast<double>(dem.support_cells) * terrain.grid.cell_m * terrain.grid.cell_m);
+    EXPECT_EQ(dem.support_m2,
+              static_cast<double>(dem.support_cells) * terrain.terrain.grid.cell_m * terrain.terrain.grid.cell_m);
 
     recipe.surface.reset();
-    Terrain const rivers = make_terrain(recipe);
-    EXPECT_TRUE(rivers.laws.network);
-    EXPECT_FALSE(rivers.laws.dem);
+    Made const rivers = make(recipe);
+    EXPECT_TRUE(rivers.assessment.laws.network);
+    EXPECT_FALSE(rivers.assessment.laws.dem);
 }

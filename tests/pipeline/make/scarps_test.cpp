@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scarps at ridges, the fault of dilation by the first paper, on its own network and what the harmonic base leaves.
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 /// The network of samples/dla.toml in the first paper's units: cells of 1, valleys as steep as it has them, increments
 /// of 0.1 a dilation.
-Terrain on(Base base, double slope) {
+Made on(Base base, double slope) {
     std::ifstream file(THALWEG_SOURCE_DIR "/samples/dla.toml");
     Recipe recipe = read_recipe(std::string(std::istreambuf_iterator<char>(file), {}), "dla.toml");
     recipe.grid.cell_m = 1.0;
@@ -28,7 +28,7 @@ Terrain on(Base base, double slope) {
     recipe.surface->dilate.increment.increment = "uniform";
     recipe.surface->dilate.metric = surface::Metric::cityblock;
     recipe.surface->dilate.relief_m = 0.0;
-    return make_terrain(recipe);
+    return make(recipe);
 }
 
 struct Scarps {
@@ -55,20 +55,20 @@ Scarps scarps_of(Raster<float> const& z) {
 
 TEST(Scarps, TheHarmonicBaseLeavesNone) {
     constexpr double papers_slope = 0.087;
-    Terrain const before = on(Base::paper, papers_slope);
-    Terrain const after = on(Base::harmonic, papers_slope);
-    ASSERT_EQ(after.grid.width, 1024);
-    ASSERT_EQ(after.grid.height, 1024);
+    Made const before = on(Base::paper, papers_slope);
+    Made const after = on(Base::harmonic, papers_slope);
+    ASSERT_EQ(after.terrain.grid.width, 1024);
+    ASSERT_EQ(after.terrain.grid.height, 1024);
     std::int64_t valley = 0;
-    for (std::int64_t i = 0; i < after.valley.z.cells(); ++i) {
-        if (float const z = after.valley.z[i]; !std::isnan(z)) {
+    for (std::int64_t i = 0; i < after.terrain.valley.z.cells(); ++i) {
+        if (float const z = after.terrain.valley.z[i]; !std::isnan(z)) {
             ++valley;
-            ASSERT_EQ(z, after.surface->dem[i]);
-            ASSERT_EQ(z, before.surface->dem[i]);
+            ASSERT_EQ(z, after.terrain.surface->dem[i]);
+            ASSERT_EQ(z, before.terrain.surface->dem[i]);
         }
     }
-    Scarps const paper = scarps_of(before.surface->dem);
-    Scarps const harmonic = scarps_of(after.surface->dem);
+    Scarps const paper = scarps_of(before.terrain.surface->dem);
+    Scarps const harmonic = scarps_of(after.terrain.surface->dem);
     std::printf("1024 x 1024 cells, %lld of the valley: scarps %.3f %% -> %.4f %%, greatest step %.2f -> %.2f\n",
                 static_cast<long long>(valley), 100.0 * paper.share, 100.0 * harmonic.share, paper.greatest,
                 harmonic.greatest);

@@ -12,31 +12,32 @@
 #include <thalweg/network/order/order.hpp>
 
 using namespace thalweg;
-using pipeline::Terrain;
+using pipeline::Made;
 
 namespace {
 
 /// The rivers 1 and 2 of a file, which go on as 3; 4 is a minor channel, 5 is drawn far away.
-Terrain terrain() {
-    Terrain t;
-    t.network.plan =
+Made terrain() {
+    Made t;
+    t.terrain.network.plan =
         test::network_of({{0, 40}, {40, 40}, {0, 20}, {0, 0}},
                          {{.from = 0, .to = 2, .between = {}, .feature = 1}, {1, 2, {}, 2}, {2, 3, {}, 3}});
-    t.network.node_z = {4.0, 4.0, 2.0, 0.0};
-    t.network.arc_z = {{4.0, 2.0}, {4.0, 2.0}, {2.0, 0.0}};
-    t.orders = network::order(t.network.plan);
-    t.areas.us_area_m2 = t.areas.ds_area_m2 = {-1.0, -1.0, -1.0};
-    t.areas.node_m2 = {-1.0, -1.0, -1.0, -1.0};
-    t.file.attributes.columns = {{"name", AttributeTable::Type::text},
-                                 {"name_of_the_river", AttributeTable::Type::text}};
+    t.terrain.network.node_z = {4.0, 4.0, 2.0, 0.0};
+    t.terrain.network.arc_z = {{4.0, 2.0}, {4.0, 2.0}, {2.0, 0.0}};
+    t.terrain.orders = network::order(t.terrain.network.plan);
+    t.assessment.areas.us_area_m2 = t.assessment.areas.ds_area_m2 = {-1.0, -1.0, -1.0};
+    t.assessment.areas.node_m2 = {-1.0, -1.0, -1.0, -1.0};
+    t.rivers.file.attributes.columns = {{"name", AttributeTable::Type::text},
+                                        {"name_of_the_river", AttributeTable::Type::text}};
     for (std::string const name : {"one", "two", "three", "four", "five"}) {
-        t.file.attributes.rows.push_back({name, name});
+        t.rivers.file.attributes.rows.push_back({name, name});
     }
-    t.file.sources = pipeline::LineSources(t.network.plan, {{{1, 0.0, 20.0}}, {{2, 0.0, 44.72}}, {{3, 0.0, 20.0}}});
-    t.file.secondary = {{4, {{5, 5, 0}, {6, 6, 0}}, "minor channel", 4}};
+    t.rivers.file.sources =
+        pipeline::LineSources(t.terrain.network.plan, {{{1, 0.0, 20.0}}, {{2, 0.0, 44.72}}, {{3, 0.0, 20.0}}});
+    t.rivers.file.secondary = {{4, {{5, 5, 0}, {6, 6, 0}}, "minor channel", 4}};
     for (std::int64_t feature = 1; feature <= 5; ++feature) {
         auto const x = static_cast<double>(feature);
-        t.file.drawn.push_back({feature, {{x, 0, 0}, {x, 9, 0}}, "", feature});
+        t.rivers.file.drawn.push_back({feature, {{x, 0, 0}, {x, 9, 0}}, "", feature});
     }
     return t;
 }
@@ -44,16 +45,16 @@ Terrain terrain() {
 } // namespace
 
 TEST(UserData, GrownRiversHaveNone) {
-    Terrain t = terrain();
-    t.file.sources = {};
-    EXPECT_FALSE(pipeline::user_data(t, t.network.plan));
+    Made t = terrain();
+    t.rivers.file.sources = {};
+    EXPECT_FALSE(pipeline::user_data(t, t.terrain.network.plan));
     EXPECT_TRUE(pipeline::shortened_names(t).empty());
-    EXPECT_TRUE(pipeline::secondary_of(Terrain{}).empty());
+    EXPECT_TRUE(pipeline::secondary_of(Made{}).empty());
 }
 
 TEST(UserData, ArcsHaveTheRecordOfTheirFeature) {
-    Terrain const t = terrain();
-    auto const user = pipeline::user_data(t, t.network.plan);
+    Made const t = terrain();
+    auto const user = pipeline::user_data(t, t.terrain.network.plan);
     ASSERT_TRUE(user);
     EXPECT_EQ(user->record, (std::vector<std::int64_t>{1, 2, 3}));
     EXPECT_EQ(user->attributes.rows.size(), 5U);
@@ -69,7 +70,7 @@ TEST(UserData, ArcsHaveTheRecordOfTheirFeature) {
 
 // Law: every line of the file is on the arcs or secondary, once.
 TEST(UserData, WhatTheTerrainTookAwayIsSecondaryToo) {
-    Terrain t = terrain();
+    Made t = terrain();
     auto const reasons = [&] {
         std::vector<std::pair<std::int64_t, std::string>> result;
         for (SecondaryLine const& line : pipeline::secondary_of(t)) {
@@ -82,7 +83,7 @@ TEST(UserData, WhatTheTerrainTookAwayIsSecondaryToo) {
     using Reasons = std::vector<std::pair<std::int64_t, std::string>>;
     EXPECT_EQ(reasons(), (Reasons{{4, "minor channel"}, {5, "pruned or shortened"}}));
     // Pruned to the river that goes on from the first.
-    t.network.plan = test::network_of({{0, 40}, {0, 0}}, {{0, 1, {{0, 20}}, 1}});
+    t.terrain.network.plan = test::network_of({{0, 40}, {0, 0}}, {{0, 1, {{0, 20}}, 1}});
     EXPECT_EQ(reasons(), (Reasons{{4, "minor channel"}, {2, "pruned or shortened"}, {5, "pruned or shortened"}}));
 }
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every key of the table in a small recipe of every method: where the table says that it has an effect, another value
 // changes the terrain or a file; where it says that it has none, the recipe is refused.
-#include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/make/write_terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/report/write_terrain.hpp>
 
 #include <thalweg/core/run/error.hpp>
 
@@ -263,32 +263,32 @@ void add_text(Fnv& hash, std::string const& text) {
 }
 
 /// dem.tif and the network, as values.
-std::string digest(Terrain const& t) {
+std::string digest(Made const& t) {
     Fnv hash;
-    hash.add(t.grid.width);
-    hash.add(t.grid.height);
-    for (double const x : {t.grid.cell_m, t.grid.west, t.grid.north}) {
+    hash.add(t.terrain.grid.width);
+    hash.add(t.terrain.grid.height);
+    for (double const x : {t.terrain.grid.cell_m, t.terrain.grid.west, t.terrain.grid.north}) {
         hash.add(x);
     }
-    add_text(hash, t.grid.crs);
-    for (std::size_t a = 0; a < t.network.plan.arc_count(); ++a) {
-        Arc const& arc = t.network.plan.arc(a);
+    add_text(hash, t.terrain.grid.crs);
+    for (std::size_t a = 0; a < t.terrain.network.plan.arc_count(); ++a) {
+        Arc const& arc = t.terrain.network.plan.arc(a);
         for (Vec2 const p : arc.line) {
             hash.add(p.x);
             hash.add(p.y);
         }
         add_text(hash, arc.type);
-        hash.add_all(t.network.arc_z[a]);
+        hash.add_all(t.terrain.network.arc_z[a]);
     }
-    hash.add_all(t.types.braided);
-    if (t.surface) {
-        hash.add_all(t.surface->dem.values());
+    hash.add_all(t.terrain.types.braided);
+    if (t.terrain.surface) {
+        hash.add_all(t.terrain.surface->dem.values());
     }
     return std::to_string(hash.hash());
 }
 
 /// All files but those that hold the recipe itself.
-std::string digest_of_files(Terrain const& t) {
+std::string digest_of_files(Made const& t) {
     ScratchFolder const folder;
     Fnv hash;
     for (std::string const& name : write_terrain(t, folder / "out", io::Existing::refuse)) {
@@ -307,7 +307,7 @@ struct Outcome {
 
 Outcome outcome(Recipe const& recipe, bool in_files) {
     try {
-        Terrain const t = make_terrain(recipe);
+        Made const t = make(recipe);
         return {in_files ? digest_of_files(t) : digest(t), ""};
     } catch (Error const& fault) {
         return {"", fault.what()};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // recipe.toml files that version 0.1.0 wrote, one of each method: they list every key of their sections, used or not.
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/recipe/internal/unused_keys.hpp>
 
 #include <thalweg/io/files/files.hpp>
@@ -56,12 +56,12 @@ std::string hash_of(Raster<float> const& raster) {
 TEST(Recipes010, RunAndGiveTheirOldTerrain) {
     std::string text;
     for (std::string const& name : names()) {
-        Terrain const t = make_terrain(recipe_of(name));
-        for (Check const& c : t.checks) { // of 64 x 64 cells full of rivers, some side by side
+        Made const t = make(recipe_of(name));
+        for (Check const& c : t.assessment.checks) { // of 64 x 64 cells full of rivers, some side by side
             bool const crowded = name == "tin_rivers" && c.name == "trace_f_same_cell" && c.value > 0.975;
             EXPECT_TRUE(c.ok || crowded) << name << " " << c.name << " " << c.value;
         }
-        text += fmt::format("{} {}\n", name, hash_of(t.surface ? t.surface->dem : t.valley.z));
+        text += fmt::format("{} {}\n", name, hash_of(t.terrain.surface ? t.terrain.surface->dem : t.terrain.valley.z));
     }
     expect_golden("recipes_0_1_0/hashes.txt", text); // made of dem.tif as 0.1.0 wrote it; a network alone: its valley
 }

@@ -10,7 +10,7 @@
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/network/vectorise/thin.hpp>
 #include <thalweg/network/vectorise/trace.hpp>
-#include <thalweg/pipeline/make/frame.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/surface/dilation/dilate.hpp>
 
 #include <gtest/gtest.h>

@@ -14,10 +14,11 @@
 #include <thalweg/io/network/write_findings.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/measure/topology/topology.hpp>
-#include <thalweg/pipeline/commands/internal/append.hpp>
 #include <thalweg/pipeline/commands/internal/certify_files.hpp>
 #include <thalweg/pipeline/commands/internal/mend_network.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/plan/internal/append.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace thalweg::pipeline {

@@ -6,7 +6,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
-#include <thalweg/pipeline/make/internal/read_cells.hpp>
+#include <thalweg/pipeline/plan/internal/read_cells.hpp>
 
 namespace thalweg::pipeline {
 

@@ -17,7 +17,7 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/raster/read_mask.hpp>
 #include <thalweg/pipeline/commands/internal/require_metres.hpp>
-#include <thalweg/pipeline/make/internal/read_cells.hpp>
+#include <thalweg/pipeline/plan/internal/read_cells.hpp>
 
 namespace thalweg::pipeline {
 

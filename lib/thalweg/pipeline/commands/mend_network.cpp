@@ -14,8 +14,8 @@
 #include <thalweg/network/elevation/lower_rises.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/pipeline/commands/internal/append.hpp>
 #include <thalweg/pipeline/commands/internal/mend_lines.hpp>
+#include <thalweg/pipeline/plan/internal/append.hpp>
 
 namespace thalweg::pipeline {
 namespace {

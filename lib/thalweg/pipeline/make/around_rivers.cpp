@@ -7,9 +7,12 @@
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/order/streams.hpp>
+#include <thalweg/pipeline/make/internal/detail.hpp>
 #include <thalweg/pipeline/make/internal/land.hpp>
 #include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
-#include <thalweg/pipeline/make/internal/read_cells.hpp>
+#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
+#include <thalweg/pipeline/plan/internal/read_cells.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>
@@ -39,49 +42,50 @@ std::vector<Vec3> in_space(std::vector<Vec2> const& line, std::vector<double> co
 }
 
 /// The land with ridges between its streams.
-DrawnTerrain with_ridges(DrawnTerrain drawn, Diary& diary, Run const& run) {
-    SkeletonRecipe const& wanted = *drawn.recipe.skeleton;
+Terrain with_ridges(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
+    SkeletonRecipe const& wanted = *plan.recipe.skeleton;
     skeleton::RidgesParams params;
     params.method = wanted.ridges == Ridges::voronoi ? skeleton::RidgesParams::Method::voronoi
                                                      : skeleton::RidgesParams::Method::segments;
     params.gain = wanted.ridge_gain;
     params.farthest_m = wanted.ridge_farthest_m;
-    drawn.ridges = diary.stage("ridge", [&] {
-        return skeleton::ridges(drawn.network, network::streams(drawn.network.plan, drawn.orders), drawn.grid, params,
-                                run);
+    terrain.ridges = diary.stage("ridge", [&] {
+        return skeleton::ridges(terrain.network, network::streams(terrain.network.plan, terrain.orders), terrain.grid,
+                                params, run);
     });
-    diary.say(fmt::format("{} ridges", drawn.ridges.lines.size()));
-    return drawn;
+    diary.say(fmt::format("{} ridges", terrain.ridges.lines.size()));
+    return terrain;
 }
 
 /// Random points between the rivers, where the recipe asks for them.
-skeleton::Scattered scattered(DrawnTerrain const& drawn, Mask const& inside, Diary& diary, Run const& run) {
-    SkeletonRecipe const& wanted = *drawn.recipe.skeleton;
+skeleton::Scattered scattered(Plan const& plan, Terrain const& terrain, Mask const& inside, Diary& diary,
+                              Run const& run) {
+    SkeletonRecipe const& wanted = *plan.recipe.skeleton;
     skeleton::ScatterBetweenParams params;
-    params.seed = drawn.recipe.seed;
+    params.seed = plan.recipe.seed;
     params.count = wanted.scatter;
     params.spacing_cells = wanted.spacing_cells;
     params.gain = wanted.ridge_gain;
     params.farthest_m = wanted.ridge_farthest_m;
     params.law = wanted.law;
     skeleton::Scattered points =
-        diary.stage("scatter", [&] { return skeleton::scatter_between(drawn.valley, inside, params, run); });
+        diary.stage("scatter", [&] { return skeleton::scatter_between(terrain.valley, inside, params, run); });
     diary.say(fmt::format("{} points", points.points.points.size()));
     return points;
 }
 
 /// The triangles of points, rivers and ridges, whose lines are breaklines.
-DrawnTerrain with_tin(DrawnTerrain drawn, FeaturePoints const& points, Diary& diary, Run const& run) {
+Terrain with_tin(Terrain terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
     std::vector<std::vector<Vec3>> breaklines;
-    for (ArcId a = 0; a < drawn.network.plan.arc_count(); ++a) {
-        breaklines.push_back(in_space(drawn.network.plan.arc(a).line, drawn.network.arc_z[a]));
+    for (ArcId a = 0; a < terrain.network.plan.arc_count(); ++a) {
+        breaklines.push_back(in_space(terrain.network.plan.arc(a).line, terrain.network.arc_z[a]));
     }
-    for (RidgeLine const& ridge : drawn.ridges.lines) {
+    for (RidgeLine const& ridge : terrain.ridges.lines) {
         breaklines.push_back(ridge.line);
     }
-    drawn.tin = diary.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
-    diary.say(fmt::format("{} triangles of {} vertices", drawn.tin->triangles.size(), drawn.tin->vertices.size()));
-    return drawn;
+    terrain.tin = diary.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
+    diary.say(fmt::format("{} triangles of {} vertices", terrain.tin->triangles.size(), terrain.tin->vertices.size()));
+    return terrain;
 }
 
 /// The cells the land has: those of the recipe's mask, or all; without the sea.
@@ -103,17 +107,17 @@ Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
 }
 
 /// Land over the skeleton's triangles. Valley cells keep their heights.
-Raster<float> over_triangles(DrawnTerrain const& drawn, Run const& run) {
+Raster<float> over_triangles(Terrain const& terrain, Run const& run) {
     Raster<float> land =
-        surface::rasterise_tin(*drawn.tin, drawn.grid, {surface::RasteriseTinParams::Outside::nearest}, run);
+        surface::rasterise_tin(*terrain.tin, terrain.grid, {surface::RasteriseTinParams::Outside::nearest}, run);
     for (std::int64_t i = 0; i < land.cells(); ++i) {
-        land[i] = std::isnan(drawn.valley.z[i]) ? land[i] : drawn.valley.z[i];
+        land[i] = std::isnan(terrain.valley.z[i]) ? land[i] : terrain.valley.z[i];
     }
     return land;
 }
 
-void warn_of_jumps(surface::Dilated const& drawn, surface::IncrementParams const& params, Run const& run) {
-    auto const jumps = surface::increment_jumps(drawn.levels, params);
+void warn_of_jumps(surface::Dilated const& surface, surface::IncrementParams const& params, Run const& run) {
+    auto const jumps = surface::increment_jumps(surface.levels, params);
     if (!jumps.empty()) {
         run.say(fmt::format("warning: surface.increment = \"{}\" jumps from {:.3g} to {:.3g} at x = {:.4g}{}: slopes "
                             "break there",
@@ -122,29 +126,29 @@ void warn_of_jumps(surface::Dilated const& drawn, surface::IncrementParams const
     }
 }
 
-surface::Dilated dilated(DrawnTerrain const& drawn, Mask const& inside, Run const& run) {
-    SurfaceRecipe const& wanted = *drawn.recipe.surface;
-    bool const whole = wanted.mask.empty() && drawn.land.values().empty();
+surface::Dilated dilated(Plan const& plan, Terrain const& terrain, Mask const& inside, Run const& run) {
+    SurfaceRecipe const& wanted = *plan.recipe.surface;
+    bool const whole = wanted.mask.empty() && terrain.land.values().empty();
     if (wanted.base == Base::paper) { // without a mask by the closed form
-        return whole ? surface::dilate(drawn.valley, wanted.dilate, run)
-                     : surface::dilate(drawn.valley, inside, wanted.dilate, run);
+        return whole ? surface::dilate(terrain.valley, wanted.dilate, run)
+                     : surface::dilate(terrain.valley, inside, wanted.dilate, run);
     }
     surface::HarmonicParams params;
     params.tolerance = wanted.tolerance.value_or(params.tolerance);
-    Raster<float> const base =
-        wanted.base == Base::tin ? over_triangles(drawn, run) : surface::harmonic(drawn.valley, inside, params, run);
-    return whole ? surface::dilate_over(drawn.valley, base, wanted.dilate, run)
-                 : surface::dilate_over(drawn.valley, base, inside, wanted.dilate, run);
+    Raster<float> const base = wanted.base == Base::tin ? over_triangles(terrain, run)
+                                                        : surface::harmonic(terrain.valley, inside, params, run);
+    return whole ? surface::dilate_over(terrain.valley, base, wanted.dilate, run)
+                 : surface::dilate_over(terrain.valley, base, inside, wanted.dilate, run);
 }
 
 /// What a land is diffused from: rivers, ridges, points, and what follows from them beside them.
-Skeleton gathered(DrawnTerrain const& drawn, FeaturePoints const& points, Run const& run) {
-    SkeletonRecipe const wanted = drawn.recipe.skeleton.value_or(SkeletonRecipe{});
+Skeleton gathered(Plan const& plan, Terrain const& terrain, FeaturePoints const& points, Run const& run) {
+    SkeletonRecipe const wanted = plan.recipe.skeleton.value_or(SkeletonRecipe{});
     skeleton::DrawSkeletonParams params;
     params.noise.amplitude_m = wanted.ridge_noise_m;
     params.noise.wavelength_m = wanted.ridge_wavelength_m;
-    params.noise.seed = drawn.recipe.seed;
-    Skeleton skeleton = skeleton::draw_skeleton(drawn.valley, drawn.ridges, points, params, run).skeleton;
+    params.noise.seed = plan.recipe.seed;
+    Skeleton skeleton = skeleton::draw_skeleton(terrain.valley, terrain.ridges, points, params, run).skeleton;
     if (wanted.midpoint_inverse_cells > 0.0) {
         skeleton = skeleton::midpoint_inverse(skeleton, {wanted.midpoint_inverse_cells}, run);
     }
@@ -157,11 +161,12 @@ struct Surface {
     std::optional<SolverStory> diffusion = {};
 };
 
-Surface diffused(DrawnTerrain const& drawn, FeaturePoints const& points, Mask const& inside, Run const& run) {
-    surface::DiffuseParams params = drawn.recipe.surface->diffuse;
-    params.seed = drawn.recipe.seed;
-    params.tolerance = drawn.recipe.surface->tolerance.value_or(params.tolerance);
-    surface::Diffused land = surface::diffuse(gathered(drawn, points, run), inside, params, run);
+Surface diffused(Plan const& plan, Terrain const& terrain, FeaturePoints const& points, Mask const& inside,
+                 Run const& run) {
+    surface::DiffuseParams params = plan.recipe.surface->diffuse;
+    params.seed = plan.recipe.seed;
+    params.tolerance = plan.recipe.surface->tolerance.value_or(params.tolerance);
+    surface::Diffused land = surface::diffuse(gathered(plan, terrain, points, run), inside, params, run);
     Surface made;
     made.drawn.dem = std::move(land.dem);
     made.diffusion = SolverStory{land.iterations, land.residual};
@@ -169,28 +174,29 @@ Surface diffused(DrawnTerrain const& drawn, FeaturePoints const& points, Mask co
 }
 
 /// Adds fractal detail to land with rivers: none in the valleys, all of it some cells away.
-DrawnTerrain with_detail_beside_rivers(DrawnTerrain drawn, Run const& run) {
+Terrain with_detail_beside_rivers(Plan const& plan, Terrain terrain, Run const& run) {
     constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
-    if (levels_of(drawn.recipe) == 0) {
-        return drawn;
+    if (levels_of(plan.recipe) == 0) {
+        return terrain;
     }
-    Detailed const detail = detail_alone(std::move(drawn.recipe), drawn.grid, run);
-    drawn.recipe = detail.recipe;
+    Detailed const detail = detail_alone(plan, terrain.grid, run);
+    terrain.detail = detail.story;
     Raster<float> const& noise = detail.land;
-    Raster<float>& dem = drawn.surface->dem;
-    surface::Expansion const expansion = surface::expand(drawn.valley, run);
+    Raster<float>& dem = terrain.surface->dem;
+    surface::Expansion const expansion = surface::expand(terrain.valley, run);
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         double const share = 1.0 - portable::exp(-static_cast<double>(expansion.level[i]) / near_cells);
         dem[i] = static_cast<float>(static_cast<double>(dem[i]) + share * static_cast<double>(noise[i]));
     }
-    return drawn;
+    return terrain;
 }
 
-Surface surface_of(DrawnTerrain const& drawn, FeaturePoints const& points, Mask const& inside, Run const& run) {
-    SurfaceRecipe const& wanted = *drawn.recipe.surface;
+Surface surface_of(Plan const& plan, Terrain const& terrain, FeaturePoints const& points, Mask const& inside,
+                   Run const& run) {
+    SurfaceRecipe const& wanted = *plan.recipe.surface;
     if (wanted.method == Method::tin) {
         Surface made;
-        made.drawn.dem = over_triangles(drawn, run);
+        made.drawn.dem = over_triangles(terrain, run);
         for (std::int64_t i = 0; i < inside.cells(); ++i) {
             if (inside[i] == 0) {
                 made.drawn.dem[i] = std::numeric_limits<float>::quiet_NaN();
@@ -198,26 +204,27 @@ Surface surface_of(DrawnTerrain const& drawn, FeaturePoints const& points, Mask 
         }
         return made;
     }
-    return wanted.method == Method::diffuse ? diffused(drawn, points, inside, run)
-                                            : Surface{dilated(drawn, inside, run)};
+    return wanted.method == Method::diffuse ? diffused(plan, terrain, points, inside, run)
+                                            : Surface{dilated(plan, terrain, inside, run)};
 }
 
 /// Whether the slopes rise as high above their rivers as it was asked.
-std::vector<Check> relief_checks(DrawnTerrain const& drawn) {
+std::vector<Check> relief_checks(Plan const& plan, Terrain const& terrain) {
     constexpr double allowed = 0.01;
-    double const asked = drawn.recipe.surface->dilate.relief_m;
+    double const asked = plan.recipe.surface->dilate.relief_m;
     if (!(asked > 0.0)) {
         return {};
     }
-    double const error = std::fabs(drawn.surface->rise_m / asked - 1.0);
+    double const error = std::fabs(terrain.surface->rise_m / asked - 1.0);
     return {{"relief_error", error, allowed, error <= allowed}};
 }
 
-std::string about(DrawnTerrain const& drawn) {
-    SurfaceRecipe const& wanted = *drawn.recipe.surface;
+std::string about(Plan const& plan, Terrain const& terrain) {
+    SurfaceRecipe const& wanted = *plan.recipe.surface;
     switch (wanted.method) {
-    case Method::dilate: return fmt::format("{}, {} levels", wanted.dilate.increment.increment, drawn.surface->levels);
-    case Method::diffuse: return fmt::format("diffused, {} iterations", drawn.diffusion->iterations);
+    case Method::dilate:
+        return fmt::format("{}, {} levels", wanted.dilate.increment.increment, terrain.surface->levels);
+    case Method::diffuse: return fmt::format("diffused, {} iterations", terrain.diffusion->iterations);
     case Method::equilibrium:
     case Method::tin:
     case Method::regress: break;
@@ -225,58 +232,63 @@ std::string about(DrawnTerrain const& drawn) {
     return "over triangles";
 }
 
-} // namespace
-
-DrawnTerrain without_land(Rivers const& rivers) {
-    DrawnTerrain drawn;
-    drawn.recipe = rivers.recipe;
-    drawn.grid = rivers.grid;
-    drawn.land = rivers.land;
-    drawn.network = rivers.network;
-    drawn.orders = rivers.orders;
-    drawn.streams = rivers.streams;
-    drawn.types = rivers.types;
-    drawn.valley = rivers.valley;
-    return drawn;
+/// The land between the rivers, with what is to be said of it.
+Terrain filled(Plan const& plan, Terrain terrain, FeaturePoints const& points, Mask const& inside, Diary& diary,
+               Run const& run) {
+    Surface made = diary.stage("fill", [&] { return surface_of(plan, terrain, points, inside, run); });
+    terrain.surface = std::move(made.drawn);
+    terrain.diffusion = made.diffusion;
+    diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height, about(plan, terrain)));
+    SurfaceRecipe const& wanted = *plan.recipe.surface;
+    if (wanted.method == Method::dilate) {
+        std::vector<Check> const checks = relief_checks(plan, terrain);
+        terrain.checks.insert(terrain.checks.end(), checks.begin(), checks.end());
+        warn_of_jumps(*terrain.surface, wanted.dilate.increment, run);
+    }
+    return terrain;
 }
 
-DrawnTerrain draw_around_rivers(Rivers const& rivers, FeaturePoints const& given, Diary& diary, Run const& run) {
-    DrawnTerrain drawn = without_land(rivers);
-    bool const balanced = in_equilibrium(rivers.recipe);
+} // namespace
+
+Terrain without_land(Rivers const& rivers) {
+    Terrain terrain;
+    terrain.grid = rivers.grid;
+    terrain.land = rivers.land;
+    terrain.network = rivers.network;
+    terrain.orders = rivers.orders;
+    terrain.streams = rivers.streams;
+    terrain.types = rivers.types;
+    terrain.valley = rivers.valley;
+    return terrain;
+}
+
+Terrain draw_around_rivers(Plan const& plan, Rivers const& rivers, Diary& diary, Run const& run) {
+    Recipe const& recipe = plan.recipe;
+    Terrain terrain = without_land(rivers);
+    bool const balanced = in_equilibrium(recipe);
     Mask inside;
     if (balanced) { // whose rivers have their heights from it
-        drawn = draw_in_equilibrium(std::move(drawn), rivers.story.heights_of_file, diary, run);
+        terrain = draw_in_equilibrium(plan, std::move(terrain), diary, run);
     } else {
-        inside = inside_of(drawn.recipe, drawn.land, drawn.valley);
+        inside = inside_of(recipe, terrain.land, terrain.valley);
     }
-    std::optional<SkeletonRecipe> const skeleton = drawn.recipe.skeleton;
     std::optional<FeaturePoints> own;
-    if (skeleton && skeleton->scatter > 0) {
-        skeleton::Scattered found = scattered(drawn, inside, diary, run);
-        drawn.checks.push_back(points_missing(found.missing, skeleton->scatter, run));
+    if (scatters(recipe)) {
+        skeleton::Scattered found = scattered(plan, terrain, inside, diary, run);
+        terrain.checks.push_back(points_missing(found.missing, recipe.skeleton->scatter, run));
         own = std::move(found.points);
     }
-    FeaturePoints const& points = own ? *own : given;
-    if (skeleton && skeleton->ridges != Ridges::none) {
-        drawn = with_ridges(std::move(drawn), diary, run);
+    FeaturePoints const& points = own ? *own : plan.points;
+    if (has_ridges(recipe)) {
+        terrain = with_ridges(plan, std::move(terrain), diary, run);
     }
-    SurfaceRecipe const wanted = *drawn.recipe.surface;
-    bool const over_tin = wanted.method == Method::tin || (wanted.method == Method::dilate && wanted.base == Base::tin);
-    if (over_tin || (skeleton && skeleton->tin)) {
-        drawn = with_tin(std::move(drawn), points, diary, run);
+    if (needs_tin(recipe)) {
+        terrain = with_tin(std::move(terrain), points, diary, run);
     }
     if (!balanced) {
-        Surface made = diary.stage("fill", [&] { return surface_of(drawn, points, inside, run); });
-        drawn.surface = std::move(made.drawn);
-        drawn.diffusion = made.diffusion;
-        diary.say(fmt::format("{}x{}, {}", drawn.grid.width, drawn.grid.height, about(drawn)));
-        if (wanted.method == Method::dilate) {
-            std::vector<Check> const checks = relief_checks(drawn);
-            drawn.checks.insert(drawn.checks.end(), checks.begin(), checks.end());
-            warn_of_jumps(*drawn.surface, wanted.dilate.increment, run);
-        }
+        terrain = filled(plan, std::move(terrain), points, inside, diary, run);
     }
-    return with_detail_beside_rivers(std::move(drawn), run);
+    return with_detail_beside_rivers(plan, std::move(terrain), run);
 }
 
 } // namespace thalweg::pipeline

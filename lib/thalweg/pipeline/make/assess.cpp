@@ -7,10 +7,12 @@
 #include <thalweg/flow/flow_field.hpp>
 #include <thalweg/flow/routing/route_dinf.hpp>
 #include <thalweg/measure/topology/topology.hpp>
-#include <thalweg/pipeline/commands/internal/append.hpp>
 #include <thalweg/pipeline/make/internal/catchment_rows.hpp>
-#include <thalweg/pipeline/make/internal/diary.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/plan/internal/append.hpp>
+#include <thalweg/pipeline/plan/internal/diary.hpp>
+#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 
 #include <fmt/format.h>
 
@@ -42,34 +44,34 @@ Check none_of(char const* name, std::int64_t count) {
 }
 
 /// What the rivers claim of the surface.
-measure::Claims claims_of(DrawnTerrain const& drawn, flow::ContributingAreas const& areas) {
+measure::Claims claims_of(Plan const& plan, Terrain const& terrain, flow::ContributingAreas const& areas) {
     measure::Claims claims;
     claims.ds_area_m2 = areas.ds_area_m2;
-    claims.still =
-        either(still_cells(measure::as_file(drawn.network, drawn.orders), drawn.grid), lake_cells(drawn.channels));
-    claims.drawn = river_mask(drawn.valley);
-    if (replaces_rivers(drawn.recipe)) {
+    claims.still = either(still_cells(measure::as_file(terrain.network, terrain.orders), terrain.grid),
+                          lake_cells(terrain.channels));
+    claims.drawn = river_mask(terrain.valley);
+    if (replaces_rivers(plan.recipe)) {
         claims.honoured = claims.drawn;
     }
     return claims;
 }
 
 /// What is measured of rivers on their surface.
-Assessment with_rivers(Assessment found, DrawnTerrain const& drawn, flow::FlowField const& drainage, Diary& diary,
-                       Run const& run) {
-    StreamNetwork const& plan = drawn.network.plan;
-    Raster<float> const& dem = drawn.surface->dem;
-    found.areas = flow::areas_d8(plan, drainage, run);
-    if (drawn.recipe.output.catchments) {
+Assessment with_rivers(Plan const& plan, Assessment found, Terrain const& terrain, Diary& diary, Run const& run) {
+    flow::FlowField const& drainage = *terrain.drainage;
+    StreamNetwork const& network = terrain.network.plan;
+    Raster<float> const& dem = terrain.surface->dem;
+    found.areas = flow::areas_d8(network, drainage, run);
+    if (plan.recipe.output.catchments) {
         found.catchments =
-            diary.stage("catchments", [&] { return flow::catchments(flow::reaches_of(plan), drainage, run); });
+            diary.stage("catchments", [&] { return flow::catchments(flow::reaches_of(network), drainage, run); });
     }
-    if (drawn.recipe.network->inland == InlandEnds::sink) {
-        found.sinks = inland_ends(plan, dem);
+    if (plan.recipe.network->inland == InlandEnds::sink) {
+        found.sinks = inland_ends(network, dem);
     }
-    found.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(drawn.valley, dem)));
+    found.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
     found.certificate = diary.stage("certify", [&] {
-        return measure::certify(dem, drainage, flow::reaches_of(plan), claims_of(drawn, found.areas), run);
+        return measure::certify(dem, drainage, flow::reaches_of(network), claims_of(plan, terrain, found.areas), run);
     });
     return found;
 }
@@ -82,34 +84,35 @@ std::vector<Check> drainage_checks(Assessment const& found, flow::FlowField cons
 }
 
 /// What is measured of a surface, with the rivers on it.
-Assessment of_surface(DrawnTerrain const& drawn, flow::FlowField const& drainage, Diary& diary, Run const& run) {
-    Raster<float> const& dem = drawn.surface->dem;
+Assessment of_surface(Plan const& plan, Terrain const& terrain, Diary& diary, Run const& run) {
+    flow::FlowField const& drainage = *terrain.drainage;
+    Raster<float> const& dem = terrain.surface->dem;
     Assessment found;
     found.statistics = diary.stage("measure", [&] { return measure::statistics(dem, run); });
     found.hypsometry = measure::hypsometry(dem, run);
     found.pits = drainage.pits;
     found.pit_volume_m3 = drainage.pit_volume_m3;
-    if (drawn.recipe.network) {
-        found = with_rivers(std::move(found), drawn, drainage, diary, run);
+    if (plan.recipe.network) {
+        found = with_rivers(plan, std::move(found), terrain, diary, run);
     }
-    if (drawn.recipe.skeleton && drawn.recipe.skeleton->ridges != Ridges::none) {
-        found.surface_ridges = diary.stage("ridges", [&] { return measure::extract_ridges(dem, drawn.ridges, run); });
+    if (has_ridges(plan.recipe)) {
+        found.surface_ridges = diary.stage("ridges", [&] { return measure::extract_ridges(dem, terrain.ridges, run); });
         measure::Agreement const& within_a_cell = found.surface_ridges->extracted[1];
         diary.say(
             fmt::format("{:.0f} % of those asked for are ridges of the surface, {:.0f} % of its own are asked for",
                         100.0 * within_a_cell.recall, 100.0 * within_a_cell.precision));
     }
-    if (drawn.drained) {
+    if (terrain.drained) {
         append(found.checks, drainage_checks(found, drainage));
     }
-    if (drawn.recipe.output.accumulation) {
+    if (plan.recipe.output.accumulation) {
         found.water_areas = diary.stage("areas", [&] {
             return WaterAreas{areas_m2(drainage), areas_m2(flow::route_dinf(dem, drainage, run).area_cells)};
         });
     }
-    found.laws = diary.stage(
-        "laws", [&] { return laws_of_terrain(drawn, found.areas, found.statistics->cells, &drainage, run); });
-    found.relief = diary.stage("relief", [&] { return relief_of_terrain(drawn, *found.statistics, drainage, run); });
+    found.laws =
+        diary.stage("laws", [&] { return laws_of_terrain(terrain, found.areas, found.statistics->cells, run); });
+    found.relief = diary.stage("relief", [&] { return relief_of_terrain(plan, terrain, *found.statistics, run); });
     return found;
 }
 
@@ -125,25 +128,30 @@ std::vector<Finding> findings_of(std::optional<measure::Certificate> const& cert
 
 } // namespace
 
-Assessment assess(DrawnTerrain const& drawn, std::optional<flow::FlowField> const& drainage, Run const& run) {
+bool Assessment::passed() const {
+    return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
+}
+
+Assessment assess(Plan const& plan, Terrain const& terrain, Run const& run) {
     Diary diary(run);
     Assessment found;
-    if (drawn.surface) {
-        found = of_surface(drawn, *drainage, diary, run);
+    if (terrain.surface) {
+        found = of_surface(plan, terrain, diary, run);
     } else {
-        found.areas = flow::areas_nearest(drawn.network.plan, drawn.grid, run);
-        found.laws = laws_of_terrain(drawn, found.areas, drawn.grid.cells(), nullptr, run);
+        found.areas = flow::areas_nearest(terrain.network.plan, terrain.grid, run);
+        found.laws = laws_of_terrain(terrain, found.areas, terrain.grid.cells(), run);
     }
-    std::vector<Check> checks = drawn.checks;
+    std::vector<Check> checks = terrain.checks;
     append(checks, std::move(found.checks));
-    found.findings = drawn.findings;
-    if (drawn.recipe.network) {
-        measure::TopologyReport topology = diary.stage(
-            "check", [&] { return measure::check_topology(measure::as_file(drawn.network, drawn.orders), {}, run); });
-        checks.insert(checks.begin(), none_of("uphill_arcs", uphill_arcs(drawn.network)));
+    found.findings = terrain.findings;
+    if (plan.recipe.network) {
+        measure::TopologyReport topology = diary.stage("check", [&] {
+            return measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run);
+        });
+        checks.insert(checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
         append(checks, std::move(topology.checks));
         append(found.findings, std::move(topology.findings));
-        if (drawn.drained) {
+        if (terrain.drained) {
             append(found.findings, findings_of(found.certificate));
         }
     }

@@ -10,16 +10,15 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/catchments/catchments.hpp>
-#include <thalweg/flow/flow_field.hpp>
-#include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/drainage/extract_ridges.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/pipeline/make/drawn_terrain.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
-#include <thalweg/pipeline/make/timings.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/pipeline/plan/timings.hpp>
 
 namespace thalweg::pipeline {
 
@@ -46,13 +45,16 @@ struct Assessment {
     std::vector<Check> checks;
     std::vector<Finding> findings; ///< of the checks
     Timings timings_s;
+
+    /// \return every check is ok
+    bool passed() const;
 };
 
 /// Measures and checks land and rivers.
-/// \param drawn what was drawn
-/// \param drainage of the surface, where there is one
+/// \param plan the plan
+/// \param terrain what came of it
 /// \param run progress, log, stop token and number of threads
 /// \return measures and checks
-Assessment assess(DrawnTerrain const& drawn, std::optional<flow::FlowField> const& drainage, Run const& run = {});
+Assessment assess(Plan const& plan, Terrain const& terrain, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -16,9 +16,12 @@
 #include <thalweg/network/elevation/elevate_from_dem.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
-#include <thalweg/pipeline/commands/internal/append.hpp>
-#include <thalweg/pipeline/make/internal/read_cells.hpp>
 #include <thalweg/pipeline/make/internal/type_rivers.hpp>
+#include <thalweg/pipeline/plan/internal/append.hpp>
+#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
+#include <thalweg/pipeline/plan/internal/read_cells.hpp>
+#include <thalweg/pipeline/plan/internal/read_lines.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>
@@ -44,43 +47,37 @@ bool has_sea(Mask const& land) {
     return std::any_of(land.values().begin(), land.values().end(), [](std::uint8_t is_land) { return is_land == 0; });
 }
 
-surface::Edge edge_of(DrawnTerrain const& drawn, Mask const& land) {
-    bool const by_coastlines = drawn.recipe.network->source == Source::lines && drawn.land.cells() > 0;
+surface::Edge edge_of(Plan const& plan, Terrain const& terrain, Mask const& land) {
+    if (plan.recipe.surface->equilibrium.edge) {
+        return *plan.recipe.surface->equilibrium.edge;
+    }
+    bool const by_coastlines = plan.recipe.network->source == Source::lines && terrain.land.cells() > 0;
     return by_coastlines ? surface::Edge::mainland : has_sea(land) ? surface::Edge::coast : surface::Edge::open;
 }
 
-/// What a recipe asks of the land, and the recipe with what it left open.
-struct Asked {
-    Recipe recipe;
-    surface::EquilibriumParams params;
-};
-
-Asked asked_of(Recipe recipe, surface::Edge edge) {
-    EquilibriumRecipe& wanted = recipe.surface->equilibrium;
-    wanted.edge = wanted.edge.value_or(edge);
+/// What the plan asks of the land, where rivers have their heights in this way.
+surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface::Edge edge) {
+    Recipe const& recipe = plan.recipe;
+    EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
     double const relief_m = recipe.surface->dilate.relief_m;
     surface::EquilibriumParams params;
     params.theta = recipe.network->concavity;
-    params.heights = use_of(recipe.network->heights);
+    params.heights = use_of(heights);
     params.bring_to_target = wanted.mean_slope_deg || relief_m > 0.0;
     if (relief_m > 0.0) {
         params.relief_m = relief_m;
     } else if (params.bring_to_target) {
         params.mean_slope_deg = *wanted.mean_slope_deg;
-    } else {
-        bool const drawn = recipe.network->source == Source::lines;
-        params.mean_slope_deg = drawn ? usual_slope_deg(recipe.grid.cell_m) : params.mean_slope_deg;
-        if (params.heights == surface::RiverHeights::graded) { // given ones have a slope of their own
-            wanted.mean_slope_deg = params.mean_slope_deg;
-        }
+    } else if (recipe.network->source == Source::lines) { // given heights have a slope of their own
+        params.mean_slope_deg = usual_slope_deg(recipe.grid.cell_m);
     }
     params.hillslope_cells =
         wanted.hillslope_m > 0.0 ? wanted.hillslope_m / recipe.grid.cell_m : params.hillslope_cells;
     params.floor_width = wanted.floor_width;
     params.roughness = wanted.roughness;
-    params.edge = *wanted.edge;
+    params.edge = edge;
     params.seed = recipe.seed;
-    return {std::move(recipe), params};
+    return params;
 }
 
 /// The heights that are asked of channels: all that the rivers have, or those of sources and where they end.
@@ -117,26 +114,27 @@ Mask land_of(Mask one, Mask const& other, Channels const& channels) {
     return one;
 }
 
-surface::EquilibriumFields fields_of(DrawnTerrain const& drawn, Channels const& channels, Run const& run) {
-    Recipe const& recipe = drawn.recipe;
-    Grid const& grid = drawn.grid;
+surface::EquilibriumFields fields_of(Plan const& plan, Terrain const& terrain, Channels const& channels,
+                                     Run const& run) {
+    Recipe const& recipe = plan.recipe;
+    Grid const& grid = terrain.grid;
     SurfaceRecipe const& wanted = *recipe.surface;
     surface::EquilibriumFields fields;
-    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid), drawn.land, channels);
+    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid), terrain.land, channels);
     fields.uplift = read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run);
     fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
     return fields;
 }
 
 /// What was asked of the land, and what came out.
-DrawnTerrain with_target_checked(DrawnTerrain drawn, surface::EquilibriumTerrain const& land,
-                                 surface::EquilibriumParams const& params, Run const& run) {
+Terrain with_target_checked(Terrain terrain, surface::EquilibriumTerrain const& land,
+                            surface::EquilibriumParams const& params, Run const& run) {
     constexpr double allowed = 0.05;
     if (params.heights != surface::RiverHeights::graded && !params.bring_to_target) {
-        return drawn; // nothing was
+        return terrain; // nothing was
     }
     double const error = std::fabs(land.target_share - 1.0);
-    drawn.checks.push_back({params.relief_m ? "relief_error" : "mean_slope_error", error, allowed, error <= allowed});
+    terrain.checks.push_back({params.relief_m ? "relief_error" : "mean_slope_error", error, allowed, error <= allowed});
     if (error > allowed) {
         double const asked = params.relief_m ? *params.relief_m : params.mean_slope_deg;
         char const* const unit = params.relief_m ? "m" : "degrees";
@@ -144,9 +142,9 @@ DrawnTerrain with_target_checked(DrawnTerrain drawn, surface::EquilibriumTerrain
             fmt::format("surface.{} = {:.6g} {} cannot be reached with the heights of the rivers: it is {:.4g} {}",
                         params.relief_m ? "relief" : "mean_slope", asked, unit, land.target_share * asked, unit);
         run.say("warning: " + text);
-        drawn.findings.push_back({"target_missed", 0, {}, land.target_share * asked, text});
+        terrain.findings.push_back({"target_missed", 0, {}, land.target_share * asked, text});
     }
-    return drawn;
+    return terrain;
 }
 
 double most_walled(Channels const& channels) {
@@ -158,11 +156,11 @@ bool too_walled(surface::EquilibriumTerrain const& land, Channels const& channel
 }
 
 /// River cells that only walls hold up.
-DrawnTerrain with_walls_checked(DrawnTerrain drawn, surface::EquilibriumTerrain const& land, Channels const& channels,
-                                Run const& run) {
+Terrain with_walls_checked(Terrain terrain, surface::EquilibriumTerrain const& land, Channels const& channels,
+                           Run const& run) {
     constexpr std::size_t listed = 1000;
     bool const ok = !too_walled(land, channels);
-    drawn.checks.push_back(
+    terrain.checks.push_back(
         {"walled_cells", static_cast<double>(land.walled.size()), std::floor(most_walled(channels)), ok});
     if (!ok) {
         run.say(fmt::format("warning: {} of {} river cells stand on walls above the terrain. network.heights = "
@@ -171,13 +169,13 @@ DrawnTerrain with_walls_checked(DrawnTerrain drawn, surface::EquilibriumTerrain 
     }
     for (std::size_t i = 0; i < std::min(listed, land.walled.size()); ++i) {
         std::int64_t const cell = channels.cell[static_cast<std::size_t>(land.walled[i])];
-        Vec2 const at = drawn.grid.centre(drawn.grid.at(cell));
-        drawn.findings.push_back({"walled_cell", 0, at, static_cast<double>(land.dem[cell]),
-                                  fmt::format("the river at ({:.1f}, {:.1f}) stands {:.5g} m high, on a wall: the "
-                                              "land around is lower",
-                                              at.x, at.y, land.dem[cell])});
+        Vec2 const at = terrain.grid.centre(terrain.grid.at(cell));
+        terrain.findings.push_back({"walled_cell", 0, at, static_cast<double>(land.dem[cell]),
+                                    fmt::format("the river at ({:.1f}, {:.1f}) stands {:.5g} m high, on a wall: the "
+                                                "land around is lower",
+                                                at.x, at.y, land.dem[cell])});
     }
-    return drawn;
+    return terrain;
 }
 
 /// One note for all lakes of a file that no cell shows.
@@ -203,24 +201,54 @@ struct Lakes {
     std::vector<Finding> notes = {};
 };
 
-Lakes lakes_of(DrawnTerrain const& drawn, network::ChannelsOfArcs const& rivers, Run const& run) {
-    EquilibriumRecipe const& wanted = drawn.recipe.surface->equilibrium;
+Lakes lakes_of(Plan const& plan, Terrain const& terrain, network::ChannelsOfArcs const& rivers, Run const& run) {
+    EquilibriumRecipe const& wanted = plan.recipe.surface->equilibrium;
     if (wanted.lake_share > 0.0) {
-        flow::ContributingAreas const areas = flow::areas_nearest(drawn.network.plan, drawn.grid, run);
-        return {network::choose_lakes(rivers, areas.ds_area_m2, {.share = wanted.lake_share, .seed = drawn.recipe.seed},
+        flow::ContributingAreas const areas = flow::areas_nearest(terrain.network.plan, terrain.grid, run);
+        return {network::choose_lakes(rivers, areas.ds_area_m2, {.share = wanted.lake_share, .seed = plan.recipe.seed},
                                       run)};
     }
     if (wanted.lakes.empty()) {
         return {};
     }
-    Polygons const polygons = io::read_polygons(file_in(drawn.recipe, wanted.lakes), drawn.grid.crs, run);
-    Lakes lakes{blend::number_polygons(polygons, drawn.grid)};
+    Polygons const polygons = io::read_polygons(file_in(plan.recipe, wanted.lakes), terrain.grid.crs, run);
+    Lakes lakes{blend::number_polygons(polygons, terrain.grid)};
     lakes.notes = unseen_lakes(polygons, lakes.labels);
     return lakes;
 }
 
-EquilibriumStory story_of(surface::EquilibriumTerrain const& land, Channels const& channels) {
+/// A land in equilibrium, and by what it was solved.
+struct Solved {
+    surface::EquilibriumTerrain land;
+    surface::EquilibriumParams params;
+    bool gave_way = false; ///< as EquilibriumStory
+};
+
+/// Solves for the land. Heights that were taken because the lines have them give way where they would need walls.
+Solved solve(Plan const& plan, Terrain const& terrain, Channels const& channels, Diary& diary, Run const& run) {
+    surface::EquilibriumFields const fields = fields_of(plan, terrain, channels, run);
+    run.at(0.0, fmt::format("fill {} cells", terrain.grid.cells()).c_str());
+    surface::Edge const edge = edge_of(plan, terrain, fields.land);
+    auto const solved_with = [&](Heights heights) {
+        surface::EquilibriumParams const params = params_of(plan, heights, edge);
+        return Solved{diary.stage("fill", [&] { return surface::equilibrium(channels, fields, params, run); }), params};
+    };
+    Solved solved = solved_with(plan.recipe.network->heights);
+    if (plan.heights_of_file && too_walled(solved.land, channels)) {
+        run.say(fmt::format("warning: the heights in {} would put {} of {} river cells on walls above the terrain. "
+                            "Rivers are lowered there: network.heights = \"soft\"; \"file\" keeps their heights.",
+                            plan.recipe.network->lines.path, solved.land.walled.size(), channels.cell.size()));
+        solved = solved_with(Heights::soft);
+        solved.gave_way = true;
+    }
+    return solved;
+}
+
+EquilibriumStory story_of(Solved const& solved, Channels const& channels) {
+    surface::EquilibriumTerrain const& land = solved.land;
     EquilibriumStory story;
+    story.edge = solved.params.edge;
+    story.gave_way = solved.gave_way;
     story.channel_cells = static_cast<std::int64_t>(channels.cell.size());
     story.shortened_cells = static_cast<std::int64_t>(land.shortened.size());
     story.walled_cells = static_cast<std::int64_t>(land.walled.size());
@@ -253,8 +281,8 @@ struct WithLakes {
     std::vector<Finding> notes = {};
 };
 
-WithLakes with_lakes(network::ChannelsOfArcs rivers, DrawnTerrain const& drawn, Run const& run) {
-    Lakes lakes = lakes_of(drawn, rivers, run);
+WithLakes with_lakes(Plan const& plan, network::ChannelsOfArcs rivers, Terrain const& terrain, Run const& run) {
+    Lakes lakes = lakes_of(plan, terrain, rivers, run);
     if (lakes.labels.cells() == 0) {
         return {std::move(rivers)};
     }
@@ -264,13 +292,13 @@ WithLakes with_lakes(network::ChannelsOfArcs rivers, DrawnTerrain const& drawn, 
 }
 
 /// The land with other arcs in plan, and the types that they get.
-DrawnTerrain with_types(DrawnTerrain drawn, StreamNetwork plan, Run const& run) {
-    Typed typed = type_rivers(std::move(plan), *drawn.recipe.network, run);
-    drawn.network.plan = std::move(typed.plan);
+Terrain with_types(Plan const& plan, Terrain terrain, StreamNetwork network, Run const& run) {
+    Typed typed = type_rivers(std::move(network), *plan.recipe.network, run);
+    terrain.network.plan = std::move(typed.plan);
     if (!typed.types.type.empty()) {
-        drawn.types = std::move(typed.types);
+        terrain.types = std::move(typed.types);
     }
-    return drawn;
+    return terrain;
 }
 
 Valley valley_of(Channels const& channels, Raster<float> const& dem) {
@@ -283,105 +311,73 @@ Valley valley_of(Channels const& channels, Raster<float> const& dem) {
 
 } // namespace
 
-double usual_slope_deg(double cell_m) {
-    constexpr double finest_m = 30.0;
-    constexpr double half_m = 400.0;
-    double const fine_deg = surface::EquilibriumParams{}.mean_slope_deg;
-    if (cell_m <= finest_m) {
-        return fine_deg;
-    }
-    auto const share = [](double m) { return 1.0 / (1.0 + portable::pow(m / half_m, 0.9)); };
-    double const fine = fine_deg / 180.0 * portable::pi;
-    double const tangent = portable::sin(fine) / portable::cos(fine) * share(cell_m) / share(finest_m);
-    double const degrees = portable::atan2(tangent, 1.0) / portable::pi * 180.0;
-    return std::max(0.5, std::round(2.0 * degrees) / 2.0);
-}
-
-bool in_equilibrium(Recipe const& recipe) {
-    return recipe.network && recipe.surface && recipe.surface->method == Method::equilibrium;
-}
-
-DrawnTerrain draw_in_equilibrium(DrawnTerrain drawn, bool heights_of_file, Diary& diary, Run const& run) {
+Terrain draw_in_equilibrium(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
     network::ChannelsOfArcs rivers =
-        diary.stage("channels", [&] { return network::channels(drawn.network.plan, drawn.grid, {}, run); });
-    append(drawn.notes, rivers.notes);
-    Heights const heights = drawn.recipe.network->heights;
+        diary.stage("channels", [&] { return network::channels(terrain.network.plan, terrain.grid, {}, run); });
+    append(terrain.notes, rivers.notes);
+    Heights const heights = plan.recipe.network->heights;
     if (heights != Heights::graded) {
-        rivers.channels.z = asked_heights(drawn.network, rivers.channels, heights);
+        rivers.channels.z = asked_heights(terrain.network, rivers.channels, heights);
     }
-    WithLakes flooded = with_lakes(std::move(rivers), drawn, run);
-    append(drawn.notes, flooded.notes);
-    drawn.lakes = flooded.lakes;
+    WithLakes flooded = with_lakes(plan, std::move(rivers), terrain, run);
+    append(terrain.notes, flooded.notes);
+    terrain.lakes = flooded.lakes;
     rivers = std::move(flooded.rivers);
-    surface::EquilibriumFields const fields = fields_of(drawn, rivers.channels, run);
-    run.at(0.0, fmt::format("fill {} cells", drawn.grid.cells()).c_str());
-    surface::Edge const edge = edge_of(drawn, fields.land);
-    Asked asked = asked_of(std::move(drawn.recipe), edge);
-    auto const solve = [&] {
-        return diary.stage("fill", [&] { return surface::equilibrium(rivers.channels, fields, asked.params, run); });
-    };
-    surface::EquilibriumTerrain land = solve();
-    if (heights_of_file && too_walled(land, rivers.channels)) {
-        run.say(fmt::format("warning: the heights in {} would put {} of {} river cells on walls above the terrain. "
-                            "Rivers are lowered there: network.heights = \"soft\"; \"file\" keeps their heights.",
-                            asked.recipe.network->lines.path, land.walled.size(), rivers.channels.cell.size()));
-        asked.recipe.network->heights = Heights::soft;
-        asked = asked_of(std::move(asked.recipe), edge);
-        land = solve();
-    }
-    drawn.recipe = std::move(asked.recipe);
-    drawn.equilibrium = story_of(land, rivers.channels);
-    drawn = with_target_checked(std::move(drawn), land, asked.params, run);
-    if (asked.params.heights != surface::RiverHeights::graded) {
-        drawn = with_walls_checked(std::move(drawn), land, rivers.channels, run);
+    Solved solved = solve(plan, terrain, rivers.channels, diary, run);
+    surface::EquilibriumTerrain& land = solved.land;
+    terrain.equilibrium = story_of(solved, rivers.channels);
+    terrain = with_target_checked(std::move(terrain), land, solved.params, run);
+    if (solved.params.heights != surface::RiverHeights::graded) {
+        terrain = with_walls_checked(std::move(terrain), land, rivers.channels, run);
     }
     warn_of_heights(land.dem, run);
     if (!land.shortened.empty()) {
-        network::Shortened shortened = network::shorten(drawn.network.plan, rivers, land.shortened);
-        append(drawn.notes, shortened.notes);
+        network::Shortened shortened = network::shorten(terrain.network.plan, rivers, land.shortened);
+        append(terrain.notes, shortened.notes);
         rivers = std::move(shortened.drawn);
-        drawn = with_types(std::move(drawn), std::move(shortened.network), run);
+        terrain = with_types(plan, std::move(terrain), std::move(shortened.network), run);
     }
-    diary.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", drawn.grid.width, drawn.grid.height,
+    diary.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", terrain.grid.width, terrain.grid.height,
                           rivers.channels.cell.size()));
-    drawn.network = network::elevate_from_dem(drawn.network.plan, rivers.channels, land.dem);
-    drawn.orders = network::order(drawn.network.plan);
-    drawn.streams = network::count_streams(drawn.network.plan);
-    drawn.valley = valley_of(rivers.channels, land.dem);
-    drawn.channels = std::move(rivers.channels);
-    drawn.surface.emplace();
-    drawn.surface->dem = std::move(land.dem);
-    return drawn;
+    terrain.network = network::elevate_from_dem(terrain.network.plan, rivers.channels, land.dem);
+    terrain.orders = network::order(terrain.network.plan);
+    terrain.streams = network::count_streams(terrain.network.plan);
+    terrain.valley = valley_of(rivers.channels, land.dem);
+    terrain.channels = std::move(rivers.channels);
+    terrain.surface.emplace();
+    terrain.surface->dem = std::move(land.dem);
+    return terrain;
 }
 
-DrawnTerrain with_side_valleys(DrawnTerrain drawn, flow::FlowField const& drainage, Diary& diary, Run const& run) {
-    if (!drawn.recipe.network || !drawn.recipe.network->fill_space) {
-        return drawn;
+Terrain with_side_valleys(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
+    if (!fills_space(plan.recipe)) {
+        return terrain;
     }
-    std::int64_t const support_cells = drawn.recipe.network->support_cells;
+    std::int64_t const support_cells = plan.recipe.network->support_cells;
     network::SideValleys made = diary.stage("valleys", [&] {
-        return network::side_valleys(drawn.network, drawn.channels, drawn.surface->dem, drainage, {support_cells}, run);
+        return network::side_valleys(terrain.network, terrain.channels, terrain.surface->dem, *terrain.drainage,
+                                     {support_cells}, run);
     });
-    drawn.equilibrium->side_valleys = made.grown;
-    drawn.equilibrium->side_valleys_left_out = made.left_out;
+    terrain.equilibrium->side_valleys = made.grown;
+    terrain.equilibrium->side_valleys_left_out = made.left_out;
     diary.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown, support_cells,
                           static_cast<std::int64_t>(made.network.plan.arc_count()) - made.grown));
-    drawn.network = std::move(made.network);
+    terrain.network = std::move(made.network);
     // Lengths at which each is kept.
-    StreamNetwork kept = network::prune(drawn.network.plan, {0.0, drawn.grid.cell_m}, run).network;
-    drawn = with_types(std::move(drawn), std::move(kept), run);
-    drawn.orders = network::order(drawn.network.plan);
-    drawn.streams = network::count_streams(drawn.network.plan);
-    for (ArcId a = 0; a < drawn.network.plan.arc_count(); ++a) {
-        Arc const& of = drawn.network.plan.arc(a);
-        bool const leaves = drawn.network.plan.out(drawn.network.plan.to(a)) == no_arc;
+    StreamNetwork kept = network::prune(terrain.network.plan, {0.0, terrain.grid.cell_m}, run).network;
+    terrain = with_types(plan, std::move(terrain), std::move(kept), run);
+    terrain.orders = network::order(terrain.network.plan);
+    terrain.streams = network::count_streams(terrain.network.plan);
+    for (ArcId a = 0; a < terrain.network.plan.arc_count(); ++a) {
+        Arc const& of = terrain.network.plan.arc(a);
+        bool const leaves = terrain.network.plan.out(terrain.network.plan.to(a)) == no_arc;
         for (std::size_t v = 0; !of.is_input && v + (leaves ? 0 : 1) < of.line.size();
              ++v) { // the last may join a line
-            std::int64_t const cell = drawn.grid.index(drawn.grid.cell_of(of.line[v]));
-            drawn.valley.z[cell] = drawn.surface->dem[cell];
+            std::int64_t const cell = terrain.grid.index(terrain.grid.cell_of(of.line[v]));
+            terrain.valley.z[cell] = terrain.surface->dem[cell];
         }
     }
-    return drawn;
+    return terrain;
 }
 
 } // namespace thalweg::pipeline

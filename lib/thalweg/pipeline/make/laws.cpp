@@ -9,7 +9,7 @@
 #include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/pipeline/make/drawn_terrain.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
 
 #include <algorithm>
 
@@ -67,22 +67,23 @@ DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params, Run c
     return laws_of_dem(on_ground, drainage, flow::flow_lengths(drainage, run), params, run);
 }
 
-RiverLaws laws_of_terrain(DrawnTerrain const& drawn, flow::ContributingAreas const& areas, std::int64_t land_cells,
-                          flow::FlowField const* drainage, Run const& run) {
+RiverLaws laws_of_terrain(Terrain const& terrain, flow::ContributingAreas const& areas, std::int64_t land_cells,
+                          Run const& run) {
     RiverLaws found;
     std::optional<Raster<float>> flow_length;
-    if (drainage != nullptr) {
-        flow_length = flow::flow_lengths(*drainage, run);
+    if (terrain.drainage) {
+        flow_length = flow::flow_lengths(*terrain.drainage, run);
     }
+    Grid const& grid = terrain.grid;
     DemLawsParams params;
-    if (drawn.network.plan.arc_count() > 0) {
+    if (terrain.network.plan.arc_count() > 0) {
         found.network =
-            laws_of(drawn.network, drawn.orders, areas, drawn.grid, land_cells, flow_length ? &*flow_length : nullptr);
+            laws_of(terrain.network, terrain.orders, areas, grid, land_cells, flow_length ? &*flow_length : nullptr);
         params.network_m =
-            found.network->drainage_density_m * static_cast<double>(land_cells) * drawn.grid.cell_m * drawn.grid.cell_m;
+            found.network->drainage_density_m * static_cast<double>(land_cells) * grid.cell_m * grid.cell_m;
     }
-    if (drainage != nullptr) {
-        found.dem = laws_of_dem(drawn.surface->dem, *drainage, *flow_length, params, run);
+    if (terrain.drainage) {
+        found.dem = laws_of_dem(terrain.surface->dem, *terrain.drainage, *flow_length, params, run);
     }
     return found;
 }

@@ -56,17 +56,16 @@ DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, R
 /// \throws Error also as ground_cell
 DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params = {}, Run const& run = {});
 
-struct DrawnTerrain;
+struct Terrain;
 
 /// Both laws of land and rivers.
-/// \param drawn what was drawn
+/// \param terrain land and rivers; where it has no drainage, Hack's lengths are from the sources
 /// \param areas of the rivers
 /// \param land_cells that have heights, or the grid's
-/// \param drainage of the surface, null where there is none: Hack's lengths are then from the sources
 /// \param run progress, log, stop token and number of threads
 /// \return the DEM's rivers as long together as those drawn, where there are any.
 /// \throws Error as laws_of_dem
-RiverLaws laws_of_terrain(DrawnTerrain const& drawn, flow::ContributingAreas const& areas, std::int64_t land_cells,
-                          flow::FlowField const* drainage, Run const& run = {});
+RiverLaws laws_of_terrain(Terrain const& terrain, flow::ContributingAreas const& areas, std::int64_t land_cells,
+                          Run const& run = {});
 
 } // namespace thalweg::pipeline

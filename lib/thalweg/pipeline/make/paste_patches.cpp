@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/internal/paste_patches.hpp>
 
-#include <thalweg/pipeline/commands/make_blend.hpp>
+#include <thalweg/pipeline/make/blend_into.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>
@@ -35,19 +36,19 @@ MakeBlendParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
 
 } // namespace
 
-DrawnTerrain with_patches(DrawnTerrain drawn, Diary& diary, Run const& run) {
-    for (PatchRecipe const& patch : drawn.recipe.patches) {
-        bool const keeps = patch.rivers == PatchRivers::keep && drawn.recipe.network.has_value();
+Terrain with_patches(Plan const& plan, Terrain drawn, Diary& diary, Run const& run) {
+    for (PatchRecipe const& patch : plan.recipe.patches) {
+        bool const keeps = patch.rivers == PatchRivers::keep && plan.recipe.network.has_value();
         MadeBlend made = diary.stage("blend", [&] {
             return blend_into(drawn.surface->dem, keeps ? river_mask(drawn.valley) : Mask{},
-                              params_of(drawn.recipe, patch), run);
+                              params_of(plan.recipe, patch), run);
         });
         drawn.surface->dem = std::move(made.pasted.dem);
         drawn.patches.push_back({made.pasted.cells, made.pasted.kept, made.pasted.seam_max_m, made.pasted.seam_rms_m});
         diary.say(
             fmt::format("{} cells of {}, seam {:.2g} m", made.pasted.cells, patch.source, made.pasted.seam_rms_m));
     }
-    if (drawn.recipe.network && replaces_rivers(drawn.recipe)) {
+    if (plan.recipe.network && replaces_rivers(plan.recipe)) {
         drawn.valley = honoured_valley(std::move(drawn.valley), drawn.network.plan, drawn.surface->dem);
     }
     return drawn;

@@ -7,7 +7,7 @@
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/measure/relief/perched.hpp>
-#include <thalweg/pipeline/make/drawn_terrain.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,17 +23,18 @@ TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
             std::nullopt};
 }
 
-TerrainRelief relief_of_terrain(DrawnTerrain const& drawn, measure::Statistics const& statistics,
-                                flow::FlowField const& drainage, Run const& run) {
-    Raster<float> const& dem = drawn.surface->dem;
-    TerrainRelief found{measure::relief(dem, drainage, statistics, {}, run), std::nullopt};
-    double const asked = drawn.recipe.surface ? drawn.recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;
+TerrainRelief relief_of_terrain(Plan const& plan, Terrain const& terrain, measure::Statistics const& statistics,
+                                Run const& run) {
+    Raster<float> const& dem = terrain.surface->dem;
+    TerrainRelief found{measure::relief(dem, *terrain.drainage, statistics, {}, run), std::nullopt};
+    double const asked = plan.recipe.surface ? plan.recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;
     double const mean_slope = (asked > 0.0 ? asked : found.land.slopes.mean_deg) * (portable::pi / 180.0);
-    if (drawn.recipe.network && !std::isnan(mean_slope)) {
-        std::vector<std::int64_t> cells = drawn.channels.cell; // side valleys that the land has grown climb its slopes
-        if (!drawn.equilibrium) {
-            for (std::int64_t i = 0; i < drawn.valley.z.cells(); ++i) {
-                if (!std::isnan(drawn.valley.z[i])) {
+    if (plan.recipe.network && !std::isnan(mean_slope)) {
+        std::vector<std::int64_t> cells =
+            terrain.channels.cell; // side valleys that the land has grown climb its slopes
+        if (!terrain.equilibrium) {
+            for (std::int64_t i = 0; i < terrain.valley.z.cells(); ++i) {
+                if (!std::isnan(terrain.valley.z[i])) {
                     cells.push_back(i);
                 }
             }

@@ -30,16 +30,17 @@ struct TerrainRelief {
 /// \throws Cancelled
 TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run = {});
 
-struct DrawnTerrain;
+struct Plan;
+struct Terrain;
 
 /// Relief of a surface with its statistics.
-/// \param drawn what was drawn
+/// \param plan the plan of the terrain
+/// \param terrain one with a surface
 /// \param statistics its statistics
-/// \param drainage the flow field of the DEM
 /// \param run progress, log, stop token and number of threads
-/// \return perched where it has rivers: by the mean slope that the recipe asks for, else that of the land.
-TerrainRelief relief_of_terrain(DrawnTerrain const& drawn, measure::Statistics const& statistics,
-                                flow::FlowField const& drainage, Run const& run = {});
+/// \return perched where it has rivers: by the mean slope that the plan asks for, else that of the land.
+TerrainRelief relief_of_terrain(Plan const& plan, Terrain const& terrain, measure::Statistics const& statistics,
+                                Run const& run = {});
 
 /// A figure as report.json and the page tell it.
 struct ReliefRow {

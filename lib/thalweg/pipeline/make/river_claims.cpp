@@ -126,11 +126,6 @@ Mask river_mask(Valley const& valley) {
     return cells;
 }
 
-bool replaces_rivers(Recipe const& recipe) {
-    return std::any_of(recipe.patches.begin(), recipe.patches.end(),
-                       [](PatchRecipe const& p) { return p.rivers == PatchRivers::replace; });
-}
-
 Valley honoured_valley(Valley valley, StreamNetwork const& network, Raster<float> const& dem) {
     Grid const& grid = dem.grid();
     Mask honoured(grid);

@@ -4,6 +4,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/io/gdal/access.hpp>
 #include <thalweg/network/elevation/keep_heights.hpp>
 #include <thalweg/network/elevation/set_heights_graded.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
@@ -14,11 +15,10 @@
 #include <thalweg/network/vectorise/cut_corners.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
-#include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
-#include <thalweg/pipeline/make/internal/plan_rivers.hpp>
+#include <thalweg/pipeline/make/internal/rivers_in_plan.hpp>
 #include <thalweg/pipeline/make/internal/type_rivers.hpp>
+#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/conversions.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>
 
@@ -35,55 +35,48 @@ struct Elevated {
     network::HeightReport report = {}; ///< under modes that set heights
 };
 
-Elevated raise(Planned const& planned, network::RiverTypes const& types, Run const& run) {
-    NetworkRecipe const& wanted = *planned.recipe.network;
+Elevated raise(Plan const& plan, RiversInPlan const& planned, network::RiverTypes const& types, Run const& run) {
+    NetworkRecipe const& wanted = *plan.recipe.network;
     if (planned.file_heights) {
-        return {network::keep_heights(planned.plan, *planned.file_heights, wanted.slope)};
+        return {network::keep_heights(planned.network, *planned.file_heights, wanted.slope)};
     }
     if (wanted.heights == Heights::rosgen) {
-        return {network::set_heights_by_type(planned.plan, types, {wanted.rosgen_slope, planned.recipe.seed}, run)};
+        return {network::set_heights_by_type(planned.network, types, {wanted.rosgen_slope, plan.recipe.seed}, run)};
     }
     if (wanted.heights == Heights::graded) {
-        flow::ContributingAreas const areas = flow::areas_nearest(planned.plan, planned.grid, run);
+        flow::ContributingAreas const areas = flow::areas_nearest(planned.network, planned.grid, run);
         double const cell = planned.grid.cell_m * planned.grid.cell_m;
-        return {network::set_heights_graded(planned.plan, areas.us_area_m2, areas.ds_area_m2,
+        return {network::set_heights_graded(planned.network, areas.us_area_m2, areas.ds_area_m2,
                                             {wanted.slope, wanted.concavity, cell}, run)
                     .network};
     }
     network::HeightMode const mode = wanted.heights == Heights::straight       ? network::HeightMode::straight
                                      : wanted.heights == Heights::along_stream ? network::HeightMode::along_stream
                                                                                : network::HeightMode::straight_repaired;
-    network::Elevated raised = network::set_heights(planned.plan, {mode, wanted.slope}, run);
+    network::Elevated raised = network::set_heights(planned.network, {mode, wanted.slope}, run);
     return {std::move(raised.network), raised.report};
 }
 
-/// Bends rivers, where the recipe wants it, once it is said how much. Those that end on a coast stay as they grew, in
-/// all directions alike: bent ones would leave the land.
-Planned let_wander(Planned planned, Diary& diary, Run const& run) {
-    NetworkRecipe& rivers = *planned.recipe.network;
-    Mask const& land = planned.land;
-    bool const has_coast = !land.values().empty();
-    bool const grown_for_land = rivers.source != Source::lines && in_equilibrium(planned.recipe) && !has_coast;
-    rivers.meander = rivers.meander.value_or(grown_for_land ? 1.0 : 0.0);
-    if (*rivers.meander == 0.0 && !grown_for_land) {
+/// Bends rivers, where the plan wants it. Those that end on a coast stay as they grew, in all directions alike: bent
+/// ones would leave the land.
+RiversInPlan let_wander(Plan const& plan, RiversInPlan planned, Diary& diary, Run const& run) {
+    if (!bends_rivers(plan)) {
         return planned;
     }
-    if (has_coast) {
+    if (planned.land.cells() > 0) {
         throw BadParameter("network.meander cannot bend rivers that end on a coast; leave it out");
     }
     if (planned.file_heights) {
         throw BadParameter("network.meander cannot bend rivers whose heights come from their file; set "
                            "network.heights = \"graded\" or leave meander out");
     }
-    flow::ContributingAreas const areas = flow::areas_nearest(planned.plan, planned.grid, run);
-    network::MeanderParams const params{.gain = *rivers.meander, .seed = planned.recipe.seed};
-    network::Meandered bent = diary.stage("meander", [&] {
-        return land.cells() > 0 ? network::meander(planned.plan, land, areas.ds_area_m2, params, run)
-                                : network::meander(planned.plan, planned.grid, areas.ds_area_m2, params, run);
-    });
+    flow::ContributingAreas const areas = flow::areas_nearest(planned.network, planned.grid, run);
+    network::MeanderParams const params{.gain = *plan.recipe.network->meander, .seed = plan.recipe.seed};
+    network::Meandered bent = diary.stage(
+        "meander", [&] { return network::meander(planned.network, planned.grid, areas.ds_area_m2, params, run); });
     diary.say(fmt::format("{} vertices, at most {:.0f} m aside", bent.vertices, bent.max_shift_m));
-    planned.file.sources = planned.file.sources.bent(planned.plan, bent.network);
-    planned.plan = std::move(bent.network);
+    planned.file.sources = planned.file.sources.bent(planned.network, bent.network);
+    planned.network = std::move(bent.network);
     return planned;
 }
 
@@ -112,38 +105,41 @@ void warn_of_long_ways(std::vector<Finding> const& notes, StreamNetwork const& p
 
 /// Outlets inside the grid: carried to where rivers may end, where the recipe wants it. Those at the sea reach it in
 /// any case; what lies beside a river is land.
-Planned with_outlets_carried(Planned planned, Run const& run) {
+RiversInPlan with_outlets_carried(Plan const& plan, RiversInPlan planned, Run const& run) {
+    if (plan.recipe.network->source == Source::forest) {
+        return planned; // whose outlets lie on its coast
+    }
     constexpr std::int64_t at_sea_cells = 4;
-    InlandEnds const inland = planned.recipe.network->inland;
+    InlandEnds const inland = plan.recipe.network->inland;
     bool const all = inland != InlandEnds::sink;
     network::CarryParams const params{.join = !planned.file_heights}; // given heights may not fall into another's
     auto const take = [&](network::Carried carried) {
-        warn_of_long_ways(carried.notes, planned.plan, run);
+        warn_of_long_ways(carried.notes, planned.network, run);
         std::vector<Finding>& repairs = planned.story.repairs;
         repairs.insert(repairs.end(), carried.notes.begin(), carried.notes.end());
-        planned.plan = std::move(carried.network);
+        planned.network = std::move(carried.network);
     };
     if (planned.land.cells() == 0 && inland == InlandEnds::coast) {
-        planned.land = network::land_behind_outlets(planned.plan, planned.grid, run);
+        planned.land = network::land_behind_outlets(planned.network, planned.grid, run);
     }
     if (planned.land.cells() == 0) {
         if (all) {
-            take(network::carry_outlets(planned.plan, planned.grid, params));
+            take(network::carry_outlets(planned.network, planned.grid, params));
         }
         return planned;
     }
     // A river that is carried may close the way of another.
     for (std::size_t moved = 1, rounds = 0; moved > 0 && rounds < 4; ++rounds) {
-        planned.land = network::land_along_rivers(std::move(planned.land), planned.plan);
+        planned.land = network::land_along_rivers(std::move(planned.land), planned.network);
         network::Carried carried =
-            network::carry_outlets(planned.plan, planned.land, all ? planned.grid.cells() : at_sea_cells, params);
+            network::carry_outlets(planned.network, planned.land, all ? planned.grid.cells() : at_sea_cells, params);
         moved =
             static_cast<std::size_t>(std::count_if(carried.notes.begin(), carried.notes.end(), [](Finding const& f) {
                 return f.kind == "carried_outlet" || f.kind == "joined_outlet";
             }));
         take(std::move(carried));
     }
-    planned.land = network::land_along_rivers(std::move(planned.land), planned.plan);
+    planned.land = network::land_along_rivers(std::move(planned.land), planned.network);
     return planned;
 }
 
@@ -172,86 +168,80 @@ network::Pruned prune(StreamNetwork const& plan, NetworkRecipe const& rivers, do
 }
 
 /// Short branches pruned away, as the recipe wants it.
-Planned pruned(Planned planned, Diary& diary, Run const& run) {
-    NetworkRecipe const& rivers = *planned.recipe.network;
+RiversInPlan pruned(Plan const& plan, RiversInPlan planned, Diary& diary, Run const& run) {
+    NetworkRecipe const& rivers = *plan.recipe.network;
     network::Pruned kept = diary.stage(
-        "prune", [&] { return prune(planned.plan, rivers, *rivers.prune_cells, planned.grid.cell_m, run); });
+        "prune", [&] { return prune(planned.network, rivers, *rivers.prune_cells, planned.grid.cell_m, run); });
     NetworkStory& story = planned.story;
     story.arcs_traced = kept.arcs_before;
     story.arcs_kept = static_cast<std::int64_t>(kept.network.arc_count());
     diary.say(fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, story.arcs_kept, kept.arcs_before));
     if (rivers.source == Source::forest) { // its rivers end where the land does
-        std::vector<Finding> const gone = pruned_outlets(planned.plan, kept.network);
+        std::vector<Finding> const gone = pruned_outlets(planned.network, kept.network);
         story.repairs.insert(story.repairs.end(), gone.begin(), gone.end());
     }
-    planned.plan = std::move(kept.network);
+    planned.network = std::move(kept.network);
     return planned;
 }
 
-Planned plan(Recipe const& recipe, Diary& diary, Run const& run) {
-    switch (recipe.network->source) {
-    case Source::dla: return plan_dla(recipe, diary, run);
-    case Source::tokunaga: return plan_tokunaga(recipe, diary, run);
-    case Source::forest: return plan_forest(recipe, diary, run);
+/// Rivers where their source has them.
+RiversInPlan drawn_in_plan(Plan const& plan, Diary& diary, Run const& run) {
+    switch (plan.recipe.network->source) {
+    case Source::dla: return rivers_of_cluster(plan, diary, run);
+    case Source::tokunaga: return rivers_of_tree(plan, diary, run);
+    case Source::forest: return rivers_of_forest(plan, diary, run);
     case Source::lines: break;
     }
-    return plan_lines(recipe, diary, run);
+    return rivers_of_lines(plan, diary, run);
 }
 
-/// What a recipe leaves to the source of its rivers.
-Recipe with_defaults(Recipe recipe) {
-    NetworkRecipe& rivers = *recipe.network;
-    if (rivers.heights == Heights::automatic) {
-        rivers.heights = in_equilibrium(recipe) ? Heights::graded : Heights::straight_repaired;
-    }
-    if (!rivers.prune_cells) {
-        bool const all_over = rivers.source == Source::dla || rivers.source == Source::forest;
-        rivers.prune_cells = all_over ? 20.0 : 0.0;
-    }
-    return recipe;
-}
-
-/// The network on its grid, with what the recipe left to it.
-Planned on_its_grid(Planned planned, Run const& run) {
-    planned.recipe = framed(std::move(planned.recipe), planned.grid);
-    std::vector<Finding> const notes = report_conversions(planned.recipe, planned.grid, run);
+/// With a note on each conversion that their grid takes.
+RiversInPlan with_conversions(Plan const& plan, RiversInPlan planned, Run const& run) {
+    std::vector<Finding> const notes = report_conversions(plan.recipe, planned.grid, run);
     planned.story.repairs.insert(planned.story.repairs.end(), notes.begin(), notes.end());
-    planned.recipe = with_defaults(std::move(planned.recipe));
     return planned;
+}
+
+/// Rivers with heights of their own, in their cells.
+Rivers with_heights(Plan const& plan, RiversInPlan const& planned, Rivers rivers, Diary& diary, Run const& run) {
+    Elevated raised = diary.stage("raise", [&] { return raise(plan, planned, rivers.types, run); });
+    network::Rasterised rasterised = network::rasterise(raised.network, planned.grid);
+    rivers.story.heights = raised.report;
+    rivers.story.lowered_cells = rasterised.lowered_cells;
+    rivers.story.max_lowered_m = rasterised.max_lowered_m;
+    rivers.network = std::move(raised.network);
+    rivers.orders = network::order(rivers.network.plan);
+    rivers.streams = network::count_streams(rivers.network.plan);
+    rivers.valley = std::move(rasterised.valley);
+    return rivers;
 }
 
 } // namespace
 
-Rivers make_rivers(Recipe const& recipe, Run const& run) {
-    Diary diary(run);
-    Planned planned = pruned(on_its_grid(plan(recipe, diary, run), run), diary, run);
-    if (planned.recipe.network->source != Source::forest) {
-        planned = with_outlets_carried(std::move(planned), run);
+Rivers make_rivers(Plan const& plan, Run const& run) {
+    if (!plan.recipe.network) {
+        return {};
     }
-    planned = let_wander(std::move(planned), diary, run);
-    Typed typed = type_rivers(std::move(planned.plan), *planned.recipe.network, run);
-    planned.plan = std::move(typed.plan);
+    io::RecipeFiles const confined;
+    Diary diary(run);
+    RiversInPlan planned = with_conversions(plan, drawn_in_plan(plan, diary, run), run);
+    planned = pruned(plan, std::move(planned), diary, run);
+    planned = with_outlets_carried(plan, std::move(planned), run);
+    planned = let_wander(plan, std::move(planned), diary, run);
+    Typed typed = type_rivers(std::move(planned.network), *plan.recipe.network, run);
+    planned.network = std::move(typed.plan);
 
     Rivers rivers;
-    if (in_equilibrium(planned.recipe) && planned.recipe.network->heights == Heights::graded) {
-        rivers.network.plan = std::move(planned.plan); // their heights are the land's
-    } else {
-        Elevated raised = diary.stage("raise", [&] { return raise(planned, typed.types, run); });
-        planned.story.heights = raised.report;
-        network::Rasterised rasterised = network::rasterise(raised.network, planned.grid);
-        planned.story.lowered_cells = rasterised.lowered_cells;
-        planned.story.max_lowered_m = rasterised.max_lowered_m;
-        rivers.network = std::move(raised.network);
-        rivers.orders = network::order(rivers.network.plan);
-        rivers.streams = network::count_streams(rivers.network.plan);
-        rivers.valley = std::move(rasterised.valley);
-    }
-    rivers.recipe = std::move(planned.recipe);
     rivers.grid = planned.grid;
     rivers.file = std::move(planned.file);
     rivers.land = std::move(planned.land);
     rivers.types = std::move(typed.types);
     rivers.story = std::move(planned.story);
+    if (follows_land(plan.recipe)) {
+        rivers.network.plan = std::move(planned.network); // their heights are the land's
+    } else {
+        rivers = with_heights(plan, planned, std::move(rivers), diary, run);
+    }
     rivers.timings_s = diary.take();
     return rivers;
 }

@@ -9,14 +9,13 @@
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/pipeline/make/network_story.hpp>
 #include <thalweg/pipeline/make/river_file.hpp>
-#include <thalweg/pipeline/make/timings.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/pipeline/plan/timings.hpp>
 
 namespace thalweg::pipeline {
 
 /// Where rivers run on their grid, and how high, unless the terrain decides that.
 struct Rivers {
-    Recipe recipe; ///< with what follows from the rivers: frame, CRS, heights, prune, meander
     Grid grid;
     ElevatedNetwork network;   ///< without heights where they follow from a terrain in equilibrium
     RiverFile file;            ///< of which the rivers are
@@ -29,13 +28,14 @@ struct Rivers {
     Timings timings_s;
 };
 
-/// \param recipe the recipe
+/// Grows or adopts the rivers of a plan, and gives them heights where these do not follow from the land.
+/// \param plan a plan with [network]
 /// \param run progress, log, stop token and number of threads
-/// \return the rivers that a recipe with [network] asks for.
+/// \return the rivers; none where the plan has no [network].
 /// \throws BadParameter
 /// \throws BadInput
 /// \throws IoError
 /// \throws Cancelled
-Rivers make_rivers(Recipe const& recipe, Run const& run = {});
+Rivers make_rivers(Plan const& plan, Run const& run = {});
 
 } // namespace thalweg::pipeline

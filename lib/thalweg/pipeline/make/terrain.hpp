@@ -3,107 +3,108 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include <thalweg/core/channels.hpp>
 #include <thalweg/core/finding.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/ridge_lines.hpp>
-#include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/valley.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/flow/catchments/catchments.hpp>
+#include <thalweg/flow/conditioning/condition.hpp>
 #include <thalweg/flow/conditioning/dem_change.hpp>
+#include <thalweg/flow/flow_field.hpp>
 #include <thalweg/fractal/match_statistics.hpp>
-#include <thalweg/measure/drainage/certificate.hpp>
-#include <thalweg/measure/drainage/extract_ridges.hpp>
-#include <thalweg/measure/relief/hypsometry.hpp>
-#include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/network/elevation/assign_types.hpp>
 #include <thalweg/network/order/count_streams.hpp>
-#include <thalweg/pipeline/make/assess.hpp>
-#include <thalweg/pipeline/make/drawn_terrain.hpp>
-#include <thalweg/pipeline/make/laws.hpp>
-#include <thalweg/pipeline/make/network_story.hpp>
-#include <thalweg/pipeline/make/relief.hpp>
-#include <thalweg/pipeline/make/river_file.hpp>
-#include <thalweg/pipeline/make/timings.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/make/rivers.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/pipeline/plan/timings.hpp>
+#include <thalweg/surface/dilation/dilate.hpp>
+#include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 namespace thalweg::pipeline {
 
-/// A terrain with all that led to it.
+/// How a solver came to its end.
+struct SolverStory {
+    std::int64_t iterations = 0;
+    double residual = 0.0; ///< relative
+};
+
+/// What became of a patch.
+struct PatchStory {
+    std::int64_t cells = 0;  ///< that it replaced
+    std::int64_t kept = 0;   ///< under it that rivers keep
+    double seam_max_m = 0.0; ///< as blend::Pasted
+    double seam_rms_m = 0.0;
+};
+
+/// What it took to make the land drain.
+struct DrainStory {
+    flow::DemChange banks;
+    flow::DemChange depressions;
+};
+
+/// How a land came into equilibrium with its rivers.
+struct EquilibriumStory {
+    surface::Edge edge = surface::Edge::open; ///< of the land, by recipe, mask or sea
+    bool gave_way = false;            ///< heights of the rivers' file: as soft ones, since they would have needed walls
+    std::int64_t channel_cells = 0;   ///< in which rivers run
+    std::int64_t shortened_cells = 0; ///< of perched tips that are rivers no more
+    std::int64_t walled_cells = 0;    ///< of rivers whose given heights only walls hold up
+    double max_lowered_m = 0.0;       ///< soft: below the given heights
+    double p95_lowered_m = 0.0;
+    double rise = 0.0;             ///< as surface::EquilibriumTerrain
+    std::int64_t side_valleys = 0; ///< arcs that the land has grown, where they are asked for
+    std::int64_t side_valleys_left_out = 0;
+};
+
+/// Of fractal detail, as it was made.
+struct DetailStory {
+    double hurst = 0.0;
+    double sigma = 0.0; ///< as fractal::MidpointParams
+};
+
+/// A surface, the rivers as it has them, and how water flows over it.
 struct Terrain {
-    Recipe recipe; ///< every default resolved: made again, it gives the same terrain
     Grid grid;
-    ElevatedNetwork network;
-    RiverFile file; ///< of which the rivers are
-    Mask land;      ///< 0: sea, which has no heights; without cells: all is land
+    Mask land;               ///< as Rivers
+    ElevatedNetwork network; ///< without tips that would stand perched, with the side valleys that the land has grown
     NetworkOrders orders;
     network::StreamCounts streams; ///< side branches, as drawn
     network::RiverTypes types;     ///< by arc, where rivers have types; else empty
-    flow::ContributingAreas areas;
-    RiverLaws laws;
     Valley valley;
-    RidgeLines ridges;                                      ///< between streams, where they are asked for
-    std::optional<measure::ExtractedRidges> surface_ridges; ///< those of the surface beside them
-    std::optional<surface::Dilated> surface;
+    std::optional<surface::Dilated> surface;       ///< none where the recipe wants rivers alone
+    std::optional<flow::FlowField> drainage;       ///< of the surface
+    RidgeLines ridges;                             ///< between streams, where they are asked for
     Channels channels;                             ///< of rivers with which the land is in equilibrium
     std::int64_t lakes = 0;                        ///< laid into them
-    std::vector<NodeId> sinks;                     ///< where rivers end inland, as they were asked to
     std::optional<EquilibriumStory> equilibrium;   ///< of a land that is
     std::optional<SolverStory> diffusion;          ///< how the surface was solved for, where it was diffused
+    std::optional<DetailStory> detail;             ///< where it has fractal detail
     std::vector<PatchStory> patches;               ///< in the recipe's order
     std::optional<DrainStory> drained;             ///< where the recipe wants the land to drain
     std::optional<Tin> tin;                        ///< of rivers and points, where the land is drawn over one
     std::optional<fractal::MatchedDem> projection; ///< how the statistics came out; its dem is moved to surface
     double fine_forms_cells = 0.0; ///< [cells] below which forms had to come from a Gaussian land to meet them; 0: none
-    std::optional<measure::Statistics> statistics; ///< of the surface
-    std::optional<measure::Hypsometry> hypsometry; ///< likewise
-    std::optional<TerrainRelief> relief;           ///< likewise, with the rivers
-    std::int64_t pits = 0;                         ///< cells of the surface that lie in depressions
-    double pit_volume_m3 = 0.0;
-    std::optional<measure::Certificate> certificate; ///< of rivers and surface, where both are there
-    std::optional<flow::Catchments> catchments;      ///< of the arcs on the surface, where they are asked for
-    std::optional<WaterAreas> water_areas;           ///< by cell of the surface, where they are asked for
-    NetworkStory story;
-    std::vector<Check> checks;
-    std::vector<Finding> findings; ///< of the checks
+    std::vector<Finding> notes;    ///< what became of rivers
+    std::vector<Check> checks;     ///< of the recipe's request of the surface
+    std::vector<Finding> findings; ///< of these
     Timings timings_s;
-    /// \return every check is ok
-    bool passed() const;
 };
 
-/// Rivers, land and what is measured of them in one value.
-/// \param rivers the rivers
-/// \param drawn what was drawn
-/// \param found measures and checks
-/// \return the terrain
-Terrain together(Rivers rivers, DrawnTerrain drawn, Assessment found);
-
-/// Called with intermediates: "valley", "surface".
-using Keep = std::function<void(std::string_view, Raster<float> const&)>;
-
-/// From a recipe to a terrain: rivers first, then the land around them; or land from numbers and points alone.
-/// \param recipe the recipe
+/// Draws the terrain of a plan around its rivers; or from numbers and points alone where it has none.
+/// \param plan the plan
+/// \param rivers those of the plan; make_rivers()
 /// \param run progress, log, stop token and number of threads
-/// \param keep receives intermediate rasters
-/// \return the same terrain for the same recipe, whatever the Run.
+/// \return the same terrain for the same plan and rivers, whatever the Run.
 /// \throws BadParameter
 /// \throws BadInput
 /// \throws IoError
 /// \throws Cancelled
-Terrain make_terrain(Recipe const& recipe, Run const& run = {}, Keep const& keep = {});
-
-/// \param cells the cells
-/// \return memory [bytes] that a terrain of this many cells takes while it is made, at most.
-std::int64_t bytes_needed(std::int64_t cells);
+Terrain make_terrain(Plan const& plan, Rivers const& rivers, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -7,29 +7,29 @@
 
 namespace thalweg::pipeline {
 
-std::optional<io::UserData> user_data(Terrain const& t, StreamNetwork const& plan) {
-    if (!t.file.sources.knows_any()) {
+std::optional<io::UserData> user_data(Made const& t, StreamNetwork const& plan) {
+    if (!t.rivers.file.sources.knows_any()) {
         return std::nullopt;
     }
-    io::UserData user{t.file.attributes, {}, t.file.sources.of(plan)};
+    io::UserData user{t.rivers.file.attributes, {}, t.rivers.file.sources.of(plan)};
     for (Arc const& arc : plan.arcs()) {
         user.record.push_back(arc.feature);
     }
     return user;
 }
 
-std::vector<SecondaryLine> secondary_of(Terrain const& t) {
-    std::vector<SecondaryLine> secondary = t.file.secondary;
+std::vector<SecondaryLine> secondary_of(Made const& t) {
+    std::vector<SecondaryLine> secondary = t.rivers.file.secondary;
     std::set<std::int64_t> known;
-    for (SecondaryLine const& line : t.file.secondary) {
+    for (SecondaryLine const& line : t.rivers.file.secondary) {
         known.insert(line.feature);
     }
-    for (auto const& of_arc : t.file.sources.of(t.network.plan)) {
+    for (auto const& of_arc : t.rivers.file.sources.of(t.terrain.network.plan)) {
         for (Stretch const& s : of_arc) {
             known.insert(s.feature);
         }
     }
-    for (SecondaryLine line : t.file.drawn) {
+    for (SecondaryLine line : t.rivers.file.drawn) {
         if (known.count(line.feature) == 0) {
             line.reason = "pruned or shortened";
             secondary.push_back(std::move(line));
@@ -38,13 +38,18 @@ std::vector<SecondaryLine> secondary_of(Terrain const& t) {
     return secondary;
 }
 
-std::vector<io::ShortenedName> shortened_names(Terrain const& t) {
-    auto const user = user_data(t, t.network.plan);
+std::vector<io::ShortenedName> shortened_names(Made const& t) {
+    auto const user = user_data(t, t.terrain.network.plan);
     if (!user) {
         return {};
     }
-    io::NetworkTables tables{t.network,  t.orders, t.areas.us_area_m2, t.areas.ds_area_m2, t.areas.node_m2,
-                             t.grid.crs, {}};
+    io::NetworkTables tables{t.terrain.network,
+                             t.terrain.orders,
+                             t.assessment.areas.us_area_m2,
+                             t.assessment.areas.ds_area_m2,
+                             t.assessment.areas.node_m2,
+                             t.terrain.grid.crs,
+                             {}};
     tables.user = &*user;
     return io::shortened_names(tables);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/recipe/internal/key_use.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 
 #include <utility>
 #include <vector>

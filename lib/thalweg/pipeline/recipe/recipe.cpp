@@ -5,7 +5,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/printable.hpp>
 #include <thalweg/core/run/suggest.hpp>
-#include <thalweg/pipeline/make/internal/land.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 #include <thalweg/pipeline/recipe/internal/toml_depth.hpp>

@@ -55,13 +55,14 @@ PageLines lines_of(StreamNetwork const& plan, RidgeLines const& ridges, Grid con
 
 } // namespace
 
-std::string page(Terrain const& terrain, PageParams const& params, Run const& run) {
-    std::optional<PageHeights> const heights = terrain.surface ? page_heights(terrain.surface->dem, run) : std::nullopt;
+std::string page(Made const& made, PageParams const& params, Run const& run) {
+    std::optional<PageHeights> const heights =
+        made.terrain.surface ? page_heights(made.terrain.surface->dem, run) : std::nullopt;
     run.check();
-    PageLines const lines = lines_of(terrain.network.plan, terrain.ridges, terrain.grid);
+    PageLines const lines = lines_of(made.terrain.network.plan, made.terrain.ridges, made.terrain.grid);
     PageParts parts;
-    parts.title = html_text(as_utf8(title_of(terrain.recipe)));
-    parts.data = page_data(terrain, params, heights, lines);
+    parts.title = html_text(as_utf8(title_of(made.recipe)));
+    parts.data = page_data(made, params, heights, lines);
     parts.heights = heights ? io::packed(heights->bytes) : "";
     parts.lines = io::packed(lines.bytes);
     return fill_page(page_template(), parts);

@@ -52,44 +52,45 @@ ordered_json heights_object(std::optional<PageHeights> const& heights) {
             {"min", heights->min},     {"max", heights->max},       {"nodata", heights->nodata}};
 }
 
-ordered_json arcs_object(Terrain const& t, PageLines const& lines) {
+ordered_json arcs_object(Made const& t, PageLines const& lines) {
     ordered_json id = ordered_json::array();
     ordered_json downstream = ordered_json::array();
     ordered_json persistence = ordered_json::array();
     ordered_json length = ordered_json::array();
     ordered_json z_up = ordered_json::array();
     ordered_json z_down = ordered_json::array();
-    for (std::size_t a = 0; a < t.network.plan.arc_count(); ++a) {
+    for (std::size_t a = 0; a < t.terrain.network.plan.arc_count(); ++a) {
         id.push_back(a + 1);
-        downstream.push_back(t.network.plan.out(t.network.plan.to(a)) + 1);
-        double const until = t.network.plan.arc(a).persistence;
+        downstream.push_back(t.terrain.network.plan.out(t.terrain.network.plan.to(a)) + 1);
+        double const until = t.terrain.network.plan.arc(a).persistence;
         persistence.push_back(std::isfinite(until) ? ordered_json(to_millimetres(until)) : ordered_json(nullptr));
-        length.push_back(to_millimetres(t.network.plan.length_m(a)));
-        z_up.push_back(to_millimetres(t.network.arc_z[a].front()));
-        z_down.push_back(to_millimetres(t.network.arc_z[a].back()));
+        length.push_back(to_millimetres(t.terrain.network.plan.length_m(a)));
+        z_up.push_back(to_millimetres(t.terrain.network.arc_z[a].front()));
+        z_down.push_back(to_millimetres(t.terrain.network.arc_z[a].back()));
     }
     std::vector<std::int64_t> const n(lines.vertices.begin(),
-                                      lines.vertices.begin() + static_cast<std::ptrdiff_t>(t.network.plan.arc_count()));
+                                      lines.vertices.begin() +
+                                          static_cast<std::ptrdiff_t>(t.terrain.network.plan.arc_count()));
     return {{"id", id},
             {"ds", downstream},
-            {"basin", t.orders.arc_basin},
-            {"strahler", t.orders.strahler},
-            {"shreve", t.orders.shreve},
-            {"hack", t.orders.hack},
+            {"basin", t.terrain.orders.arc_basin},
+            {"strahler", t.terrain.orders.strahler},
+            {"shreve", t.terrain.orders.shreve},
+            {"hack", t.terrain.orders.hack},
             {"survives", persistence},
             {"length", length},
             {"z_up", z_up},
             {"z_down", z_down},
-            {"us_area", t.areas.us_area_m2},
-            {"ds_area", t.areas.ds_area_m2},
+            {"us_area", t.assessment.areas.us_area_m2},
+            {"ds_area", t.assessment.areas.ds_area_m2},
             {"n", n}};
 }
 
-ordered_json ridges_object(Terrain const& t, PageLines const& lines) {
-    if (t.ridges.lines.empty()) {
+ordered_json ridges_object(Made const& t, PageLines const& lines) {
+    if (t.terrain.ridges.lines.empty()) {
         return nullptr;
     }
-    auto const first = lines.vertices.begin() + static_cast<std::ptrdiff_t>(t.network.plan.arc_count());
+    auto const first = lines.vertices.begin() + static_cast<std::ptrdiff_t>(t.terrain.network.plan.arc_count());
     return {{"n", std::vector<std::int64_t>(first, lines.vertices.end())}};
 }
 
@@ -100,32 +101,33 @@ struct ProfilePoint {
 };
 
 /// The main stem of the basin that drains the largest area, from its source down.
-std::vector<ProfilePoint> main_stem(Terrain const& t) {
+std::vector<ProfilePoint> main_stem(Made const& t) {
     std::vector<ProfilePoint> upstream;
-    if (t.network.plan.outlets().empty()) {
+    if (t.terrain.network.plan.outlets().empty()) {
         return upstream;
     }
-    NodeId const outlet =
-        *std::max_element(t.network.plan.outlets().begin(), t.network.plan.outlets().end(),
-                          [&](NodeId a, NodeId b) { return t.areas.node_m2[a] < t.areas.node_m2[b]; });
+    NodeId const outlet = *std::max_element(
+        t.terrain.network.plan.outlets().begin(), t.terrain.network.plan.outlets().end(),
+        [&](NodeId a, NodeId b) { return t.assessment.areas.node_m2[a] < t.assessment.areas.node_m2[b]; });
     auto const stem_above = [&](NodeId node) {
-        auto const& in = t.network.plan.in(node);
-        auto const at = std::find_if(in.begin(), in.end(),
-                                     [&](std::int64_t a) { return t.orders.hack[static_cast<std::size_t>(a)] == 1; });
+        auto const& in = t.terrain.network.plan.in(node);
+        auto const at = std::find_if(in.begin(), in.end(), [&](std::int64_t a) {
+            return t.terrain.orders.hack[static_cast<std::size_t>(a)] == 1;
+        });
         return at == in.end() ? std::int64_t{-1} : *at;
     };
     for (std::int64_t arc = stem_above(outlet); arc >= 0;) {
         auto const a = static_cast<std::size_t>(arc);
-        std::vector<Vec2> const& line = t.network.plan.arc(a).line;
-        double to_outlet = t.orders.node_dist_out_m[t.network.plan.to(a)];
+        std::vector<Vec2> const& line = t.terrain.network.plan.arc(a).line;
+        double to_outlet = t.terrain.orders.node_dist_out_m[t.terrain.network.plan.to(a)];
         for (std::size_t i = line.size(); i-- > 0;) {
             bool const shared = i + 1 == line.size() && !upstream.empty();
             to_outlet += i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0;
             if (!shared) {
-                upstream.push_back({to_outlet, t.network.arc_z[a][i]});
+                upstream.push_back({to_outlet, t.terrain.network.arc_z[a][i]});
             }
         }
-        arc = stem_above(t.network.plan.from(a));
+        arc = stem_above(t.terrain.network.plan.from(a));
     }
     std::reverse(upstream.begin(), upstream.end());
     return upstream;
@@ -139,28 +141,28 @@ ordered_json profile_array(std::vector<ProfilePoint> const& stem) {
     return out;
 }
 
-ordered_json curve_object(Terrain const& t) {
-    if (!t.surface || !t.recipe.surface || t.surface->increments.empty()) {
+ordered_json curve_object(Made const& t) {
+    if (!t.terrain.surface || !t.recipe.surface || t.terrain.surface->increments.empty()) {
         return nullptr;
     }
     std::vector<ordered_json> points;
     double sum = 0.0;
-    for (std::size_t i = 0; i < t.surface->increments.size(); ++i) {
-        sum += t.surface->increments[i];
-        points.push_back({i + 1, to_millimetres(t.surface->increments[i]), to_millimetres(sum)});
+    for (std::size_t i = 0; i < t.terrain.surface->increments.size(); ++i) {
+        sum += t.terrain.surface->increments[i];
+        points.push_back({i + 1, to_millimetres(t.terrain.surface->increments[i]), to_millimetres(sum)});
     }
     return {{"name", t.recipe.surface->dilate.increment.increment}, {"points", thinned(points)}};
 }
 
-ordered_json hypsometry_object(Terrain const& t) {
-    if (!t.hypsometry) {
+ordered_json hypsometry_object(Made const& t) {
+    if (!t.assessment.hypsometry) {
         return nullptr;
     }
     ordered_json points = ordered_json::array();
-    for (measure::HypsometricPoint const& p : t.hypsometry->points) {
+    for (measure::HypsometricPoint const& p : t.assessment.hypsometry->points) {
         points.push_back({p.share_above, to_millimetres(p.z)});
     }
-    return {{"integral", t.hypsometry->integral}, {"points", points}};
+    return {{"integral", t.assessment.hypsometry->integral}, {"points", points}};
 }
 
 /// A list of figures: what was asked, where something was, and what came of it.
@@ -182,9 +184,9 @@ private:
 };
 
 /// What [statistics] asks for under the name a residual has.
-std::optional<double> asked_for(Terrain const& t, char const* name) {
-    if (t.projection) {
-        for (fractal::Residual const& r : t.projection->residuals) {
+std::optional<double> asked_for(Made const& t, char const* name) {
+    if (t.terrain.projection) {
+        for (fractal::Residual const& r : t.terrain.projection->residuals) {
             if (r.name == name) {
                 return r.asked;
             }
@@ -193,42 +195,46 @@ std::optional<double> asked_for(Terrain const& t, char const* name) {
     return std::nullopt;
 }
 
-void add_land(Terrain const& t, Figures& figures) {
-    measure::Statistics const& s = *t.statistics;
+void add_land(Made const& t, Figures& figures) {
+    measure::Statistics const& s = *t.assessment.statistics;
     figures.add("mean height", asked_for(t, "mean"), to_millimetres(s.mean), "m");
     figures.add("standard deviation", asked_for(t, "std"), to_millimetres(s.std), "m");
     figures.add("lowest height", asked_for(t, "min"), to_millimetres(s.min.z), "m");
     figures.add("highest height", asked_for(t, "max"), to_millimetres(s.max.z), "m");
     figures.add("relief, highest less lowest", to_millimetres(s.max.z - s.min.z), "m");
-    if (!t.surface->increments.empty() && t.recipe.surface) {
+    if (!t.terrain.surface->increments.empty() && t.recipe.surface) {
         double const relief = t.recipe.surface->dilate.relief_m;
         figures.add("greatest rise above the valley", relief > 0.0 ? std::optional(relief) : std::nullopt,
-                    to_millimetres(t.surface->rise_m), "m");
+                    to_millimetres(t.terrain.surface->rise_m), "m");
     }
     figures.add("correlation length along rows", asked_for(t, "lx_cells"), s.lx.cells, "cells");
     figures.add("correlation length along columns", asked_for(t, "ly_cells"), s.ly.cells, "cells");
     figures.add("fractal dimension", asked_for(t, "dimension"), s.dimension, "");
     figures.add("mean slope on unit cells", asked_for(t, "slope_rad"), s.slope_rad, "rad");
     figures.add("mean slope", s.slope_true_deg, "degrees");
-    figures.add("hypsometric integral", t.hypsometry->integral, "");
-    figures.add("cells in pits", t.pits, "");
+    figures.add("hypsometric integral", t.assessment.hypsometry->integral, "");
+    figures.add("cells in pits", t.assessment.pits, "");
 }
 
-void add_rivers(Terrain const& t, std::vector<ProfilePoint> const& stem, Figures& figures) {
+void add_rivers(Made const& t, std::vector<ProfilePoint> const& stem, Figures& figures) {
     std::optional<NetworkRecipe> const& wanted = t.recipe.network;
-    double const length = std::accumulate(t.network.plan.length_m().begin(), t.network.plan.length_m().end(), 0.0);
-    auto const land = static_cast<double>(t.statistics ? t.statistics->cells : t.grid.cells());
+    double const length =
+        std::accumulate(t.terrain.network.plan.length_m().begin(), t.terrain.network.plan.length_m().end(), 0.0);
+    auto const land =
+        static_cast<double>(t.assessment.statistics ? t.assessment.statistics->cells : t.terrain.grid.cells());
     if (wanted && wanted->source == Source::dla) {
-        figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.story.particles, "");
+        figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.rivers.story.particles, "");
     }
     if (wanted && wanted->source == Source::forest) {
-        figures.add("particles of the forest", t.story.particles, "");
+        figures.add("particles of the forest", t.rivers.story.particles, "");
     }
-    figures.add("arcs", t.network.plan.arc_count(), "");
-    figures.add("outlets", t.network.plan.outlets().size(), "");
-    figures.add("highest Strahler order", t.laws.network ? t.laws.network->horton.orders.size() : 0, "");
+    figures.add("arcs", t.terrain.network.plan.arc_count(), "");
+    figures.add("outlets", t.terrain.network.plan.outlets().size(), "");
+    figures.add("highest Strahler order",
+                t.assessment.laws.network ? t.assessment.laws.network->horton.orders.size() : 0, "");
     figures.add("length of all rivers", to_millimetres(length / 1000.0), "km");
-    figures.add("drainage density", length / 1000.0 / (land * t.grid.cell_m * t.grid.cell_m / 1e6), "km/km2");
+    figures.add("drainage density", length / 1000.0 / (land * t.terrain.grid.cell_m * t.terrain.grid.cell_m / 1e6),
+                "km/km2");
     if (!stem.empty() && stem.front().to_outlet_m > 0.0) {
         // Only along_stream asks for a slope along the water; the others ask for one along a straight line.
         figures.add("slope of the main stem",
@@ -245,25 +251,25 @@ ordered_json shown(std::vector<Finding> const& findings) {
     return {{"count", findings.size()}, {"shown", texts}};
 }
 
-ordered_json timings_array(Terrain const& t) {
+ordered_json timings_array(Made const& t) {
     ordered_json out = ordered_json::array();
-    for (auto const& [stage, seconds] : t.timings_s) {
+    for (auto const& [stage, seconds] : timings_of(t)) {
         out.push_back({stage, to_millimetres(seconds)});
     }
     return out;
 }
 
-ordered_json notes_array(Terrain const& t, std::optional<PageHeights> const& heights,
+ordered_json notes_array(Made const& t, std::optional<PageHeights> const& heights,
                          std::vector<std::string> const& further) {
     ordered_json out = further;
-    if (!t.surface) {
+    if (!t.terrain.surface) {
         out.push_back("the recipe has no [surface]: the page shows the rivers alone");
     }
-    if (t.fine_forms_cells > 0.0) {
+    if (t.terrain.fine_forms_cells > 0.0) {
         out.push_back(
             fmt::format("the statistics cannot be reached from this skeleton alone: forms finer than about {} "
                         "cells come from a Gaussian surface",
-                        t.fine_forms_cells));
+                        t.terrain.fine_forms_cells));
     }
     if (heights && heights->cells > 1) {
         out.push_back(fmt::format("heights are shown as means of {0}x{0} cells", heights->cells));
@@ -287,14 +293,14 @@ std::string without_tags(std::string const& json) {
 
 } // namespace
 
-std::string page_data(Terrain const& t, PageParams const& params, std::optional<PageHeights> const& heights,
+std::string page_data(Made const& t, PageParams const& params, std::optional<PageHeights> const& heights,
                       PageLines const& lines) {
     std::vector<ProfilePoint> const stem = main_stem(t);
     Figures figures;
-    if (t.statistics) {
+    if (t.assessment.statistics) {
         add_land(t, figures);
     }
-    if (t.recipe.network || !t.network.plan.arcs().empty()) {
+    if (t.recipe.network || !t.terrain.network.plan.arcs().empty()) {
         add_rivers(t, stem, figures);
     }
     ordered_json const data{{"version", version()},
@@ -302,7 +308,7 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
                             {"seed", t.recipe.seed},
                             {"command", params.command},
                             {"recipe", params.recipe},
-                            {"grid", grid_object(t.grid)},
+                            {"grid", grid_object(t.terrain.grid)},
                             {"heights", heights_object(heights)},
                             {"contour_m", params.contour_interval_m},
                             {"rivers",
@@ -313,13 +319,14 @@ std::string page_data(Terrain const& t, PageParams const& params, std::optional<
                             {"profile", profile_array(stem)},
                             {"curve", curve_object(t)},
                             {"hypsometry", hypsometry_object(t)},
-                            {"laws", ordered_json::parse(page_laws(t.laws))},
-                            {"relief", t.relief ? ordered_json::parse(relief_json(*t.relief)) : ordered_json(nullptr)},
+                            {"laws", ordered_json::parse(page_laws(t.assessment.laws))},
+                            {"relief", t.assessment.relief ? ordered_json::parse(relief_json(*t.assessment.relief))
+                                                           : ordered_json(nullptr)},
                             {"statistics", figures.take()},
-                            {"checks", ordered_json::parse(checks_json(t.checks))},
+                            {"checks", ordered_json::parse(checks_json(t.assessment.checks))},
                             {"timings", timings_array(t)},
-                            {"repairs", shown(t.story.repairs)},
-                            {"findings", shown(t.findings)},
+                            {"repairs", shown(repairs_of(t))},
+                            {"findings", shown(t.assessment.findings)},
                             {"notes", notes_array(t, heights, params.notes)}};
     return without_tags(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }

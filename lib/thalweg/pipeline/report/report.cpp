@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report/report.hpp>
 
-#include <thalweg/pipeline/make/internal/user_data.hpp>
-
-#include <thalweg/pipeline/commands/check_files.hpp>
-
 #include <thalweg/core/run/memory.hpp>
-
 #include <thalweg/flow/conditioning/dem_change.hpp>
 #include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
+#include <thalweg/pipeline/make/internal/user_data.hpp>
+#include <thalweg/pipeline/report/internal/report_parts.hpp>
 #include <thalweg/pipeline/report/law_rows.hpp>
 
 #include <nlohmann/json.hpp>
@@ -105,18 +102,19 @@ ordered_json streams_object(network::StreamCounts const& counts) {
 }
 
 /// Side branches by Tokunaga's numbers: of the network as drawn, and of the tree it was grown from.
-ordered_json tokunaga_object(Terrain const& t) {
-    ordered_json out{{"drawn", streams_object(t.streams)}};
-    if (t.story.tokunaga && !t.recipe.network->tokunaga.strokes.empty()) { // each has a tree and lambda of its own
-        out["grown"] = {{"links", t.story.tokunaga->placed + t.story.tokunaga->dropped}};
-    } else if (t.story.tokunaga) {
+ordered_json tokunaga_object(Made const& t) {
+    ordered_json out{{"drawn", streams_object(t.terrain.streams)}};
+    if (t.rivers.story.tokunaga &&
+        !t.recipe.network->tokunaga.strokes.empty()) { // each has a tree and lambda of its own
+        out["grown"] = {{"links", t.rivers.story.tokunaga->placed + t.rivers.story.tokunaga->dropped}};
+    } else if (t.rivers.story.tokunaga) {
         network::TokunagaLaws const laws = network::tokunaga_laws(t.recipe.network->tokunaga.generator);
-        out["grown"] = streams_object(t.story.tokunaga->tree);
+        out["grown"] = streams_object(t.rivers.story.tokunaga->tree);
         out["asked"] = {{"a", laws.a}, {"c", laws.c}, {"bifurcation", laws.bifurcation}};
     }
-    if (t.story.tokunaga) {
-        out["placed"] = t.story.tokunaga->placed;
-        out["dropped"] = t.story.tokunaga->dropped;
+    if (t.rivers.story.tokunaga) {
+        out["placed"] = t.rivers.story.tokunaga->placed;
+        out["dropped"] = t.rivers.story.tokunaga->dropped;
     }
     return out;
 }
@@ -144,40 +142,40 @@ ordered_json dem_laws_object(DemLaws const& found) {
     return out;
 }
 
-ordered_json network_object(Terrain const& t) {
-    StreamNetwork const& plan = t.network.plan;
+ordered_json network_object(Made const& t) {
+    StreamNetwork const& plan = t.terrain.network.plan;
     double length = 0.0;
     for (double const l : plan.length_m()) {
         length += l;
     }
     int strahler = 0;
-    for (int const s : t.orders.strahler) {
+    for (int const s : t.terrain.orders.strahler) {
         strahler = std::max(strahler, s);
     }
     auto const arcs = static_cast<std::int64_t>(plan.arc_count());
-    network::HeightReport const& h = t.story.heights;
+    network::HeightReport const& h = t.rivers.story.heights;
     return {{"arcs", arcs},
             {"nodes", plan.node_count()},
             {"outlets", plan.outlets().size()},
             {"strahler", strahler},
             {"length_m", length},
-            {"traced", t.story.arcs_traced},
-            {"pruned", t.story.arcs_traced - t.story.arcs_kept},
-            {"particles", t.story.particles},
-            {"walkers", t.story.walkers},
-            {"stopped_at", t.story.particles == 0 ? ""
-                           : t.story.full         ? "full"
-                           : t.story.cut          ? "margin"
-                           : t.story.wide         ? "radius"
-                                                  : "particles"},
+            {"traced", t.rivers.story.arcs_traced},
+            {"pruned", t.rivers.story.arcs_traced - t.rivers.story.arcs_kept},
+            {"particles", t.rivers.story.particles},
+            {"walkers", t.rivers.story.walkers},
+            {"stopped_at", t.rivers.story.particles == 0 ? ""
+                           : t.rivers.story.full         ? "full"
+                           : t.rivers.story.cut          ? "margin"
+                           : t.rivers.story.wide         ? "radius"
+                                                         : "particles"},
             {"uphill_before_repair",
              {{"arcs", h.uphill_arcs}, {"length_m", h.uphill_length_m}, {"max_rise_m", h.max_rise_m}}},
             {"lifted", {{"count", h.lifted}, {"max_m", h.max_lift_m}, {"rms_m", h.rms_lift_m}}},
-            {"lowered_cells", {{"count", t.story.lowered_cells}, {"max_m", t.story.max_lowered_m}}},
-            {"area_from", t.areas.source},
-            {"horton", horton(t.laws.network ? t.laws.network->horton : measure::HortonLaws{})},
+            {"lowered_cells", {{"count", t.rivers.story.lowered_cells}, {"max_m", t.rivers.story.max_lowered_m}}},
+            {"area_from", t.assessment.areas.source},
+            {"horton", horton(t.assessment.laws.network ? t.assessment.laws.network->horton : measure::HortonLaws{})},
             {"tokunaga", tokunaga_object(t)},
-            {"laws", t.laws.network ? laws_object(*t.laws.network) : ordered_json(nullptr)}};
+            {"laws", t.assessment.laws.network ? laws_object(*t.assessment.laws.network) : ordered_json(nullptr)}};
 }
 
 ordered_json agreements_object(measure::Agreements const& agreements) {
@@ -228,8 +226,8 @@ ordered_json statistics_object(fractal::MatchedDem const& p) {
 }
 
 /// From the increments as the recipe names them to those used.
-double metres_per_unit(Terrain const& t) {
-    std::vector<double> const& used = t.surface->increments;
+double metres_per_unit(Made const& t) {
+    std::vector<double> const& used = t.terrain.surface->increments;
     std::vector<double> const named =
         surface::increments(static_cast<std::int64_t>(used.size()), t.recipe.surface->dilate.increment);
     auto const greatest =
@@ -245,9 +243,9 @@ std::string version() {
     return THALWEG_VERSION;
 }
 
-std::string write_report(Terrain const& t, std::vector<std::string> const& files) {
+std::string write_report(Made const& t, std::vector<std::string> const& files) {
     ordered_json timings = ordered_json::object();
-    for (auto const& [stage, seconds] : t.timings_s) {
+    for (auto const& [stage, seconds] : timings_of(t)) {
         timings[stage] = seconds;
     }
     ordered_json report{{"version", version()},
@@ -262,50 +260,50 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
             report["shortened_fields"].push_back({{"field", one.name}, {"in_shapefile", one.in_shapefile}});
         }
     }
-    if (t.statistics) {
-        report["dem"] = dem(*t.statistics);
-        report["dem"]["hypsometric_integral"] = t.hypsometry->integral;
-        if (!t.surface->increments.empty()) {
-            report["dem"]["flat_share"] = t.surface->flat_share;
-            report["dem"]["levels"] = t.surface->levels;
+    if (t.assessment.statistics) {
+        report["dem"] = dem(*t.assessment.statistics);
+        report["dem"]["hypsometric_integral"] = t.assessment.hypsometry->integral;
+        if (!t.terrain.surface->increments.empty()) {
+            report["dem"]["flat_share"] = t.terrain.surface->flat_share;
+            report["dem"]["levels"] = t.terrain.surface->levels;
             report["dem"]["metres_per_unit"] = metres_per_unit(t);
         }
-        report["dem"]["pit_cells"] = t.pits;
-        report["dem"]["pit_volume_m3"] = t.pit_volume_m3;
-        if (t.laws.dem) {
-            report["dem"]["laws"] = dem_laws_object(*t.laws.dem);
+        report["dem"]["pit_cells"] = t.assessment.pits;
+        report["dem"]["pit_volume_m3"] = t.assessment.pit_volume_m3;
+        if (t.assessment.laws.dem) {
+            report["dem"]["laws"] = dem_laws_object(*t.assessment.laws.dem);
         }
-        if (t.relief) {
-            report["dem"]["relief"] = ordered_json::parse(relief_json(*t.relief));
+        if (t.assessment.relief) {
+            report["dem"]["relief"] = ordered_json::parse(relief_json(*t.assessment.relief));
         }
     }
-    if (t.drained) {
-        report["drained"] = {{"banks", change_object(t.drained->banks)},
-                             {"depressions", change_object(t.drained->depressions)}};
+    if (t.terrain.drained) {
+        report["drained"] = {{"banks", change_object(t.terrain.drained->banks)},
+                             {"depressions", change_object(t.terrain.drained->depressions)}};
     }
-    if (t.certificate) {
-        report["certificate"] = certificate_object(*t.certificate);
+    if (t.assessment.certificate) {
+        report["certificate"] = certificate_object(*t.assessment.certificate);
     }
-    if (t.catchments) {
-        auto const& cells = t.catchments->cells;
+    if (t.assessment.catchments) {
+        auto const& cells = t.assessment.catchments->cells;
         report["catchments"] = {{"count", std::count_if(cells.begin(), cells.end(), [](auto n) { return n > 0; })},
-                                {"cells_without", t.catchments->without}};
+                                {"cells_without", t.assessment.catchments->without}};
     }
-    if (t.tin) {
-        report["tin"] = {{"vertices", t.tin->vertices.size()}, {"triangles", t.tin->triangles.size()}};
+    if (t.terrain.tin) {
+        report["tin"] = {{"vertices", t.terrain.tin->vertices.size()}, {"triangles", t.terrain.tin->triangles.size()}};
     }
-    if (!t.ridges.lines.empty()) {
-        report["ridges"] = {{"count", t.ridges.lines.size()}};
-        if (t.surface_ridges) {
-            report["ridges"]["cells"] = t.surface_ridges->ridge_cells;
-            report["ridges"]["extracted"] = {{"area_cells", t.surface_ridges->threshold_cells},
-                                             {"agreement", agreements_object(t.surface_ridges->extracted)}};
+    if (!t.terrain.ridges.lines.empty()) {
+        report["ridges"] = {{"count", t.terrain.ridges.lines.size()}};
+        if (t.assessment.surface_ridges) {
+            report["ridges"]["cells"] = t.assessment.surface_ridges->ridge_cells;
+            report["ridges"]["extracted"] = {{"area_cells", t.assessment.surface_ridges->threshold_cells},
+                                             {"agreement", agreements_object(t.assessment.surface_ridges->extracted)}};
         }
     }
-    if (t.equilibrium) {
-        EquilibriumStory const& e = *t.equilibrium;
+    if (t.terrain.equilibrium) {
+        EquilibriumStory const& e = *t.terrain.equilibrium;
         report["equilibrium"] = {{"channel_cells", e.channel_cells},
-                                 {"lakes", t.lakes},
+                                 {"lakes", t.terrain.lakes},
                                  {"shortened_cells", e.shortened_cells},
                                  {"walled_cells", e.walled_cells},
                                  {"lowered", {{"max_m", e.max_lowered_m}, {"p95_m", e.p95_lowered_m}}},
@@ -313,20 +311,21 @@ std::string write_report(Terrain const& t, std::vector<std::string> const& files
                                  {"side_valleys", e.side_valleys},
                                  {"side_valleys_left_out", e.side_valleys_left_out}};
     }
-    if (t.diffusion) {
-        report["diffusion"] = {{"iterations", t.diffusion->iterations}, {"residual", t.diffusion->residual}};
+    if (t.terrain.diffusion) {
+        report["diffusion"] = {{"iterations", t.terrain.diffusion->iterations},
+                               {"residual", t.terrain.diffusion->residual}};
     }
-    for (PatchStory const& p : t.patches) {
+    for (PatchStory const& p : t.terrain.patches) {
         report["patches"].push_back(
             {{"cells", p.cells}, {"kept", p.kept}, {"seam_max_m", p.seam_max_m}, {"seam_rms_m", p.seam_rms_m}});
     }
-    if (t.projection) {
-        report["statistics"] = statistics_object(*t.projection);
-        report["statistics"]["fine_forms_cells"] = t.fine_forms_cells;
+    if (t.terrain.projection) {
+        report["statistics"] = statistics_object(*t.terrain.projection);
+        report["statistics"]["fine_forms_cells"] = t.terrain.fine_forms_cells;
     }
-    report["checks"] = checks_array(t.checks);
-    report["findings"] = findings_array(t.findings);
-    report["repairs"] = findings_array(t.story.repairs);
+    report["checks"] = checks_array(t.assessment.checks);
+    report["findings"] = findings_array(t.assessment.findings);
+    report["repairs"] = findings_array(repairs_of(t));
     report["files"] = files;
     return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
@@ -360,20 +359,12 @@ std::string statistics_json(measure::Statistics const& statistics, DemLaws const
     return out.dump() + "\n";
 }
 
-std::string as_json(CheckedFiles const& checked) {
-    ordered_json out{{"ok", checked.ok()},
-                     {"arcs", checked.arcs},
-                     {"nodes", checked.nodes},
-                     {"schema", checked.schema},
-                     {"checks", checks_array(checked.checks)},
-                     {"findings", findings_array(checked.findings)},
-                     {"notes", findings_array(checked.notes)},
-                     {"mended", findings_array(checked.mended)},
-                     {"written", checked.written}};
-    if (checked.certificate) {
-        out["certificate"] = certificate_object(*checked.certificate);
-    }
-    return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+std::string findings_json(std::vector<Finding> const& findings) {
+    return findings_array(findings).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+std::string certificate_json(measure::Certificate const& certificate) {
+    return certificate_object(certificate).dump();
 }
 
 } // namespace thalweg::pipeline

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 
 namespace thalweg::pipeline {
 
-/// \param terrain the terrain
+/// \param made a terrain with all that led to it
 /// \param files names of the files
 /// \return report.json of a terrain: version, recipe, timings_s, peak_rss_mb, network, dem, checks, repairs, files.
-std::string write_report(Terrain const& terrain, std::vector<std::string> const& files);
+std::string write_report(Made const& made, std::vector<std::string> const& files);
 
 /// \param json the text of a report.json
 /// \return the files an earlier report.json lists; empty where the text is none.

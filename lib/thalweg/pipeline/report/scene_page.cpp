@@ -27,6 +27,45 @@ bool lies_on(ElevatedNetwork const& network, Grid const& grid) {
     return true;
 }
 
+/// What a scene shows of a terrain.
+Terrain terrain_of(Scene const& scene, Run const& run) {
+    Terrain terrain;
+    terrain.grid = scene.dem->grid();
+    terrain.surface.emplace();
+    terrain.surface->dem = *scene.dem;
+    terrain.drainage = flow::route(*scene.dem, run);
+    if (scene.network) {
+        terrain.network = *scene.network;
+        terrain.orders = scene.orders;
+    }
+    return terrain;
+}
+
+/// What is measured of it.
+Assessment assessment_of(Scene const& scene, Terrain const& terrain, Run const& run) {
+    Assessment found;
+    found.statistics = measure::statistics(*scene.dem, run);
+    found.hypsometry = measure::hypsometry(*scene.dem, run);
+    found.pits = terrain.drainage->pits;
+    found.pit_volume_m3 = terrain.drainage->pit_volume_m3;
+    if (scene.network) {
+        StreamNetwork const& network = terrain.network.plan;
+        if (lies_on(terrain.network, terrain.grid)) {
+            found.areas = flow::areas_d8(network, *terrain.drainage, run);
+        } else {
+            found.areas.us_area_m2.assign(network.arc_count(), 0.0);
+            found.areas.ds_area_m2.assign(network.arc_count(), 0.0);
+            found.areas.node_m2.assign(network.node_count(), 0.0);
+        }
+        auto const topology = measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run);
+        found.checks = topology.checks;
+        found.findings = topology.findings;
+    }
+    found.laws = laws_of_terrain(terrain, found.areas, found.statistics->cells, run);
+    found.relief = relief_of_dem(*scene.dem, run);
+    return found;
+}
+
 } // namespace
 
 std::string scene_page(Scene const& scene, std::vector<std::string> const& notes, std::string const& command,
@@ -34,41 +73,16 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
     if (!scene.dem) {
         throw BadInput("pipeline.scene_page: there is no DEM to show");
     }
-    DrawnTerrain drawn;
-    drawn.recipe.output.title = scene.title;
-    drawn.grid = scene.dem->grid();
-    drawn.surface.emplace();
-    drawn.surface->dem = *scene.dem;
-    Assessment found;
-    found.statistics = measure::statistics(*scene.dem, run);
-    found.hypsometry = measure::hypsometry(*scene.dem, run);
-    flow::FlowField const drainage = flow::route(*scene.dem, run);
-    found.pits = drainage.pits;
-    found.pit_volume_m3 = drainage.pit_volume_m3;
-    if (scene.network) {
-        drawn.network = *scene.network;
-        drawn.orders = scene.orders;
-        std::size_t const arcs = drawn.network.plan.arc_count();
-        if (lies_on(drawn.network, drawn.grid)) {
-            found.areas = flow::areas_d8(drawn.network.plan, drainage, run);
-        } else {
-            found.areas.us_area_m2.assign(arcs, 0.0);
-            found.areas.ds_area_m2.assign(arcs, 0.0);
-            found.areas.node_m2.assign(drawn.network.plan.node_count(), 0.0);
-        }
-        auto const topology = measure::check_topology(measure::as_file(drawn.network, drawn.orders), {}, run);
-        found.checks = topology.checks;
-        found.findings = topology.findings;
-    }
-    found.laws = laws_of_terrain(drawn, found.areas, found.statistics->cells, &drainage, run);
-    found.relief = relief_of_dem(*scene.dem, run);
-    Terrain const terrain = together({}, std::move(drawn), std::move(found));
-    double const relief = terrain.statistics->max.z - terrain.statistics->min.z;
+    Made made;
+    made.recipe.output.title = scene.title;
+    made.terrain = terrain_of(scene, run);
+    made.assessment = assessment_of(scene, made.terrain, run);
+    double const relief = made.assessment.statistics->max.z - made.assessment.statistics->min.z;
     PageParams params;
     params.contour_interval_m = scene.contour_interval_m > 0.0 ? scene.contour_interval_m : round_interval(relief);
     params.command = command;
     params.notes = notes;
-    return page(terrain, params, run);
+    return page(made, params, run);
 }
 
 } // namespace thalweg::pipeline

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/pipeline/make/drawn_terrain.hpp>
-#include <thalweg/pipeline/make/internal/diary.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/plan/internal/diary.hpp>
 
 /// Real relief in the land. Private to this room.
 namespace thalweg::pipeline {
 
 /// Pastes the recipe's patches into the land, in their order; rivers keep their cells' heights unless a patch says so.
-DrawnTerrain with_patches(DrawnTerrain drawn, Diary& diary, Run const& run);
+Terrain with_patches(Plan const& plan, Terrain drawn, Diary& diary, Run const& run);
 
 } // namespace thalweg::pipeline

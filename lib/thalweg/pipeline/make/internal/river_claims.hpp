@@ -10,7 +10,6 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/valley.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
 
 /// What rivers say of the DEM around them, alike in make and check. Private to this room.
 namespace thalweg::pipeline {
@@ -38,9 +37,6 @@ std::vector<std::int64_t> cells_of(std::vector<NodeId> const& nodes, StreamNetwo
 
 /// 1 in the cells of a valley.
 Mask river_mask(Valley const& valley);
-
-/// Whether a patch may take the place of rivers.
-bool replaces_rivers(Recipe const& recipe);
 
 /// A valley without the cells in which the DEM has other heights, and without what lies upstream of these.
 Valley honoured_valley(Valley valley, StreamNetwork const& network, Raster<float> const& dem);

@@ -6,18 +6,18 @@
 #include <vector>
 
 #include <thalweg/io/network/write_network.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 
 /// The user's columns of a terrain's rivers. Private to this module.
 namespace thalweg::pipeline {
 
 /// What the file said of the lines that became these arcs; nothing for grown rivers.
-std::optional<io::UserData> user_data(Terrain const& t, StreamNetwork const& plan);
+std::optional<io::UserData> user_data(Made const& t, StreamNetwork const& plan);
 
 /// Every line of the file that is not in the network, also those that pruning or the terrain took away.
-std::vector<SecondaryLine> secondary_of(Terrain const& t);
+std::vector<SecondaryLine> secondary_of(Made const& t);
 
 /// The columns that have other names in the shapefiles.
-std::vector<io::ShortenedName> shortened_names(Terrain const& t);
+std::vector<io::ShortenedName> shortened_names(Made const& t);
 
 } // namespace thalweg::pipeline

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 
 namespace thalweg::pipeline {
 
@@ -20,6 +20,6 @@ struct PageParams {
 /// report.html of a terrain: one page that a browser opens without a network.
 /// Gives: the page that is built into the library, filled as web/README.md says. Whatever a title or a file name holds,
 /// it cannot leave its place in the page; bytes that are no UTF-8 become U+FFFD. Throws: Cancelled; IoError.
-std::string page(Terrain const& terrain, PageParams const& params = {}, Run const& run = {});
+std::string page(Made const& made, PageParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::pipeline

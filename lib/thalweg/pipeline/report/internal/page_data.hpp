@@ -15,7 +15,7 @@ namespace thalweg::pipeline {
 /// ridges.
 /// Gives: one line of JSON without '<'; lengths and heights to the millimetre, what is not a number as null. A figure
 /// has "asked" only where the recipe asks for it.
-std::string page_data(Terrain const& terrain, PageParams const& params, std::optional<PageHeights> const& heights,
+std::string page_data(Made const& made, PageParams const& params, std::optional<PageHeights> const& heights,
                       PageLines const& lines);
 
 } // namespace thalweg::pipeline

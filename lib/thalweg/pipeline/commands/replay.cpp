@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/commands/replay.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/io/files/temporary_folder.hpp>
+#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/pipeline/report/write_terrain.hpp>
+
+#include <filesystem>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t largest_file = std::int64_t{1} << 40;
+
+} // namespace
+
+Replayed replay(std::string const& folder, Run const& run) {
+    std::string const recipe_file = folder + "/recipe.toml";
+    Recipe recipe = read_recipe(io::read_text(recipe_file, 2 << 20), recipe_file);
+    recipe.folder = folder;
+    io::TemporaryFolder const aside("thalweg-replay");
+    std::string const again = (aside.path() / "again").string();
+    Replayed out;
+    for (std::string const& name : write_terrain(make(recipe, run), again, io::Existing::refuse, run)) {
+        if (name.rfind("report.", 0) == 0) {
+            continue; // times differ
+        }
+        std::string const old = folder + "/" + name;
+        if (!fs::exists(old)) {
+            out.missing.push_back(name);
+        } else {
+            bool const same = io::read_text(old, largest_file) == io::read_text(again + "/" + name, largest_file);
+            (same ? out.same : out.differ).push_back(name);
+        }
+    }
+    return out;
+}
+
+} // namespace thalweg::pipeline

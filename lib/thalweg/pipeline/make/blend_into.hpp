@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <thalweg/blend/paste.hpp>
+#include <thalweg/blend/place_patch.hpp>
+#include <thalweg/core/run/run.hpp>
+
+namespace thalweg::pipeline {
+
+/// Options of make_blend().
+struct MakeBlendParams {
+    std::string target = {};     ///< a DEM
+    std::string source = {};     ///< a DEM, in any CRS and of any cell size
+    std::optional<Vec2> at = {}; ///< [m] of the target: where the patch's middle comes to lie
+    double rotate_deg = 0.0;     ///< [deg] as in blend::PlacePatchParams
+    double scale = 1.0;          ///< > 0, in plan
+    double gain = 1.0;           ///< of heights
+    std::string mask = {};       ///< a raster on the target's grid, or polygons; "" for all the source covers
+    std::string keep = {};       ///< a raster on the target's grid, or lines; "" for none
+    std::optional<blend::SourceWindow> window = {}; ///< of the source file; all of it without
+    double feather_cells = 0.0;                     ///< [cells] as in blend::PasteParams
+    blend::Relief relief = blend::Relief::source;
+    blend::Holes holes = blend::Holes::leave;
+};
+
+/// How the place of a patch was found.
+enum class PatchPlace : std::uint8_t {
+    given, ///< by params
+    own,   ///< by the source's coordinates
+    middle ///< the source lies elsewhere: the middle of the target
+};
+
+/// A blended DEM and how it came about.
+struct MadeBlend {
+    blend::Pasted pasted;
+    PatchPlace place = PatchPlace::given;
+    Vec2 at;                  ///< [m] the patch's middle
+    std::int64_t outside = 0; ///< cells of the mask off the source
+    bool is_warped = false;   ///< the source had another CRS or cell size
+};
+
+/// Reads a DEM and sets a patch of it into another: place_patch, then paste. A source in another CRS or with other
+/// cells is warped first, a window cut out of it before: into the target's CRS where both lie on the same part of the
+/// earth; else it is measured in its own CRS or, where that is not in metres, in its UTM zone. \param target [m] the
+/// DEM that is changed; NaN: no data \param keep its cells that are kept \param params options, each with its default,
+/// unit and range \param run progress, log, stop token and number of threads \return the target with the patch in it,
+/// as the stages do; params.target names it in messages, params.keep is not read. \throws BadParameter \throws BadInput
+/// as the stages and doors do, also when a target in degrees is asked to take a turned patch \throws NotConverged
+/// \throws IoError
+/// \throws Cancelled
+MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run = {});
+
+} // namespace thalweg::pipeline

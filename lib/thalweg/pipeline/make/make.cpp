@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/make.hpp>
+
+#include <thalweg/pipeline/plan/internal/append.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+
+#include <utility>
+
+namespace thalweg::pipeline {
+
+Recipe recipe_of(Plan const& plan, Terrain const& terrain) {
+    Recipe recipe = framed(plan.recipe, terrain.grid);
+    if (terrain.equilibrium) {
+        recipe.surface->equilibrium.edge = terrain.equilibrium->edge;
+    }
+    if (terrain.equilibrium && terrain.equilibrium->gave_way) {
+        recipe.network->heights = Heights::soft;
+    }
+    if (terrain.detail) {
+        recipe.detail->midpoint.hurst = terrain.detail->hurst;
+        recipe.detail->midpoint.sigma = terrain.detail->sigma;
+    }
+    return recipe;
+}
+
+Made make(Recipe const& recipe, Run const& run) {
+    Made made;
+    made.plan = resolve(recipe, run);
+    made.rivers = make_rivers(made.plan, run);
+    made.terrain = make_terrain(made.plan, made.rivers, run);
+    made.assessment = assess(made.plan, made.terrain, run);
+    made.recipe = recipe_of(made.plan, made.terrain);
+    return made;
+}
+
+Timings timings_of(Made const& made) {
+    Timings all = made.plan.timings_s;
+    append(all, made.rivers.timings_s);
+    append(all, made.terrain.timings_s);
+    append(all, made.assessment.timings_s);
+    return all;
+}
+
+std::vector<Finding> repairs_of(Made const& made) {
+    std::vector<Finding> all = made.rivers.story.repairs;
+    append(all, made.terrain.notes);
+    return all;
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <thalweg/core/finding.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/pipeline/make/assess.hpp>
+#include <thalweg/pipeline/make/rivers.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/pipeline/plan/timings.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+
+namespace thalweg::pipeline {
+
+/// A terrain with all that led to it.
+struct Made {
+    Plan plan;
+    Rivers rivers; ///< none where the plan has no [network]
+    Terrain terrain;
+    Assessment assessment;
+    Recipe recipe; ///< recipe_of() these
+};
+
+/// \param plan the plan
+/// \param terrain what came of it
+/// \return the recipe with every default as it came out, also the frame and what the surface has decided: made again,
+/// it gives the same terrain.
+Recipe recipe_of(Plan const& plan, Terrain const& terrain);
+
+/// From a recipe to a terrain: rivers first, then the land around them; or land from numbers and points alone.
+/// \param recipe the recipe
+/// \param run progress, log, stop token and number of threads
+/// \return the same terrain for the same recipe, whatever the Run.
+/// \throws BadParameter
+/// \throws BadInput
+/// \throws IoError
+/// \throws Cancelled
+Made make(Recipe const& recipe, Run const& run = {});
+
+/// \param made a terrain
+/// \return what all stages took [s], in their order.
+Timings timings_of(Made const& made);
+
+/// \param made a terrain
+/// \return notes on what became of the rivers: adopted, carried, shortened.
+std::vector<Finding> repairs_of(Made const& made);
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/plan/make_input.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/printable.hpp>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/io/gdal/access.hpp>
+#include <thalweg/io/network/find_rivers.hpp>
+#include <thalweg/pipeline/plan/internal/read_lines.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_toml_name(std::string const& path) {
+    std::string ending = fs::path(path).extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending == ".toml";
+}
+
+bool is_word(std::string_view text) {
+    return !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == ' ';
+    });
+}
+
+/// Whether the first line that is not empty or a comment is a section or an assignment.
+bool begins_like_toml(std::string const& path) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) {
+        return false;
+    }
+    std::ifstream file(path, std::ios::binary);
+    std::string text(65536, '\0');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    for (std::size_t begin = 0; begin < text.size();) {
+        std::size_t const end = std::min(text.find('\n', begin), text.size());
+        std::string_view line(text.data() + begin, end - begin);
+        begin = end + 1;
+        line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
+        if (line.empty() || line.front() == '#') {
+            continue;
+        }
+        if (line.front() == '[') {
+            line.remove_prefix(line.size() > 1 && line[1] == '[' ? 2 : 1);
+            auto const close = line.find(']');
+            return close != std::string_view::npos && is_word(line.substr(0, close));
+        }
+        return is_word(line.substr(0, line.find('='))) && line.find('=') != std::string_view::npos;
+    }
+    return false;
+}
+
+/// What rivers of a path are called in a title.
+std::string title_of_path(std::string const& path) {
+    if (io::names_connection(path)) { // which may hold a password
+        return "rivers";
+    }
+    fs::path at = fs::path(path).lexically_normal();
+    at = at.has_filename() ? at : at.parent_path();
+    std::error_code ignored;
+    std::string const name = (fs::is_directory(at, ignored) ? at.filename() : at.stem()).string();
+    return is_utf8(name) ? name : "rivers";
+}
+
+} // namespace
+
+Recipe rivers_recipe(std::string const& path) {
+    io::RiverSource const source = io::find_rivers(path);
+    Recipe recipe;
+    recipe.grid.cell_m = 0.0;
+    NetworkRecipe& network = recipe.network.emplace();
+    network.source = Source::lines;
+    network.lines.path = source.path;
+    network.lines.layer = source.layer;
+    recipe.surface.emplace();
+    recipe.output.title = title_of_path(path);
+    return recipe;
+}
+
+Recipe recipe_from(std::string const& path) {
+    if (!has_toml_name(path) && !begins_like_toml(path)) {
+        try {
+            return rivers_recipe(path);
+        } catch (BadInput const& why) {
+            throw BadInput(fmt::format(
+                "pipeline.recipe_from: {}; give a recipe (TOML), a file of river lines, or a folder that make or "
+                "convert wrote",
+                why.what()));
+        }
+    }
+    Recipe recipe = read_recipe(io::read_text(path, 2 << 20), path);
+    recipe.folder = fs::path(path).parent_path().string();
+    return recipe;
+}
+
+Recipe settled_recipe(Recipe const& wanted, Run const& run) {
+    check_recipe(wanted);
+    io::RecipeFiles const confined;
+    bool const on_lines = wanted.network && wanted.network->source == Source::lines;
+    return with_absolute_files(on_lines ? settle_on_lines(wanted, read_lines(wanted, run), run).recipe : wanted);
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/plan/internal/read_lines.hpp>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/io/frame/projection.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/network/import/choose_cell.hpp>
+#include <thalweg/network/import/fill_heights.hpp>
+#include <thalweg/pipeline/plan/internal/stray_vertex.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+/// Why the cell size is what it is.
+std::string reason(network::ChosenCell const& chosen) {
+    std::string words = fmt::format(", from {} lines of {:.4g} km in all, {:.2g} km apart", chosen.lines,
+                                    chosen.length_m / 1000.0, chosen.spacing_m / 1000.0);
+    return words;
+}
+
+/// Says where rivers lie too close together for the cells.
+void warn_of_crowding(network::ChosenCell const& chosen, Run const& run) {
+    constexpr double worth_a_word = 0.002;
+    if (chosen.crowded_share <= worth_a_word) {
+        return;
+    }
+    run.say(fmt::format("warning: {:.1f} % of the river cells lie beside another river. {}",
+                        100.0 * chosen.crowded_share,
+                        chosen.enough_m > 0.0 ? fmt::format("--set grid.cell={} keeps them apart.", chosen.enough_m)
+                                              : "Take a part of the rivers, or set a smaller grid.cell."));
+}
+
+/// A recipe with a mean slope, where it has neither one nor a relief, nor the rivers heights.
+Recipe with_slope(Recipe recipe, bool has_z) {
+    if (!in_equilibrium(recipe)) {
+        return recipe;
+    }
+    Heights const heights = recipe.network->heights;
+    bool const graded = heights == Heights::graded || (heights == Heights::automatic && !has_z);
+    EquilibriumRecipe& wanted = recipe.surface->equilibrium;
+    double const usual = usual_slope_deg(recipe.grid.cell_m);
+    if (graded && !wanted.mean_slope_deg && !(recipe.surface->dilate.relief_m > 0.0) &&
+        usual != surface::EquilibriumParams{}.mean_slope_deg) {
+        wanted.mean_slope_deg = usual;
+    }
+    return recipe;
+}
+
+} // namespace
+
+double usual_slope_deg(double cell_m) {
+    constexpr double finest_m = 30.0;
+    constexpr double half_m = 400.0;
+    double const fine_deg = surface::EquilibriumParams{}.mean_slope_deg;
+    if (cell_m <= finest_m) {
+        return fine_deg;
+    }
+    auto const share = [](double m) { return 1.0 / (1.0 + portable::pow(m / half_m, 0.9)); };
+    double const fine = fine_deg / 180.0 * portable::pi;
+    double const tangent = portable::sin(fine) / portable::cos(fine) * share(cell_m) / share(finest_m);
+    double const degrees = portable::atan2(tangent, 1.0) / portable::pi * 180.0;
+    return std::max(0.5, std::round(2.0 * degrees) / 2.0);
+}
+
+RiverLines read_lines(Recipe const& recipe, Run const& run) {
+    LinesRecipe const& wanted = recipe.network->lines;
+    std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
+    RiverLines lines = io::read_rivers({.path = file_in(recipe, wanted.path),
+                                        .layer = wanted.layer,
+                                        .type_field = wanted.type_field,
+                                        .rank_field = wanted.rank_field,
+                                        .crs = crs,
+                                        .filter = wanted.filter},
+                                       run);
+    auto const count = lines.lines.size();
+    network::FilledHeights filled = network::fill_heights(std::move(lines), recipe.network->slope);
+    if (filled.filled > 0) {
+        run.say(fmt::format("warning: {} of {} lines in {} have no heights, the first is feature {}. They get heights "
+                            "from the lines they meet, with network.slope where they meet only one.",
+                            filled.filled, count, filled.lines.name, filled.first));
+    }
+    return std::move(filled.lines);
+}
+
+OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run) {
+    recipe.grid.crs = lines.crs;
+    if (recipe.grid.cell_m > 0.0) {
+        return {with_slope(std::move(recipe), lines.has_z), ""};
+    }
+    if (recipe.grid.width == 0) {
+        require_no_stray_vertex(lines);
+    }
+    network::ChosenCell const chosen =
+        network::choose_cell(lines, {.width = recipe.grid.width, .height = recipe.grid.height}, run);
+    recipe.grid.cell_m = chosen.cell_m;
+    warn_of_crowding(chosen, run);
+    return {with_slope(std::move(recipe), lines.has_z), reason(chosen)};
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/plan/plan.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/frame/projection.hpp>
+#include <thalweg/io/gdal/access.hpp>
+#include <thalweg/network/import/clip_lines.hpp>
+#include <thalweg/network/planform/rotate.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
+#include <thalweg/pipeline/plan/internal/diary.hpp>
+#include <thalweg/pipeline/plan/internal/forest_land.hpp>
+#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
+#include <thalweg/pipeline/plan/internal/points.hpp>
+#include <thalweg/pipeline/plan/internal/read_lines.hpp>
+#include <thalweg/pipeline/plan/internal/trees.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/recipe/internal/unused_keys.hpp>
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+void require_files(Recipe const& recipe) {
+    for (Key const& key : all_keys()) {
+        auto const value = key.help.is_file ? key.take(recipe) : std::nullopt;
+        auto const* const name = value ? std::get_if<std::string>(&*value) : nullptr;
+        std::error_code ignored;
+        if (name != nullptr && !name->empty() && !std::filesystem::exists(file_in(recipe, *name), ignored)) {
+            throw BadInput(fmt::format("pipeline.resolve: {} = \"{}\": there is no such file", key.help.path, *name));
+        }
+    }
+}
+
+/// A cluster, whose grid is known only where it is asked for.
+Plan plan_cluster(Recipe recipe) {
+    NetworkRecipe& wanted = *recipe.network;
+    recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
+    Plan plan;
+    if (recipe.grid.width > 0) {
+        plan.grid = frame_tree(1, recipe.grid);
+    }
+    check_memory_of_cluster(wanted.dla.particles);
+    network::require_growth(wanted.dla);
+    wanted.dla.seed = recipe.seed;
+    wanted.rotate_deg = wanted.rotate_deg.value_or(in_equilibrium(recipe) ? network::random_turn(recipe.seed) : 0.0);
+    plan.recipe = std::move(recipe);
+    return plan;
+}
+
+Plan plan_forest(Recipe recipe, Diary& diary, Run const& run) {
+    Plan plan;
+    plan.recipe = on_crs_of_region(std::move(recipe));
+    plan.forest = forest_land(plan.recipe, diary, run);
+    plan.grid = plan.forest->land.grid();
+    return plan;
+}
+
+/// Lines in their grid.
+RiverLines clipped(RiverLines lines, Grid const& grid) {
+    lines = network::clip_lines(lines, grid);
+    if (lines.lines.empty()) {
+        throw BadInput(fmt::format("grid: no river of {} runs inside the grid", lines.name));
+    }
+    return lines;
+}
+
+Plan plan_lines(Recipe recipe, Diary& diary, Run const& run) {
+    RiverLines lines = diary.stage("read", [&] { return read_lines(recipe, run); });
+    diary.say(fmt::format("{} lines from {}", lines.lines.size(), lines.name));
+    OnLines settled = settle_on_lines(std::move(recipe), lines, run);
+    Plan plan;
+    plan.recipe = std::move(settled.recipe);
+    Grid const grid = frame_lines(lines, plan.recipe.grid);
+    run.tell("grid", fmt::format("{}x{} cells of {} m{}", grid.width, grid.height, grid.cell_m, settled.why));
+    plan.grid = grid;
+    plan.lines = plan.recipe.grid.clip ? clipped(std::move(lines), grid) : std::move(lines);
+    if (plan.recipe.network->heights == Heights::automatic && plan.lines.has_z) {
+        plan.heights_of_file = true;
+        plan.recipe.network->heights = Heights::file;
+    }
+    if (plan.recipe.network->heights == Heights::file && !plan.lines.has_z) {
+        throw BadInput(fmt::format("network.heights = \"file\", but {} has lines without Z; choose other heights",
+                                   plan.lines.name));
+    }
+    return plan;
+}
+
+/// Land without rivers.
+Plan plan_points(Recipe recipe, Run const& run) {
+    Plan plan;
+    plan.points = given_points(recipe, run);
+    recipe.grid.crs = plan.points.crs;
+    plan.grid = frame_land(plan.points, recipe.grid);
+    plan.recipe = std::move(recipe);
+    return plan;
+}
+
+/// The plan by what rivers and land come from.
+Plan by_source(Recipe const& recipe, Diary& diary, Run const& run) {
+    if (!recipe.network) {
+        return plan_points(recipe, run);
+    }
+    switch (recipe.network->source) {
+    case Source::dla: return plan_cluster(recipe);
+    case Source::forest: return plan_forest(recipe, diary, run);
+    case Source::lines: return plan_lines(recipe, diary, run);
+    case Source::tokunaga: break;
+    }
+    return recipe.network->tokunaga.strokes.empty() ? plan_tree(recipe, diary, run) : plan_strokes(recipe, diary, run);
+}
+
+/// With what a recipe leaves to the source of its rivers.
+Plan with_rivers_settled(Plan plan) {
+    NetworkRecipe& rivers = *plan.recipe.network;
+    if (rivers.heights == Heights::automatic) {
+        rivers.heights = in_equilibrium(plan.recipe) ? Heights::graded : Heights::straight_repaired;
+    }
+    bool const all_over = rivers.source == Source::dla || rivers.source == Source::forest;
+    rivers.prune_cells = rivers.prune_cells.value_or(all_over ? 20.0 : 0.0);
+    rivers.meander = rivers.meander.value_or(grown_for_land(plan) ? 1.0 : 0.0);
+    return plan;
+}
+
+/// With what it leaves to the method of its surface.
+Plan with_surface_settled(Plan plan) {
+    SurfaceRecipe& wanted = *plan.recipe.surface;
+    EquilibriumRecipe& land = wanted.equilibrium;
+    bool const has_rivers = plan.recipe.network.has_value();
+    if (has_rivers && follows_land(plan.recipe) && !land.mean_slope_deg && !(wanted.dilate.relief_m > 0.0)) {
+        land.mean_slope_deg = plan.recipe.network->source == Source::lines
+                                  ? usual_slope_deg(plan.recipe.grid.cell_m)
+                                  : surface::EquilibriumParams{}.mean_slope_deg;
+    }
+    wanted.drain = wanted.drain.value_or(has_rivers ? flow::Conditioning::carve : flow::Conditioning::none);
+    return plan;
+}
+
+/// Throws where the grid cannot take what the plan puts on it.
+void require_fit(Plan const& plan) {
+    check_memory(plan.grid->width, plan.grid->height);
+    check_detail(plan.recipe, plan.grid->width, plan.grid->height);
+    if (plan.recipe.skeleton) {
+        require_on_grid(plan.points, *plan.grid, plan.recipe.skeleton->points);
+    }
+}
+
+} // namespace
+
+Plan resolve(Recipe const& recipe, Run const& run) {
+    check_recipe(recipe);
+    io::RecipeFiles const confined;
+    Diary diary(run);
+    Plan plan = by_source(recipe, diary, run);
+    if (recipe.network) {
+        plan = with_rivers_settled(std::move(plan));
+        refuse_unused_keys(plan.recipe); // now that the rivers' heights are known
+        plan.points = recipe.skeleton ? given_points(plan.recipe, run) : FeaturePoints{};
+    }
+    if (recipe.surface) {
+        plan = with_surface_settled(std::move(plan));
+    }
+    require_files(plan.recipe);
+    if (plan.grid) {
+        require_fit(plan);
+    }
+    plan.timings_s = diary.take();
+    return plan;
+}
+
+} // namespace thalweg::pipeline

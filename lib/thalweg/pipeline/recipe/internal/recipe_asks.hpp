@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include <thalweg/core/grid.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+
+/// What several keys of a recipe ask for together. Private to this room.
+namespace thalweg::pipeline {
+
+/// Whether the recipe draws its land in equilibrium with rivers.
+bool in_equilibrium(Recipe const& recipe);
+
+/// Whether a patch may take the place of rivers.
+bool replaces_rivers(Recipe const& recipe);
+
+/// How many times detail halves the cells; 0 without it.
+int levels_of(Recipe const& recipe);
+
+/// The coarse cells that detail starts from: every 2^levels-th of the grid, as many as cover it.
+Grid coarse_grid(Grid const& grid, int levels);
+
+/// Throws BadParameter where the recipe's detail cannot be made on a grid of this size: exact detail is made from few
+/// coarse cells, on a lattice whose torus is not too large (where H is estimated, the smallest that may come of it).
+void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height);
+
+} // namespace thalweg::pipeline

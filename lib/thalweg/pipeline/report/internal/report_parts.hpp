@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <thalweg/core/finding.hpp>
+#include <thalweg/measure/drainage/certificate.hpp>
+
+/// Parts of report.json that other reports have too. Private to this room.
+namespace thalweg::pipeline {
+
+/// Findings as a JSON array.
+std::string findings_json(std::vector<Finding> const& findings);
+
+/// A certificate as a JSON object.
+std::string certificate_json(measure::Certificate const& certificate);
+
+} // namespace thalweg::pipeline

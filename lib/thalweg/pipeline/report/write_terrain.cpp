@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/report/write_terrain.hpp>
+
+#include <thalweg/core/run/printable.hpp>
+#include <thalweg/draw/curve.hpp>
+#include <thalweg/draw/map.hpp>
+#include <thalweg/draw/profile.hpp>
+#include <thalweg/draw/sections.hpp>
+#include <thalweg/draw/wireframe.hpp>
+#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/io/gdal/access.hpp>
+#include <thalweg/io/gdal/dataset_files.hpp>
+#include <thalweg/io/mesh/read_points.hpp>
+#include <thalweg/io/mesh/write_tin.hpp>
+#include <thalweg/io/network/write_network.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/network/order/order.hpp>
+#include <thalweg/network/planform/split_confluences.hpp>
+#include <thalweg/pipeline/make/internal/catchment_rows.hpp>
+#include <thalweg/pipeline/make/internal/in_unit.hpp>
+#include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/make/internal/split_areas.hpp>
+#include <thalweg/pipeline/make/internal/user_data.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/report/internal/page.hpp>
+#include <thalweg/pipeline/report/pictures.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <utility>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t largest_report = 1 << 30;
+
+std::vector<std::string> files_left_in(std::string const& folder) {
+    std::string const report = folder + "/report.json";
+    return fs::exists(report) ? files_of_report(io::read_text(report, largest_report)) : std::vector<std::string>{};
+}
+
+double relief_m(Made const& t) {
+    return t.assessment.statistics->max.z - t.assessment.statistics->min.z;
+}
+
+/// In the recipe's unit.
+double contour_interval(Made const& t) {
+    double const asked = t.recipe.output.contour_interval;
+    return asked > 0.0 ? asked : round_interval(relief_m(t) / metres_in(t.recipe.output.units));
+}
+
+/// Of pictures and the page, which are in metres.
+double contour_interval_m(Made const& t) {
+    return t.recipe.output.units == HeightUnit::metre ? contour_interval(t) : round_interval(relief_m(t));
+}
+
+/// A file's name as TOML and JSON can hold it.
+std::string name_in_utf8(std::string name) {
+    if (!is_utf8(name)) {
+        std::ranges::replace_if(
+            name, [](char c) { return static_cast<unsigned char>(c) >= 0x80U; }, '_');
+    }
+    return name;
+}
+
+/// Copies a named input and its companions into a folder of the output and gives the name it has there.
+std::string keep_input(io::OutputFolder const& out, std::string const& folder, std::string const& name,
+                       std::string const& into) {
+    fs::path const given(name);
+    fs::path const path = folder.empty() || given.is_absolute() ? given : fs::path(folder) / given;
+    std::vector<std::string> const files = io::is_text_of_points(path.string())
+                                               ? std::vector<std::string>{path.string()}
+                                               : io::dataset_files(path.string());
+    std::string const own = name_in_utf8(path.filename().string());
+    std::string const place = into + (fs::is_directory(path) ? own + "/" : "");
+    for (std::string const& file : files) {
+        if (fs::is_regular_file(file)) {
+            io::copy_file(file, out.path(place + name_in_utf8(fs::path(file).filename().string())));
+        }
+    }
+    return into + own;
+}
+
+/// The folder of a key's file: its own word, but for the two keys whose file is the thing itself.
+std::string folder_of(std::string const& path) {
+    std::string const word = path.substr(path.rfind('.') + 1);
+    return path == "network.lines.path" || path == "patch.source" ? "" : word + "/";
+}
+
+/// Copies the files that the keys of a recipe name, those of [[patch]] but of the last patch only. Gives the recipe
+/// that names the copies.
+Recipe with_files_kept(Recipe recipe, std::string const& into, io::OutputFolder const& out,
+                       std::function<bool(Key const&)> const& wanted) {
+    for (Key const& key : all_keys()) {
+        auto const value = key.help.is_file && wanted(key) ? key.take(recipe) : std::nullopt;
+        auto const* const name = value ? std::get_if<std::string>(&*value) : nullptr;
+        if (name != nullptr && !name->empty()) {
+            key.put(recipe, keep_input(out, recipe.folder, *name, into + folder_of(key.help.path)));
+        }
+    }
+    return recipe;
+}
+
+/// Copies every file the recipe names into inputs/ and gives the recipe that names the copies.
+Recipe keep_inputs(Made const& made, io::OutputFolder const& out) {
+    io::RecipeFiles const confined;
+    Recipe recipe = made.recipe;
+    auto const of_patch = [](Key const& key) { return key.section() == "patch"; };
+    recipe = with_files_kept(recipe, "inputs/", out,
+                             [&](Key const& key) { return !of_patch(key) && key.use.holds(recipe); });
+    for (std::size_t i = 0; i < recipe.patches.size(); ++i) {
+        Recipe one;
+        one.folder = recipe.folder;
+        one.patches.push_back(recipe.patches[i]);
+        recipe.patches[i] = with_files_kept(one, fmt::format("inputs/patch{}/", i + 1), out, of_patch).patches.front();
+    }
+    recipe.folder.clear();
+    return recipe;
+}
+
+/// The network in another schema, its confluences split where that cannot name so many arcs.
+void write_in_schema(Made const& t, io::OutputFolder const& out, Run const& run) {
+    io::SchemaTable const& schema = io::table_of(t.recipe.output.schema);
+    network::Split split{t.terrain.network, {}};
+    if (schema.most_upstream > 0) {
+        split = network::split_confluences(t.terrain.network, {schema.most_upstream, t.terrain.grid.cell_m}, run);
+    }
+    std::vector<double> us_area_m2 = t.assessment.areas.us_area_m2;
+    std::vector<double> ds_area_m2 = t.assessment.areas.ds_area_m2;
+    add_pieces(split.pieces, us_area_m2, ds_area_m2);
+    NetworkOrders const orders = network::order(split.network.plan);
+    std::vector<double> const node_area_m2 = node_areas(split.network.plan, us_area_m2, ds_area_m2);
+    auto const user = user_data(t, split.network.plan);
+    io::NetworkTables tables{split.network, orders, us_area_m2, ds_area_m2, node_area_m2, t.terrain.grid.crs, {}};
+    tables.user = user ? &*user : nullptr;
+    io::write_network(tables, out.path(fmt::format("network_{}.gpkg", schema.name)), {.schema = schema.schema}, run);
+}
+
+void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
+    std::map<std::string, std::string> const about = {{"version", version()},
+                                                      {"seed", fmt::format("{}", t.recipe.seed)},
+                                                      {"area_from", t.assessment.areas.source},
+                                                      {"height_unit", name_of(t.recipe.output.units)}};
+    auto const user = user_data(t, t.terrain.network.plan);
+    auto const secondary = secondary_of(t);
+    io::NetworkTables const tables{t.terrain.network,
+                                   t.terrain.orders,
+                                   t.assessment.areas.us_area_m2,
+                                   t.assessment.areas.ds_area_m2,
+                                   t.assessment.areas.node_m2,
+                                   t.terrain.grid.crs,
+                                   about,
+                                   t.terrain.types.braided.empty() ? nullptr : &t.terrain.types.braided,
+                                   &t.terrain.ridges,
+                                   &secondary,
+                                   user ? &*user : nullptr,
+                                   t.recipe.output.units,
+                                   true,
+                                   t.assessment.sinks};
+    io::write_geopackage(tables, out.path("network"), run);
+    io::write_shapefiles(tables, out.path("network"), run);
+    if (t.recipe.output.schema != io::Schema::native) {
+        write_in_schema(t, out, run);
+    }
+    io::write_mask(river_mask(t.terrain.valley), out.path("network.tif"), run);
+    if (t.terrain.lakes > 0) {
+        io::write_mask(lake_cells(t.terrain.channels), out.path("lakes.tif"), run);
+    }
+}
+
+void write_water(Made const& t, io::OutputFolder const& out, Run const& run) {
+    if (t.assessment.catchments) {
+        auto const rows = catchment_rows(flow::reaches_of(t.terrain.network.plan), t.terrain.orders.arc_basin,
+                                         *t.assessment.catchments);
+        io::write_catchments({t.assessment.catchments->reach, rows}, out.path("catchments.gpkg"), run);
+    }
+    if (t.assessment.water_areas) {
+        io::write_field(t.assessment.water_areas->d8, out.path("area_d8.tif"), run);
+        io::write_field(t.assessment.water_areas->dinf, out.path("area_dinf.tif"), run);
+    }
+}
+
+void write_surface(Made const& t, std::string const& title, io::OutputFolder const& out, Run const& run) {
+    Raster<float> const& dem = t.terrain.surface->dem;
+    HeightUnit const unit = t.recipe.output.units;
+    double const interval = contour_interval_m(t);
+    auto const contours = io::contours(dem, interval, run);
+    if (unit == HeightUnit::metre) {
+        io::write_dem(dem, out.path("dem.tif"), run);
+        io::write_contours(contours, interval, t.terrain.grid.crs, out.path("contours.gpkg"), run);
+    } else {
+        Raster<float> const converted = in_unit(dem, unit);
+        double const step = contour_interval(t);
+        io::write_dem(converted, out.path("dem.tif"), unit, run);
+        io::write_contours(io::contours(converted, step, run), step, t.terrain.grid.crs, out.path("contours.gpkg"),
+                           unit, run);
+    }
+
+    bool const rivers = t.recipe.network.has_value();
+    ElevatedNetwork const* const network = rivers ? &t.terrain.network : nullptr;
+    NetworkOrders const* const orders = rivers ? &t.terrain.orders : nullptr;
+    draw::MapSheet sheet{dem, io::hillshade(dem), network, orders, {}, &t.terrain.ridges};
+    for (auto const& [z, line] : contours) {
+        sheet.contours.emplace_back(z, line);
+    }
+    draw::MapParams map;
+    map.title = title;
+    map.contour_interval_m = interval;
+    io::write_text(out.path("map.png"), draw::map(sheet, map).bytes);
+    if (!t.terrain.surface->increments.empty()) {
+        io::write_text(
+            out.path("curve.svg"),
+            draw::curve(t.terrain.surface->increments, {t.recipe.surface->dilate.increment.increment}).bytes);
+    }
+    draw::WireframeScene const land{dem, network, orders};
+    draw::WireframeParams wireframe;
+    wireframe.title = title;
+    wireframe.azimuth_deg = draw::azimuth_up_valley(land);
+    io::write_text(out.path("wireframe.svg"), draw::wireframe(land, wireframe).bytes);
+    draw::SectionsParams sections;
+    sections.title = title;
+    io::write_text(out.path("sections.svg"), draw::sections(dem, network, orders, sections).bytes);
+}
+
+} // namespace
+
+void check_folder(std::string const& folder, io::Existing existing) {
+    io::OutputFolder const probe(folder, existing, files_left_in(folder));
+}
+
+std::vector<std::string> write_terrain(Made const& made, std::string const& folder, io::Existing existing,
+                                       Run const& run) {
+    io::OutputFolder out(folder, existing, files_left_in(folder));
+    run.at(0.0, "write");
+    Recipe const recipe = keep_inputs(made, out);
+    if (made.recipe.network) {
+        write_network(made, out, run);
+    }
+    if (made.terrain.tin && made.recipe.skeleton && made.recipe.skeleton->tin) {
+        HeightUnit const unit = made.recipe.output.units;
+        Tin const tin = in_unit(*made.terrain.tin, unit);
+        io::write_tin(tin, made.terrain.grid.crs, out.path("tin.2dm"), io::TinFormat::mesh_2dm, unit, run);
+        io::write_tin(tin, made.terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, unit, run);
+    }
+    run.at(0.3, "write");
+    std::string const title = title_of(made.recipe);
+    if (made.terrain.surface) {
+        write_surface(made, title, out, run);
+        write_water(made, out, run);
+    }
+    if (made.recipe.network) {
+        draw::ProfileParams profile;
+        profile.title = title;
+        io::write_text(out.path("profile.svg"),
+                       draw::profile(made.terrain.network, made.terrain.orders, profile).bytes);
+    }
+    std::string const recipe_toml = write_recipe(recipe);
+    io::write_text(out.path("recipe.toml"), recipe_toml);
+    PageParams params;
+    params.contour_interval_m = made.terrain.surface ? contour_interval_m(made) : 0.0;
+    params.recipe = recipe_toml;
+    io::write_text(out.path("report.html"), page(made, params, run));
+    run.at(0.9, "write");
+    std::vector<std::string> files = out.files();
+    files.emplace_back("report.json");
+    io::write_text(out.path("report.json"), write_report(made, files));
+    run.at(1.0, "write");
+    out.commit();
+    return files;
+}
+
+} // namespace thalweg::pipeline

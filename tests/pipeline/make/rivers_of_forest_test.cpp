@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/make.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/files/files.hpp>
+
+#include <gtest/gtest.h>
+
+#include <io/scratch_folder.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+using namespace thalweg;
+using namespace thalweg::pipeline;
+
+namespace {
+
+std::string const forest = "[network]\nsource = \"forest\"\n";
+std::string const small_grid = "[grid]\nwidth = 200\nheight = 160\n";
+std::string const dilated = "[surface]\nmethod = \"dilate\"\n";
+
+/// A folder with regions and outlets near (500000, 5000000) in EPSG:32631.
+class Files {
+public:
+    Files() {
+        // Two islands, 150 x 120 cells of 30 m with a lagoon, and 20 x 20.
+        write("region.geojson",
+              polygons("[[[500000,5000000],[504500,5000000],[504500,5003600],[500000,5003600],[500000,5000000]],"
+                       "[[502000,5001500],[503000,5001500],[503000,5002500],[502000,5002500],[502000,5001500]]],"
+                       "[[[505000,5000000],[505600,5000000],[505600,5000600],[505000,5000600],[505000,5000000]]]"));
+        write("sliver.geojson", polygons("[[[500000,5000000],[509000,5000000],[509000,5000060],[500000,5000000]]]"));
+        write("lake.geojson",
+              polygons("[[[500900,5000900],[501500,5000900],[501500,5001500],[500900,5001500],[500900,5000900]]]"));
+        write("points.csv", "x,y\n500000,5001000\n503000,5003700\n");
+        write("west.geojson", layer("{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"LineString\","
+                                    "\"coordinates\":[[500010,4999000],[500010,5004000]]}}"));
+        write("inland.geojson", layer("{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"LineString\","
+                                      "\"coordinates\":[[501000,5001000],[501200,5001000]]}}"));
+    }
+    std::string folder() const { return folder_.path().string(); }
+
+private:
+    static std::string layer(std::string const& feature) {
+        return "{\"type\":\"FeatureCollection\",\"crs\":{\"type\":\"name\",\"properties\":{\"name\":"
+               "\"urn:ogc:def:crs:EPSG::32631\"}},\"features\":[" +
+               feature + "]}";
+    }
+    static std::string polygons(std::string const& parts) {
+        return layer(
+            "{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"MultiPolygon\",\"coordinates\":[" +
+            parts + "]}}");
+    }
+    void write(char const* name, std::string const& text) const { std::ofstream(folder_ / std::string(name)) << text; }
+
+    ScratchFolder folder_;
+};
+
+Made made(std::string const& toml, std::string const& folder = "") {
+    Recipe recipe = read_recipe(toml, "test");
+    recipe.folder = folder;
+    return make(recipe);
+}
+
+std::string fault_of(std::string const& toml, std::string const& folder = "") {
+    try {
+        made(toml, folder);
+    } catch (Error const& e) {
+        return e.what();
+    }
+    return "";
+}
+
+bool has(std::string const& text, std::string const& part) {
+    return text.find(part) != std::string::npos;
+}
+
+std::int64_t count(std::vector<Finding> const& notes, std::string const& kind) {
+    return std::ranges::count(notes, kind, &Finding::kind);
+}
+
+/// Law: land has heights and the sea has none; every outlet lies on the coast or the grid's border; every check holds.
+void expect_lawful(Made const& t) {
+    EXPECT_TRUE(t.assessment.passed());
+    auto const is_land = [&](Cell c) {
+        return t.terrain.grid.contains(c) && (t.terrain.land.values().empty() || t.terrain.land[c] != 0);
+    };
+    for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
+        ASSERT_EQ(std::isfinite(t.terrain.surface->dem[i]), is_land(t.terrain.grid.at(i))) << i;
+    }
+    EXPECT_FALSE(t.terrain.network.plan.outlets().empty());
+    for (NodeId const n : t.terrain.network.plan.outlets()) {
+        Cell const c = t.terrain.grid.cell_of(t.terrain.network.plan.node(n).at);
+        EXPECT_TRUE(is_land(c));
+        EXPECT_FALSE(is_land({c.col - 1, c.row}) && is_land({c.col + 1, c.row}) && is_land({c.col, c.row - 1}) &&
+                     is_land({c.col, c.row + 1}));
+    }
+}
+
+} // namespace
+
+TEST(PlanForest, KeysThatDoNotGoTogetherAreNamed) {
+    EXPECT_TRUE(has(fault_of(forest), "grid.width and grid.height are missing"));
+    EXPECT_TRUE(has(fault_of(small_grid + forest + "rotate = 3\n"), "network.rotate does not go with"));
+    EXPECT_TRUE(has(fault_of(forest + "[network.forest]\nshape = \"island\"\nregion = \"a.gpkg\"\n"),
+                    "network.forest.shape and region do not go together"));
+    EXPECT_TRUE(has(fault_of("[network]\n[network.forest]\nregion = \"a.gpkg\"\n"), "source is not \"forest\""));
+    EXPECT_TRUE(has(fault_of(small_grid + forest + "[network.forest]\nspacing = 7\n"), "spacing: 7 is outside"));
+    EXPECT_TRUE(has(fault_of(small_grid + forest + "[network.forest]\nregion = \"none.gpkg\"\n"), "none.gpkg"));
+    EXPECT_TRUE(has(fault_of("[grid]\nwidth = 7\nheight = 200\n" + forest), "there is no room for a river"));
+    EXPECT_TRUE(has(fault_of(small_grid + forest + "prune = 9000\n"), "removes every arc"));
+}
+
+TEST(PlanForest, WrittenRecipeReadsBack) {
+    std::string const text =
+        write_recipe(read_recipe(small_grid + forest + "[network.forest]\nshape = \"island\"\nseeds = 9\n", "r"));
+    EXPECT_TRUE(has(text, "[network.forest]\nshape = 'island'"));
+    EXPECT_FALSE(has(text, "network.dla"));
+    EXPECT_EQ(write_recipe(read_recipe(text, "again")), text);
+}
+
+TEST(PlanForest, TheWholeGridDrainsOverItsBorder) {
+    Made const t = made(small_grid + forest + dilated);
+    expect_lawful(t);
+    EXPECT_TRUE(t.terrain.land.values().empty());
+    EXPECT_TRUE(t.rivers.story.full);
+    EXPECT_GT(t.terrain.network.plan.outlets().size(), 5U);
+}
+
+TEST(PlanForest, AnIslandIsDiffusedAndTriangulatedToo) {
+    for (char const* method : {"dilate", "diffuse", "tin"}) {
+        Made const t = made(small_grid + forest + "[network.forest]\nshape = \"island\"\n[surface]\nmethod = \"" +
+                            std::string(method) + "\"\n");
+        expect_lawful(t);
+        EXPECT_EQ(t.terrain.land[0], 0) << method;
+    }
+}
+
+// A land in equilibrium: no river moves, every cell of the land drains.
+TEST(PlanForest, AnIslandComesIntoEquilibrium) {
+    Made const t = made(small_grid + forest + "[network.forest]\nshape = \"island\"\n[surface]\nedge = \"coast\"\n");
+    expect_lawful(t);
+    EXPECT_EQ(t.assessment.pits, 0);
+    EXPECT_TRUE(has(fault_of(small_grid + forest + "meander = 1\n[network.forest]\nshape = \"island\"\n[surface]\n"),
+                    "network.meander cannot bend rivers that end on a coast"));
+}
+
+TEST(PlanForest, ARegionsPolygonsAreTheLandAndFrameTheGrid) {
+    Files const files;
+    Made const t =
+        made(forest + "prune = 0\n[network.forest]\nregion = \"region.geojson\"\n" + dilated, files.folder());
+    expect_lawful(t);
+    EXPECT_EQ(t.terrain.grid.crs, "EPSG:32631");
+    // The lagoon is sea, the islet is land.
+    EXPECT_EQ(t.terrain.land[t.terrain.grid.cell_of({502500, 5002000})], 0);
+    EXPECT_EQ(t.terrain.land[t.terrain.grid.cell_of({505300, 5000300})], 1);
+    auto const land = static_cast<double>(std::ranges::count(t.terrain.land.values(), std::uint8_t{1}));
+    EXPECT_NEAR(land * 900.0, 4500.0 * 3600.0 - 1000.0 * 1000.0 + 600.0 * 600.0, 40.0 * 900.0);
+    EXPECT_EQ(t.terrain.grid.width, 206); // 5600 m and 5 % on both sides
+}
+
+TEST(PlanForest, ARegionThatLeavesTheGridIsRefusedOrCut) {
+    Files const files;
+    std::string const recipe = "[grid]\nwidth = 100\nheight = 100\norigin = [500000, 5003600]\nclip = false\n" +
+                               forest + "[network.forest]\nregion = \"region.geojson\"\n" + dilated;
+    EXPECT_TRUE(has(fault_of(recipe, files.folder()), "runs outside the grid"));
+    std::string cut = recipe;
+    cut.replace(cut.find("false"), 5, "true");
+    expect_lawful(made(cut, files.folder()));
+}
+
+TEST(PlanForest, ACoastThatLeavesNoLandIsRefused) {
+    Files const files;
+    EXPECT_TRUE(has(fault_of(forest + "[network.forest]\nregion = \"sliver.geojson\"\n" + dilated, files.folder()),
+                    "there is no room for a river"));
+}
+
+TEST(PlanForest, PointsMoveToTheCoast) {
+    Files const files;
+    std::string const recipe =
+        forest + "prune = 0\n[network.forest]\nregion = \"region.geojson\"\noutlets = \"points.csv\"\n";
+    Made const t = made(recipe + dilated, files.folder());
+    expect_lawful(t);
+    EXPECT_EQ(count(repairs_of(t), "moved_outlet"), 1);
+    EXPECT_EQ(count(repairs_of(t), "added_outlet"), 1); // the islet's
+    EXPECT_EQ(t.terrain.network.plan.outlets().size(), 3U);
+    EXPECT_TRUE(has(fault_of(recipe + "seeds = 4\n" + dilated, files.folder()), "leave network.forest.seeds out"));
+}
+
+TEST(PlanForest, LinesAndPolygonsTellWhereTheCoastHasOutlets) {
+    Files const files;
+    std::string const region = forest + "prune = 0\n[network.forest]\nregion = \"region.geojson\"\nseeds = 4\n";
+    Made const west = made(region + "outlets = \"west.geojson\"\n" + dilated, files.folder());
+    expect_lawful(west);
+    std::int64_t on_line = 0;
+    for (NodeId const n : west.terrain.network.plan.outlets()) {
+        on_line += west.terrain.network.plan.node(n).at.x < 500400 ? 1 : 0;
+    }
+    EXPECT_EQ(on_line, 4);
+    Made const lake = made(region + "outlets = \"lake.geojson\"\n" + dilated, files.folder());
+    expect_lawful(lake);
+    EXPECT_EQ(lake.terrain.land[lake.terrain.grid.cell_of({501200, 5001200})], 0);
+    EXPECT_TRUE(has(fault_of(region + "outlets = \"inland.geojson\"\n" + dilated, files.folder()),
+                    "no coast of the land lies within"));
+}
+
+TEST(PlanForest, OutletsThatArePrunedAwayAreTold) {
+    Made const all = made(small_grid + forest + "prune = 0\n" + dilated);
+    Made const some = made(small_grid + forest + "prune = 40\n" + dilated);
+    std::size_t const before = all.terrain.network.plan.outlets().size();
+    std::size_t const after = some.terrain.network.plan.outlets().size();
+    EXPECT_LT(after, before);
+    EXPECT_EQ(count(repairs_of(some), "pruned_outlet"), static_cast<std::int64_t>(before - after));
+}
