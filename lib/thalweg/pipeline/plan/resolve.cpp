@@ -16,7 +16,6 @@
 #include <thalweg/pipeline/plan/internal/trees.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 #include <thalweg/pipeline/recipe/internal/unused_keys.hpp>
 
 #include <fmt/format.h>
@@ -29,12 +28,11 @@ namespace thalweg::pipeline {
 namespace {
 
 void require_files(Recipe const& recipe) {
-    for (Key const& key : all_keys()) {
-        auto const value = key.help.is_file ? key.take(recipe) : std::nullopt;
-        auto const* const name = value ? std::get_if<std::string>(&*value) : nullptr;
+    for (NamedFile const& file : files_of(recipe)) {
         std::error_code ignored;
-        if (name != nullptr && !name->empty() && !std::filesystem::exists(file_in(recipe, *name), ignored)) {
-            throw BadInput(fmt::format("pipeline.resolve: {} = \"{}\": there is no such file", key.help.path, *name));
+        if (!std::filesystem::exists(file_in(recipe, file.name), ignored)) {
+            throw BadInput(fmt::format("pipeline.resolve: {} = \"{}\": there is no such file",
+                                       file.key->place(file.item), file.name));
         }
     }
 }
