@@ -9,10 +9,10 @@
 
 namespace thalweg {
 
-/// What a file says of its features, column by column.
+/// The attributes of a file's features as a table.
 struct AttributeTable {
     enum class Type : std::uint8_t { integer, integer64, real, text, date, time, datetime };
-    /// Nothing stands for NULL; dates and times are texts as ISO 8601 has them.
+    /// std::monostate is NULL; dates and times are ISO 8601 text.
     using Value = std::variant<std::monostate, std::int64_t, double, std::string>;
     /// A column of a table.
     struct Column {

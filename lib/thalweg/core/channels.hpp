@@ -9,16 +9,14 @@
 
 namespace thalweg {
 
-/// The cells in which rivers run and where the water of each goes: what equilibrium terrain is built around. Law: every
-/// cell is there once; receiver[i] < i, so downstream comes first, or -1 where the water leaves the land (on the grid's
-/// border or the coast) or ends in a sink; a cell and its receiver are neighbours, by side or corner. The vectors are
-/// parallel.
+/// The cells of the rivers and their receivers, around which equilibrium terrain is built. Law: each cell occurs once;
+/// receiver[i] < i, so a list runs upstream; a cell and its receiver are D8 neighbours. The vectors are parallel.
 struct Channels {
     Grid grid;
     std::vector<std::int64_t> cell;     ///< index in the grid
-    std::vector<std::int64_t> receiver; ///< number in these lists, -1 for none
-    std::vector<float> z;               ///< [m] heights that are asked, NaN for none; empty: none at all
-    std::vector<std::uint8_t> level;    ///< 1: a lake's, which stands as high as its receiver; empty: none
+    std::vector<std::int64_t> receiver; ///< position in these vectors; -1: an outlet or sink
+    std::vector<float> z;               ///< [m] prescribed heights, NaN: free; empty: all free
+    std::vector<std::uint8_t> level;    ///< 1: lake, as high as its receiver; empty: no lakes
 };
 
 } // namespace thalweg

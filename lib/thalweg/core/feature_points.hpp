@@ -9,8 +9,8 @@
 
 namespace thalweg {
 
-/// Points whose heights the terrain must have: surveyed, read from a file, or drawn at random (Zhang, Liu and Li). Law:
-/// coordinates and heights are finite.
+/// Points through which the terrain passes: surveyed, read from a file, or random (\cite zhang). Law: all coordinates
+/// and heights are finite.
 struct FeaturePoints {
     std::vector<Vec3> points; ///< [m]
     std::string crs;          ///< as in Grid; "" for none

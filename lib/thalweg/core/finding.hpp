@@ -9,23 +9,23 @@
 
 namespace thalweg {
 
-/// Something a check or a repair has to say about one feature.
+/// What a check or a repair reports of one feature.
 struct Finding {
     std::string kind;         ///< snake_case, e.g. "crossing", "uphill", "snapped"
-    std::int64_t feature = 0; ///< id in the file or arc_id; 0 when it concerns none
+    std::int64_t feature = 0; ///< id in the file or arc_id; 0: none
     Vec2 where;               ///< [m]
-    double amount = 0.0;      ///< how much, in the unit of the kind
+    double amount = 0.0;      ///< size of the fault, in the unit of its kind
     std::string text;         ///< one readable line
 };
 
-/// On which side of its limit a value passes.
+/// The direction of a limit.
 enum class Bound : std::uint8_t { at_most, at_least };
 
 constexpr char const* word_of(Bound bound) {
     return bound == Bound::at_least ? "at_least" : "at_most";
 }
 
-/// One line of report.json's checks.
+/// One entry of `checks` in report.json.
 struct Check {
     std::string name;
     double value = 0.0;

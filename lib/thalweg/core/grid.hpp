@@ -17,7 +17,7 @@ struct Cell {
     friend bool operator==(Cell const&, Cell const&) = default;
 };
 
-/// Frame of a raster: square cells, row 0 in the north, cell (0,0) in the north-west.
+/// The frame of a raster: square cells, cell (0, 0) in the north-west.
 struct Grid {
     std::int64_t width = 0;  ///< [cells]
     std::int64_t height = 0; ///< [cells]
@@ -38,8 +38,9 @@ struct Grid {
         return {west + (static_cast<double>(c.col) + 0.5) * cell_m,
                 north - (static_cast<double>(c.row) + 0.5) * cell_m};
     }
-    /// \param p [m] a position
-    /// \return the cell that holds a position; it may lie outside the grid.
+    /// Finds the cell of a position.
+    /// \param p [m]
+    /// \return may lie outside the grid
     Cell cell_of(Vec2 p) const {
         return {static_cast<std::int64_t>(std::floor((p.x - west) / cell_m)),
                 static_cast<std::int64_t>(std::floor((north - p.y) / cell_m))};

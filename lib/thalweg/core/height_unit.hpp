@@ -6,7 +6,7 @@
 
 namespace thalweg {
 
-/// What heights in a file count. Inside thalweg they are metres.
+/// The unit of heights in a file. Inside thalweg heights are in metres.
 enum class HeightUnit : std::uint8_t {
     metre,
     foot ///< international
@@ -16,8 +16,9 @@ constexpr double metres_in(HeightUnit unit) {
     return unit == HeightUnit::foot ? 0.3048 : 1.0;
 }
 
-/// \param unit the unit
-/// \return "m" or "ft", as in files.
+/// The name of a unit in files.
+/// \param unit metre or foot
+/// \return "m" or "ft"
 constexpr char const* name_of(HeightUnit unit) {
     return unit == HeightUnit::foot ? "ft" : "m";
 }

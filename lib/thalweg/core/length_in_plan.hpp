@@ -9,8 +9,9 @@
 
 namespace thalweg {
 
-/// \param line the vertices
-/// \return the length [m] of a line on the ground; its heights may be NaN.
+/// The length of a polyline in plan.
+/// \param line vertices [m]; heights are not read
+/// \return [m]
 inline double length_in_plan(std::vector<Vec3> const& line) {
     double sum = 0.0;
     for (std::size_t i = 1; i < line.size(); ++i) {

@@ -14,10 +14,10 @@
 
 namespace thalweg {
 
-/// A network file as it was read, before anything is believed of it.
+/// A network file as read, before any check.
 struct NetworkFile {
     static constexpr double untold = std::numeric_limits<double>::quiet_NaN();
-    /// What the file says of a node that follows from the rest; NaN, or "", where it does not.
+    /// Optional columns of a node, which thalweg derives itself; NaN or "": not in the file.
     struct NodeColumns {
         std::string kind = {};
         double deg_in = untold;
@@ -28,13 +28,13 @@ struct NetworkFile {
         double dist_out_m = untold;
         double area_m2 = untold;
     };
-    /// A node as in a file.
+    /// A node of a file.
     struct FileNode {
         std::int64_t id = 0;
         Vec3 at; ///< [m]
         NodeColumns columns = {};
     };
-    /// What the file says of an arc that follows from the rest; NaN where it does not.
+    /// Optional columns of an arc, which thalweg derives itself; NaN: not in the file.
     struct ArcColumns {
         double n_up = untold;
         double topo_ord = untold;
@@ -47,7 +47,7 @@ struct NetworkFile {
         double dist_out_m = untold;
         double slope = untold;
     };
-    /// An arc as in a file.
+    /// An arc of a file.
     struct FileArc {
         std::int64_t id = 0;
         std::int64_t from_node = 0;
@@ -56,42 +56,42 @@ struct NetworkFile {
         std::int64_t strahler = 0;
         std::int64_t shreve = 0;
         std::int64_t basin = 0;
-        std::vector<Vec3> line = {};                                  ///< [m] as drawn, downstream under every schema
-        double us_area_m2 = std::numeric_limits<double>::quiet_NaN(); ///< NaN where the file does not say
+        std::vector<Vec3> line = {};                                  ///< [m] directed downstream
+        double us_area_m2 = std::numeric_limits<double>::quiet_NaN(); ///< NaN: not in the file
         double ds_area_m2 = std::numeric_limits<double>::quiet_NaN();
         double persistence = std::numeric_limits<double>::infinity(); ///< [cells]
-        std::int64_t feature = 0;      ///< number in its layer's order, from 1; native: as the file says, 0 for none
+        std::int64_t feature = 0;      ///< number in its layer, from 1; schema native: the file's value, 0 for none
         std::int64_t record = 0;       ///< of its attributes, from 1; 0 for none
         std::vector<double> size = {}; ///< as RiverLine
         Channel channel = Channel::unknown; ///< likewise
         std::int64_t rank = 0;              ///< likewise
         std::string name = {};              ///< likewise
         std::string unnatural = {};         ///< why it is not a natural watercourse, or ""
-        std::vector<Stretch> sources = {};  ///< the features it is made of, where the file has them
+        std::vector<Stretch> sources = {};  ///< the features it is made of, if the file names them
         std::string type = {};
         bool braided = false;
         bool is_input = true; ///< as Arc
         ArcColumns columns = {};
     };
-    /// What the file says. The rest was filled in by what reads it, or left alone, and is not to be checked.
+    /// Which parts the file itself contains. The reader derives the others or leaves them empty; they are not checked.
     struct Says {
-        bool nodes = true;      ///< has nodes of its own; else one was made for each end of an arc
-        bool ends = true;       ///< arcs name their nodes; else nodes were told apart by their exact places in plan
+        bool nodes = true;      ///< nodes; otherwise derived from the ends of arcs
+        bool ends = true;       ///< arcs name their nodes; otherwise joined by equal plan position
         bool downstream = true; ///< ds_arc
         bool strahler = true;
         bool shreve = true;
         bool basin = true;
-        bool heights = true; ///< z; else it is NaN
+        bool heights = true; ///< z; otherwise NaN
         bool areas = true;
     };
     std::vector<FileNode> nodes;
     std::vector<FileArc> arcs;
     AttributeTable attributes = {}; ///< of the layer of arcs
     Says says = {};
-    std::string crs = {};          ///< of the coordinates, "" for none
-    std::string schema = "native"; ///< how its fields were understood
-    std::int64_t id_shift = 0;     ///< arc ids here are the file's and this: TauDEM's begin at 0, which is none here
-    std::vector<Finding> findings = {}; ///< of reading: what had to be bent to be held here
+    std::string crs = {};               ///< of the coordinates, "" for none
+    std::string schema = "native";      ///< naming scheme of its fields
+    std::int64_t id_shift = 0;          ///< added to the file's arc ids: TauDEM's begin at 0, which means none here
+    std::vector<Finding> findings = {}; ///< what the reader had to change
 };
 
 } // namespace thalweg

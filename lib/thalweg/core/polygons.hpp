@@ -10,14 +10,14 @@
 
 namespace thalweg {
 
-/// One polygon somebody drew, as its file gives it, in the coordinates of the grid.
+/// A polygon of a file, in the grid's coordinates.
 struct Polygon {
     std::int64_t feature = 0;             ///< id in the file
-    std::vector<std::vector<Vec2>> rings; ///< [m] closed by themselves; what an odd number of them surrounds is inside
-    double value = 0.0;                   ///< of the field that was asked for
+    std::vector<std::vector<Vec2>> rings; ///< [m] implicitly closed; even-odd rule
+    double value = 0.0;                   ///< of the requested field
 };
 
-/// Polygons with their features.
+/// The polygons of a file.
 struct Polygons {
     std::vector<Polygon> polygons;
     std::string crs;  ///< of the coordinates; "" for none

@@ -13,7 +13,7 @@
 
 namespace thalweg {
 
-/// One value a cell, row-major from the north-west. A Raster<float> of heights [m] holds NaN where there is no data.
+/// One value per cell, row-major from the north-west. In a Raster<float> of heights [m] NaN means no data.
 template <class T> class Raster {
 public:
     Raster() = default;
@@ -45,7 +45,7 @@ private:
     std::vector<T, LargePages<T>> values_;
 };
 
-/// 1 where something is, 0 elsewhere.
+/// 1: marked, 0: not.
 using Mask = Raster<std::uint8_t>;
 
 } // namespace thalweg

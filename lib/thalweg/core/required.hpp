@@ -6,7 +6,7 @@
 
 namespace thalweg {
 
-/// A parameter of which no default is right for all: Params that leave it out do not compile. Reads as its value.
+/// A parameter without a default: code that leaves it out does not compile. Converts to its value.
 template <class T> class Required {
 public:
     constexpr Required(T value) : value_(std::move(value)) {} // implicit: {.cell_m = 30.0}

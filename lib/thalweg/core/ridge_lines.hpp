@@ -9,14 +9,14 @@
 
 namespace thalweg {
 
-/// A crest between two streams.
+/// A crest between the areas of two streams.
 struct RidgeLine {
     std::vector<Vec3> line; ///< [m] at least two vertices, no two in a row at the same place in plan
-    std::int64_t left = 0;  ///< label of the stream on the left, seen along the line
-    std::int64_t right = 0; ///< label of the stream on the right, another than left
+    std::int64_t left = 0;  ///< label of the stream to the left of the line
+    std::int64_t right = 0; ///< label of the stream to the right; differs from left
 };
 
-/// The ridges between streams. Law: no ridge meets a river; ridges meet only in their ends.
+/// The ridges between streams. Law: no ridge meets a river; ridges meet only at their ends.
 struct RidgeLines {
     std::vector<RidgeLine> lines;
 };

@@ -6,7 +6,7 @@
 
 namespace thalweg {
 
-/// Heights [m] of all cells that a surface is drawn through, rivers, ridges and points; NaN elsewhere.
+/// Heights [m] of the cells that constrain a surface (rivers, ridges and points); NaN elsewhere.
 struct Skeleton {
     Raster<float> z;
 };

@@ -14,9 +14,9 @@
 
 #include <thalweg/core/stream_network.hpp>
 
-/// A StreamNetwork as Boost.Graph's algorithms see it: a directed graph that models IncidenceGraph, BidirectionalGraph,
-/// VertexListGraph and EdgeListGraph, with the property maps vertex_index, edge_index and edge_weight (length_m).
-/// Vertices are NodeIds, edges ArcIds. For .cpp files: it includes Boost.
+/// A StreamNetwork as a Boost graph: models IncidenceGraph, BidirectionalGraph, VertexListGraph and EdgeListGraph, with
+/// property maps vertex_index, edge_index and edge_weight (length_m). Vertices are NodeIds, edges ArcIds. Include it in
+/// .cpp files only: it includes Boost.
 
 namespace boost {
 

@@ -10,11 +10,11 @@
 
 namespace thalweg {
 
-/// A triangulated irregular network: the land as triangles over the plane. Law: every vertex belongs to a triangle, no
-/// two lie at the same place in plan; triangles run counterclockwise seen from above, have area and do not overlap.
+/// A triangulated irregular network. Law: every vertex belongs to a triangle, no two vertices coincide in plan;
+/// triangles are counterclockwise from above, have positive area and do not overlap.
 struct Tin {
     std::vector<Vec3> vertices;                          ///< [m]
-    std::vector<std::array<std::uint32_t, 3>> triangles; ///< vertices by number
+    std::vector<std::array<std::uint32_t, 3>> triangles; ///< indices of vertices
 };
 
 } // namespace thalweg

@@ -6,7 +6,7 @@
 
 namespace thalweg {
 
-/// Heights [m] of the cells in which rivers run, NaN elsewhere: what a surface is drawn through.
+/// Heights [m] of the river cells, NaN elsewhere: the constraint of a surface.
 struct Valley {
     Raster<float> z;
 };

@@ -10,7 +10,7 @@
 
 namespace thalweg::flow {
 
-/// Where the water of a cell goes (D8): to one of its eight neighbours, numbered as d8_steps, or to none.
+/// The D8 flow direction of a cell: a neighbour, numbered as in d8_steps, or none.
 enum class Direction : std::uint8_t {
     east,
     south_east,
@@ -21,23 +21,26 @@ enum class Direction : std::uint8_t {
     north,
     north_east,
     no_data = 254, ///< the cell has no height
-    leaves = 255   ///< water leaves the grid, enters no data or ends in a sink, in this cell
+    leaves = 255   ///< water leaves the grid, enters no data or ends in a sink here
 };
 
-/// \param d the direction
-/// \return whether water goes on to a neighbour.
+/// Tells whether water continues to a neighbour.
+/// \param d any direction
+/// \return false: leaves or no_data
 constexpr bool goes_on(Direction d) {
     return d <= Direction::north_east;
 }
 
-/// \param d a direction in which water goes on
-/// \return place in d8_steps.
+/// The index of a direction.
+/// \param d to a neighbour
+/// \return [0, 7] index in d8_steps
 constexpr std::size_t index_of(Direction d) {
     return static_cast<std::size_t>(d);
 }
 
-/// \param k [0, 7] place in d8_steps
-/// \return the direction with this place in d8_steps.
+/// The direction with an index.
+/// \param k [0, 7] index in d8_steps
+/// \return to that neighbour
 constexpr Direction direction_of(std::size_t k) {
     return static_cast<Direction>(k);
 }
@@ -50,10 +53,10 @@ constexpr bool is_diagonal(Direction d) {
     return index_of(d) % 2 != 0;
 }
 
-/// \pre directions that stay on the grid.
-/// \param direction a direction
+/// Finds the D8 receiver of a cell.
+/// \param direction by cell; no direction leads off the grid
 /// \param cell index of the cell
-/// \return the cell to which the water of a cell goes, -1 where it goes to none.
+/// \return index of the neighbour; -1: none
 inline std::int64_t receiver(Raster<Direction> const& direction, std::int64_t cell) {
     Direction const d = direction[cell];
     if (!goes_on(d)) {

@@ -10,26 +10,27 @@
 
 namespace thalweg::flow {
 
-/// Cells, side by side or by their corners, that lie below the level at which their water spills.
+/// A depression: 8-connected cells below their spill level.
 struct Depression {
-    Cell lowest; ///< ties: the first in row order
+    Cell lowest; ///< of several the first in row order
     std::int64_t cells = 0;
     double max_depth_m = 0.0;
-    double volume_m3 = 0.0; ///< of the water that would fill it
+    double volume_m3 = 0.0; ///< to its spill level
 };
 
-/// Where the water of each cell goes (D8). Law: directions stay on the grid, lead to no cell without data, and close no
-/// circle; route makes it so.
+/// D8 flow directions and contributing areas of a DEM. Law: directions stay on the grid, do not lead to cells without
+/// data and form no cycle.
 struct FlowField {
     Raster<Direction> direction;
-    Raster<std::int64_t> area_cells;          ///< cells that drain through a cell, itself included; 0 without data
-    std::int64_t pits = 0;                    ///< cells in depressions (below the level at which they spill)
-    double pit_volume_m3 = 0.0;               ///< of the water that would fill them
-    std::vector<Depression> depressions = {}; ///< by their first cell
+    Raster<std::int64_t> area_cells;          ///< cells that drain through a cell, itself included; 0: no data
+    std::int64_t pits = 0;                    ///< cells in depressions (below their spill level)
+    double pit_volume_m3 = 0.0;               ///< of all depressions
+    std::vector<Depression> depressions = {}; ///< in the order of their first cells
 
     Grid const& grid() const { return direction.grid(); }
+    /// Finds the D8 receiver of a cell.
     /// \param cell index of the cell
-    /// \return the cell to which the water of a cell goes, -1 where it goes to none.
+    /// \return index of the neighbour; -1: none
     std::int64_t receiver(std::int64_t cell) const { return flow::receiver(direction, cell); }
 };
 

@@ -11,16 +11,16 @@
 
 namespace thalweg::flow {
 
-/// The steepest way down from a cell.
+/// The steepest descent from a cell.
 struct Descent {
     Direction direction = Direction::leaves; ///< leaves: no neighbour is lower
-    double slope = 0.0;                      ///< fall [unit of heights] a cell
+    double slope = 0.0;                      ///< [unit of heights] fall per cell size
 };
 
-/// \pre a height, and height_of(k), that of the neighbour d8_steps[k], NaN where there is none.
-/// \param here [m] height of the cell
-/// \param height_of gives the height of a neighbour
-/// \return the neighbour down the steepest slope, ties to the lowest direction.
+/// Finds the steepest descent to a neighbour.
+/// \param here height of the cell
+/// \param height_of called with k in [0, 7]: height of the neighbour d8_steps[k], NaN: none
+/// \return ties: the lowest direction
 ///
 /// Source: \cite ocallaghan1984.
 template <class HeightOf> Descent steepest_descent(float here, HeightOf height_of) {
@@ -34,9 +34,10 @@ template <class HeightOf> Descent steepest_descent(float here, HeightOf height_o
     return best;
 }
 
-/// \param dem [m] heights by cell; NaN: no data
-/// \param c the cell
-/// \return the same of a cell of a DEM, among its neighbours on the grid.
+/// Finds the steepest descent from a cell to its neighbours on the grid.
+/// \param dem [m] by cell; NaN: no data
+/// \param c a cell of the grid
+/// \return ties: the lowest direction
 inline Descent steepest_descent(Raster<float> const& dem, Cell c) {
     return steepest_descent(dem[c], [&](std::size_t k) {
         Cell const n{c.col + d8_steps[k].col, c.row + d8_steps[k].row};

@@ -13,10 +13,9 @@
 
 namespace thalweg {
 
-/// Calls visit(cell, k, n) for the cells k = 0 ... n from a to b.
-/// \param a first cell
-/// \param b last cell
-/// \param visit the function to call
+/// Calls visit(cell, k, n) for the cells k = 0 ... n of the line from a to b.
+/// \param a,b first and last cell
+/// \param visit called as visit(Cell, std::int64_t k, std::int64_t n)
 ///
 /// Source: \cite bresenham1965.
 template <class Visit> void walk_cells(Cell a, Cell b, Visit visit) {
@@ -43,22 +42,22 @@ template <class Visit> void walk_cells(Cell a, Cell b, Visit visit) {
     }
 }
 
-/// The grid's outer edges belong to its outermost cells.
-/// \param line the vertices
-/// \param grid the grid
-/// \param what what it is, for messages
-/// \return the cells of a line's vertices, one each.
-/// \throws BadInput naming `what` and the vertex, when one lies outside the grid or is not a number
+/// Finds the cell of each vertex; a vertex on the grid's outer edge lies in the outermost cell.
+/// \param line vertices [m]
+/// \param grid every vertex lies inside or on its edge
+/// \param what name of the line in messages
+/// \return one cell a vertex
+/// \throws BadInput naming `what` and the vertex when one is outside the grid or not a number
 std::vector<Cell> cells_of_vertices(std::vector<Vec2> const& line, Grid const& grid,
                                     std::string const& what = "a line");
 
-/// The cells a polyline runs through: walk_cells between those of its vertices, from the first to the last.
-/// \param line the vertices
-/// \param grid the grid
-/// \param what what it is, for messages
-/// \return 8-connected cells in order, none twice in a row; empty for no vertices. Where an ideal line halves an edge
-/// between two cells the choice depends on the direction of drawing.
-/// \throws Error as cells_of_vertices
+/// Lists the cells of a polyline: walk_cells from vertex to vertex.
+/// \param line vertices [m]
+/// \param grid every vertex lies inside or on its edge
+/// \param what name of the line in messages
+/// \return 8-connected cells from the first vertex to the last, no cell twice in a row; empty for an empty line. Where
+/// a line passes exactly between two cells, the choice depends on its direction.
+/// \throws BadInput as cells_of_vertices
 std::vector<Cell> cells_along(std::vector<Vec2> const& line, Grid const& grid, std::string const& what = "a line");
 
 } // namespace thalweg

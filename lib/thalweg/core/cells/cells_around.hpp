@@ -9,11 +9,11 @@
 
 namespace thalweg {
 
-/// Calls visit(cell), row by row, for the cells of the grid that lie at most `reach` columns and rows from one.
-/// \param grid the grid
-/// \param c the cell
-/// \param reach [cells] >= 0
-/// \param visit the function to call
+/// Calls visit(cell), row by row, for the cells of a square window, clipped to the grid.
+/// \param grid clips the window
+/// \param c centre of the window
+/// \param reach [cells] >= 0, columns and rows on each side of the centre
+/// \param visit called as visit(Cell)
 template <class Visit> void cells_around(Grid const& grid, Cell c, std::int64_t reach, Visit visit) {
     std::int64_t const north = std::max<std::int64_t>(c.row - reach, 0);
     std::int64_t const south = std::min(c.row + reach, grid.height - 1);
@@ -26,8 +26,8 @@ template <class Visit> void cells_around(Grid const& grid, Cell c, std::int64_t 
     }
 }
 
-/// \param a a cell
-/// \param b a cell
+/// Squared distance between the centres of two cells.
+/// \param a,b cells
 /// \return [cells^2]
 inline std::int64_t squared_cells(Cell a, Cell b) {
     return (a.col - b.col) * (a.col - b.col) + (a.row - b.row) * (a.row - b.row);

@@ -10,16 +10,17 @@
 
 namespace thalweg {
 
-/// Steps of the D8 directions 0..7, clockwise from the east: E, SE, S, SW, W, NW, N, NE (rows count to the south).
+/// Steps of the D8 directions 0..7, clockwise from the east: E, SE, S, SW, W, NW, N, NE (rows count southwards).
 inline constexpr std::array<Cell, 8> d8_steps = {
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
-/// Reciprocals of the steps' lengths [1/cell].
+/// Reciprocals of the lengths of the steps [1/cell].
 inline constexpr std::array<double, 8> d8_per_length = {1.0, 0.70710678118654752440, 1.0, 0.70710678118654752440,
                                                         1.0, 0.70710678118654752440, 1.0, 0.70710678118654752440};
 
-/// \param grid the grid
-/// \return distance in a raster's values from a cell to its neighbour in each direction.
+/// Index offsets of the eight neighbours.
+/// \param grid gives the width of a row
+/// \return by D8 direction: the neighbour's index minus the cell's
 inline std::array<std::int64_t, 8> d8_offsets(Grid const& grid) {
     std::array<std::int64_t, 8> offsets{};
     for (std::size_t k = 0; k < offsets.size(); ++k) {

@@ -11,10 +11,10 @@
 
 namespace thalweg {
 
-/// \param inner the raster
-/// \param no_data the value of the frame
-/// \return a raster in a frame of no data, one cell wide: then leaving the grid is entering no data, and every cell
-/// that has data has eight neighbours.
+/// Adds a frame one cell wide, so that every inner cell has eight neighbours.
+/// \param inner any raster
+/// \param no_data value of the frame's cells
+/// \return a raster two cells wider and higher, its grid extended by one cell on each side
 template <class T> Raster<T> framed(Raster<T> const& inner, T no_data) {
     Grid grid = inner.grid();
     grid.width += 2;
@@ -29,15 +29,17 @@ template <class T> Raster<T> framed(Raster<T> const& inner, T no_data) {
     return outer;
 }
 
-/// \param inner the raster
-/// \return a raster of heights in such a frame.
+/// Adds a frame of NaN.
+/// \param inner heights [m]
+/// \return as framed(inner, NaN)
 inline Raster<float> framed(Raster<float> const& inner) {
     return framed(inner, std::numeric_limits<float>::quiet_NaN());
 }
 
-/// \param outer the framed raster
-/// \param grid the grid
-/// \return what a frame holds.
+/// Removes a frame.
+/// \param outer a framed raster
+/// \param grid grid of the result: the raster's before framed
+/// \return the cells inside the frame
 template <class T> Raster<T> unframed(Raster<T> const& outer, Grid const& grid) {
     Raster<T> inner(grid);
     for (std::int64_t r = 0; r < grid.height; ++r) {

@@ -9,12 +9,12 @@
 
 namespace thalweg {
 
-/// Index of the marked cell nearest to each cell, by exact Euclidean distance in cells.
-/// \param marked a mask with at least one cell that is not 0
+/// Finds the nearest marked cell of every cell, by exact Euclidean distance.
+/// \param marked at least one cell is not 0
 /// \param run progress, log, stop token and number of threads
-/// \return squared distances are compared as integers; of equally near cells the one with the lowest index.
+/// \return by cell: index of the nearest marked cell; of several equally near, the lowest
 ///
-/// Source: \cite meijster2000, with the tie made part of the order.
+/// Source: \cite meijster2000, with a total order for ties.
 Raster<std::int64_t> nearest_cells(Mask const& marked, Run const& run);
 
 } // namespace thalweg

@@ -6,7 +6,7 @@
 
 namespace thalweg {
 
-/// A sum that carries what rounding drops (Neumaier 1974): millions of cells cost no digits.
+/// A compensated sum (Neumaier 1974): rounding errors do not accumulate over millions of terms.
 class CompensatedSum {
 public:
     void add(double value) {

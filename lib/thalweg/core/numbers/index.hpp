@@ -7,8 +7,9 @@
 
 namespace thalweg {
 
-/// \param number a number that is not negative
-/// \return the index in a vector of what has this number.
+/// Converts a number to a vector index.
+/// \param number >= 0
+/// \return the same number
 constexpr std::size_t as_index(std::int64_t number) {
     return static_cast<std::size_t>(number);
 }

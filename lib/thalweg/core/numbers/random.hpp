@@ -7,35 +7,31 @@
 
 namespace thalweg {
 
-/// Random words as a hash of seed and place: Philox4x64-10 (Salmon et al. 2011), the same words on every machine.
-/// \pre the seed and up to four numbers that name the place (stage, row, column, ...).
+/// Generates random words from a seed and up to four numbers that name a place, by the counter-based Philox4x64-10
+/// (Salmon et al. 2011): the same words on every machine.
 /// \param seed random seed
-/// \param a first number of the place
-/// \param b second number of the place
-/// \param c third number of the place
-/// \param d fourth number of the place
-/// \return four independent uniform 64-bit words.
+/// \param a,b,c,d the place: stage, row, column, ...
+/// \return four independent uniform 64-bit words
 std::array<std::uint64_t, 4> random_block(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0,
                                           std::uint64_t d = 0);
 
+/// Generates one random word.
 /// \param seed random seed
-/// \param a first number of the place
-/// \param b second number of the place
-/// \param c third number of the place
-/// \param d fourth number of the place
-/// \return first word of random_block.
+/// \param a,b,c,d the place: stage, row, column, ...
+/// \return the first word of random_block
 inline std::uint64_t random_word(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0,
                                  std::uint64_t d = 0) {
     return random_block(seed, a, b, c, d)[0];
 }
 
-/// \param word a random word
-/// \return a word as a real number in [0,1), a multiple of 2^-53.
+/// Converts a random word to a real number.
+/// \param word uniform 64 bits
+/// \return uniform in [0, 1), a multiple of 2^-53
 inline double unit(std::uint64_t word) {
     return static_cast<double>(word >> 11) * 0x1p-53;
 }
 
-/// An endless row of words that belongs to one place: the words of (seed, stage, item), block by block.
+/// An endless sequence of random words for one place: those of (seed, stage, item), block by block.
 class RandomStream {
 public:
     RandomStream(std::uint64_t seed, std::uint64_t stage, std::uint64_t item)

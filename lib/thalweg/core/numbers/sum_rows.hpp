@@ -10,11 +10,11 @@
 
 namespace thalweg {
 
-/// Sum of what term(row) gives for the rows [0, rows), of any type with operator+=.
+/// Sums term(row) over the rows [0, rows), in row order whichever thread computes a term.
 /// \param run progress, log, stop token and number of threads
 /// \param rows number of rows
-/// \param term gives the value of a row
-/// \return the same bits for any number of threads: the rows are added in their order, whichever thread made them.
+/// \param term called with a row; its value's type has operator+=
+/// \return the same bits for any number of threads
 /// \throws Error what term throws
 /// \throws Cancelled
 template <class Term> auto sum_rows(Run const& run, std::int64_t rows, Term const& term) {

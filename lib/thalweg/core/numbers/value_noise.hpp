@@ -8,11 +8,11 @@
 
 namespace thalweg {
 
-/// \pre lattice_cells >= 1.
+/// Evaluates smooth noise: random numbers on a lattice, interpolated by x^2 (3 - 2 x).
 /// \param seed random seed
-/// \param cell the cell
+/// \param cell where
 /// \param lattice_cells [cells] >= 1, spacing of the lattice
-/// \return Smooth noise in [-1, 1]: random numbers on a lattice with this spacing, joined by x^2 (3 - 2 x).
+/// \return in [-1, 1]
 double value_noise(std::uint64_t seed, Cell cell, double lattice_cells);
 
 } // namespace thalweg

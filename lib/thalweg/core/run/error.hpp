@@ -7,18 +7,18 @@
 
 namespace thalweg {
 
-/// Root of every exception thalweg throws.
+/// Base class of every exception that thalweg throws.
 class Error : public std::runtime_error {
 public:
-    /// Takes "module.function: what is wrong, where, what to do" and keeps the two parts apart. Without a module of
-    /// thalweg in front (core, geometry, solver, ...) the whole text is the message. A message of several lines may
-    /// repeat the prefix at the beginning of each; every repetition is removed.
-    /// \param text the text
+    /// Splits "module.function: what is wrong, where, what to do" into prefix and message. Text without a thalweg
+    /// module in front is all message; in a message of several lines repeated prefixes are removed.
+    /// \param text the full text
     explicit Error(std::string const& text);
 
     // what() gives the message, for users of a program.
 
-    /// \return the function that threw, "module.function", for users of the library; "" when it is not known.
+    /// The function that threw, for users of the library.
+    /// \return "module.function"; "": unknown
     char const* where() const noexcept { return where_.what(); }
 
 private:
@@ -31,13 +31,13 @@ public:
     using Error::Error;
 };
 
-/// The input data cannot be used: the message names the feature and its place.
+/// The input cannot be used; the message names the feature and its position.
 class BadInput : public Error {
 public:
     using Error::Error;
 };
 
-/// An iteration stopped before its tolerance.
+/// An iteration stopped before it reached its tolerance.
 class NotConverged : public Error {
 public:
     using Error::Error;

@@ -6,13 +6,14 @@
 
 namespace thalweg {
 
-/// Instructions a kernel is compiled for (lanes.inc): the same bytes from each.
+/// Instruction sets that a kernel is compiled for (lanes.inc); results have the same bytes on each.
 enum class Lanes : std::uint8_t {
-    plain, ///< what every processor of the architecture has
+    plain, ///< the architecture's baseline
     avx2
 };
 
-/// \return the widest that this processor has.
+/// Detects the widest instruction set.
+/// \return what this processor supports
 Lanes widest_lanes();
 
 } // namespace thalweg

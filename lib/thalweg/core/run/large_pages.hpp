@@ -7,14 +7,15 @@
 
 namespace thalweg {
 
-/// \param bytes the number of bytes
-/// \return memory [bytes] aligned to 2 MiB, in pages of that size if the system has them: touching it first costs a
-/// third of what small pages cost, which is more than most kernels here.
-/// \throws std::bad_alloc
+/// Allocates memory aligned to 2 MiB, in pages of that size if the system has them: the first access then costs a
+/// third.
+/// \param bytes size
+/// \return to be released by give_large_pages
+/// \throws std::bad_alloc when the system refuses
 void* take_large_pages(std::size_t bytes);
 void give_large_pages(void* memory) noexcept;
 
-/// An allocator that takes large blocks in large pages and leaves small ones to operator new.
+/// An allocator with large pages for large blocks and operator new for small ones.
 template <class T> struct LargePages {
     using value_type = T;
     static constexpr std::size_t least_bytes = std::size_t{4} << 20;

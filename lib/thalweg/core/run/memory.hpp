@@ -6,11 +6,12 @@
 
 namespace thalweg {
 
-/// \return memory [bytes] that can still be taken: what the system has available, or what is left of the control
-/// group's limit.
+/// Memory that this process can still take.
+/// \return [bytes] the system's available memory, or what the control group's limit leaves
 std::int64_t free_memory_bytes();
 
-/// \return most memory [bytes] this process has held so far.
+/// The process's peak memory.
+/// \return [bytes]
 std::int64_t peak_memory_bytes();
 
 } // namespace thalweg

@@ -9,14 +9,14 @@
 
 namespace thalweg {
 
-/// Calls body(begin, end) on disjoint ranges that tile [0, count), on run.threads workers.
-/// \post the same result for any number of threads when the body writes only its own range.
-/// \pre a body whose ranges do not depend on one another.
+/// Calls body(begin, end) on disjoint ranges that tile [0, count), on run.threads workers. The result does not depend
+/// on the number of threads if body writes only its own range.
+/// \pre The ranges do not depend on one another.
 /// \param run progress, log, stop token and number of threads
-/// \param count how many
-/// \param grain least length of a range (but for the last)
+/// \param count end of the last range
+/// \param grain minimum length of a range (except the last)
 /// \param body called with the begin and end of a range
-/// \throws Error what the body throws
+/// \throws Error what body throws
 /// \throws Cancelled
 void parallel_ranges(Run const& run, std::int64_t count, std::int64_t grain,
                      std::function<void(std::int64_t, std::int64_t)> const& body);

@@ -7,23 +7,26 @@
 
 namespace thalweg {
 
-/// \param text the text
-/// \return a text without the passwords of connection strings and addresses: "..." stands for each.
+/// Removes passwords from connection strings and URLs.
+/// \param text any text
+/// \return "..." in place of each password
 std::string without_passwords(std::string_view text);
 
+/// Checks an encoding.
 /// \param text any bytes
-/// \return whether a text is UTF-8.
+/// \return true: valid UTF-8
 bool is_utf8(std::string_view text);
 
-/// \param text the text
-/// \return a text with \\xNN for each byte that is not UTF-8: what a file may hold.
+/// Makes any bytes valid UTF-8.
+/// \param text any bytes
+/// \return \\xNN in place of each invalid byte
 std::string as_utf8(std::string_view text);
 
-/// A text as one may show it on a terminal, whatever its words came from.
-/// \param text the text
-/// \return control characters but line feeds and tabs, marks of writing direction, and bytes that are not UTF-8 as
-/// \\xNN or \\u{NNNN}; no passwords; of lines above 600 bytes the first 400 and the last 150, of more than 60 lines the
-/// first 50, with a note of how much is left out.
+/// Makes text safe to show on a terminal.
+/// \param text any bytes
+/// \return without passwords; control characters (except line feeds and tabs), direction marks and invalid UTF-8 as
+/// \\xNN or \\u{NNNN}; of a line above 600 bytes the first 400 and the last 150, of more than 60 lines the first 50,
+/// with a note of what is left out
 std::string printable(std::string_view text);
 
 } // namespace thalweg

@@ -9,35 +9,39 @@
 
 namespace thalweg {
 
-/// An interval of numbers. NaN lies in none.
+/// An interval of numbers. It never contains NaN.
 struct Range {
-    /// \return every finite number
+    /// Every finite number.
+    /// \return (-infinity, infinity)
     static constexpr Range finite();
-    /// \param low low
-    /// \return finite numbers greater than low
+    /// Finite numbers above a limit.
+    /// \param low excluded
+    /// \return (low, infinity)
     static constexpr Range above(double low);
-    /// \param low low
-    /// \return finite numbers from low
+    /// Finite numbers from a limit.
+    /// \param low included
+    /// \return [low, infinity)
     static constexpr Range at_least(double low);
-    /// \param low low
-    /// \param high high
-    /// \return numbers from low to high
+    /// A closed interval.
+    /// \param low,high included
+    /// \return [low, high]
     static constexpr Range between(double low, double high);
-    /// \param low low
-    /// \param high high
-    /// \return numbers greater than low and less than high
+    /// An open interval.
+    /// \param low,high excluded
+    /// \return (low, high)
     static constexpr Range inside(double low, double high);
 
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
-    bool has_low = false;  ///< low itself belongs to the range
-    bool has_high = false; ///< high itself belongs to the range
+    bool has_low = false;  ///< low is included
+    bool has_high = false; ///< high is included
 
     constexpr bool contains(double value) const noexcept {
         return (value > low && value < high) || (has_low && value == low) || (has_high && value == high);
     }
 
-    /// \return the same with infinity, for parameters where it means "no limit".
+    /// Adds infinity, for parameters where it means "no limit".
+    /// \return the same range, its upper end included
     constexpr Range or_infinite() const noexcept { return {low, high, has_low, true}; }
 };
 
@@ -57,14 +61,13 @@ constexpr Range Range::inside(double low, double high) {
     return {low, high, false, false};
 }
 
-/// Checks one parameter. Takes the function that checks ("module.function"), the parameter's name for users, its value
-/// and its unit ("" for a number without).
-/// \param function the function that checks, "module.function"
+/// Checks that a parameter lies in its range.
+/// \param function "module.function" that checks
 /// \param name the parameter's name for users
-/// \param value the value
-/// \param range the range
-/// \param unit its unit; "": none
-/// \throws BadParameter "module.function: NAME is VALUE UNIT; it must be RANGE", unless the range contains the value
+/// \param value the parameter's value
+/// \param range allowed values
+/// \param unit "": none
+/// \throws BadParameter "module.function: NAME is VALUE UNIT; it must be RANGE" unless the range contains the value
 void require_in(std::string_view function, std::string_view name, double value, Range const& range,
                 std::string_view unit = {});
 

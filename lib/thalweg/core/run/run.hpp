@@ -9,33 +9,34 @@
 
 namespace thalweg {
 
-/// Where large systems are solved.
+/// The device on which linear systems are solved.
 enum class Device : std::uint8_t { cpu, opencl };
 
-/// How a stage runs, never what it makes: no field changes a result.
+/// How a stage runs: no field changes a result.
 struct Run {
-    /// GDAL's signature: share done [0,1], what is being done, progress_arg. Called from one thread at a time;
-    /// returning 0 stops the work like the stop token. What is one word, a stage's name; where a stage's share is one
-    /// of a known amount, it is said once before it: "grow 100000 particles".
+    /// Receives progress, with GDAL's signature: share done [0, 1], what is being done, progress_arg. Called by one
+    /// thread at a time; return 0 to stop the work. The text is one word, a stage's name, preceded once by an
+    /// announcement of the amount if it is known: "grow 100000 particles".
     using Progress = int (*)(double, char const*, void*);
 
-    int threads = 0;             ///< [1, ...] workers; 0 takes every core
-    Device device = Device::cpu; ///< what solver does on it agrees with the CPU within the tolerance its header states
+    int threads = 0;             ///< [1, ...] workers; 0: all cores
+    Device device = Device::cpu; ///< results agree within the solver's stated tolerance
     Progress progress = nullptr;
     void* progress_arg = nullptr;
-    std::function<void(std::string_view)> log; ///< one finished line, without its newline
+    std::function<void(std::string_view)> log; ///< called with one line, without newline
     std::stop_token stop;
 
     /// Reports progress.
-    /// \param share [0, 1] share of the work
-    /// \param what what is being done
-    /// \throws Cancelled when the work must stop
+    /// \param share [0, 1] done
+    /// \param what name of the stage
+    /// CANC when the work must stop
     void at(double share, char const* what) const;
-    /// \throws Cancelled when the work must stop
+    /// Checks the stop token.
+    /// CANC when the work must stop
     void check() const;
-    /// Logs a line about a stage, its name in a column of its own: "grow       100000 particles".
-    /// \param stage name of the stage
-    /// \param words what to say
+    /// Logs a line about a stage: "grow       100000 particles".
+    /// \param stage name of the stage, set in a column of its own
+    /// \param words the message
     void tell(std::string_view stage, std::string_view words) const;
     void say(std::string_view line) const {
         if (log) {
@@ -44,7 +45,7 @@ struct Run {
     }
 };
 
-/// Cells that a loop may pass before it looks whether it must stop.
+/// Number of cells a loop may process between two checks of the stop token.
 inline constexpr std::int64_t cells_between_checks = 1 << 18;
 
 } // namespace thalweg

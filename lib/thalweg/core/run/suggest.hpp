@@ -8,16 +8,16 @@
 
 namespace thalweg {
 
-/// \param word a mistyped word
-/// \param known the known words
-/// \return the known word nearest to a mistyped one by edit distance, neighbours swapped being one slip, whatever the
-/// case (at most a third of its letters, at least 1 and at most 3 off; ties: the first), or "" when none is near.
+/// Finds the known word nearest to a mistyped one by edit distance, ignoring case; a swap of neighbours counts once.
+/// \param word as typed
+/// \param known valid words
+/// \return at most max(1, min(3, a third of the letters)) edits away; of several the first; "": none is near
 std::string closest(std::string_view word, std::vector<std::string> const& known);
 
-/// " Did you mean 'x'?" for the closest known word, or "".
-/// \param word a mistyped word
-/// \param known the known words
-/// \return the suggestion, or ""
+/// Suggests the closest known word.
+/// \param word as typed
+/// \param known valid words
+/// \return " Did you mean 'x'?", or ""
 std::string did_you_mean(std::string_view word, std::vector<std::string> const& known);
 
 } // namespace thalweg

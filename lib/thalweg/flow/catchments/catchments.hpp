@@ -12,32 +12,30 @@
 
 namespace thalweg::flow {
 
-/// \pre cells as river_cells gives them.
-/// \param cells the cells
-/// \param drainage the flow field of the DEM
+/// Finds the first river cell on the D8 flow path of every cell.
+/// \param cells as river_cells returns them
+/// \param drainage flow field of the DEM
 /// \param run progress, log, stop token and number of threads
-/// \return by cell, the place in cells of the river cell that its water meets first by D8; -1 where it leaves the grid
-/// without meeting one, or without data.
-/// \throws BadInput at 2^31 of them
+/// \return by cell: position in `cells`; -1: the path meets no river, or no data
+/// \throws BadInput for 2^31 river cells or more
 /// \throws Cancelled
 Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField const& drainage, Run const& run = {});
 
-/// The area that each reach drains by itself.
+/// Incremental catchments of reaches.
 struct Catchments {
-    Raster<std::int32_t> reach;         ///< by cell: number of the reach; -1 for none
-    std::vector<std::int64_t> cells;    ///< by reach: of its own catchment; 0 where others own its cells
-    std::vector<std::int64_t> upstream; ///< by reach: cells of its catchment and of all those upstream
+    Raster<std::int32_t> reach;         ///< by cell: number of the reach; -1: none
+    std::vector<std::int64_t> cells;    ///< by reach: size of its own catchment; 0: others own its cells
+    std::vector<std::int64_t> upstream; ///< by reach: size of its own and all upstream catchments
     std::int64_t without = 0;           ///< cells with data in no catchment
 };
 
-/// Incremental catchments of reaches: a cell belongs to the one that owns the first river cell its water meets by D8.
-/// \param reaches the reaches
-/// \param drainage the flow field of the DEM
+/// Delineates incremental catchments: a cell belongs to the reach that owns the first river cell on its D8 flow path.
+/// \param reaches lines inside the grid
+/// \param drainage flow field of the DEM
 /// \param run progress, log, stop token and number of threads
-/// \return each cell with data in exactly one catchment, or in none when its water leaves the grid without meeting a
-/// river; upstream as areas_d8 has ds_area, in cells.
-/// \throws Error as river_cells
-/// \throws BadInput at 2^31 reaches
+/// \return each cell with data is in one catchment, or in none if its path leaves the grid without meeting a river;
+/// `upstream` equals areas_d8's ds_area in cells
+/// \throws BadInput as river_cells, and for 2^31 reaches or more
 /// \throws Cancelled
 Catchments catchments(std::vector<Reach> const& reaches, FlowField const& drainage, Run const& run = {});
 

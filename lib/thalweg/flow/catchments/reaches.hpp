@@ -13,22 +13,24 @@
 
 namespace thalweg::flow {
 
-/// A piece of river as water knows it: where it runs, and what it runs into. Those of anyone's file too, whose parts
-/// may lie outside a DEM and need not meet.
+/// A piece of river and the reach it flows into. Unlike an arc it may lie partly outside the DEM and need not meet
+/// others.
 struct Reach {
-    std::vector<std::vector<Vec2>> lines; ///< [m] those parts of it that lie in the grid
-    std::int64_t ds = -1;                 ///< number of the reach downstream, -1 for none
-    std::int64_t id = 0;                  ///< by which messages name it
+    std::vector<std::vector<Vec2>> lines; ///< [m] its parts inside the grid
+    std::int64_t ds = -1;                 ///< number of the reach downstream; -1: none
+    std::int64_t id = 0;                  ///< its name in messages
 };
 
-/// \param network the network
-/// \return the arcs of a network, by number, with their arc_id.
-/// \throws BadInput naming the node where a river parts
+/// Makes a reach of each arc.
+/// \param network at most one arc leaves a node
+/// \return by arc, with its arc_id
+/// \throws BadInput naming the node at which a river bifurcates
 std::vector<Reach> reaches_of(StreamNetwork const& network);
 
-/// \param reaches the reaches
-/// \return by reach: the reaches to the outlet, itself included: 1 for those that run into none.
-/// \throws BadInput naming a reach when its ds is the number of none, or rivers run in a circle
+/// Counts the reaches from each reach to its outlet.
+/// \param reaches linked by `ds`
+/// \return by reach, itself included: 1 at an outlet
+/// \throws BadInput naming a reach whose ds does not exist, or that is part of a cycle
 std::vector<std::int64_t> steps_to_outlet(std::vector<Reach> const& reaches);
 
 /// A cell under rivers and the reach that owns it.
@@ -37,12 +39,12 @@ struct RiverCell {
     std::size_t reach = 0;
 };
 
-/// One under several belongs to the reach with the fewest steps to the outlet (ties: lower number): the cell of a
-/// confluence to the reach that leaves it.
-/// \param reaches the reaches
-/// \param grid the grid
+/// Lists the cells of reaches (cells_along) and their owners. A shared cell belongs to the reach with the fewest steps
+/// to the outlet (ties: lower number): a confluence's cell to the reach that leaves it.
+/// \param reaches lines inside the grid
+/// \param grid cells are numbered in it
 /// \param run progress, log, stop token and number of threads
-/// \return the cells under reaches (cells_along), ascending, each once.
+/// \return ascending by cell, each once
 /// \throws BadInput naming a reach with a line outside the grid; as steps_to_outlet
 /// \throws Cancelled
 std::vector<RiverCell> river_cells(std::vector<Reach> const& reaches, Grid const& grid, Run const& run = {});

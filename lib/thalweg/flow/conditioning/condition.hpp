@@ -21,20 +21,18 @@ struct ConditionParams {
 /// What condition() returns.
 struct ConditionedDem {
     Raster<float> dem;
-    DemChange banks;       ///< raised so that rivers stay in their channels (confine_channels)
-    DemChange depressions; ///< filled or cut after that
+    DemChange banks;       ///< raised to keep rivers in their channels (confine_channels)
+    DemChange depressions; ///< then filled or carved
 };
 
-/// Conditions a DEM hydrologically: its rivers drain it, in the very floats that are written, after the least change.
-/// \pre a DEM whose river cells stand at the valley's heights; a valley without any where there are no rivers, or none
-/// to be honoured.
-/// \param dem [m] heights by cell; NaN: no data
-/// \param valley [m] heights of the river cells
+/// Conditions a DEM hydrologically with the least change, so that its rivers drain it: confine_channels, then fill or
+/// carve. Method none changes nothing.
+/// \param dem [m] by cell; NaN: no data; river cells have the valley's heights
+/// \param valley [m] heights of river cells; all NaN: no rivers
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return river cells keep their heights bit for bit; otherwise as confine_channels, then fill or carve. Method none
-/// changes nothing.
-/// \throws Error as those
+/// \return river cells keep their heights bit for bit; as float32, each cell drains
+/// \throws Error as confine_channels, fill and carve
 ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParams const& params = {},
                          Run const& run = {});
 

@@ -8,7 +8,7 @@
 
 namespace thalweg::flow {
 
-/// By how much one DEM differs from another.
+/// The difference between two DEMs.
 struct DemChange {
     std::int64_t raised_cells = 0;
     std::int64_t cut_cells = 0;
@@ -20,11 +20,9 @@ struct DemChange {
     double volume_m3() const { return raised_m3 + cut_m3; }
 };
 
-/// Cells without data in either count for nothing.
-/// \pre two rasters of one size.
-/// \param before [m] heights before
-/// \param after [m] heights after
-/// \return how many cells differ, and by how much
+/// Compares two DEMs of one size. Cells without data in either are not compared.
+/// \param before,after [m] by cell; NaN: no data
+/// \return the cells that differ, and by how much
 DemChange change_between(Raster<float> const& before, Raster<float> const& after);
 
 } // namespace thalweg::flow

@@ -8,10 +8,10 @@
 
 namespace thalweg::flow {
 
-/// \param drainage the flow field of the DEM
+/// Computes the longest D8 flow path to every cell from a divide.
+/// \param drainage flow field of the DEM
 /// \param run progress, log, stop token and number of threads
-/// \return by cell: the longest way that water runs down to it by D8, from a divide [m]; 0 where none arrives or
-/// without data.
+/// \return [m] by cell; 0: no inflow, or no data
 /// \throws Cancelled
 ///
 /// Source: the length of \cite hack1957 on a grid.

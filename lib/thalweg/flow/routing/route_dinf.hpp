@@ -8,28 +8,25 @@
 
 namespace thalweg::flow {
 
-inline constexpr float dinf_leaves = -1.0F; ///< water leaves the grid, or enters no data, from this cell
+inline constexpr float dinf_leaves = -1.0F; ///< water leaves the grid, or enters no data, here
 
-/// Where the water of each cell goes when it may part between two neighbours (D-infinity).
+/// D-infinity flow bearings and contributing areas of a DEM.
 struct DinfFlow {
-    /// In eighths of a turn, [0, 8), clockwise from the east as d8_steps are numbered: 2.25 leads a quarter of the
-    /// water in direction 3 and the rest in direction 2. dinf_leaves, or NaN without data.
+    /// [1/8 turn] in [0, 8), clockwise from the east, numbered as d8_steps: 2.25 sends a quarter of the water in
+    /// direction 3 and the rest in direction 2. dinf_leaves, or NaN without data.
     Raster<float> bearing;
-    Raster<double> area_cells; ///< cells that drain through a cell, itself included; 0 without data
+    Raster<double> area_cells; ///< cells that drain through a cell, itself included; 0: no data
 };
 
-/// D-infinity bearings and contributing areas of a DEM of which D8 is known.
-/// \pre the DEM and what route made of it.
-/// \param dem [m] heights by cell; NaN: no data
-/// \param d8 the D8 flow field of the DEM
+/// Routes flow by D-infinity over a DEM with known D8 directions. A cell with a lower neighbour on the filled DEM
+/// drains down the steepest of its eight triangular facets (ties: lowest bearing), divided by angle between the facet's
+/// two neighbours; beside a cell without data, along the facet's other edge. Any other cell drains as by D8.
+/// \param dem [m] by cell; NaN: no data
+/// \param d8 as route returns it for this DEM; also gives the filled DEM
 /// \param run progress, log, stop token and number of threads
-/// \return of a cell with a lower neighbour on the filled DEM, the steepest of the eight triangular facets around it
-/// (ties: lowest bearing), its water shared between the facet's two neighbours by angle; a neighbour without data
-/// leaves the other edge of its facet. Any other cell drains as by D8, and water leaves where it leaves by D8. No water
-/// is lost: what leaves adds up to the cells with data. There is no cycle: each step leads to a lower level, or along
-/// D8 on the same level. The filled DEM follows from D8: a cell stands at its own height or at the level of the cell it
-/// drains to, whichever is higher.
-/// \throws BadInput when the directions are of another grid or other cells, lead to no data or in a circle
+/// \return Law: the areas of cells where water leaves sum to the cells with data. There is no cycle: each step leads to
+/// a lower filled level, or along D8 on the same level. Water leaves where it leaves by D8.
+/// \throws BadInput when the directions belong to another grid or other cells, lead to no data or form a cycle
 /// \throws Cancelled
 ///
 /// Source: \cite tarboton1997, eq. 1-6.

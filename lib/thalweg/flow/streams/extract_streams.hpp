@@ -11,39 +11,39 @@
 
 namespace thalweg::flow {
 
-/// The rivers of a DEM, and what they drain.
+/// A stream network extracted from a DEM, with its areas.
 struct ExtractedStreams {
-    ElevatedNetwork network; ///< from cell centre to cell centre, at the DEM's heights: they may rise through a pit
+    ElevatedNetwork network; ///< along cell centres, at the DEM's heights: they may rise in a pit
     ContributingAreas areas;
 };
 
 /// Options of extract_streams().
 struct ExtractStreamsParams {
-    std::int64_t support_cells = 200; ///< [1, ...] cells that must drain through a cell for a river to run there
+    std::int64_t support_cells = 200; ///< [1, ...] contributing area at which streams begin
 };
 
-/// The network of all cells through which at least `support` cells drain by D8.
-/// \pre a DEM and its drainage.
-/// \param drainage the flow field of the DEM
-/// \param dem [m] heights by cell; NaN: no data
+/// Extracts the network of cells whose D8 contributing area is at least support_cells.
+/// \param drainage flow field of the DEM
+/// \param dem [m] by cell; NaN: no data
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return nodes at the cells where a river begins, rivers meet or leave the DEM, numbered by cell; arcs numbered by
-/// the node they leave. A river of one cell is none. Areas are those that areas_d8 gives. Arcs meet only in nodes where
-/// the steepest descent leads; across flats two may cross at a corner of cells.
-/// \throws BadParameter when the support is below 1
-/// \throws BadInput when DEM and drainage have not one grid
+/// \return nodes where streams begin, meet or leave the DEM, numbered by cell; arcs, numbered by the node they leave;
+/// areas as areas_d8. A stream of one cell is omitted. Arcs meet only at nodes, except in flats, where two may cross at
+/// a corner of cells.
+/// \throws BadParameter when support_cells is below 1
+/// \throws BadInput when DEM and flow field differ in grid
 /// \throws Cancelled
 ///
 /// Source: \cite ocallaghan1984.
 ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const& dem,
                                  ExtractStreamsParams const& params = {}, Run const& run = {});
 
-/// \param drainage the flow field of the DEM
-/// \param length_m [m] > 0, length of all streams
+/// Finds the support for a total stream length.
+/// \param drainage flow field of the DEM
+/// \param length_m [m] > 0, total length of all streams
 /// \param run progress, log, stop token and number of threads
-/// \return the greatest support at which the extracted streams are together at least so long; 1 where they never are.
-/// \throws BadParameter when the length is not a number above 0
+/// \return [cells] the largest support at which the extracted streams are at least this long; 1: they never are
+/// \throws BadParameter when length_m is not a number above 0
 /// \throws Cancelled
 std::int64_t support_for_length(FlowField const& drainage, double length_m, Run const& run = {});
 

@@ -10,38 +10,36 @@
 
 namespace thalweg::measure {
 
-/// The streams of one Strahler order. A stream is a longest chain of arcs of equal order, not an arc.
+/// The streams of one Strahler order: maximal chains of arcs of equal order.
 struct StreamOrder {
     int order = 1;
     std::int64_t streams = 0;
-    double length_m = 0.0; ///< [m] mean over the streams
-    double area_m2 = 0.0;  ///< [m2] mean drainage area at the streams' downstream ends
+    double length_m = 0.0; ///< [m] mean
+    double area_m2 = 0.0;  ///< [m2] mean drainage area at downstream ends
 };
 
-/// By what factor something changes from an order to the next.
+/// A ratio of consecutive orders.
 struct HortonRatio {
     double ratio = 0.0;
-    double r2 = 0.0;         ///< of the line through the logarithms; NaN of two, or where all are one
-    std::int64_t orders = 0; ///< that have a logarithm
+    double r2 = 0.0;         ///< of the regression of logarithms; NaN: two orders, or all equal
+    std::int64_t orders = 0; ///< number of orders in the regression
 };
 
-/// The laws of drainage composition: by what factor streams change from an order to the next.
+/// Horton's laws of drainage composition.
 struct HortonLaws {
     std::vector<StreamOrder> orders;        ///< 1, 2, ... to the highest
-    std::optional<HortonRatio> bifurcation; ///< R_B: streams of an order for one of the next
-    std::optional<HortonRatio> length;      ///< R_L: mean length against that of the order below
-    std::optional<HortonRatio> area;        ///< R_A: mean drainage area against that of the order below
+    std::optional<HortonRatio> bifurcation; ///< R_B: number of streams, order to the next
+    std::optional<HortonRatio> length;      ///< R_L: mean length, order to the one below
+    std::optional<HortonRatio> area;        ///< R_A: mean drainage area, order to the one below
 };
 
-/// Counts, lengths and areas of streams by Strahler order, and their ratios.
-/// \pre a network of trees with its Strahler orders
-/// \param network the network
-/// \param orders the network's orders
-/// \param ds_area_m2 by arc, the area at its downstream end
-/// \return a ratio is e to the slope (R_B: to its negative) of the straight line fitted by least squares to the natural
-/// logarithm over the order, with every order counting once, the highest and so perhaps cut one too. An order of mean 0
-/// has no logarithm and is left out; with fewer than two orders there is no ratio.
-/// \throws BadInput when orders or areas are not one an arc, or an order is below 1
+/// Computes number, length and area of streams by Strahler order, and Horton's ratios: exp of the slope (R_B: of its
+/// negative) of the least-squares line of natural logarithms over order, all orders with equal weight.
+/// \param network a forest
+/// \param orders orders of this network
+/// \param ds_area_m2 [m2] by arc: area at its downstream end
+/// \return an order of mean 0 is left out; with fewer than two orders there is no ratio
+/// \throws BadInput when there is not one order and area per arc, or an order is below 1
 ///
 /// Source: \cite horton1945 (laws of stream numbers and lengths); \cite schumm1956 (areas); \cite strahler1957 (streams
 /// as chains of equal order; the regression).

@@ -11,20 +11,20 @@
 
 namespace thalweg::measure {
 
-/// A straight line through points, and how well it goes through them.
+/// A least-squares line.
 struct LineFit {
     double slope = 0.0;
-    double intercept = 0.0;                               ///< y at x = 0
-    double r2 = std::numeric_limits<double>::quiet_NaN(); ///< share of y's variance explained; NaN of two points, or
-                                                          ///< where y is constant
-    double slope_error = std::numeric_limits<double>::quiet_NaN(); ///< standard error; NaN of two points
+    double intercept = 0.0; ///< y at x = 0
+    /// share of y's variance explained; NaN: two points, or y is constant
+    double r2 = std::numeric_limits<double>::quiet_NaN();
+    double slope_error = std::numeric_limits<double>::quiet_NaN(); ///< standard error; NaN: two points
     std::int64_t points = 0;
 };
 
-/// \pre weights, one a point and above 0; or none: every point counts once.
-/// \param points the points
-/// \param weights the weights
-/// \return the straight line of least squares; none through fewer than two different x.
+/// Fits a line by least squares.
+/// \param points x and y
+/// \param weights > 0, one per point; empty: equal
+/// \return nothing for fewer than two different x
 std::optional<LineFit> fit_line(std::vector<Vec2> const& points, std::vector<double> const& weights = {});
 
 } // namespace thalweg::measure

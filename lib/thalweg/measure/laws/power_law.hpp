@@ -10,51 +10,50 @@
 
 namespace thalweg::measure {
 
-/// What was measured of a place that drains an area.
+/// A value at a place, and the area that drains to it.
 struct AtArea {
     double area_m2 = 0.0;
     double value = 0.0;
 };
 
-/// Places that drain like areas.
+/// The mean of places with similar areas.
 struct AreaBin {
     double area_m2 = 0.0; ///< geometric mean
-    double value = 0.0;   ///< likewise
+    double value = 0.0;   ///< geometric mean
     std::int64_t places = 0;
 };
 
-/// value = coefficient * area^exponent, area in m2.
+/// A power law of area: value = coefficient * area^exponent, area in m2.
 struct PowerLaw {
     double exponent = 0.0;
     double coefficient = 0.0;
-    double r2 = 0.0;             ///< of the line through the bins' logarithms; NaN where all have one value
-    double exponent_error = 0.0; ///< standard error, of the same line
+    double r2 = 0.0;             ///< of the regression of the bins' logarithms; NaN: all values are equal
+    double exponent_error = 0.0; ///< standard error
     std::vector<AreaBin> bins;   ///< by area
     std::int64_t places = 0;     ///< in the bins
-    std::int64_t left_out = 0;   ///< without a logarithm, or in bins of too few
+    std::int64_t left_out = 0;   ///< without a logarithm, or in bins with too few places
 };
 
-/// \param law the law
-/// \param fit the fitted line
-/// \param least_bins least number of bins
-/// \return a law whose bins are there and whose numbers come from the line through their logarithms; nothing where
-/// there is no line, or one through fewer than least_bins points.
+/// Completes a power law from the regression of its bins.
+/// \param law with its bins
+/// \param fit the line through the bins' logarithms, if any
+/// \param least_bins [2, ...] minimum number of bins
+/// \return nothing without a line or with fewer bins
 std::optional<PowerLaw> with_line(PowerLaw law, std::optional<LineFit> const& fit, std::int64_t least_bins);
 
 /// Options of fit_power_law().
 struct PowerLawParams {
     int bins_per_decade = 4;       ///< [1, 100] of area
-    std::int64_t least_places = 3; ///< [1, ...] a bin with fewer is left out
+    std::int64_t least_places = 3; ///< [1, ...] minimum number of places in a bin
     std::int64_t least_bins = 3;   ///< [2, ...] below there is no law
 };
 
-/// The power of area by which something changes, on logarithmic bins of area.
-/// \param places the places
+/// Fits a power law of area by least squares through the mean logarithms of bins of equal logarithmic width, all with
+/// equal weight: small areas, the most frequent, do not dominate.
+/// \param places areas and values; those not above 0 are counted as left out
 /// \param params options, each with its default, unit and range
-/// \return the line of least squares through the means of the logarithms in bins of equal width, every bin counting
-/// once: small areas, of which there are most, do not outvote large ones. Places whose area or value is not above 0
-/// have no logarithm and are counted as left out. An exact power law is recovered exactly, up to rounding.
-/// \throws BadParameter
+/// \return recovers an exact power law up to rounding; nothing with fewer than least_bins bins
+/// \throws BadParameter when a parameter is outside its range
 ///
 /// Source: \cite tarboton1991 (bins of area).
 std::optional<PowerLaw> fit_power_law(std::vector<AtArea> const& places, PowerLawParams const& params = {});

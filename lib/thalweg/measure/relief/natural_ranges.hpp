@@ -7,7 +7,7 @@
 
 namespace thalweg::measure {
 
-/// What a law's figure is in nature, as far as it has been published.
+/// The published natural range of a law's metric.
 struct NaturalRange {
     std::string_view law; ///< its key in report.json
     double low = 0.0;
@@ -15,12 +15,13 @@ struct NaturalRange {
     std::string_view source; ///< author, year, what was measured
 };
 
-/// One entry a law for which a range was published; a law without one has none here.
-/// \return the published ranges
+/// The natural ranges of all laws for which one is published.
+/// \return one entry per law
 std::span<NaturalRange const> natural_ranges();
 
-/// \param law name of the law
-/// \return the range of a law, or null.
+/// Finds the natural range of a law.
+/// \param law its key in report.json
+/// \return null: none is published
 NaturalRange const* natural_range(std::string_view law);
 
 } // namespace thalweg::measure

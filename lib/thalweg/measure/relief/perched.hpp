@@ -10,15 +10,14 @@
 
 namespace thalweg::measure {
 
-/// River cells that stand above their surroundings, as an aqueduct or a tip beside a deeper valley does.
-/// \pre cells by index
-/// \param dem [m] heights by cell; NaN: no data
-/// \param cells the cells
-/// \param rise_m the land's mean slope as a tangent, times the cell size
-/// \return those, in their order, that are higher by more than rise_m than the lowest of their second ring: the sixteen
-/// cells two columns or rows away, as far as the DEM has them. A cell without a height is none.
-/// \throws BadParameter when rise_m is not a number from 0
-/// \throws BadInput when a cell is not in the DEM
+/// Finds river cells perched above their surroundings, such as walls and tips beside deeper valleys.
+/// \param dem [m] by cell; NaN: no data
+/// \param cells indices of river cells
+/// \param rise_m [m] >= 0, mean slope (tangent) times cell size
+/// \return in order: the cells more than rise_m above the lowest of the sixteen cells two columns or rows away, as far
+/// as these are in the DEM; cells without data are not perched
+/// \throws BadParameter when rise_m is not a number >= 0
+/// \throws BadInput when a cell is outside the DEM
 std::vector<std::int64_t> perched(Raster<float> const& dem, std::span<std::int64_t const> cells, double rise_m);
 
 } // namespace thalweg::measure

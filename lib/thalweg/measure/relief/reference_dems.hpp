@@ -12,35 +12,37 @@ namespace thalweg::measure {
 
 inline constexpr std::size_t slope_share_count = 45;
 
-/// What relief() finds in the DEM of a reference DEM.
+/// The metrics that relief() computes for a reference DEM.
 struct ReferenceDem {
     std::string_view name;
-    std::string_view file; ///< in samples/, where PROVENANCE.md names its source
+    std::string_view file; ///< in samples/, with its source in PROVENANCE.md
     std::string_view source;
     double cell_m = 0.0;
-    std::array<double, relief_metric_count> figures{}; ///< as relief_metrics
-    std::array<double, slope_share_count> slopes{};    ///< [0,1] shares of 2 degrees each
-    std::array<double, form_count> forms{};            ///< [0,1] shares of the geomorphons
+    std::array<double, relief_metric_count> figures{}; ///< in the order of relief_metrics
+    std::array<double, slope_share_count> slopes{};    ///< [0, 1] shares of classes of 2 degrees
+    std::array<double, form_count> forms{};            ///< [0, 1] shares of geomorphons
     std::span<AreaBin const> slope_area;
 };
 
-/// The lands beside which others are shown: a steep, dissected range, and a plateau with dendritic and trellis valleys.
-/// \return the reference DEMs
+/// The reference DEMs: a steep, dissected range, and a plateau with dendritic and trellis valleys.
+/// \return two entries
 std::span<ReferenceDem const> reference_dems();
 
-/// \return Shares of geomorphons, the mean of the reference DEMs.
+/// Averages the shares of geomorphons over the reference DEMs.
+/// \return by form
 std::array<double, form_count> mean_forms();
 
-/// How far a figure of a land may be from those of reference DEM.
+/// The plausible range of a metric, around the reference DEMs.
 struct ReliefRange {
     double low = 0.0;
     double high = 0.0;
 };
 
-inline constexpr double land_tolerance = 1.25; ///< two lands are not all
+inline constexpr double land_tolerance = 1.25; ///< margin, because two DEMs are not all terrain
 
-/// \param figure place of the metric in relief_metrics()
-/// \return from the lesser of the reference DEMs' figures over land_tolerance to the greater times it.
+/// Computes the plausible range of a metric.
+/// \param figure index in relief_metrics()
+/// \return from the smaller reference value / land_tolerance to the larger * land_tolerance
 ReliefRange relief_range(std::size_t figure);
 
 } // namespace thalweg::measure

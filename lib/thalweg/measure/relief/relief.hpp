@@ -19,21 +19,23 @@
 
 namespace thalweg::measure {
 
-/// Morphometric indices of a DEM. NaN where the land is too small to tell.
+/// Morphometric indices of a DEM; NaN: the DEM is too small.
 struct Relief {
     Slopes slopes;
-    std::optional<PowerLaw> slope_area; ///< exponent -theta
+    std::optional<PowerLaw> slope_area; ///< its exponent is -theta
     std::optional<Chi> chi;
-    double hypsometric_integral = 0.5; ///< [0,1]
+    double hypsometric_integral = 0.5; ///< [0, 1]
     LocalExtremes extremes;
-    std::array<double, form_count> forms{};                                ///< [0,1] shares of the geomorphons
-    double valleys_over_ridges = std::numeric_limits<double>::quiet_NaN(); ///< cells of the forms valley and ridge
-    double hollows_over_noses = std::numeric_limits<double>::quiet_NaN();  ///< all forms of valleys over all of ridges
-    double length_x = std::numeric_limits<double>::quiet_NaN(); ///< [-] correlation length along rows, over the width
-    double length_y = std::numeric_limits<double>::quiet_NaN(); ///< [-] along columns, over the height
+    std::array<double, form_count> forms{};                                ///< [0, 1] shares of geomorphons
+    double valleys_over_ridges = std::numeric_limits<double>::quiet_NaN(); ///< cells of valley / ridge
+    /// cells of all valley forms / all ridge forms
+    double hollows_over_noses = std::numeric_limits<double>::quiet_NaN();
+    double length_x = std::numeric_limits<double>::quiet_NaN(); ///< [-] correlation length along rows / width
+    double length_y = std::numeric_limits<double>::quiet_NaN(); ///< [-] correlation length along columns / height
     std::int64_t support_cells = 0;                             ///< cells that drain through the first cell of a river
-    double drainage_density = std::numeric_limits<double>::quiet_NaN(); ///< [m/m2] of those rivers
-    double scaled_density = std::numeric_limits<double>::quiet_NaN();   ///< [-] times the root of the support's area
+    double drainage_density = std::numeric_limits<double>::quiet_NaN(); ///< [m/m2] of these streams
+    /// [-] times the square root of the support's area
+    double scaled_density = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Options of relief().
@@ -44,23 +46,23 @@ struct ReliefParams {
     std::int64_t support_cells = 200; ///< [1, ...] for the drainage density
 };
 
-/// \pre a DEM with its drainage and statistics.
-/// \param dem [m] heights by cell; NaN: no data
-/// \param drainage the flow field of the DEM
-/// \param statistics its statistics
+/// Computes the morphometric indices of a DEM. Valley forms: hollow, footslope, valley, pit; ridge forms: peak, ridge,
+/// shoulder, spur.
+/// \param dem [m] by cell; NaN: no data
+/// \param drainage flow field of the DEM
+/// \param statistics of the DEM, by statistics()
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return all the same figures that the parts give; hollows: hollow, footslope, valley and pit; noses: peak, ridge,
-/// shoulder and spur. The same bits for any number of threads.
-/// \throws BadParameter
-/// \throws BadInput when the three are not of one DEM
+/// \return the same values as the functions for each index; the same bits for any number of threads
+/// \throws BadParameter when support_cells is below 1
+/// \throws BadInput when the three belong to different DEMs
 /// \throws Cancelled
 Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
               ReliefParams const& params = {}, Run const& run = {});
 
-/// \param a shares by form
-/// \param b shares by form
-/// \return half the sum of the differences of shares: 0 where they are alike, 1 where they have nothing in common.
+/// The total variation distance of two distributions of landforms.
+/// \param a,b [0, 1] shares by form
+/// \return [0, 1] half the sum of absolute differences; 0: equal
 double total_variation(std::array<double, form_count> const& a, std::array<double, form_count> const& b);
 
 } // namespace thalweg::measure

@@ -10,21 +10,22 @@
 
 namespace thalweg::measure {
 
-/// Whether a metric tells terrain from noise in any region.
+/// Whether a metric distinguishes terrain from noise in any region.
 enum class Judges : std::uint8_t { yes, no };
 
-/// One number of a Relief.
+/// One index of Relief.
 struct ReliefMetric {
     std::string_view key; ///< in report.json
     std::string_view name;
     std::string_view unit;
-    Judges judges = Judges::yes;           ///< no: it follows the extent or how heights were taken
-    double (*of)(Relief const&) = nullptr; ///< NaN where it is unknown
+    Judges judges = Judges::yes;           ///< no: it depends on the extent or on the survey of heights
+    double (*of)(Relief const&) = nullptr; ///< NaN: unknown
 };
 
 inline constexpr std::size_t relief_metric_count = 19;
 
-/// \return the metrics compared with reference DEMs, always the same in the same order.
+/// The metrics compared with reference DEMs.
+/// \return in a fixed order
 std::array<ReliefMetric, relief_metric_count> const& relief_metrics();
 
 } // namespace thalweg::measure

@@ -10,10 +10,10 @@
 
 namespace thalweg::measure {
 
-/// A height and its place.
+/// An extreme height and its cell.
 struct Extreme {
     double z = 0.0; ///< [m]
-    Cell cell;      ///< the first such cell by index
+    Cell cell;      ///< of several the first by index
 };
 
 /// What statistics() returns.
@@ -21,31 +21,29 @@ struct Statistics {
     std::int64_t cells = 0; ///< cells with data
     std::int64_t nodata = 0;
     double mean = 0.0; ///< [m]
-    double std = 0.0;  ///< [m] population
+    double std = 0.0;  ///< [m] population standard deviation
     Extreme min;
     Extreme max;
     double slope_rad =
         0.0; ///< [rad] mean of arctan |grad z| with z in metres and a spacing of one cell (Zhang, Liu and Li)
-    double slope_true_deg = 0.0; ///< [deg] mean slope with the cell's size
+    double slope_true_deg = 0.0; ///< [deg] mean slope with the true cell size
 
     // NaN where the heights tell none: on a plain, or along an axis of fewer than four cells or so.
     double skew = 0.0;             ///< [-] population
-    double kurtosis = 0.0;         ///< [-] population, above that of the normal distribution, which has 0
-    double roughness_m = 0.0;      ///< [m] mean height difference of neighbours, rows and columns averaged
+    double kurtosis = 0.0;         ///< [-] population excess kurtosis
+    double roughness_m = 0.0;      ///< [m] mean absolute difference of neighbours, averaged over rows and columns
     solver::CorrelationLength lx;  ///< [cells] along rows
     solver::CorrelationLength ly;  ///< [cells] along columns
-    double dimension = 0.0;        ///< [-] fractal dimension from the lags 1 to 5
-    double dimension_dyadic = 0.0; ///< [-] the same from the lags 1, 2, 4, 8, 16, 32, as far as the DEM reaches
+    double dimension = 0.0;        ///< [-] fractal dimension from lags 1 to 5
+    double dimension_dyadic = 0.0; ///< [-] fractal dimension from lags 1, 2, 4, 8, 16, 32, up to the DEM's extent
 };
 
-/// Mean, deviation, extremes, slope, correlation and fractal dimension of a DEM; NaN cells are left out, and so are
-/// pairs with them.
-/// \param dem [m] heights by cell; NaN: no data
+/// Computes mean, deviation, extremes, slope, correlation and fractal dimension of a DEM. Slopes are central
+/// differences, one-sided at the border and beside holes; an axis without neighbours counts as level. A correlation
+/// length is where the correlation falls to 1/e within half the extent, else from a fit (extrapolated).
+/// \param dem [m] by cell; NaN: no data, left out with their pairs
 /// \param run progress, log, stop token and number of threads
-/// \return slopes by central differences along columns and rows; one-sided at the border and beside a hole; an axis
-/// along which a cell has no neighbour counts as level. Correlation lengths where the correlation of all pairs of cells
-/// along an axis falls to 1/e within half the extent, else of a fit (extrapolated). The same bits for any number of
-/// threads; memory for some rows beside the DEM.
+/// \return the same bits for any number of threads; memory beside the DEM is a few rows
 /// \throws BadInput when no cell has data, a height is infinite or the cell size is not positive
 /// \throws Cancelled
 ///

@@ -14,33 +14,33 @@ namespace thalweg::network {
 
 /// Options of channels().
 struct ChannelsParams {
-    std::int64_t look_cells = 8; ///< [0, 64] a cell runs into the farthest of so many downstream that is its neighbour
-    std::int64_t stub_cells = 8; ///< [0, ...] shorter ways that begin where rivers share cells are left out
+    /// [0, 64] a cell flows to the farthest of this many cells downstream that is its neighbour
+    std::int64_t look_cells = 8;
+    std::int64_t stub_cells = 8; ///< [0, ...] shorter branches that begin at shared cells are left out
 };
 
-/// Cells of rivers, and what runs through them.
+/// Channel cells and the arcs that run through them.
 struct ChannelsOfArcs {
     Channels channels;
-    std::vector<std::vector<std::int64_t>> of_arc; ///< by arc number: the channel cells it runs through, by number,
-                                                   ///< downstream, each once, with that of the node it ends in
-    std::vector<Finding> notes;                    ///< "captured", one an arc; feature: as carry_outlets says it;
-                                                   ///< amount: cells of its way below
+    /// by arc: numbers of its channel cells, downstream, each once, with that of the node it ends in
+    std::vector<std::vector<std::int64_t>> of_arc;
+    /// "captured", one an arc; feature as in carry_outlets; amount: cells of its path below
+    std::vector<Finding> notes;
 };
 
-/// Draws a network into cells and says where the water of each goes.
-/// \pre a network inside the grid (cells_along; the grid's outer edges belong to its outermost cells).
-/// \param network the network
-/// \param grid the grid
+/// Draws a network into cells and finds each cell's receiver. A cell under several arcs belongs to the arc with the
+/// fewest arcs to its outlet (ties: lower number). Loops within cells are cut. An arc that meets cells of another, or
+/// would cross its diagonal step, flows into it there; this is noted where the other is not downstream. A cell then
+/// flows to the farthest of the next look_cells that is its neighbour, and cells that lose their inflow are left out
+/// unless they are sources, until nothing changes.
+/// \param network a forest inside the grid
+/// \param grid gives the cells (cells_along)
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return channels that keep their law, without heights. A cell under several arcs belongs to that with the fewest
-/// arcs to its outlet (ties: the lower number). Loops within cells are left out. An arc that meets cells of another, or
-/// would step across its diagonal, flows into it there; that is noted where the other is not downstream of it. No two
-/// diagonal steps cross. Then a cell flows into the farthest cell of the next look_cells downstream that is its
-/// neighbour, and cells left without water from above that are no sources are left out, until nothing changes: no cell
-/// has a neighbour among those look_cells but the next, unless a diagonal lies between. Sources stay. Outlets inside
-/// the grid are roots too.
-/// \throws BadParameter
+/// \return channels that keep their law, without heights. No two diagonal steps cross; no cell has a neighbour among
+/// the next look_cells but its receiver, unless a diagonal lies between. Sources and outlets stay, outlets inside the
+/// grid too.
+/// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput for a vertex outside the grid or a network that is not a forest
 /// \throws Cancelled
 ChannelsOfArcs channels(StreamNetwork const& network, Grid const& grid, ChannelsParams const& params = {},

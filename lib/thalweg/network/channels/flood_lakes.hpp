@@ -12,35 +12,32 @@
 
 namespace thalweg::network {
 
-/// A lake as it came to lie in the channels.
+/// A lake in the channels.
 struct Lake {
-    std::int32_t label = 0;  ///< in the raster it came from
-    std::int64_t outlet = 0; ///< number of the channel cell through which its water leaves; not level itself
-    std::int64_t cells = 0;  ///< level ones
+    std::int32_t label = 0;  ///< in the input raster
+    std::int64_t outlet = 0; ///< number of the channel cell through which its water leaves; not part of the lake
+    std::int64_t cells = 0;  ///< level cells
 };
 
 /// What flood_lakes() returns.
 struct Flooded {
-    ChannelsOfArcs drawn; ///< with the lakes' cells, and level set
+    ChannelsOfArcs drawn; ///< with the cells of lakes; `level` is set
     std::vector<Lake> lakes;
-    std::vector<Finding> notes; ///< where: a cell of the lake. "lake_left_out": no river runs through it, or fewer than
-                                ///< four cells are left (amount: its cells); "lake_cut": cells taken off it at the
-                                ///< grid's edge, beside another lake or a river that passes by (their number);
-                                ///< "lake_outlets": rivers that left it and begin below it now, or came back to it and
-                                ///< are left out (their number)
+    /// where: a cell of the lake; amount: a number. "lake_left_out" [cells]: no river runs through it, or fewer than
+    /// four cells remain; "lake_cut" [cells]: removed at the grid's edge, beside another lake or a passing river;
+    /// "lake_outlets" [rivers]: they left it and now begin below it, or returned to it and are left out
+    std::vector<Finding> notes;
 };
 
-/// Lays lakes into channels: every cell of a lake drains to its one outlet, and stands as high.
-/// \pre channels and a raster of labels on their grid, 0 for none; parts of a label that do not touch are lakes of
-/// their own.
-/// \param drawn what was drawn
-/// \param labels labels by cell; 0: none
+/// Adds lakes to channels: all cells of a lake drain to one outlet and have its height. The outlet is, of the river
+/// cells where water finally leaves the lake, the one with the most river cells upstream. Lakes keep one cell from the
+/// grid's edge, from one another (the higher label yields) and, except at the outlet, from rivers that do not enter
+/// them.
+/// \param drawn channels of the network
+/// \param labels by cell, on the channels' grid: 0: no lake; separate 8-connected parts of a label are separate lakes
 /// \param run progress, log, stop token and number of threads
-/// \return channels that keep their law; of each lake the cells that hang together by sides or corners, each flowing to
-/// the next on a shortest way to the outlet. The outlet: of the river cells from which water leaves the lake for good,
-/// the one with the most river cells above it. Lakes keep a cell away from the grid's edge and from each other (the
-/// greater label gives way), and but for the outlet from rivers that do not flow into them. Heights that are given:
-/// lakes take the outlet's, what flows into them is raised to it.
+/// \return channels that keep their law; a lake's cells are 8-connected and drain by shortest paths to the outlet.
+/// Prescribed heights: a lake takes its outlet's, its inflows are raised to it.
 /// \throws BadInput for a raster on another grid or a label below 0
 /// \throws Cancelled
 Flooded flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& labels, Run const& run = {});

@@ -14,31 +14,32 @@ namespace thalweg::network {
 
 /// Options of side_valleys().
 struct SideValleysParams {
-    std::int64_t support_cells = 200; ///< [1, ...] cells that must drain through a cell for a valley to run there
+    std::int64_t support_cells = 200; ///< [1, ...] contributing area at which side valleys begin
 };
 
 /// What side_valleys() returns.
 struct SideValleys {
     ElevatedNetwork network;
-    std::int64_t grown = 0;    ///< arcs that the land has grown
-    std::int64_t cut = 0;      ///< of these, that end where a drawn line runs beside the cells its water takes
-    std::int64_t left_out = 0; ///< that would have met a line elsewhere than in a node, with what flows into them
+    std::int64_t grown = 0; ///< number of side valley arcs
+    std::int64_t cut = 0;   ///< of these: end where an input line runs beside their flow path
+    /// arcs left out with their tributaries, because they would meet a line away from a node
+    std::int64_t left_out = 0;
 };
 
-/// Adds to given rivers the valleys that the land around them has grown.
-/// \pre given rivers with heights, their channels, and the water of a land that honours these.
-/// \param given the rivers of the input, with heights
-/// \param channels the channels
-/// \param dem [m] heights by cell; NaN: no data
-/// \param flow its flow field
+/// Extracts the side valleys of terrain grown around input rivers, and joins them to those rivers.
+/// \pre The flow field follows the channels.
+/// \param given input rivers with heights
+/// \param channels channels of the input rivers
+/// \param dem [m] by cell; NaN: no data
+/// \param flow flow field of the DEM
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return given arcs first, cut where valleys join them, their vertices kept bit for bit; then the grown ones
-/// (Arc::given is false), from cell centre to cell centre along the steepest descent through every cell outside the
-/// channels with the support, to the nearest point of a given line beside the channel its water enters, or to the first
-/// cell of the border. Heights are those of the cells, not below what lies downstream. No two arcs meet but in nodes.
-/// \throws BadParameter when the support is below 1
-/// \throws BadInput for rasters on another grid
+/// \return input arcs first, split where valleys join, their vertices kept bit for bit; then side valleys
+/// (Arc::is_input is false) along the D8 flow paths of cells outside the channels with the support, to the nearest
+/// point of the input line they join, or to the border. Their heights are those of the cells, but not below the next
+/// one downstream. Arcs meet only at nodes.
+/// \throws BadParameter when support_cells is below 1
+/// \throws BadInput for rasters on different grids
 /// \throws Cancelled
 ///
 /// Source: \cite ocallaghan1984.

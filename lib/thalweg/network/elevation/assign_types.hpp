@@ -11,38 +11,37 @@
 
 namespace thalweg::network {
 
-/// What decides the type of an arc that brings none of its own.
+/// How arcs without a type of their own get one.
 enum class TypeChoice : std::uint8_t {
     one,     ///< one type for all
-    by_order ///< its Strahler order
+    by_order ///< by Strahler order
 };
 
 /// Options of assign_types().
 struct AssignTypesParams {
     TypeChoice choice = TypeChoice::by_order;
-    Rosgen one = Rosgen::c; ///< under one
-    /// Under by_order: from the lowest order to the highest of the network, at least one.
+    Rosgen one = Rosgen::c; ///< for TypeChoice::one
+    /// For TypeChoice::by_order: at least one, from the network's lowest order to its highest.
     std::vector<Rosgen> by_order = {Rosgen::aa_plus, Rosgen::a, Rosgen::b, Rosgen::c};
-    double coast_m = 0.0; ///< [m] >= 0: arcs whose middle is nearer to the outlet along the stream are braided
+    double coast_m = 0.0; ///< [m] >= 0, arcs whose middle is nearer to the outlet along the stream are braided
 };
 
-/// The type of every arc, by its number.
+/// Rosgen's river type of every arc.
 struct RiverTypes {
     std::vector<Rosgen> type;
-    std::vector<std::uint8_t> braided; ///< 1 where the river runs in several channels, else 0
+    std::vector<std::uint8_t> braided; ///< 1: several channels, 0: one
 };
 
-/// Gives every arc a type of river: the one it brings (Arc::type; "none" is none), or one by choice.
-/// \pre a network whose components are trees; its orders.
-/// \param network the network
-/// \param orders the network's orders
+/// Assigns river types: the arc's own (Arc::type, except "none"), or by params.choice.
+/// \param network a forest
+/// \param orders orders of this network
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return under by_order, of n types and orders 1 to W, order w has the type of the place nearest to (w - 1) / (W - 1)
-/// (n - 1) counted from 0, halves upwards; the highest order, also where it is 1, has the last. Braided are D, DA and
-/// what lies near the coast; that changes no type.
-/// \throws BadParameter
-/// \throws BadInput naming the arc, its feature and place for an unknown type, or when the orders are another network's
+/// \return by order: with n types and orders 1 ... W, order w has the type at index round((w - 1) / (W - 1) (n - 1)),
+/// half up; the highest order has the last type, even if it is 1. D, DA and arcs near the coast are braided; the coast
+/// changes no type.
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput naming the arc, its feature and position for an unknown type; for orders of another network
 ///
 /// Source: \cite nenu2015, section 3 and table 2; specification 3.3.
 RiverTypes assign_types(StreamNetwork const& network, NetworkOrders const& orders, AssignTypesParams const& params = {},

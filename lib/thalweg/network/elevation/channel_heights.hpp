@@ -9,13 +9,11 @@
 
 namespace thalweg::network {
 
-/// Heights of the cells in which rivers run, from those of the rivers.
-/// \pre a network with heights and the channels of its plan.
-/// \param network the network
-/// \param channels the channels
-/// \return by number what rasterise draws there, lowered where the way of the water rises: no cell stands below its
-/// receiver; NaN where no arc of the network runs.
-/// \throws Error as rasterise
+/// Converts the heights of rivers to heights of channel cells.
+/// \param network the rivers, with heights
+/// \param channels channels of this network
+/// \return [m] by channel cell: as rasterise, lowered so that no receiver is above its donor; NaN where no arc runs
+/// \throws BadInput as rasterise
 std::vector<float> channel_heights(ElevatedNetwork const& network, Channels const& channels);
 
 } // namespace thalweg::network

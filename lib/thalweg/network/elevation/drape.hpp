@@ -7,13 +7,11 @@
 
 namespace thalweg::network {
 
-/// Gives a network the heights of a DEM.
-/// \pre a network whose components are trees, and heights in its coordinates.
-/// \param network the network
-/// \param dem [m] heights by cell; NaN: no data
-/// \return at each vertex the height of its cell, or the least of all vertices upstream where that is lower: heights
-/// never rise downstream.
-/// \throws BadInput naming the place, when a vertex lies where the DEM has no height, or a component is not a tree
+/// Takes a network's heights from a DEM.
+/// \param network a forest, in the DEM's coordinates
+/// \param dem [m] by cell; NaN: no data
+/// \return at each vertex the height of its cell or the minimum upstream, if lower: heights do not rise downstream
+/// \throws BadInput naming the position of a vertex without data; for a network that is not a forest
 ElevatedNetwork drape(StreamNetwork const& network, Raster<float> const& dem);
 
 } // namespace thalweg::network

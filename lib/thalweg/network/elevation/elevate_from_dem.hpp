@@ -8,17 +8,16 @@
 
 namespace thalweg::network {
 
-/// Gives rivers the heights of the land that was made around them.
-/// \pre a network, the channels of it, and the land on their grid.
-/// \param network the network
-/// \param channels the channels
+/// Takes a network's heights from the terrain built around its channels. A line's first vertex in each channel cell,
+/// sources and outlets take the height of their cell; vertices between, and those that would rise, are interpolated by
+/// length.
+/// \param network a forest inside the grid
+/// \param channels channels of this network
 /// \param land [m] the DEM on the channels' grid
-/// \return the network bit for bit, with heights that never rise downstream. The first vertex of a way in each channel
-/// cell stands as high as that cell, a source and an outlet as high as the cell they lie in, what lies between linear
-/// by length, and so does what would rise. Where the land falls along every channel, each arc falls, but those of a
-/// basin within one cell; where it is level, they are.
-/// \throws BadInput for a network that is not a forest, a vertex outside the grid, a land on another grid or without a
-/// height where a river runs
+/// \return the plan bit for bit; heights do not rise downstream, and where the terrain falls along every channel each
+/// arc falls, except in basins within one cell
+/// \throws BadInput for a network that is not a forest, a vertex outside the grid, a DEM on another grid or without a
+/// height at a river
 ElevatedNetwork elevate_from_dem(StreamNetwork const& network, Channels const& channels, Raster<float> const& land);
 
 } // namespace thalweg::network

@@ -11,16 +11,14 @@ namespace thalweg::network {
 /// What lower_rises() returns.
 struct Lowered {
     ElevatedNetwork network;
-    std::vector<double> by_m; ///< [m] by arc number: how far its vertices were lowered at most, 0 for none
+    std::vector<double> by_m; ///< [m] by arc: the largest lowering of its vertices; 0: none
 };
 
-/// Lets every river fall: where one rises in the direction of flow, what lies downstream comes down to it.
-/// \pre a network and the heights of its arcs' vertices; at a node they may differ.
-/// \param network the network
-/// \param arc_z [m] by arc, heights of its vertices
-/// \return the highest heights that nowhere exceed those given and never rise downstream; those of arcs at a node
-/// agree.
-/// \throws BadInput when heights are not one a vertex, or a node has two arcs leaving it or a cycle is found
+/// Removes rises downstream by lowering the vertices below.
+/// \param network a forest
+/// \param arc_z [m] by arc, by vertex; arcs may differ at a node
+/// \return Law: the highest heights that nowhere exceed the input, do not rise downstream and agree at nodes
+/// \throws BadInput when there is not one height per vertex, or the network is not a forest
 Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double>> const& arc_z);
 
 } // namespace thalweg::network

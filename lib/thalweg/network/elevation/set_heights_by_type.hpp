@@ -10,28 +10,26 @@
 
 namespace thalweg::network {
 
-/// Which slope of its type's range an arc gets.
+/// How an arc's slope is chosen from its type's range.
 enum class SlopeDraw : std::uint8_t {
-    middle, ///< the one that stands for the class (SlopeRange::usual)
-    uniform ///< one at random, every slope of the range alike
+    middle, ///< the class's typical slope (SlopeRange::usual)
+    uniform ///< random, uniform over the range
 };
 
 /// Options of set_heights_by_type().
 struct HeightsByTypeParams {
     SlopeDraw draw = SlopeDraw::middle;
-    std::uint64_t seed = 0; ///< of uniform
+    std::uint64_t seed = 0; ///< random seed, for SlopeDraw::uniform
 };
 
-/// Gives every node its height above the outlet (z = 0) by the slopes of its rivers' types.
-/// \pre a network whose components are trees; the types of its arcs.
-/// \param network the network
-/// \param types by arc, type of river
+/// Assigns heights above the outlet (z = 0) from the slopes of river types; vertices are interpolated by length.
+/// \param network a forest
+/// \param types by arc
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return z_up = z_down + slope of the arc's type times its length, the slope within the type's range; under uniform
-/// it belongs to the seed and the place of the arc's upper end. Every arc falls strictly; vertices are linear by
-/// length.
-/// \throws BadInput for an arc of no length, a network that is not a forest, or types of another network
+/// \return an arc falls by a slope from its type's range times its length. Random slopes are a hash of the seed and the
+/// position of the arc's upper end.
+/// \throws BadInput for an arc of length 0, a network that is not a forest, or types of another network
 ///
 /// Source: \cite nenu2015, section 3 and table 2; specification 3.3.
 ElevatedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,

@@ -7,11 +7,11 @@
 
 namespace thalweg::network {
 
-/// Cuts lines at the edge of a grid.
-/// \param lines the polylines
-/// \param grid the grid
-/// \return the parts inside, in their order; a line that leaves and returns becomes several with the same feature.
-/// Vertices inside are kept bit for bit; those on the edge lie on it exactly, with Z interpolated.
+/// Clips lines to a grid.
+/// \param lines polylines [m]
+/// \param grid clips at its outer edge
+/// \return the parts inside, in order; a line that leaves and returns becomes several with the same feature. Vertices
+/// inside are kept bit for bit; new ones lie exactly on the edge, with interpolated heights.
 RiverLines clip_lines(RiverLines const& lines, Grid const& grid);
 
 } // namespace thalweg::network

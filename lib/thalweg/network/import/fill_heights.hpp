@@ -15,16 +15,14 @@ struct FilledHeights {
     std::int64_t first = 0;  ///< feature of the first of them
 };
 
-/// Gives lines without heights those that follow from the lines they meet, where others have heights.
-/// \pre lines; slope > 0 [m/m]. A line has heights when all its vertices have, and not all such lines are level at the
-/// same height.
-/// \param lines the polylines
-/// \param slope [m/m] > 0, slope
-/// \return lines between two known heights linear by length; lines with one known end rise from it upstream or fall
-/// from it downstream, taken as drawn, or the other way round where most lines with heights rise as drawn; a line that
-/// meets none has at its lower end the height of the nearest known vertex. Without any heights, or with all: the lines
-/// as they are. has_z is true where there are heights afterwards.
-/// \throws BadParameter
+/// Derives the heights of lines without them from the lines they meet. A line has heights when all its vertices have,
+/// and not all such lines have one and the same height.
+/// \param lines with heights in some
+/// \param slope [m/m] > 0, for lines with fewer than two known ends
+/// \return between two known heights linear by length; from one known end by `slope`, in drawn direction or, if most
+/// lines with heights rise as drawn, against it; a line that meets none has at its lower end the height of the nearest
+/// known vertex. Without any heights, or with all: the lines unchanged.
+/// \throws BadParameter when slope is outside its range
 FilledHeights fill_heights(RiverLines lines, double slope);
 
 } // namespace thalweg::network

@@ -10,26 +10,24 @@
 
 namespace thalweg::network {
 
-/// A network with what its file says beside lines and heights.
+/// A network and what its file says besides lines and heights.
 struct FileNetwork {
-    ElevatedNetwork network;                     ///< heights are NaN, all of them, where the file has none
-    std::vector<double> us_area_m2;              ///< by arc; NaN where the file does not say
-    std::vector<double> ds_area_m2;              ///< by arc; NaN where the file does not say
+    ElevatedNetwork network;                     ///< heights are all NaN if the file has none
+    std::vector<double> us_area_m2;              ///< by arc; NaN: not in the file
+    std::vector<double> ds_area_m2;              ///< by arc; NaN: not in the file
     std::vector<std::uint8_t> braided;           ///< by arc: 1 or 0
     std::vector<std::int64_t> arc_ids;           ///< by arc: its id in the file
     std::vector<std::int64_t> records;           ///< by arc: of its attributes
     std::vector<std::vector<Stretch>> stretches; ///< by arc: the features it is made of
 };
 
-/// Builds the network that a file describes.
-/// \param file the network as in its file
-/// \return arcs in the order of their ids, nodes in that of theirs, or where arcs name none as they come along the
-/// arcs; lines and heights bit for bit, but the ends of arcs take the heights of nodes that were made for them;
-/// feature, type and survives as the file has them. Orders and basins follow from the network: those of the file are
-/// not taken.
-/// \throws BadInput naming the first fault, for a file that is not a set of trees: ids that repeat, a node that is
-/// missing or has no arc, an end that is not its node, a line without length or with a coordinate that is not a number,
-/// a height where others have none, two arcs leaving a node, a cycle, a downstream arc that is another
+/// Builds a network from a network file. Orders and basins are not taken from the file: they follow from the network.
+/// \param file as read, not yet checked
+/// \return arcs and nodes in the order of their ids, or, where arcs do not name nodes, nodes in the order of arcs.
+/// Lines, heights, features, types and persistence are kept; ends of arcs take the heights of derived nodes.
+/// \throws BadInput naming the first fault of a file that is not a forest: a repeated id, a missing or isolated node,
+/// an end that is not its node's position, a line of length 0, a coordinate that is not a number, a missing height, two
+/// arcs leaving a node, a cycle, a wrong downstream arc
 FileNetwork from_file(NetworkFile const& file);
 
 } // namespace thalweg::network

@@ -6,14 +6,13 @@
 
 namespace thalweg::network {
 
-/// Strahler, Shreve, Hack and topological orders, basins and distances to the outlet.
-/// \param network a network whose components are trees
-/// \return the orders by arc number and node; 0 for a node without arcs. Where several arcs end in an outlet, the one
-/// on the longest path is the main stem.
-/// \throws BadInput naming the place, when a node has two arcs leaving it or a cycle is found
+/// Computes Strahler, Shreve, Hack and topological orders, basins and distances to the outlet. The main stem is the
+/// longest flow path (ties: lower arc number).
+/// \param network a forest
+/// \return by arc and by node; 0: a node without arcs
+/// \throws BadInput naming the position of a node that two arcs leave, or of a cycle
 ///
-/// Source: \cite strahler1957; \cite shreve1966; \cite hack1957 (main stem = longest flow path; ties: lower arc
-/// number).
+/// Source: \cite strahler1957; \cite shreve1966; \cite hack1957.
 NetworkOrders order(StreamNetwork const& network);
 
 } // namespace thalweg::network

@@ -9,13 +9,12 @@
 
 namespace thalweg::network {
 
-/// Which stream each arc belongs to: a stream is a chain of arcs of one Strahler order.
-/// \pre a network whose components are trees, and its orders.
-/// \param network the network
-/// \param orders the network's orders
-/// \return by arc number labels from 1, numbered by the streams' last arcs: where an arc flows into one of its own
-/// order both have one label, elsewhere they differ.
-/// \throws BadInput when the orders are of another network, or a component is not a tree
+/// Labels streams, chains of arcs of one Strahler order.
+/// \param network a forest
+/// \param orders orders of this network
+/// \return by arc: labels from 1 in the order of the streams' last arcs; an arc has the label of the arc it flows into
+/// exactly if both have one order and stream
+/// \throws BadInput for orders of another network or a network that is not a forest
 ///
 /// Source: \cite strahler1957.
 std::vector<std::int64_t> streams(StreamNetwork const& network, NetworkOrders const& orders);

@@ -13,39 +13,37 @@ namespace thalweg::network {
 
 /// Options of carry_outlets().
 struct CarryParams {
-    bool join = true;           ///< rivers of other basins may be joined; else an outlet without a way out stays
-    double join_cells = 20.0;   ///< [cells] >= 0, what joining costs
-    double beside_cells = 60.0; ///< [cells] >= 0, what a cell two cells or less from a river costs besides: there water
-                                ///< leaves for the other river
+    bool join = true;         ///< may join rivers of other basins; otherwise an outlet without a path stays
+    double join_cells = 20.0; ///< [cells] >= 0, cost of joining
+    /// [cells] >= 0, extra cost of a cell at most two cells from a river, where water might leave for that river
+    double beside_cells = 60.0;
 };
 
 /// What carry_outlets() returns.
 struct Carried {
     StreamNetwork network;
-    std::vector<Finding> notes; ///< one an outlet that was carried, or that could not be
+    std::vector<Finding> notes; ///< one per outlet that was extended, or could not be
 };
 
-/// Carries every outlet that lies inside the grid to its border by the least-cost path of cells that meets no other
-/// river, or into a vertex of a river of another basin where that costs less: the last arc is drawn on (a new arc, the
-/// last by number, where several end in the outlet), and the river that is joined becomes two arcs.
-/// \pre a network inside the grid. Entering a cell costs the step's length times 1 + 10 / (d + 1/2)^2, d: city-block
-/// distance to the rivers [cells], and what params say. Of equal ways the straighter.
-/// \param network the network
-/// \param grid the grid
+/// Extends every outlet inside the grid to the border, or into a vertex of a river of another basin if that costs less,
+/// by the least-cost path that meets no other river. The last arc is extended (by a new one if several end in the
+/// outlet), and a joined river is split. Entering a cell costs the step's length times 1 + 10 / (d + 1/2)^2, d:
+/// city-block distance to rivers [cells], plus the costs in params (ties: the straighter path).
+/// \param network a forest inside the grid
+/// \param grid its border ends the paths
 /// \param params options, each with its default, unit and range
-/// \return drawn vertices kept bit for bit; no crossing added, neither of lines nor of the cells they are drawn into.
-/// notes: "carried_outlet" or "joined_outlet" (amount: metres), or "closed_basin", an outlet without a way out, left
-/// where it is; feature: the line's id in its file, or the number of the arc, from 1.
+/// \return drawn vertices are kept bit for bit; no crossings are added, of lines or of their cells. notes:
+/// "carried_outlet" or "joined_outlet" (amount: [m]), or "closed_basin": no path, left in place; feature: id of the
+/// line in its file, or the arc's number from 1.
 /// \throws BadInput for a vertex outside the grid or a network that is not a forest
 Carried carry_outlets(StreamNetwork const& network, Grid const& grid, CarryParams const& params = {});
 
-/// \pre land, 0 for sea; every cell of a river is land.
-/// \param network the network
-/// \param land the cells of land; 0: sea
-/// \param reach_cells outlets farther away from both, in steps of king's moves, are left where they are, without a note
+/// Extends outlets over land to the border or to a cell that touches the sea by a side or corner, whichever costs less.
+/// \param network a forest on land
+/// \param land 0: sea
+/// \param reach_cells [cells] chessboard distance; outlets farther from both are left in place without a note
 /// \param params options, each with its default, unit and range
-/// \return the same, to the border or a cell that touches the sea by a side or corner, whichever costs less, over land
-/// alone.
+/// \return as carry_outlets on a grid
 Carried carry_outlets(StreamNetwork const& network, Mask const& land, std::int64_t reach_cells,
                       CarryParams const& params = {});
 

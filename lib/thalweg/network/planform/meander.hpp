@@ -13,50 +13,49 @@ namespace thalweg::network {
 
 /// Options of meander().
 struct MeanderParams {
-    double gain = 1.0;      ///< [0, 2] how far rivers wander; 0: corners and lattice steps are rounded within half a
-                            ///< cell, nodes stay
-    double gap_cells = 1.5; ///< [0.5, 4] rivers farther apart stay so: cells, for they are drawn into those
+    /// [0, 2] strength of meandering; 0: only rounds corners and lattice steps, within half a cell; nodes stay
+    double gain = 1.0;
+    double gap_cells = 1.5; ///< [0.5, 4] rivers farther apart than this stay so
     std::uint64_t seed = 7;
 };
 
 /// What meander() returns.
 struct Meandered {
     StreamNetwork network;
-    std::int64_t rounds = 0;   ///< in which bends were eased because rivers came too close
-    std::int64_t eased = 0;    ///< vertices whose shift was reduced
+    std::int64_t rounds = 0;   ///< of reducing bends where rivers came too close
+    std::int64_t eased = 0;    ///< vertices with reduced shift
     std::int64_t vertices = 0; ///< of the network
     double max_shift_m = 0.0;
 };
 
-/// Lets rivers wander: rounds corners and lattice steps, bends the plain by long waves and each river by noise along
-/// it, whose wavelength and amplitude grow with drainage area.
-/// \pre a network inside the grid whose arcs meet only in nodes; by arc its drainage area [m2] at its lower end.
-/// \param network the network
-/// \param grid the grid
-/// \param area_m2 [m2] drainage area by arc
+/// Makes rivers meander: rounds corners and lattice steps, bends the plain by long waves and each river by noise along
+/// it, whose wavelength and amplitude grow with drainage area. Wavelength: 12 valley-floor widths, 0.08 * area [cells]
+/// ^ 0.4, at least 10 cells.
+/// \param network a forest inside the grid; arcs meet only at nodes
+/// \param grid keeps the rivers inside
+/// \param area_m2 [m2] by arc: drainage area at its lower end
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return the same arcs between the same nodes, with a vertex a cell; nodes move with the larger river, an outlet on
-/// the grid's edge stays. Arcs meet only in nodes (CGAL). On the bent plain, what is gap_cells or more from a segment
-/// of a river (along one river: and eight cells on) stays so, what is nearer keeps a third of its distance: where it
-/// would not, the shift is halved there until it does. Wave: 12 widths of a valley floor, 0.08 * area [cells] ^ 0.4, at
-/// least 10 cells. Coordinates are rounded to 1e-6 m. Random numbers are a hash of (seed, node).
-/// \throws BadParameter
-/// \throws BadInput for areas of other arcs, a vertex outside the grid, arcs that meet elsewhere, or a network that is
-/// not a forest
+/// \return the same arcs between the same nodes, one vertex per cell; nodes move with the larger river, outlets on the
+/// grid's edge stay. Arcs meet only at nodes (exact). On the bent plain, what is gap_cells or more from a segment (on
+/// the same river: and eight cells along it) stays so, what is closer keeps a third of its distance: shifts are halved
+/// until it does. Coordinates are rounded to 1e-6 m. Random numbers are a hash of (seed, node).
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput when there is not one area per arc, a vertex is outside the grid, arcs meet away from nodes, or the
+/// network is not a forest
 /// \throws Cancelled
 ///
 /// Source: wavelengths of 10 to 14 widths, \cite leopold1960.
 Meandered meander(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
                   MeanderParams const& params = {}, Run const& run = {});
 
-/// \pre a mask on the network's grid.
-/// \param network the network
-/// \param land the cells of land; 0: sea
-/// \param area_m2 [m2] drainage area by arc
+/// Makes rivers meander on land: they stay there, and move less the nearer the sea is.
+/// \param network a forest inside the mask's grid; arcs meet only at nodes
+/// \param land 0: sea
+/// \param area_m2 [m2] by arc: drainage area at its lower end
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return the same where there is sea (0): what is on land (1) stays there, and moves the less the nearer the sea is.
+/// \return as meander on a grid
 Meandered meander(StreamNetwork const& network, Mask const& land, std::vector<double> const& area_m2,
                   MeanderParams const& params = {}, Run const& run = {});
 

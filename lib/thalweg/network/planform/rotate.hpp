@@ -11,7 +11,7 @@ namespace thalweg::network {
 
 /// Options of rotate().
 struct RotateParams {
-    double turn_deg = 0.0; ///< [-180, 180] counter-clockwise
+    double turn_deg = 0.0; ///< [-180, 180] counterclockwise
 };
 
 /// A network and the grid it lies in.
@@ -20,20 +20,19 @@ struct Rotated {
     Grid grid;
 };
 
+/// Chooses a random rotation that turns a lattice's axes and diagonals away from the grid's.
 /// \param seed random seed
-/// \return a turn at random that takes a lattice's axes and diagonals far from the grid's: 12 to 33 degrees either way.
+/// \return [deg] 12 to 33 in either direction
 double random_turn(std::uint64_t seed);
 
-/// Turns a network and puts it into the middle of a grid.
-/// \pre a network; the grid, of which width and height may be 0: then it is a twentieth of the network's longer side
-/// larger than the network, all around, two cells at least, its north-western corner as given.
-/// \param network the network
-/// \param frame the grid; a size of 0 is chosen
+/// Rotates a network and centres it in a grid.
+/// \param network at least one arc
+/// \param frame the grid; width and height 0: the network's box, enlarged on each side by a twentieth of its longer
+/// side and at least two cells, with the frame's north-western corner
 /// \param params options, each with its default, unit and range
-/// \return the same network, turned, its box in the middle of the grid; distances are kept but for coordinates rounded
-/// to 1e-6 m. A turn of 0 only moves it.
-/// \throws BadParameter
-/// \throws BadInput for no arcs, a coordinate that is not a number, or a network that does not fit
+/// \return distances are kept except for coordinates rounded to 1e-6 m; a rotation by 0 only translates
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput for no arcs, a coordinate that is not a number, or a network larger than the grid
 Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams const& params = {});
 
 } // namespace thalweg::network

@@ -12,34 +12,34 @@ namespace thalweg::network {
 
 /// Options of split_confluences().
 struct SplitParams {
-    int max_upstream = 2;    ///< [2, ...] arcs that may end in one node
-    double distance_m = 0.0; ///< [m] >= 0: how far a confluence is moved; 0: the median length of the segments
+    int max_upstream = 2;    ///< [2, ...] arcs that may end at one node
+    double distance_m = 0.0; ///< [m] >= 0, shift of a confluence; 0: the median segment length
 };
 
-/// An arc that was cut off another where a tributary was moved to, and the node between the two.
+/// An arc split off another at the new node of a moved tributary, with that node.
 struct SplitPiece {
-    std::size_t of = 0;    ///< number of the arc it was cut off
-    std::size_t moved = 0; ///< number of the arc that now ends in the new node
+    std::size_t of = 0;    ///< number of the arc it was split off
+    std::size_t moved = 0; ///< number of the arc that now ends at the new node
     bool upstream = false; ///< the new node lies upstream of the confluence, not downstream
 };
 
 /// What split_confluences() returns.
 struct Split {
     ElevatedNetwork network;
-    std::vector<SplitPiece> pieces; ///< in the order in which they were cut, as arcs and nodes are numbered
+    std::vector<SplitPiece> pieces; ///< in the order of splitting, as arcs and nodes are numbered
 };
 
-/// Splits nodes in which more arcs end than may: one tributary after the other is led beside the river to a node of its
-/// own, a distance downstream; at an outlet, or where there is no room downstream, upstream instead.
-/// \param network a network whose components are trees and whose heights do not rise downstream
+/// Splits confluences of too many arcs: one tributary after another is led beside the river to its own node a distance
+/// downstream, or, at an outlet or without room, upstream.
+/// \param network a forest; heights do not rise downstream
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return a network of the same laws with at most max_upstream arcs ending in a node. Arcs and nodes keep their
-/// numbers; the new ones follow, one of each a piece, which has what the arc it was cut off has. Lines are redrawn
-/// within a distance times the tributaries to be moved of the node; nothing meets that did not meet before (exact), no
-/// arc is without length, and where heights did not rise they do not. Where an arc is short the distance is, too.
-/// \throws BadParameter
-/// \throws BadInput naming the place, when a component is not a tree or lines leave no room
+/// \return at most max_upstream arcs end at a node. Arcs and nodes keep their numbers; new ones follow, one of each per
+/// piece, with the attributes of the arc they were split off. Lines change within distance_m times the number of moved
+/// tributaries around a node; nothing new meets (exact), no arc has length 0, heights still do not rise. The distance
+/// is shorter on short arcs.
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput naming the position, when the network is not a forest or lines leave no room
 /// \throws Cancelled
 Split split_confluences(ElevatedNetwork const& network, SplitParams const& params = {}, Run const& run = {});
 

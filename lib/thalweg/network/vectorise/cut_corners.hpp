@@ -7,19 +7,17 @@
 
 namespace thalweg::network {
 
-/// Cuts the L-shaped corners of arcs that run from cell to cell, which pruning leaves where a branch was: flow that
-/// follows the steepest descent takes the diagonal.
-/// \pre a network; cell_m > 0 [m].
-/// \param network the network
-/// \param cell_m [m] > 0, side of a cell
+/// Cuts L-shaped corners of arcs that run from cell to cell, as pruning leaves them at former confluences: D8 flow
+/// takes the diagonal.
+/// \param network vertices at cell centres
+/// \param cell_m [m] > 0, cell size
 /// \param run progress, log, stop token and number of threads
-/// \return the network without those vertices whose neighbours in the arc are one cell to the side and one above or
-/// below; of corners in a row every second one is left. Other vertices, nodes and the numbers of arcs stay. Cutting
-/// again changes nothing.
-/// \throws BadParameter
+/// \return without the vertices whose neighbours on the arc are one cell to the side and one above or below; of
+/// successive corners every second is kept. Other vertices, nodes and arc numbers stay. Cutting again changes nothing.
+/// \throws BadParameter when cell_m is outside its range
 /// \throws Cancelled
 ///
-/// Source: m-adjacency (specification 0.2) of what is left after pruning.
+/// Source: m-adjacency (specification 0.2) of the pruned network.
 StreamNetwork cut_corners(StreamNetwork const& network, double cell_m, Run const& run = {});
 
 } // namespace thalweg::network

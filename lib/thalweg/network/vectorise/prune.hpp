@@ -12,29 +12,27 @@ namespace thalweg::network {
 
 /// Options of prune().
 struct PruneParams {
-    Required<double> length_m; ///< [m] >= 0, L: no leaf arc shorter than this is left; 0 changes nothing but the
-                               ///< thresholds
-    Required<double> cell_m;   ///< [m] > 0, of the lattice on which the network was traced, or will be drawn
+    Required<double> length_m; ///< [m] >= 0, L: no shorter leaf arc remains; 0: only sets persistence
+    Required<double> cell_m;   ///< [m] > 0, cell size of the lattice the network was traced on or will be drawn on
 };
 
 /// What prune() returns.
 struct Pruned {
-    StreamNetwork network; ///< every arc with its survival threshold
+    StreamNetwork network; ///< every arc with its persistence
     std::int64_t arcs_before = 0;
 };
 
-/// Removes the shortest leaf arc, merges what it leaves at its confluence, and repeats until no leaf is shorter than L.
-/// Of equal leaves the one with the northernmost source goes first, then the westernmost. A merged arc keeps the
-/// feature and type of its longest piece; a basin whose every arc is too short vanishes.
-/// \param network the network
+/// Removes the shortest leaf arc, merges the two arcs left at its confluence, and repeats until no leaf is shorter than
+/// L. Of equal leaves the one with the northernmost, then westernmost source goes first. A merged arc keeps the feature
+/// and type of its longest piece; a basin whose arcs are all too short disappears.
+/// \param network a forest
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return no leaf arc shorter than L and no node of degree two but outlets; kept(L2) is a subset of kept(L1) for L1 <
-/// L2; survives = the running maximum of the removed lengths [cells], so that an arc is kept exactly for L <= survives
-/// * cell_m. Lengths are counted in whole 2^-24 cells a segment, L is rounded up to a whole number of them (but for
-/// what a product of floats is too large by).
-/// \throws BadParameter when L removes every arc; it names the longest that can be kept. BadInput for no arcs or no
-/// forest
+/// \return no leaf is shorter than L, only outlets have degree two; kept(L2) is a subset of kept(L1) for L1 < L2.
+/// Persistence is the running maximum of removed lengths [cells]: an arc is kept exactly for L <= persistence * cell_m.
+/// Lengths are whole multiples of 2^-24 cells per segment; L is rounded up to one.
+/// \throws BadParameter when L removes every arc; names the largest L that does not
+/// \throws BadInput for a network that has no arcs or is not a forest
 ///
 /// Source: \cite cao2009, equation 2, applied to leaves to a fixpoint (specification 0.2).
 Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const& run = {});

@@ -12,17 +12,16 @@ namespace thalweg::network {
 /// What rasterise() returns.
 struct Rasterised {
     Valley valley;
-    std::int64_t lowered_cells = 0; ///< cells shared by several reaches that were lowered to keep each path falling
+    std::int64_t lowered_cells = 0; ///< cells shared by several reaches, lowered so that each path falls
     double max_lowered_m = 0.0;
 };
 
-/// Draws the arcs into cells (Bresenham between vertices, height linear along the arc); where several cover a cell the
-/// lowest counts, and what lies downstream of it is lowered to it.
-/// \pre a network inside the grid; the grid's outer edges belong to its outermost cells.
-/// \param network the network
-/// \param grid the grid
-/// \return heights that never rise along any arc's cells downstream, compared as the floats they are.
-/// \throws BadInput naming the arc and the place, when a vertex lies outside the grid or a height is not a number
+/// Draws arcs into cells (Bresenham between vertices, heights linear along the arc); a shared cell takes the lowest
+/// height, and cells downstream are lowered to it.
+/// \param network inside the grid
+/// \param grid of the result
+/// \return [m] by cell; NaN: no river. As float32, heights do not rise downstream along the cells of any arc.
+/// \throws BadInput naming the arc and position of a vertex outside the grid or a height that is not a number
 ///
 /// Source: \cite cao2009, section 3.3; specification 0.3.
 Rasterised rasterise(ElevatedNetwork const& network, Grid const& grid);

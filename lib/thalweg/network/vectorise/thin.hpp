@@ -8,10 +8,10 @@
 namespace thalweg::network {
 
 /// Thins a mask to its skeleton.
-/// \param mask 0 outside, anything else inside; what lies beyond the grid counts as outside
+/// \param mask 0: outside, as is everything beyond the grid
 /// \param run progress, log, stop token and number of threads
-/// \return a subset one cell wide with as many components (8 neighbours) and holes (4 neighbours) as the mask, without
-/// L-shaped corners; thinning it again changes nothing. Four branches may still meet in a block of 2 x 2 cells.
+/// \return a subset one cell wide with as many components (8-connected) and holes (4-connected) as the mask, without
+/// L-shaped corners; thinning again changes nothing. Four branches may meet in a block of 2 x 2 cells.
 /// \throws Cancelled
 ///
 /// Source: \cite guo1989, algorithm A1, 64 cells a word.

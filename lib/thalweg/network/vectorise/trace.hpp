@@ -11,18 +11,18 @@ namespace thalweg::network {
 
 /// Options of trace().
 struct TraceParams {
-    Required<Vec2> mouth; ///< [m] each component drains to its cell nearest to this point (ties: lower cell index);
-                          ///< rounded to 2^-16 of a cell
+    /// [m] each component drains to its nearest cell (ties: lower index); rounded to 2^-16 of a cell
+    Required<Vec2> mouth;
 };
 
-/// Traces a skeleton into a network of arcs.
-/// \param skeleton a skeleton; a diagonal step counts only where neither orthogonal cell between is set (m-adjacency)
+/// Traces a skeleton into a network: the shortest-path tree from each component's outlet cell (steps 1 and sqrt 2; ties
+/// by index).
+/// \param skeleton one cell wide; a diagonal step counts only if neither orthogonal cell beside it is set (m-adjacency)
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return the shortest-path tree from the outlet cell (steps 1 and sqrt 2, ties by cell index): nodes are outlets and
-/// cells with no or several cells upstream, arcs the paths between, with one vertex in each cell's centre; nodes and
-/// arcs are numbered by cell index (arcs by that of their upstream end). A component of one cell is left out.
-/// \throws BadInput for a skeleton without two neighbouring cells
+/// \return nodes are outlets and cells with no or several cells upstream; arcs have one vertex per cell centre; both
+/// are numbered by cell index (arcs by that of their upstream end). A component of one cell is left out.
+/// \throws BadInput for a skeleton without two adjacent cells
 /// \throws BadParameter for a mouth that is not a position
 ///
 /// Source: \cite cao2009, section 3.2; specification 0.2.

@@ -9,13 +9,14 @@
 
 namespace thalweg::surface {
 
-/// Draws the surface E = base + H(d): slopes rise from a land laid through the valley instead of from its cells.
-/// \param valley [m] heights of the river cells
-/// \param base of the valley's frame, heights there are not read in valley cells; inside: as for dilate
+/// Builds the surface E = base + H(d), whose slopes rise from a base surface instead of from valley cells. With
+/// `inside` as dilate.
+/// \param valley [m] heights of river cells
+/// \param base [m] by cell, in the valley's frame, e.g. harmonic(valley); not read in valley cells
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return valley cells exact; every other cell its base and the increments of its distance to the valley; NaN where
-/// the base has no height or no dilation came. A base without steps leaves none where two valleys' slopes meet.
+/// \return valley cells bit for bit; NaN where base is NaN or no dilation reaches. A smooth base leaves no step between
+/// the slopes of two valleys.
 /// \throws Error as dilate
 /// \throws BadInput when the base has another frame
 ///

@@ -14,13 +14,13 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/valley.hpp>
 
-/// Inside of expand and dilate: the lexicographic (level, base) transform as one sweep down and one up, without
-/// barriers. A row is scanned both ways, then the columns: the smallest pair (|c - v|, e_v) over all valley cells v.
+/// Implementation of expand and dilate without barriers: the lexicographic (level, base) transform by one sweep down
+/// and one up, i.e. for each cell the least pair (|c - v|, e_v) over all valley cells v.
 namespace thalweg::surface::separable {
 
-/// \param height [m] a height
-/// \return an integer in the order of the float: total, -0 below +0, so that no minimum depends on the order of
-/// comparison.
+/// Maps a float to an integer of the same order.
+/// \param height not NaN
+/// \return a total order, -0 below +0, so that minima do not depend on the order of comparison
 inline std::int32_t ordered(float height) {
     auto const bits = std::bit_cast<std::int32_t>(height);
     return bits ^ ((bits >> 31) & 0x7fffffff);
@@ -29,20 +29,21 @@ inline float height_of(std::int32_t order) {
     return std::bit_cast<float>(order ^ ((order >> 31) & 0x7fffffff));
 }
 
-/// Values of the free cells.
+/// Deleter of memory from take_large_pages.
 struct Free {
     void operator()(void* memory) const { give_large_pages(memory); }
 };
 
-/// What is known after the sweep down. Level: std::uint16_t where fits16(grid), else std::int32_t.
+/// The state after the sweep down. Level is std::uint16_t where fits16(grid), else std::int32_t.
 template <class Level> struct Swept {
-    std::unique_ptr<Level[], Free> level; ///< of each cell, counted from the valley cells above and beside it
-    float greatest = 0.0F;   ///< [m] greatest |height| of a valley cell; infinite if one is; < 0 without any
-    std::int64_t levels = 0; ///< greatest number of dilations after both sweeps
+    std::unique_ptr<Level[], Free> level; ///< by cell: distance to the valley cells in its row and above
+    float greatest = 0.0F;   ///< [m] largest |height| of a valley cell; infinite if one is; < 0: no valley cell
+    std::int64_t levels = 0; ///< largest number of dilations after both sweeps
 };
 
-/// \param swept what sweep_down found
-/// \return whether the valley has cells, and finite heights in them.
+/// Tells whether a valley has cells, all of finite height.
+/// \param swept as sweep_down returns it
+/// \return true: sweep_up may follow
 template <class Level> bool usable(Swept<Level> const& swept) {
     return swept.greatest >= 0.0F && swept.greatest < std::numeric_limits<float>::infinity();
 }
@@ -51,28 +52,29 @@ inline bool fits16(Grid const& grid) {
     return grid.width + grid.height <= 0xffff;
 }
 
-/// \pre a valley of at least one cell
-/// \param valley [m] heights of the river cells
-/// \param base any content, the valley's grid
-/// \param lanes width of the vector registers; any gives the same bytes
+/// Sweeps from north to south.
+/// \param valley [m] at least one river cell
+/// \param base any content, the valley's grid; receives the heights that levels are counted from
+/// \param lanes instruction set; the bytes are the same for each
 /// \param run progress, log, stop token and number of threads
-/// \return level, and in base the heights of the cells they are counted from.
+/// \return the levels after this sweep
 template <class Level> Swept<Level> sweep_down(Valley const& valley, Raster<float>& base, Lanes lanes, Run const& run);
 
-/// Finishes base in place and writes the levels.
-/// \param swept what sweep_down found
-/// \param base [m] base heights
+/// Sweeps from south to north, which finishes base and level.
+/// \param swept as sweep_down returns it
+/// \param base [m] as sweep_down left it; finished in place
 /// \param level receives the number of dilations
-/// \param lanes width of the vector registers; any gives the same bytes
+/// \param lanes instruction set; the bytes are the same for each
 /// \param run progress, log, stop token and number of threads
 template <class Level>
 void sweep_up(Swept<Level> const& swept, Raster<float>& base, Raster<std::int32_t>& level, Lanes lanes, Run const& run);
 
-/// Turns base in place into heights: base + above_valley[level], added in double. Valley cells keep their bits.
-/// \param swept what sweep_down found
-/// \param base [m] base heights
-/// \param above_valley [m] height above the valley by number of dilations
-/// \param lanes width of the vector registers; any gives the same bytes
+/// Sweeps from south to north and turns base into heights: base + above_valley[level], added in double. Valley cells
+/// keep their bits.
+/// \param swept as sweep_down returns it
+/// \param base [m] as sweep_down left it; receives the heights
+/// \param above_valley [m] by number of dilations
+/// \param lanes instruction set; the bytes are the same for each
 /// \param run progress, log, stop token and number of threads
 template <class Level>
 void sweep_up(Swept<Level> const& swept, Raster<float>& base, std::vector<double> above_valley, Lanes lanes,

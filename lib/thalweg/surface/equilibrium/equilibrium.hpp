@@ -13,72 +13,72 @@
 
 namespace thalweg::surface {
 
-/// What the land does where no river leaves it.
+/// Boundary conditions of equilibrium terrain.
 enum class Edge : std::uint8_t {
-    open,    ///< it goes on beyond the grid: water leaves as if the neighbouring basins stood as high as ours
-    closed,  ///< it ends: all its water goes to the given rivers
-    coast,   ///< it ends at the sea, at height 0
-    mainland ///< the sea where the mask says so, at height 0; beyond the grid it goes on
+    open,    ///< terrain continues beyond the grid: water leaves as if neighbouring basins were as high
+    closed,  ///< terrain ends at the grid: all water flows to the input rivers
+    coast,   ///< terrain ends at the sea, at height 0
+    mainland ///< the sea, at height 0, where the mask is 0; terrain continues beyond the grid
 };
 
-/// What given heights of rivers are to the land.
+/// How prescribed heights of rivers are used.
 enum class RiverHeights : std::uint8_t {
-    graded, ///< not asked for: rivers are graded like the rest
+    graded, ///< not used: rivers are graded like other channels
     soft,   ///< upper bounds: a river is lowered where its surroundings are lower
-    fixed   ///< kept; where the surroundings cannot hold them up, the river runs on a wall
+    fixed   ///< kept; where the surroundings are lower, the river runs on a wall
 };
 
-/// What varies over the land. Rasters on the rivers' grid, or without cells for none.
+/// Fields that vary over the terrain, on the rivers' grid; empty: none.
 struct EquilibriumFields {
-    Mask land;                 ///< 0: sea, which gets no height; every river cell is land
+    Mask land;                 ///< 0: sea, without heights; every river cell is land
     Raster<float> uplift;      ///< > 0, only ratios count
     Raster<float> erodibility; ///< > 0, only ratios count (lithology)
 };
 
 /// Options of equilibrium().
 struct EquilibriumParams {
-    double theta = 0.38;               ///< [0.1, 0.9] concavity: slope ~ area^-theta
-    double mean_slope_deg = 25.0;      ///< (0, 60] of the land's cells (Horn's slope), where relief is not given
-    std::optional<double> relief_m;    ///< [m] > 0, from the lowest to the highest cell; instead of the mean slope
-    double hillslope_cells = 1.0;      ///< [0.5, 100] length below which soil creep wins over water (Perron 2009)
-    double floor_width = 0.04;         ///< [0, 1] half width of a valley floor [cells] over area [cells] ^ 0.4
-    double roughness = 0.25;           ///< [0, 1] standard deviation of the logarithm of erodibility, as noise
-    double longest_wave_cells = 360.0; ///< [4, ...] of that noise
+    double theta = 0.38;               ///< [0.1, 0.9] concavity index: slope ~ area^-theta
+    double mean_slope_deg = 25.0;      ///< (0, 60] mean over cells (Horn's slope), unless relief_m is set
+    std::optional<double> relief_m;    ///< [m] > 0, highest minus lowest cell; replaces the mean slope
+    double hillslope_cells = 1.0;      ///< [0.5, 100] length below which soil creep dominates (Perron 2009)
+    double floor_width = 0.04;         ///< [0, 1] half width of a valley floor [cells] / area [cells] ^ 0.4
+    double roughness = 0.25;           ///< [0, 1] standard deviation of log erodibility, as noise
+    double longest_wave_cells = 360.0; ///< [4, ...] longest wavelength of that noise
     Edge edge = Edge::open;
     RiverHeights heights = RiverHeights::graded;
-    bool bring_to_target = true; ///< given heights: solve again until the land around them has the mean slope or the
-                                 ///< relief; else it stands as high as around graded rivers
+    /// with prescribed heights: solve again until the terrain has the target slope or relief; false: it is as high as
+    /// around graded rivers
+    bool bring_to_target = true;
     std::uint64_t seed = 7;
 };
 
 /// What equilibrium() returns.
 struct EquilibriumTerrain {
-    Raster<float> dem;                   ///< [m] NaN at sea
-    Raster<flow::Direction> direction;   ///< where the water of each cell goes; no_data at sea
-    std::vector<std::int64_t> shortened; ///< numbers of channel cells that are none any more: tips that stood perched
-    std::vector<std::int64_t> walled;    ///< numbers of channel cells that stand on walls (fixed, soft)
-    double max_lowered_m = 0.0;          ///< soft: greatest depth below the given heights
-    double p95_lowered_m = 0.0;          ///< soft: 95th percentile of it over the channel cells with heights
-    double target_share = 1.0;           ///< mean slope or relief that came out, over the target
-    double rise = 0.0;                   ///< factor from the solver's heights (in cells) to metres, over the cell size
+    Raster<float> dem;                   ///< [m] NaN: sea
+    Raster<flow::Direction> direction;   ///< D8 flow directions; no_data at sea
+    std::vector<std::int64_t> shortened; ///< numbers of channel cells removed because they were perched (tips)
+    std::vector<std::int64_t> walled;    ///< numbers of channel cells on walls (fixed, soft)
+    double max_lowered_m = 0.0;          ///< soft: largest lowering below prescribed heights
+    double p95_lowered_m = 0.0;          ///< soft: its 95th percentile over channel cells with heights
+    double target_share = 1.0;           ///< mean slope or relief reached / target
+    double rise = 0.0;                   ///< height [m] of one unit of the solver / cell size
 };
 
-/// Draws the land that is in equilibrium with given rivers: everywhere uplift equals what running water cuts (K A^theta
-/// S, with debris flows where A is small) less what soil creep brings (D lap z), with a cap on slopes, noise on
-/// erodibility, and floors along rivers. Solved coarse to fine.
-/// \pre rivers, at least one, whose water leaves on the border, the coast or in a sink; fields on their grid.
-/// \param rivers the rivers
-/// \param fields fields that vary over the land
+/// Builds terrain in equilibrium with given rivers: uplift equals fluvial incision (K A^theta S, debris flows where A
+/// is small) minus soil creep (D lap z), with a limit on slopes, noise on erodibility, and valley floors. Solved coarse
+/// to fine.
+/// \pre Water leaves at the border, the coast or in a sink.
+/// \param rivers at least one
+/// \param fields sea, uplift and erodibility
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return water of a river cell goes to its receiver, by the steepest descent of the floats that are written, and land
-/// beside rivers stands above every river cell it touches; all land has a strictly lower neighbour, so there is no
-/// depression but a sink; lakes are level. Given heights may keep the land from a mean slope or relief: then it has the
-/// nearest that was found. The lowest river end stands at 0 (given heights: where they say). The same bytes for any
-/// number of threads.
-/// \throws BadParameter
-/// \throws BadInput channels that break their law, fields on another grid, not above 0 or with holes on land, no land,
-/// a river at sea, given heights that rise
+/// \return as float32, river cells drain to their receivers by steepest descent and lie below the terrain beside them;
+/// every land cell has a strictly lower neighbour, so the only depressions are sinks; lakes are level. Prescribed
+/// heights may prevent the target slope or relief: then the nearest found. The lowest river end is at 0 unless
+/// prescribed. The same bytes for any number of threads.
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput for channels that break their law, fields on another grid, not above 0 or with holes on land, no
+/// land, a river at sea, or prescribed heights that rise
 /// \throws Cancelled
 ///
 /// Source: \cite perron2009 (hillslope length); \cite braun2013 (order); \cite barnes2014 (flood); \cite stock2003

@@ -12,21 +12,20 @@ namespace thalweg::surface {
 
 /// Options of rasterise_tin().
 struct RasteriseTinParams {
-    /// Cells whose centre no triangle holds: NaN, or the height at the nearest point of the TIN's edge.
+    /// Values of cells outside the TIN: NaN, or the height at the nearest point of its edge.
     enum class Outside : std::uint8_t { no_data, nearest };
     Outside outside = Outside::no_data;
 };
 
-/// Linear heights of a TIN at the centres of cells.
-/// \pre a TIN, one without triangles included; a grid.
-/// \param tin the TIN
-/// \param grid the grid
+/// Interpolates a TIN linearly at cell centres. A centre on an edge belongs to the triangle on its east (of a level
+/// edge, its north), decided exactly: no cell is left out or drawn twice.
+/// \param tin may be empty
+/// \param grid of the result
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return in each cell whose centre lies in the TIN, its edge included, the height there of the triangle that owns it,
-/// computed in double and never beyond the triangle's corners. A centre on an edge shared by triangles belongs to that
-/// on its east (of a level edge: on its north): decided exactly, so that no cell is left out and none is drawn twice.
-/// \throws BadInput naming vertex or triangle when one is not finite, not counterclockwise or not there
+/// \return [m] by cell: inside the TIN or on its edge computed in double, within the range of the triangle's corners
+/// \throws BadInput naming a vertex that is not finite, or a triangle that is not counterclockwise or has an unknown
+/// vertex
 /// \throws Cancelled
 ///
 /// Source: scanlines with exact orientation tests where rounding could decide.

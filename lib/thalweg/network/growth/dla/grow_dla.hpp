@@ -11,48 +11,49 @@
 namespace thalweg::network {
 
 enum class VisitRule : std::uint8_t {
-    count_first,     ///< every arrival counts; below M the walker is removed, then the stick test
-    stick_then_count ///< only passed stick tests count: below M the walker is removed, at the M-th it holds
+    count_first,     ///< every arrival counts; walkers before the M-th are removed, others take the stick test
+    stick_then_count ///< only passed stick tests count; walkers before the M-th are removed
 };
 
 /// Options of least_arrivals().
 struct DlaParams {
-    std::int64_t particles = 26000;          ///< [1, ...] size of the cluster, its seed included
-    double sticking = 0.85;                  ///< (0, 1] S: a site with n occupied 4-neighbours holds with S^(3-n)
-    int visits = 3;                          ///< [1, 255] M: arrivals a site needs before it may hold
-    std::int64_t max_radius = 0;             ///< [cells] stop when the cluster reaches it; 0 for no limit
-    VisitRule rule = VisitRule::count_first; ///< order of count and stick test
+    std::int64_t particles = 26000; ///< [1, ...] size of the cluster, its seed included
+    double sticking = 0.85;         ///< (0, 1] S: a walker with n occupied 4-neighbours sticks with probability S^(3-n)
+    int visits = 3;                 ///< [1, 255] M, noise-reduction count: arrivals at a site before a walker may stick
+    std::int64_t max_radius = 0;    ///< [cells] growth stops at this radius; 0: no limit
+    VisitRule rule = VisitRule::count_first; ///< order of counting and stick test
     std::uint64_t seed = 7;
 };
 
 enum class GrowthStop : std::uint8_t { particles, radius };
 
-/// A cluster on the lattice; cell (0,0) is its seed, columns grow to the east, rows to the south.
+/// A cluster on the lattice: the seed is cell (0, 0), columns count eastwards, rows southwards.
 struct Cluster {
     std::vector<Cell> cells; ///< in order of arrival, the seed first
     std::vector<std::int64_t>
-        parent;               ///< by particle: the occupied 4-neighbour it hangs on (uniform choice); -1 for the seed
-    std::int64_t walkers = 0; ///< released
-    double radius = 0.0;      ///< [cells] largest distance to the seed
+        parent;               ///< by particle: the occupied 4-neighbour it sticks to (uniform choice); -1: the seed
+    std::int64_t walkers = 0; ///< number released
+    double radius = 0.0;      ///< [cells] largest distance from the seed
     GrowthStop stop = GrowthStop::particles;
 };
 
-/// A compact cluster is least: each of its rows begins at a site with one neighbour, which holds with S².
+/// Estimates the number of arrivals (walkers beside the cluster, one stick test each) that a cluster needs at least: a
+/// compact one, whose rows each begin at a site with one neighbour, where a walker sticks with probability S^2.
 /// \param params options, each with its default, unit and range
-/// \return about the least number of arrivals (a walker beside the cluster, of which each takes a stick test) that a
-/// cluster needs.
+/// \return [arrivals]
 double least_arrivals(DlaParams const& params);
 
+/// Checks options for grow_dla.
 /// \param params options, each with its default, unit and range
-/// \throws BadParameter where a value lies outside its range, or more than 1e12 arrivals are needed: about a day
+/// \throws BadParameter when a value is outside its range or growth needs more than 1e12 arrivals (about a day)
 void require_growth(DlaParams const& params);
 
-/// Grows a diffusion-limited aggregate from one seed.
-/// \param params sticking S and visit count M
+/// Grows a diffusion-limited aggregate from one seed: walkers from afar do the simple random walk of the lattice.
+/// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return a 4-connected cluster; the walk is the simple random walk of the lattice released from afar, every walker
-/// with its own random stream (seed, walker): the same cells for any number of threads.
-/// \throws Error like require_growth
+/// \return a 4-connected cluster. Each walker has its own random stream (seed, walker): the same cells for any number
+/// of threads.
+/// \throws BadParameter as require_growth
 /// \throws Cancelled
 ///
 /// Source: \cite cao2009, equation 1 and section 2 (\cite chiu1992).

@@ -13,39 +13,39 @@ namespace thalweg::network {
 
 /// Options of grow_forest().
 struct ForestParams {
-    std::int64_t step_cells = 5; ///< [1, 100] s: on the lattice, a particle is s to s + 1 from the one it hangs on
-    std::int64_t particles = 0;  ///< [0, ...] stop at so many, the seeds included; 0: when the region is full
-    double sticking = 1.0;       ///< (0, 1] chance with which an arrival holds; else the walker walks on
-    int visits = 1;              ///< [1, 255] arrivals a cell needs before it may hold: more make straighter rivers
+    std::int64_t step_cells = 5; ///< [1, 100] s: on the lattice a particle is s to s + 1 from its parent
+    std::int64_t particles = 0;  ///< [0, ...] growth stops at this number, seeds included; 0: when the region is full
+    double sticking = 1.0;       ///< (0, 1] probability that an arriving walker sticks; otherwise it walks on
+    /// [1, 255] noise-reduction count: arrivals at a cell before a walker may stick; more make straighter rivers
+    int visits = 1;
     std::uint64_t seed = 7;
 };
 
 enum class ForestStop : std::uint8_t { full, particles };
 
-/// Trees in a region, one a seed.
+/// Trees in a region, one from each seed.
 struct GrownForest {
     std::vector<Cell> cells;          ///< in order of arrival, the seeds first
-    std::vector<std::int64_t> parent; ///< by particle: the one it hangs on; -1 for a seed
-    std::vector<std::int64_t> tree;   ///< by particle: the number of its seed
-    std::int64_t walkers = 0;         ///< released
+    std::vector<std::int64_t> parent; ///< by particle: its parent; -1: a seed
+    std::vector<std::int64_t> tree;   ///< by particle: number of its seed
+    std::int64_t walkers = 0;         ///< number released
     ForestStop stop = ForestStop::full;
 };
 
-/// Grows trees from the seeds into a region, all at once, until there is no cell left at which one could grow.
-/// \pre a region (0 outside); seeds in it, at least 2 s apart. Walkers start uniformly in the region, walk its cells,
-/// stay where a step would leave it, and end at the first cell beside a tree, that is beside the cells nearer than s to
-/// a particle. There they become one, or nothing where none may be; so a branch grows with the land that has no nearer
-/// one (growth in a Poisson field).
-/// \param region 1 inside the region
-/// \param seeds where trees begin
+/// Grows trees from seeds into a region, all at once, until it is full. Walkers start uniformly in the region, stay
+/// where a step would leave it, and end beside a tree (beside the cells nearer than s to a particle), where they stick
+/// if the distances below allow it. So a branch grows in proportion to the area nearest to it (growth in a Poisson
+/// field).
+/// \param region 0: outside
+/// \param seeds cells of the region, at least 2 s apart
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return a particle hangs on the one nearest to it. It keeps 2 s from all others, but from the children of that one
-/// only s sqrt(3/2), and from its parent s sqrt(5/2): branches fork, but neither meet nor touch, of one tree or of two,
-/// and in all directions alike. Full: no cell that walkers from a seed could reach may hold a particle. Arrivals have
-/// the law of unit steps, each walker has its own random stream (seed, walker): the same bytes for any Run.
-/// \throws BadParameter
-/// \throws BadInput for no seed, one outside the region or two that are too near
+/// \return a particle's parent is the nearest particle. It keeps 2 s from all others, s sqrt(3/2) from its siblings and
+/// s sqrt(5/2) from its parent's parent: branches fork, but do not meet, in one tree or two, and without preferred
+/// directions. Full: no cell that walkers can reach may hold a particle. Each walker has its own random stream (seed,
+/// walker): the same bytes for any Run.
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput for no seed, a seed outside the region or two that are too close
 /// \throws Cancelled
 ///
 /// Source: \cite witten1981, with walkers from everywhere; \cite petroff2013 (rivers in a Poisson field).

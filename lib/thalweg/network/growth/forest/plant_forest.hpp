@@ -16,24 +16,22 @@ namespace thalweg::network {
 /// What plant_forest() returns.
 struct PlantedForest {
     StreamNetwork network;
-    std::vector<Finding> notes; ///< outlets that were left out or added, land without rivers
-    std::int64_t outlets = 0;   ///< that have a tree
+    std::vector<Finding> notes; ///< outlets left out or added, land without rivers
+    std::int64_t outlets = 0;   ///< number with a tree
     std::int64_t particles = 0;
     std::int64_t walkers = 0;
     ForestStop stop = ForestStop::full;
 };
 
-/// Grows rivers from outlets on a coast into the land until it is full of them.
-/// \pre land, 0 for sea; outlets, cells of its coast (coast_cells); params as grow_forest, step_cells [4, 100].
-/// \param land the cells of land; 0: sea
-/// \param outlets where rivers end
-/// \param params options, each with its default, unit and range
+/// Grows rivers from outlets on a coast until the land is full of them.
+/// \param land 0: sea
+/// \param outlets cells of the coast (coast_cells)
+/// \param params as grow_forest; step_cells in [4, 100]
 /// \param run progress, log, stop token and number of threads
-/// \return a network on land of one tree an outlet, which is the centre of its cell; vertices are centres of cells, and
-/// rivers of two trees keep two cells free between them. notes: "crowded_outlet" (left out: its river would come too
-/// near to another's, or the land is too narrow), "added_outlet" (on land from which no river finds one), "dry_land"
-/// (an island without room for a river; amount: its cells).
-/// \throws BadParameter
+/// \return one tree per outlet, on land; vertices are cell centres; rivers of two trees leave two cells free between
+/// them. notes: "crowded_outlet" (left out: too close to another river, or the land is too narrow), "added_outlet" (on
+/// land from which no river reaches an outlet), "dry_land" (an island without room for a river; amount: [cells])
+/// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput for no land, an outlet off the coast or no room for any river
 /// \throws Cancelled
 PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, ForestParams const& params = {},

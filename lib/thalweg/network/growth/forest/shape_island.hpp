@@ -11,19 +11,19 @@ namespace thalweg::network {
 
 /// Options of shape_island().
 struct IslandParams {
-    double ruggedness = 0.5; ///< [0, 1] how far fjords and capes reach; 0: an oval
+    double ruggedness = 0.5; ///< [0, 1] reach of fjords and capes; 0: an oval
     std::uint64_t seed = 7;
 };
 
-/// Draws an island: an oval that is bent, its coast moved in and out by noise of all wavelengths from the grid's side
-/// to 8 cells. About two fifths of the grid are land.
-/// \param grid a grid of at least 16 x 16 cells
+/// Draws an island that covers about two fifths of the grid: a bent oval with a coast moved by noise of all wavelengths
+/// from the grid's side to 8 cells.
+/// \param grid at least 16 x 16 cells
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return 1 on land, without lagoons, islets of less than a thousandth of the grid or land nearer to the grid's border
-/// than a fortieth of its shorter side; the same mask for any number of threads.
-/// \throws BadParameter
-/// \throws BadInput for a grid that is too small
+/// \return 1: land, without lagoons and without islets smaller than a thousandth of the grid; land keeps a fortieth of
+/// the shorter side from the border. The same mask for any number of threads.
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput for a smaller grid
 /// \throws Cancelled
 ///
 /// Source: gradient noise (\cite perlin1985), each octave turned.

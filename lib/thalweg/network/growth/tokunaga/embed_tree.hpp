@@ -15,40 +15,42 @@ namespace thalweg::network {
 /// Options of embed_tree().
 struct EmbedParams {
     std::uint64_t seed = 7;
-    std::vector<Vec2> region = {}; ///< [m] ring of the land to fill, either way round, not closed
-    Vec2 mouth = {};               ///< [m] outlet, on the ring or inside
-    Vec2 direction = {};           ///< of the trunk at the outlet, upstream; (0, 0): towards the middle of the region
-    double clearance = 0.35;       ///< [0.05, 0.35] links that share no node keep apart by this share of the shorter
-    double min_spacing_m = 0.0;    ///< [m] >= 0 and at least by this; 0: no other bound
+    std::vector<Vec2> region = {}; ///< [m] ring of the land to fill, either orientation, not closed
+    Vec2 mouth = {};               ///< [m] outlet, on the ring or inside it
+    Vec2 direction = {};           ///< of the trunk at the outlet, upstream; (0, 0): towards the region's centre
+    /// [0.05, 0.35] least distance of links without a common node, relative to the shorter one
+    double clearance = 0.35;
+    double min_spacing_m = 0.0; ///< [m] >= 0, their least distance; 0: no limit
 };
 
 /// What embed_tree() returns.
 struct EmbeddedTree {
-    StreamNetwork network;                               ///< arcs between outlet, confluences and sources
-    std::vector<std::vector<std::int64_t>> links_of_arc; ///< by arc number: links of the tree, upstream first; one a
-                                                         ///< piece of the line, but where streams of the lowest
-                                                         ///< orders are left out
-    std::int64_t placed = 0;                             ///< links
-    std::int64_t dropped = 0;                            ///< links for which there was no room, with all above them
-    double spacing_m = 0.0;                              ///< [m] root of the region's area for each link
+    StreamNetwork network; ///< arcs between outlet, confluences and sources
+    /// by arc: links of the tree, upstream; one per piece of the line, unless streams of the lowest orders are left out
+    std::vector<std::vector<std::int64_t>> links_of_arc;
+    std::int64_t placed = 0;  ///< number of links
+    std::int64_t dropped = 0; ///< links without room, with all upstream of them
+    double spacing_m = 0.0;   ///< [m] square root of the region's area per link
 };
 
-/// Lays a tree into a region and fills it evenly.
-/// \param tree a binary tree and a region with the outlet's place
+/// Embeds a tree evenly in a region. Links for which the distances cannot be kept are left out with all upstream of
+/// them, streams of high order last; if min_spacing_m is too large for so many links, streams of the lowest orders.
+/// \param tree a binary tree of links
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return a network in which no two arcs meet but in shared nodes. Links that share no node keep apart by clearance *
-/// the length of the shorter and by min_spacing_m, those that do meet at 20 degrees at least; links for which this
-/// cannot be kept are left out with all above them, streams of high order last; where min_spacing_m is more than so
-/// many links can keep, the streams of the lowest orders. Coordinates are rounded to 1e-6 m. Random numbers are a hash
-/// of (seed, order and link). \throws BadParameter when the region is not a ring of at least three different places,
-/// crosses itself, is too small for so many links (spacing below 1e-3 m), or the outlet lies outside \throws Cancelled
+/// \return arcs meet only at shared nodes. Links without a common node keep clearance times the shorter one's length
+/// and min_spacing_m apart; others meet at 20 degrees or more. Coordinates are rounded to 1e-6 m. Random numbers are a
+/// hash of (seed, order, link).
+/// \throws BadParameter when the region is not a simple ring of at least three different points, is too small (spacing
+/// below 1e-3 m) or does not contain the outlet
+/// \throws Cancelled
 ///
 /// Source: \cite nenu2015, section 2.2, figure 1 (a); order first, evened out by \cite lloyd1982.
 EmbeddedTree embed_tree(TokunagaTree const& tree, EmbedParams const& params, Run const& run = {});
 
-/// \param grid the grid
-/// \return the ring of a grid's outer edges, to be used as a region.
+/// The outer edge of a grid, as a region for embed_tree.
+/// \param grid any grid
+/// \return [m] its four corners
 std::vector<Vec2> outline(Grid const& grid);
 
 } // namespace thalweg::network

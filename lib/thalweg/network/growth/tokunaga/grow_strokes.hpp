@@ -14,34 +14,32 @@ namespace thalweg::network {
 
 /// Options of grow_strokes().
 struct StrokesParams {
-    TokunagaParams tree;        ///< seed, rule, the banks of all but the trunks' branches, and the generator of strokes
-                                ///< without their own; order is not read
+    /// seed, rule, banks of side branches, and the generator of strokes without their own; order is not used
+    TokunagaParams tree;
     int max_depth = 6;          ///< [1, 29] refinements of a stroke as long as the grid is wide
-    double reach = 0.35;        ///< (0, 2] how far beside a stroke its land reaches, as a share of its length
+    double reach = 0.35;        ///< (0, 2] width of a stroke's land on each side, relative to its length
     double clearance = 0.35;    ///< as in EmbedParams
     double min_spacing_m = 0.0; ///< [m] as in EmbedParams
 };
 
 /// What grow_strokes() returns.
 struct GrownStrokes {
-    StreamNetwork network; ///< arcs have the type and the feature of their stroke
+    StreamNetwork network; ///< arcs have their stroke's type and feature
     std::int64_t placed = 0;
     std::int64_t dropped = 0;
 };
 
-/// Grows a network along every stroke somebody drew: its trunk follows the stroke, its branches fill the land nearest
-/// to it, on either side as many links as there is land.
-/// \pre strokes from their mouth upstream, inside the grid. One that begins on another joins its trunk there.
-/// \param strokes lines drawn from their mouth upstream
-/// \param grid the grid
+/// Grows a network along every drawn stroke: its trunk follows the stroke, its branches fill the nearest land, on each
+/// side as many links as there is land for.
+/// \param strokes drawn upstream from their mouths; one that begins on another joins its trunk there
+/// \param grid every stroke lies inside
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return refinements = length / width of the grid * max_depth, rounded, at least 1 and at most max_depth; no two arcs
-/// meet but in shared nodes.
-/// \throws BadParameter
-/// \throws BadInput naming the stroke and the place: fewer than two different vertices, half a cell or less, a vertex
-/// outside the grid, an unknown type, a stroke that meets itself, two that cross, end on one another, begin or join at
-/// the same place
+/// \return refinements are round(length / width of the grid * max_depth), at least 1; arcs meet only at shared nodes
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput naming the stroke and position: fewer than two different vertices, at most half a cell long, a
+/// vertex outside the grid, an unknown type, strokes that cross themselves or one another, or end, begin or join at the
+/// same place
 /// \throws Cancelled
 ///
 /// Source: \cite nenu2015, equation 9.
