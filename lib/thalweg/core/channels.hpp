@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <thalweg/core/grid.hpp>
+#include <thalweg/core/indexed.hpp>
 
 namespace thalweg {
+
+using ChannelId = std::int64_t; ///< number of a channel cell in its lists: 0, 1, ... downstream first; -1 for none
 
 /// The cells in which rivers run and where the water of each goes: what equilibrium terrain is built around. Law: every
 /// cell is there once; receiver[i] < i, so downstream comes first, or -1 where the water leaves the land (on the grid's
@@ -15,10 +17,10 @@ namespace thalweg {
 /// parallel.
 struct Channels {
     Grid grid;
-    std::vector<std::int64_t> cell;     ///< index in the grid
-    std::vector<std::int64_t> receiver; ///< number in these lists, -1 for none
-    std::vector<float> z;               ///< [m] heights that are asked, NaN for none; empty: none at all
-    std::vector<std::uint8_t> level;    ///< 1: a lake's, which stands as high as its receiver; empty: none
+    Indexed<ChannelId, CellIndex> cell;     ///< index in the grid
+    Indexed<ChannelId, ChannelId> receiver; ///< number in these lists, -1 for none
+    Indexed<ChannelId, float> z;            ///< [m] heights that are asked, NaN for none; empty: none at all
+    Indexed<ChannelId, std::uint8_t> level; ///< 1: a lake's, which stands as high as its receiver; empty: none
 };
 
 } // namespace thalweg

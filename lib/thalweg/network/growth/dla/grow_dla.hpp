@@ -27,10 +27,12 @@ struct DlaParams {
 
 enum class GrowthStop : std::uint8_t { particles, radius };
 
+using ParticleId = std::int64_t; ///< number of a particle, in order of arrival; -1 for none
+
 /// A cluster on the lattice; cell (0,0) is its seed, columns grow to the east, rows to the south.
 struct Cluster {
     std::vector<Cell> cells; ///< in order of arrival, the seed first
-    std::vector<std::int64_t>
+    std::vector<ParticleId>
         parent;               ///< by particle: the occupied 4-neighbour it hangs on (uniform choice); -1 for the seed
     std::int64_t walkers = 0; ///< released
     double radius = 0.0;      ///< [cells] largest distance to the seed

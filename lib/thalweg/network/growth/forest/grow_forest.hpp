@@ -6,8 +6,10 @@
 #include <vector>
 
 #include <thalweg/core/grid.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
 
 namespace thalweg::network {
 
@@ -24,10 +26,10 @@ enum class ForestStop : std::uint8_t { full, particles };
 
 /// Trees in a region, one a seed.
 struct GrownForest {
-    std::vector<Cell> cells;          ///< in order of arrival, the seeds first
-    std::vector<std::int64_t> parent; ///< by particle: the one it hangs on; -1 for a seed
-    std::vector<std::int64_t> tree;   ///< by particle: the number of its seed
-    std::int64_t walkers = 0;         ///< released
+    Indexed<ParticleId, Cell> cells;        ///< in order of arrival, the seeds first
+    Indexed<ParticleId, ParticleId> parent; ///< by particle: the one it hangs on; -1 for a seed
+    Indexed<ParticleId, std::int64_t> tree; ///< by particle: the number of its seed
+    std::int64_t walkers = 0;               ///< released
     ForestStop stop = ForestStop::full;
 };
 

@@ -24,13 +24,13 @@ struct EmbedParams {
 
 /// What embed_tree() returns.
 struct EmbeddedTree {
-    StreamNetwork network;                               ///< arcs between outlet, confluences and sources
-    std::vector<std::vector<std::int64_t>> links_of_arc; ///< by arc number: links of the tree, upstream first; one a
-                                                         ///< piece of the line, but where streams of the lowest
-                                                         ///< orders are left out
-    std::int64_t placed = 0;                             ///< links
-    std::int64_t dropped = 0;                            ///< links for which there was no room, with all above them
-    double spacing_m = 0.0;                              ///< [m] root of the region's area for each link
+    StreamNetwork network;                         ///< arcs between outlet, confluences and sources
+    std::vector<std::vector<LinkId>> links_of_arc; ///< by arc number: links of the tree, upstream first; one a
+                                                   ///< piece of the line, but where streams of the lowest
+                                                   ///< orders are left out
+    std::int64_t placed = 0;                       ///< links
+    std::int64_t dropped = 0;                      ///< links for which there was no room, with all above them
+    double spacing_m = 0.0;                        ///< [m] root of the region's area for each link
 };
 
 /// Lays a tree into a region and fills it evenly.

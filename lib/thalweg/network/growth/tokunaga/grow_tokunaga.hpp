@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
 
@@ -27,19 +28,21 @@ struct TokunagaParams {
     std::int64_t max_links = 2'000'000; ///< [1, ...] a network of more is refused
 };
 
+using LinkId = std::int64_t; ///< number of a link of a tree: 0, 1, ... downstream first; -1 for none
+
 /// A piece of river between two junctions, or from a source to the first of them.
 struct TreeLink {
-    std::int64_t down = -1;                   ///< the link it flows into, a lower number; -1 for the outlet's
-    std::array<std::int64_t, 2> up{{-1, -1}}; ///< those that flow into it: the one that continues its stream first; -1,
-                                              ///< -1 for a source
-    int order = 1;                            ///< Strahler order
+    LinkId down = -1;                   ///< the link it flows into, a lower number; -1 for the outlet's
+    std::array<LinkId, 2> up{{-1, -1}}; ///< those that flow into it: the one that continues its stream first; -1,
+                                        ///< -1 for a source
+    int order = 1;                      ///< Strahler order
     int turn = 0; ///< against the link below: 0 straight on, 1 and -1 the left and right of a fork, 2 and -2 a side
                   ///< branch from the left and from the right, looking upstream
 };
 
 /// A network without places: a binary tree of links, that of the outlet first.
 struct TokunagaTree {
-    std::vector<TreeLink> links;
+    Indexed<LinkId, TreeLink> links;
     double link_length = 1.0; ///< of every link, for a trunk as long as that of the generator: c^-(order - 2)
 };
 
