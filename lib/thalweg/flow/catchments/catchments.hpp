@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>
@@ -24,10 +25,10 @@ Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField co
 
 /// The area that each reach drains by itself.
 struct Catchments {
-    Raster<std::int32_t> reach;         ///< by cell: number of the reach; -1 for none
-    std::vector<std::int64_t> cells;    ///< by reach: of its own catchment; 0 where others own its cells
-    std::vector<std::int64_t> upstream; ///< by reach: cells of its catchment and of all those upstream
-    std::int64_t without = 0;           ///< cells with data in no catchment
+    Raster<std::int32_t> reach;              ///< by cell: number of the reach; -1 for none
+    Indexed<ReachId, std::int64_t> cells;    ///< of its own catchment; 0 where others own its cells
+    Indexed<ReachId, std::int64_t> upstream; ///< cells of its catchment and of all those upstream
+    std::int64_t without = 0;                ///< cells with data in no catchment
 };
 
 /// Incremental catchments of reaches: a cell belongs to the one that owns the first river cell its water meets by D8.
@@ -39,6 +40,6 @@ struct Catchments {
 /// \throws Error as river_cells
 /// \throws BadInput at 2^31 reaches
 /// \throws Cancelled
-Catchments catchments(std::vector<Reach> const& reaches, FlowField const& drainage, Run const& run = {});
+Catchments catchments(Reaches const& reaches, FlowField const& drainage, Run const& run = {});
 
 } // namespace thalweg::flow
