@@ -75,7 +75,7 @@ struct Claims {
 /// without corners, which a diagonal step of the reach passes.
 /// \throws BadInput drainage or claims are not of this DEM or these reaches; as river_cells
 /// \throws Cancelled
-Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, std::vector<flow::Reach> const& reaches,
+Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, flow::Reaches const& reaches,
                     Claims const& claims = {}, Run const& run = {});
 
 } // namespace thalweg::measure
