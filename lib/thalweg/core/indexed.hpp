@@ -17,8 +17,8 @@ using RowIndex = std::int64_t;    ///< row of a grid, from the north
 using ColumnIndex = std::int64_t; ///< column of a grid, from the west
 
 /// A std::vector whose places are numbers of type Id, for numbers that may be negative where they name no place (-1) or
-/// while they are reckoned with. Law: contiguous, and as fast as std::vector; a number that is no place is a
-/// programming error, which debug builds find.
+/// while they are reckoned with. Law: contiguous, and as fast as std::vector; a number that names no place
+/// is a programming error, which debug builds find.
 template <std::integral Id, class T> class Indexed : public std::vector<T> {
     using Values = std::vector<T>;
 
