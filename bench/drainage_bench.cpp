@@ -107,7 +107,7 @@ BENCHMARK(BM_condition_relief)
     ->Unit(benchmark::kMillisecond);
 
 /// The streams of a DEM by area, a reach from each head or confluence to the next.
-std::vector<flow::Reach> streams(flow::FlowField const& drainage, std::int64_t area) {
+flow::Reaches streams(flow::FlowField const& drainage, std::int64_t area) {
     Grid const& grid = drainage.direction.grid();
     auto const next = [&](std::int64_t i) { return drainage.receiver(i); };
     Raster<std::uint8_t> arriving(grid);
@@ -116,7 +116,7 @@ std::vector<flow::Reach> streams(flow::FlowField const& drainage, std::int64_t a
             ++arriving[next(i)];
         }
     }
-    std::vector<flow::Reach> reaches;
+    flow::Reaches reaches;
     Raster<std::int64_t> begins(grid, -1);
     std::vector<std::int64_t> ends;
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
@@ -141,7 +141,7 @@ std::vector<flow::Reach> streams(flow::FlowField const& drainage, std::int64_t a
 /// The whole certificate: the DEM's drainage and what the network's say of it.
 void BM_certify(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
-    std::vector<flow::Reach> const reaches = streams(flow::route(dem), 1000);
+    flow::Reaches const reaches = streams(flow::route(dem), 1000);
     for (auto _ : state) {
         flow::FlowField const drainage = flow::route(dem);
         benchmark::DoNotOptimize(measure::certify(dem, drainage, reaches));

@@ -44,7 +44,7 @@ int main(int count, char** words) try {
     }
 
     // Every cell belongs to the catchment of the first stream that its water meets.
-    std::vector<flow::Reach> const reaches = flow::reaches_of(streams.network.plan);
+    flow::Reaches const reaches = flow::reaches_of(streams.network.plan);
     flow::Catchments const catchments = flow::catchments(reaches, drainage);
     auto const largest = std::max_element(catchments.upstream.begin(), catchments.upstream.end());
     std::int64_t const drained = std::accumulate(catchments.cells.begin(), catchments.cells.end(), std::int64_t{0});

@@ -4,6 +4,7 @@
 
 /// All public headers of the module.
 #include <thalweg/core/attributes.hpp>
+#include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/cells/cells_around.hpp>
 #include <thalweg/core/cells/d8.hpp>
@@ -14,11 +15,11 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/grid.hpp>
 #include <thalweg/core/height_unit.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/network_file.hpp>
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/index.hpp>
 #include <thalweg/core/numbers/normal.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/numbers/sum_rows.hpp>

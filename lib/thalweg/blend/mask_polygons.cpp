@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg::blend {
@@ -37,7 +38,7 @@ std::int64_t first_from(double v, std::int64_t count) {
 /// Where the edges of a polygon cross the middle of each row.
 class Crossings {
 public:
-    explicit Crossings(Grid const& grid) : grid_(grid), columns_(static_cast<std::size_t>(grid.height)) {}
+    explicit Crossings(Grid const& grid) : grid_(grid), columns_(grid.height) {}
 
     void add_edge(Vec2 a, Vec2 b) {
         if (a.y < b.y) {
@@ -48,13 +49,13 @@ public:
         for (std::int64_t row = begin; row < end; ++row) {
             double const y = grid_.centre({0, row}).y;
             double const x = a.x + (a.y - y) / (a.y - b.y) * (b.x - a.x);
-            columns_[static_cast<std::size_t>(row)].push_back((x - grid_.west) / grid_.cell_m);
+            columns_[row].push_back((x - grid_.west) / grid_.cell_m);
         }
     }
 
     template <class T> void fill(Raster<T>& raster, T value) {
         for (std::int64_t row = 0; row < grid_.height; ++row) {
-            auto& columns = columns_[static_cast<std::size_t>(row)];
+            auto& columns = columns_[row];
             std::ranges::sort(columns);
             for (std::size_t i = 0; i + 1 < columns.size(); i += 2) {
                 std::int64_t const end = first_from(columns[i + 1], grid_.width);
@@ -68,7 +69,7 @@ public:
 
 private:
     Grid const& grid_;
-    std::vector<std::vector<double>> columns_;
+    Indexed<RowIndex, std::vector<double>> columns_;
 };
 
 [[noreturn]] void refuse_empty(Polygons const& polygons, Grid const& grid) {

@@ -20,9 +20,8 @@ struct Extent {
 Extent extent_of(Raster<float> const& dem) {
     Extent box{dem.width(), -1, dem.height(), -1};
     for (std::int64_t row = 0; row < dem.height(); ++row) {
-        auto const line = dem.row(row);
         for (std::int64_t col = 0; col < dem.width(); ++col) {
-            if (std::isfinite(line[static_cast<std::size_t>(col)])) {
+            if (std::isfinite(dem[Cell{col, row}])) {
                 box = {std::min(box.west, col), std::max(box.east, col), std::min(box.north, row), row};
             }
         }
@@ -78,8 +77,8 @@ Fishnet fishnet(Raster<float> const& dem, std::int64_t most_lines) {
     Fishnet net;
     net.col_at = spread(box.west, box.east, apart);
     net.row_at = spread(box.north, box.south, apart);
-    net.columns = static_cast<std::int64_t>(net.col_at.size());
-    net.rows = static_cast<std::int64_t>(net.row_at.size());
+    net.columns = net.col_at.count();
+    net.rows = net.row_at.count();
     net.low_m = std::numeric_limits<double>::infinity();
     net.high_m = -net.low_m;
     // A third of a mesh each way: less, and single cells make the net restless; more, and valleys fill up.

@@ -11,9 +11,9 @@ namespace thalweg::draw {
 namespace {
 
 /// How high the land nearer to the viewer than a place stands in its column of the sheet.
-double cover_before(Net const& net, std::vector<Foot> const& feet, Foot const& place) {
+double cover_before(Net const& net, Feet const& feet, Foot const& place) {
     double cover = -std::numeric_limits<double>::infinity();
-    auto const ask = [&](std::size_t a, std::size_t b) {
+    auto const ask = [&](KnotId a, KnotId b) {
         Vec2 const from = net.at[a];
         Vec2 const to = net.at[b];
         double const share = (place.at.x - from.x) / (to.x - from.x);
@@ -23,13 +23,12 @@ double cover_before(Net const& net, std::vector<Foot> const& feet, Foot const& p
             cover = std::max(cover, from.y + (to.y - from.y) * share);
         }
     };
-    auto const columns = static_cast<std::size_t>(net.columns);
-    for (std::size_t i = 0; i < net.at.size(); ++i) {
-        if ((i + 1) % columns != 0) {
+    for (KnotId i = 0; i < net.at.count(); ++i) {
+        if ((i + 1) % net.columns != 0) {
             ask(i, i + 1);
         }
-        if (i + columns < net.at.size()) {
-            ask(i, i + columns);
+        if (i + net.columns < net.at.count()) {
+            ask(i, i + net.columns);
         }
     }
     return cover;
@@ -37,7 +36,7 @@ double cover_before(Net const& net, std::vector<Foot> const& feet, Foot const& p
 
 } // namespace
 
-void hang_skirt(Model& model, std::vector<Foot> const& feet) {
+void hang_skirt(Model& model, Feet const& feet) {
     Net const& net = model.net;
     auto const has = [&](std::int64_t col, std::int64_t row) {
         return col >= 0 && row >= 0 && col < net.columns && row < net.rows && std::isfinite(net.knot(col, row).y);
@@ -45,9 +44,9 @@ void hang_skirt(Model& model, std::vector<Foot> const& feet) {
     auto const has_mesh = [&](std::int64_t col, std::int64_t row) { // by its knot of lowest column and row
         return has(col, row) && has(col + 1, row) && has(col, row + 1) && has(col + 1, row + 1);
     };
-    std::vector<std::int8_t> hung(net.at.size(), 0); // 1: seen down to the base, 2: covered there
+    Indexed<KnotId, std::int8_t> hung(net.at.size(), 0); // 1: seen down to the base, 2: covered there
     auto const hang = [&](std::int64_t col, std::int64_t row) {
-        auto const knot = static_cast<std::size_t>(row * net.columns + col);
+        KnotId const knot = row * net.columns + col;
         if (hung[knot] == 0) {
             double const down_to = std::max(feet[knot].at.y, cover_before(net, feet, feet[knot]));
             Vec2 const top = net.at[knot];
@@ -61,8 +60,8 @@ void hang_skirt(Model& model, std::vector<Foot> const& feet) {
     auto const hang_side = [&](std::int64_t col, std::int64_t row, std::int64_t next_col, std::int64_t next_row) {
         bool const first = hang(col, row);
         bool const second = hang(next_col, next_row);
-        Foot const& from = feet[static_cast<std::size_t>(row * net.columns + col)];
-        Foot const& to = feet[static_cast<std::size_t>(next_row * net.columns + next_col)];
+        Foot const& from = feet[row * net.columns + col];
+        Foot const& to = feet[next_row * net.columns + next_col];
         if (first && second) {
             model.bottom.push_back({from.at, to.at});
             return;

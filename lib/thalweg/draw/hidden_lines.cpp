@@ -270,7 +270,7 @@ private:
         }
         Place const low = p.col + p.row < q.col + q.row ? p : q;
         Place const high = p.col + p.row < q.col + q.row ? q : p;
-        auto const number = static_cast<std::size_t>(low.row * net_.columns + low.col);
+        KnotId const number = low.row * net_.columns + low.col;
         Side& known = p.row == q.row ? along_row_[number] : along_col_[number];
         if (!std::exchange(known.done, true)) {
             Vec2 const from = net_.knot(low.col, low.row);
@@ -300,8 +300,7 @@ private:
     void join(std::vector<std::vector<Vec2>>& lines, Place from, Place step) const {
         bool open = false; // the last line ends in the knot at hand
         for (Place p = from; has_room(p, step); p = {p.col + step.col, p.row + step.row}) {
-            Side const& side =
-                (step.col > 0 ? along_row_ : along_col_)[static_cast<std::size_t>(p.row * net_.columns + p.col)];
+            Side const& side = (step.col > 0 ? along_row_ : along_col_)[p.row * net_.columns + p.col];
             bool reached = false;
             for (Part const& part : side.parts) {
                 Vec2 const a = net_.knot(p.col, p.row);
@@ -334,8 +333,8 @@ private:
     std::vector<Stitch> const& stitches_;
     double tolerance_;
     Horizon horizon_;
-    std::vector<Side> along_row_; ///< by knot: the side to the next column
-    std::vector<Side> along_col_; ///< by knot: the side to the next row
+    Indexed<KnotId, Side> along_row_; ///< the side to the next column
+    Indexed<KnotId, Side> along_col_; ///< the side to the next row
     std::unordered_map<std::int64_t, std::vector<std::size_t>> in_mesh_;
     std::vector<std::vector<std::array<Vec2, 2>>> seen_stitches_;
 };

@@ -111,7 +111,7 @@ Relief tinted_relief(Raster<float> const& dem, Raster<std::uint8_t> const& hills
     relief.width = static_cast<int>(columns);
     relief.height = static_cast<int>(rows);
     relief.cells_a_pixel = static_cast<double>(block);
-    relief.pixels.resize(static_cast<std::size_t>(columns * rows));
+    relief.pixels.reserve(static_cast<std::size_t>(columns * rows));
     for (std::int64_t r = 0; r < rows; ++r) {
         for (std::int64_t c = 0; c < columns; ++c) {
             Colour sum{0.0, 0.0, 0.0, 0.0};
@@ -129,8 +129,7 @@ Relief tinted_relief(Raster<float> const& dem, Raster<std::uint8_t> const& hills
                 }
             }
             double const cells = static_cast<double>((right - c * block) * (bottom - r * block));
-            relief.pixels[static_cast<std::size_t>(r * columns + c)] =
-                packed(sum.red / cells, sum.green / cells, sum.blue / cells, sum.alpha / cells);
+            relief.pixels.push_back(packed(sum.red / cells, sum.green / cells, sum.blue / cells, sum.alpha / cells));
         }
     }
     return relief;

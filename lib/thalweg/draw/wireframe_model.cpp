@@ -85,15 +85,14 @@ Model model_of(Raster<float> const& dem, WireframeParams const& params) {
     model.net = net_over(knots, view);
     Net& net = model.net;
     auto const place = [&](std::int64_t col, std::int64_t row) {
-        return ground_of(dem.grid(), knots.col_at[static_cast<std::size_t>(col)],
-                         knots.row_at[static_cast<std::size_t>(row)]);
+        return ground_of(dem.grid(), knots.col_at[col], knots.row_at[row]);
     };
     // Heights from the lowest: with those of a plateau the sheet would be far from the numbers' origin.
     double const base = -std::max(base_of_relief * relief, base_of_side * side / model.exaggeration);
-    std::vector<Foot> feet;
+    Feet feet;
     for (std::int64_t row = 0; row < net.rows; ++row) {
         for (std::int64_t col = 0; col < net.columns; ++col) {
-            double const z = knots.height_m[static_cast<std::size_t>(row * net.columns + col)];
+            double const z = knots.height_m[row * net.columns + col];
             Vec2 const ground = place(col, row);
             net.at.push_back(view.at(ground, z - low));
             feet.push_back({view.at(ground, base), ground.x * view.sine + ground.y * view.cosine});

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/fractal/internal/condition_surface.hpp>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
@@ -50,12 +51,12 @@ public:
         }
     }
     double operator()(Cell const& a, Cell const& b) const {
-        return of_distance_[static_cast<std::size_t>(std::abs(a.row - b.row) * width_ + std::abs(a.col - b.col))];
+        return of_distance_[std::abs(a.row - b.row) * width_ + std::abs(a.col - b.col)];
     }
 
 private:
     std::int64_t width_;
-    std::vector<double> of_distance_;
+    Indexed<CellIndex, double> of_distance_;
 };
 
 /// An interpolation: level less the sum of weights times variograms around the cells with heights.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/fractal/estimate_fractal.hpp>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
@@ -130,7 +131,7 @@ void check_hurst(EstimateParams const& params) {
 Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params, Run const& run) {
     check_hurst(params);
     CellWindow const all{0, 0, dem.width(), dem.height()};
-    std::vector<Sums> rows(static_cast<std::size_t>(dem.height()));
+    Indexed<RowIndex, Sums> rows(dem.height());
     parallel_ranges(run, dem.height(), 32, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t row = first; row < last; ++row) {
             run.check();
@@ -141,7 +142,7 @@ Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params,
                                                row));
                 }
             }
-            rows[static_cast<std::size_t>(row)] = sums_of_row(dem, all, row, params.differences);
+            rows[row] = sums_of_row(dem, all, row, params.differences);
         }
     });
     Sums sums;

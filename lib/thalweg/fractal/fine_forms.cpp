@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/fractal/fine_forms.hpp>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
@@ -44,23 +45,21 @@ std::int64_t mirrored(std::int64_t i, std::int64_t side) {
 
 /// Means of the one less means of the other: as means are linear, one pass serves both.
 Raster<double> difference_of_means(Raster<float> const& land, Raster<float> const& fine, double cells, Run const& run) {
-    std::vector<double> const weights = window(cells);
+    Indexed<std::int64_t, double> const weights = window(cells);
     auto const reach = static_cast<std::int64_t>(weights.size() / 2);
     Raster<double> along(land.grid());
     Raster<double> out(land.grid());
     parallel_ranges(run, land.height(), rows_a_range, [&](std::int64_t begin, std::int64_t end) {
         run.check();
-        std::vector<double> off(static_cast<std::size_t>(land.width()));
+        Indexed<ColumnIndex, double> off(land.width());
         for (std::int64_t r = begin; r < end; ++r) {
             for (std::int64_t c = 0; c < land.width(); ++c) {
-                off[static_cast<std::size_t>(c)] =
-                    static_cast<double>(land[Cell{c, r}]) - static_cast<double>(fine[Cell{c, r}]);
+                off[c] = static_cast<double>(land[Cell{c, r}]) - static_cast<double>(fine[Cell{c, r}]);
             }
             for (std::int64_t c = 0; c < land.width(); ++c) {
                 double mean = 0.0;
                 for (std::int64_t k = -reach; k <= reach; ++k) {
-                    mean += weights[static_cast<std::size_t>(k + reach)] *
-                            off[static_cast<std::size_t>(mirrored(c + k, land.width()))];
+                    mean += weights[k + reach] * off[mirrored(c + k, land.width())];
                 }
                 along[Cell{c, r}] = mean;
             }
@@ -71,7 +70,7 @@ Raster<double> difference_of_means(Raster<float> const& land, Raster<float> cons
         for (std::int64_t r = begin; r < end; ++r) {
             auto const row = out.row(r);
             for (std::int64_t k = -reach; k <= reach; ++k) {
-                double const weight = weights[static_cast<std::size_t>(k + reach)];
+                double const weight = weights[k + reach];
                 auto const other = along.row(mirrored(r + k, land.height()));
                 for (std::size_t c = 0; c < row.size(); ++c) {
                     row[c] += weight * other[c];

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/fractal/midpoint.hpp>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/run/range.hpp>
@@ -111,8 +112,8 @@ Character global_character(Raster<float> const& coarse, MidpointParams const& pa
 /// Gives every coarse cell its own H and sigma where they are others than those of all. Gives how many those are.
 std::int64_t adapt(Character& character, Raster<float> const& coarse, Run const& run) {
     constexpr std::int64_t half = 3; // of 7 x 7 cells
-    std::vector<float> steps(static_cast<std::size_t>(coarse.cells()));
-    std::vector<float> sigmas(steps.size());
+    Indexed<CellIndex, float> steps(coarse.cells());
+    Indexed<CellIndex, float> sigmas(steps.size());
     std::atomic<std::int64_t> adapted = 0;
     parallel_ranges(run, coarse.height(), 8, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t row = first; row < last; ++row) {
@@ -132,7 +133,7 @@ std::int64_t adapt(Character& character, Raster<float> const& coarse, Run const&
                     sigma = here.sigma;
                     ++adapted;
                 }
-                auto const i = static_cast<std::size_t>(coarse.grid().index({col, row}));
+                CellIndex const i = coarse.grid().index({col, row});
                 steps[i] = static_cast<float>(std::floor(hurst * Character::steps_of_hurst + 0.5));
                 sigmas[i] = static_cast<float>(sigma);
             }

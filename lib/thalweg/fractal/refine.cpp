@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/fractal/refine.hpp>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/fractal/internal/coarse_places.hpp>
 #include <thalweg/fractal/internal/level_weights.hpp>
@@ -77,8 +78,8 @@ class Band {
 public:
     Band(Refinement const& refinement, LevelWeights const& weights, Lattice const& from, Lattice const& to, int level)
         : refinement_(refinement), weights_(weights), from_(from), to_(to), level_(level),
-          centres_(std::min(from.all_cols - 1, (to.cols - 1) / 2 + 2)), noise_(static_cast<std::size_t>(chunk)),
-          spare_(noise_.size()), used_(used_neighbours(refinement.stencil)) {
+          centres_(std::min(from.all_cols - 1, (to.cols - 1) / 2 + 2)), noise_(chunk), spare_(noise_.size()),
+          used_(used_neighbours(refinement.stencil)) {
         for (std::vector<float>& row : window_) {
             row.resize(static_cast<std::size_t>(std::max<std::int64_t>(centres_, 1)));
         }
@@ -122,8 +123,8 @@ private:
         std::array<Offset, 16> const& around;
     };
 
-    float* window(std::int64_t k) { return window_[static_cast<std::size_t>(k & 3)].data(); }
-    float const* window(std::int64_t k) const { return window_[static_cast<std::size_t>(k & 3)].data(); }
+    float* window(std::int64_t k) { return window_[k & 3].data(); }
+    float const* window(std::int64_t k) const { return window_[k & 3].data(); }
     bool has_centres(std::int64_t k) const { return k >= 0 && k < from_.all_rows - 1; }
 
     /// Where points go: to a row of their own, or between others.
@@ -207,7 +208,7 @@ private:
             if (pairs < last) {
                 points.out = spare_.data();
                 make_.alone(points, pairs - begin, last - begin);
-                target.out[2 * pairs] = spare_[static_cast<std::size_t>(pairs - begin)];
+                target.out[2 * pairs] = spare_[pairs - begin];
             }
         }
     }
@@ -218,7 +219,7 @@ private:
         for (std::int64_t i = first; i < last; ++i) {
             float& z = target.others == nullptr ? target.out[i] : target.out[2 * i + kind.odd];
             if (!only_holes || std::isnan(z)) {
-                z = make_one(kind, i, noise_[static_cast<std::size_t>(i - begin)]);
+                z = make_one(kind, i, noise_[i - begin]);
             }
             std::int64_t const other = 2 * i + 1 - kind.odd;
             if (target.others != nullptr && other < target.length) {
@@ -251,7 +252,7 @@ private:
             // A centre may stand for its east and south, past the result: the coarse raster goes on there.
             LocalCharacter const here = character_at(refinement_, level_, 2 * i + kind.odd, kind.row);
             LevelWeights::Simple const& simple = weights_.simple(here.step);
-            auto const at = static_cast<std::size_t>(i - begin);
+            std::int64_t const at = i - begin;
             factors_[0][at] = simple.middle;
             factors_[1][at] = simple.farthest;
             factors_[2][at] = static_cast<float>(static_cast<double>(here.sigma) * simple.deviation[edge]);
@@ -320,9 +321,9 @@ private:
     int level_;
     std::int64_t centres_; ///< in a row
     std::array<std::vector<float>, 4> window_;
-    std::vector<float> noise_;
-    std::vector<float> spare_;
-    std::array<std::vector<float>, 3> factors_;
+    Indexed<std::int64_t, float> noise_;
+    Indexed<std::int64_t, float> spare_;
+    std::array<Indexed<std::int64_t, float>, 3> factors_;
     std::uint32_t used_;
     std::int64_t rim_ = 0; ///< rows and columns of points at each border that lack neighbours
     Makers make_{};
@@ -344,14 +345,14 @@ void make_level(Refinement const& refinement, Lattice const& from, Lattice const
 }
 
 /// The lattices of all levels, each as far as the next one needs it, in the result, the floors and the coarse raster.
-std::vector<Lattice> plan_lattices(Refinement const& refinement, Raster<float>& dem, Floors& floors) {
+Indexed<int, Lattice> plan_lattices(Refinement const& refinement, Raster<float>& dem, Floors& floors) {
     Raster<float> const& coarse = *refinement.coarse;
-    std::vector<Lattice> lattices(static_cast<std::size_t>(refinement.levels) + 1);
+    Indexed<int, Lattice> lattices(refinement.levels + 1);
     auto const floor_of = [&](int level) -> Floor& { return level % 2 == 1 ? floors.odd : floors.even; };
     std::int64_t cols = dem.width();
     std::int64_t rows = dem.height();
     for (int level = refinement.levels; level >= 0; --level) {
-        Lattice& lattice = lattices[static_cast<std::size_t>(level)];
+        Lattice& lattice = lattices[level];
         lattice.all_cols = ((coarse.width() - 1) << level) + 1;
         lattice.all_rows = ((coarse.height() - 1) << level) + 1;
         if (level < refinement.levels) {
@@ -368,7 +369,7 @@ std::vector<Lattice> plan_lattices(Refinement const& refinement, Raster<float>& 
     }
     // Only now, since of a small result an upper level may be the larger one.
     for (int level = 1; level < refinement.levels; ++level) {
-        lattices[static_cast<std::size_t>(level)].z = floor_of(level).data();
+        lattices[level].z = floor_of(level).data();
     }
     lattices.back().z = dem.values().data();
     lattices.front().z = const_cast<float*>(coarse.values().data()); // only read
@@ -379,7 +380,7 @@ std::vector<Lattice> plan_lattices(Refinement const& refinement, Raster<float>& 
 } // namespace
 
 void refine(Refinement const& refinement, Raster<float>& dem, Floors& floors, Run const& run) {
-    std::vector<Lattice> const lattices = plan_lattices(refinement, dem, floors);
+    Indexed<int, Lattice> const lattices = plan_lattices(refinement, dem, floors);
     double const points = static_cast<double>(dem.cells());
     for (std::size_t level = 1; level < lattices.size(); ++level) {
         make_level(refinement, lattices[level - 1], lattices[level], static_cast<int>(level), run);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/large_pages.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -18,9 +19,9 @@ namespace thalweg::fractal {
 struct Character {
     static constexpr double steps_of_hurst = 256.0; ///< where H changes from place to place it does so in such steps
     double hurst = 0.5;
-    double sigma = 0.0;        ///< [m] a coarse cell apart
-    std::vector<float> steps;  ///< H x steps_of_hurst
-    std::vector<float> sigmas; ///< [m] a coarse cell apart
+    double sigma = 0.0;               ///< [m] a coarse cell apart
+    Indexed<CellIndex, float> steps;  ///< H x steps_of_hurst
+    Indexed<CellIndex, float> sigmas; ///< [m] a coarse cell apart
     bool varies() const { return !steps.empty(); }
 };
 

@@ -92,13 +92,14 @@ double exact_deviation(std::vector<Offset> const& points, std::vector<double> co
 
 /// Means over neighbours that lie alike, of which elimination makes slightly different numbers.
 void even_out(std::array<double, 16>& weight) {
-    for (auto const& [first, last] : {std::pair{0, 4}, std::pair{4, 12}, std::pair{12, 16}}) {
+    using Places = std::pair<std::size_t, std::size_t>;
+    for (auto const& [first, last] : {Places{0, 4}, Places{4, 12}, Places{12, 16}}) {
         double sum = 0.0;
-        for (int i = first; i < last; ++i) {
-            sum += weight[static_cast<std::size_t>(i)];
+        for (std::size_t i = first; i < last; ++i) {
+            sum += weight[i];
         }
-        for (int i = first; i < last; ++i) {
-            weight[static_cast<std::size_t>(i)] = sum / (last - first);
+        for (std::size_t i = first; i < last; ++i) {
+            weight[i] = sum / static_cast<double>(last - first);
         }
     }
 }

@@ -19,7 +19,7 @@ PointGrid::PointGrid(std::vector<Vec2> points, double cell_m) : points_(std::mov
     cell_m_ = std::max(cell_m, std::max(high.x - low_.x, high.y - low_.y) / 2000.0);
     width_ = static_cast<std::int64_t>(std::floor((high.x - low_.x) / cell_m_)) + 1;
     height_ = static_cast<std::int64_t>(std::floor((high.y - low_.y) / cell_m_)) + 1;
-    first_.assign(static_cast<std::size_t>(width_ * height_) + 1, 0);
+    first_ = Indexed<CellIndex, std::size_t>(width_ * height_ + 1, 0);
     for (Vec2 const s : points_) {
         ++first_[cell(s) + 1];
     }
@@ -27,7 +27,7 @@ PointGrid::PointGrid(std::vector<Vec2> points, double cell_m) : points_(std::mov
         first_[i] += first_[i - 1];
     }
     in_.resize(points_.size());
-    std::vector<std::size_t> next = first_;
+    Indexed<CellIndex, std::size_t> next = first_;
     for (std::size_t i = 0; i < points_.size(); ++i) {
         in_[next[cell(points_[i])]++] = i;
     }
@@ -54,7 +54,7 @@ std::size_t PointGrid::nearest(Vec2 p) const {
                 if (c < 0 || c >= width_) {
                     continue;
                 }
-                auto const at = static_cast<std::size_t>(r * width_ + c);
+                CellIndex const at = r * width_ + c;
                 for (std::size_t k = first_[at]; k < first_[at + 1]; ++k) {
                     Vec2 const d = points_[in_[k]] - p;
                     double const squared = dot(d, d);
@@ -73,8 +73,8 @@ std::int64_t PointGrid::slot(double along, std::int64_t count) const {
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(along / cell_m_)), 0, count - 1);
 }
 
-std::size_t PointGrid::cell(Vec2 p) const {
-    return static_cast<std::size_t>(slot(p.y - low_.y, height_) * width_ + slot(p.x - low_.x, width_));
+CellIndex PointGrid::cell(Vec2 p) const {
+    return slot(p.y - low_.y, height_) * width_ + slot(p.x - low_.x, width_);
 }
 
 } // namespace thalweg::geometry

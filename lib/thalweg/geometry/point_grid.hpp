@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg::geometry {
@@ -25,15 +26,15 @@ public:
 
 private:
     std::int64_t slot(double along, std::int64_t count) const;
-    std::size_t cell(Vec2 p) const;
+    CellIndex cell(Vec2 p) const;
 
     std::vector<Vec2> points_;
     Vec2 low_;
     double cell_m_ = 1.0;
     std::int64_t width_ = 1;
     std::int64_t height_ = 1;
-    std::vector<std::size_t> first_; ///< of each cell, in in_
-    std::vector<std::size_t> in_;    ///< numbers of points, cell by cell
+    Indexed<CellIndex, std::size_t> first_; ///< of each cell, in in_
+    std::vector<std::size_t> in_;           ///< numbers of points, cell by cell
 };
 
 } // namespace thalweg::geometry

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/parallel.hpp>
 
 namespace thalweg {
@@ -19,10 +20,10 @@ namespace thalweg {
 /// \throws Cancelled
 template <class Term> auto sum_rows(Run const& run, std::int64_t rows, Term const& term) {
     using Sum = decltype(term(rows));
-    std::vector<Sum> parts(static_cast<std::size_t>(rows));
+    Indexed<RowIndex, Sum> parts(rows);
     parallel_ranges(run, rows, 8, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t r = begin; r < end; ++r) {
-            parts[static_cast<std::size_t>(r)] = term(r);
+            parts[r] = term(r);
         }
     });
     Sum sum{};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 
 /// The net of a wireframe on the ground. Private to this room.
@@ -14,10 +15,10 @@ namespace thalweg::draw {
 struct Fishnet {
     std::int64_t columns = 0;
     std::int64_t rows = 0;
-    std::vector<double> col_at;   ///< column of the DEM of every column of knots; cell centres are whole numbers
-    std::vector<double> row_at;   ///< likewise of rows
-    std::vector<double> height_m; ///< by knot, row-major; NaN where most of the land around it has no height
-    double low_m = 0.0;           ///< of the knots; low > high where none has a height
+    Indexed<ColumnIndex, double> col_at; ///< column of the DEM of every column of knots; cell centres are whole numbers
+    Indexed<RowIndex, double> row_at;    ///< likewise of rows
+    Indexed<std::int64_t, double> height_m; ///< by knot, row-major; NaN where most of the land around it has no height
+    double low_m = 0.0;                     ///< of the knots; low > high where none has a height
     double high_m = 0.0;
 };
 

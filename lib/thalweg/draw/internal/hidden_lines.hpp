@@ -6,22 +6,23 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/vec.hpp>
 
 /// Which parts of a net over the land are seen. Private to this room.
 namespace thalweg::draw {
 
+using KnotId = std::int64_t; ///< place of a knot in a net, row by row
+
 /// A fishnet over heights as a parallel projection shows it.
 struct Net {
     std::int64_t columns = 0;
     std::int64_t rows = 0;
-    std::vector<Vec2> at; ///< knots on the sheet, row-major: x to the right, y up; NaN where there is none
-    int away_col = 1;     ///< 1 or -1: columns grow away from the viewer or towards him
-    int away_row = -1;    ///< likewise of rows
+    Indexed<KnotId, Vec2> at; ///< knots on the sheet, row-major: x to the right, y up; NaN where there is none
+    int away_col = 1;         ///< 1 or -1: columns grow away from the viewer or towards him
+    int away_row = -1;        ///< likewise of rows
 
-    Vec2 const& knot(std::int64_t col, std::int64_t row) const {
-        return at[static_cast<std::size_t>(row * columns + col)];
-    }
+    Vec2 const& knot(std::int64_t col, std::int64_t row) const { return at[row * columns + col]; }
 };
 
 /// A line on the land: column and row of its vertices, fractions between knots.

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
@@ -49,8 +50,10 @@ struct Foot {
     double depth = 0.0; ///< [m] of the knot, growing away from the viewer
 };
 
-/// Hangs a skirt on every side of a mesh that has land behind it and none before it. feet: by knot.
-void hang_skirt(Model& model, std::vector<Foot> const& feet);
+using Feet = Indexed<KnotId, Foot>;
+
+/// Hangs a skirt on every side of a mesh that has land behind it and none before it.
+void hang_skirt(Model& model, Feet const& feet);
 
 /// The net, its skirt and their box, with the exaggeration of the params or one that reads well.
 Model model_of(Raster<float> const& dem, WireframeParams const& params);

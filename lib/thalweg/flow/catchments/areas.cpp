@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments/catchments.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>
@@ -53,7 +54,7 @@ std::vector<std::int64_t> count_nearest(std::vector<RiverCell> const& cells, Gri
             if (r + 1 < grid.height) {
                 row[c] = std::min(row[c], keys.row(r + 1)[c] + step);
             }
-            ++count[static_cast<std::size_t>(row[c] % step)];
+            ++count[row[c] % step];
         }
     }
     return count;
@@ -62,11 +63,11 @@ std::vector<std::int64_t> count_nearest(std::vector<RiverCell> const& cells, Gri
 /// By place in cells: how many cells of the grid reach it by D8 before any other river cell.
 std::vector<std::int64_t> count_draining(std::vector<RiverCell> const& cells, FlowField const& drainage,
                                          Run const& run) {
-    std::vector<std::int64_t> count(cells.size(), 0);
+    Indexed<std::int32_t, std::int64_t> count(cells.size(), 0);
     Raster<std::int32_t> const met = first_met(cells, drainage, run);
     for (std::int32_t const place : met.values()) {
         if (place >= 0) {
-            ++count[static_cast<std::size_t>(place)];
+            ++count[place];
         }
     }
     return count;

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg::flow {
@@ -17,7 +19,7 @@ namespace {
 constexpr std::int32_t nowhere = -1;
 
 void require_countable(std::size_t count, char const* what) {
-    if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    if (std::cmp_greater(count, std::numeric_limits<std::int32_t>::max())) {
         throw BadInput(fmt::format("flow.catchments: {} {}, 2^31 or more", count, what));
     }
 }
@@ -58,14 +60,14 @@ Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField co
     return to;
 }
 
-Catchments catchments(std::vector<Reach> const& reaches, FlowField const& drainage, Run const& run) {
+Catchments catchments(Reaches const& reaches, FlowField const& drainage, Run const& run) {
     require_countable(reaches.size(), "reaches");
     auto const steps = steps_to_outlet(reaches);
-    auto const cells = river_cells(reaches, drainage.direction.grid(), run);
-    Catchments result{first_met(cells, drainage, run), std::vector<std::int64_t>(reaches.size(), 0), {}, 0};
+    Indexed<std::int32_t, RiverCell> const cells = river_cells(reaches, drainage.direction.grid(), run);
+    Catchments result{first_met(cells, drainage, run), Indexed<ReachId, std::int64_t>(reaches.size(), 0), {}, 0};
     for (std::int64_t i = 0; i < result.reach.cells(); ++i) {
         if (std::int32_t& place = result.reach[i]; place >= 0) {
-            std::size_t const reach = cells[static_cast<std::size_t>(place)].reach;
+            std::size_t const reach = cells[place].reach;
             ++result.cells[reach];
             place = static_cast<std::int32_t>(reach);
         } else {
@@ -79,7 +81,7 @@ Catchments catchments(std::vector<Reach> const& reaches, FlowField const& draina
                      [&](std::size_t a, std::size_t b) { return steps[a] > steps[b]; });
     for (std::size_t const a : downstream_order) {
         if (reaches[a].ds >= 0) {
-            result.upstream[static_cast<std::size_t>(reaches[a].ds)] += result.upstream[a];
+            result.upstream[reaches[a].ds] += result.upstream[a];
         }
     }
     return result;

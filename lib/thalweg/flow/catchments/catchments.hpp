@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>
@@ -23,10 +24,10 @@ Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField co
 
 /// Incremental catchments of reaches.
 struct Catchments {
-    Raster<std::int32_t> reach;         ///< by cell: number of the reach; -1: none
-    std::vector<std::int64_t> cells;    ///< by reach: size of its own catchment; 0: others own its cells
-    std::vector<std::int64_t> upstream; ///< by reach: size of its own and all upstream catchments
-    std::int64_t without = 0;           ///< cells with data in no catchment
+    Raster<std::int32_t> reach;              ///< by cell: number of the reach; -1: none
+    Indexed<ReachId, std::int64_t> cells;    ///< by reach: size of its own catchment; 0: others own its cells
+    Indexed<ReachId, std::int64_t> upstream; ///< by reach: size of its own and all upstream catchments
+    std::int64_t without = 0;                ///< cells with data in no catchment
 };
 
 /// Delineates incremental catchments: a cell belongs to the reach that owns the first river cell on its D8 flow path.
@@ -37,6 +38,6 @@ struct Catchments {
 /// `upstream` equals areas_d8's ds_area in cells
 /// \throws BadInput as river_cells, and for 2^31 reaches or more
 /// \throws Cancelled
-Catchments catchments(std::vector<Reach> const& reaches, FlowField const& drainage, Run const& run = {});
+Catchments catchments(Reaches const& reaches, FlowField const& drainage, Run const& run = {});
 
 } // namespace thalweg::flow

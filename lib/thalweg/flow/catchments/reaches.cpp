@@ -8,18 +8,19 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg::flow {
 
-std::vector<Reach> reaches_of(StreamNetwork const& network) {
+Reaches reaches_of(StreamNetwork const& network) {
     for (NodeId n = 0; n < network.node_count(); ++n) {
         if (network.out_arcs(n).size() > 1) {
             throw BadInput(fmt::format("flow.reaches_of: {} arcs leave node {} at ({}, {}); a river must not split",
                                        network.out_arcs(n).size(), n + 1, network.node(n).at.x, network.node(n).at.y));
         }
     }
-    std::vector<Reach> reaches;
+    Reaches reaches;
     reaches.reserve(network.arc_count());
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
         ArcId const below = network.out(network.to(a));
@@ -30,15 +31,15 @@ std::vector<Reach> reaches_of(StreamNetwork const& network) {
     return reaches;
 }
 
-std::vector<std::int64_t> steps_to_outlet(std::vector<Reach> const& reaches) {
+std::vector<std::int64_t> steps_to_outlet(Reaches const& reaches) {
     constexpr std::int64_t unknown = 0;
     constexpr std::int64_t on_the_way = -1;
-    std::vector<std::int64_t> steps(reaches.size(), unknown);
-    std::vector<std::size_t> way;
-    for (std::size_t start = 0; start < reaches.size(); ++start) {
+    Indexed<ReachId, std::int64_t> steps(reaches.size(), unknown);
+    std::vector<ReachId> way;
+    for (ReachId start = 0; start < reaches.count(); ++start) {
         way.clear();
         std::int64_t below = 0;
-        for (std::size_t at = start; steps[at] <= 0;) {
+        for (ReachId at = start; steps[at] <= 0;) {
             if (steps[at] == on_the_way) {
                 throw BadInput(fmt::format("flow.steps_to_outlet: arc {} leads to no outlet: its rivers run in a "
                                            "circle; see what thalweg check says",
@@ -49,8 +50,8 @@ std::vector<std::int64_t> steps_to_outlet(std::vector<Reach> const& reaches) {
             if (reaches[at].ds < 0) {
                 break;
             }
-            auto const next = static_cast<std::size_t>(reaches[at].ds);
-            if (next >= reaches.size()) {
+            ReachId const next = reaches[at].ds;
+            if (next >= reaches.count()) {
                 throw BadInput(fmt::format("flow.steps_to_outlet: arc {} runs into reach {} of {}", reaches[at].id,
                                            next, reaches.size()));
             }
@@ -64,7 +65,7 @@ std::vector<std::int64_t> steps_to_outlet(std::vector<Reach> const& reaches) {
     return steps;
 }
 
-std::vector<RiverCell> river_cells(std::vector<Reach> const& reaches, Grid const& grid, Run const& run) {
+std::vector<RiverCell> river_cells(Reaches const& reaches, Grid const& grid, Run const& run) {
     auto const steps = steps_to_outlet(reaches);
     std::vector<RiverCell> cells;
     for (std::size_t a = 0; a < reaches.size(); ++a) {

@@ -27,10 +27,9 @@ inline LocalCharacter character_at(Refinement const& refinement, int level, std:
     std::int64_t const north_west = (row >> level) * width + (col >> level);
     std::int64_t const east = x > 0.0F ? 1 : 0;
     std::int64_t const south = y > 0.0F ? width : 0;
-    auto const between = [&](std::vector<float> const& of) {
-        auto const at = [&](std::int64_t i) { return of[static_cast<std::size_t>(i)]; };
-        float const north_z = at(north_west) + x * (at(north_west + east) - at(north_west));
-        float const south_z = at(north_west + south) + x * (at(north_west + south + east) - at(north_west + south));
+    auto const between = [&](Indexed<CellIndex, float> const& of) {
+        float const north_z = of[north_west] + x * (of[north_west + east] - of[north_west]);
+        float const south_z = of[north_west + south] + x * (of[north_west + south + east] - of[north_west + south]);
         return north_z + y * (south_z - north_z);
     };
     return {std::floor(between(character.steps) + 0.5F), between(character.sigmas)};

@@ -178,10 +178,10 @@ void write_las(Bytes& out, Tin const& tin, std::string const& crs) {
 
 // The rows of layer faces; the TIN must outlive it.
 Table faces_table(Tin const& tin) {
-    auto const triangle = [&tin](std::int64_t row) { return tin.triangles[static_cast<std::size_t>(row)]; };
-    auto const corner = [&tin, triangle](std::int64_t row, std::size_t k) { return tin.vertices[triangle(row)[k]]; };
+    auto const triangle = [&tin](std::size_t row) { return tin.triangles[row]; };
+    auto const corner = [&tin, triangle](std::size_t row, std::size_t k) { return tin.vertices[triangle(row)[k]]; };
     // Twice the area and the height's differences along both axes times it.
-    auto const normal = [corner](std::int64_t row) {
+    auto const normal = [corner](std::size_t row) {
         Vec3 const a = corner(row, 0);
         Vec3 const b = corner(row, 1);
         Vec3 const c = corner(row, 2);
@@ -190,23 +190,23 @@ Table faces_table(Tin const& tin) {
                     (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)};
     };
     auto const vertex = [triangle](std::size_t k) {
-        return [triangle, k](std::int64_t row) { return std::int64_t{triangle(row)[k]} + 1; };
+        return [triangle, k](std::size_t row) { return std::int64_t{triangle(row)[k]} + 1; };
     };
     using Kind = Column::Kind;
     return {"faces",
             Table::Shape::polygon,
-            static_cast<std::int64_t>(tin.triangles.size()),
+            tin.triangles.size(),
             {{"face_id", Kind::wide_integer, 0, [](std::int64_t row) { return row + 1; }},
              {"v1", Kind::wide_integer, 0, vertex(0)},
              {"v2", Kind::wide_integer, 0, vertex(1)},
              {"v3", Kind::wide_integer, 0, vertex(2)},
-             {"area", Kind::real, 6, [normal](std::int64_t row) { return 0.5 * normal(row).z; }},
+             {"area", Kind::real, 6, [normal](std::size_t row) { return 0.5 * normal(row).z; }},
              {"slope", Kind::real, 15,
-              [normal](std::int64_t row) {
+              [normal](std::size_t row) {
                   Vec3 const n = normal(row);
                   return n.z > 0.0 ? std::sqrt(n.x * n.x + n.y * n.y) / n.z : 0.0;
               }}},
-            [corner](std::int64_t row) {
+            [corner](std::size_t row) {
                 return std::vector<Vec3>{corner(row, 0), corner(row, 1), corner(row, 2), corner(row, 0)};
             }};
 }

@@ -139,7 +139,7 @@ OGRLayer& create_layer(LayerTarget const& target, Table const& table) {
     return *layer;
 }
 
-void set_field(OGRFeature& feature, int index, Column const& column, std::int64_t row, LayerTarget const& target,
+void set_field(OGRFeature& feature, int index, Column const& column, std::size_t row, LayerTarget const& target,
                std::string const& table) {
     auto const refuse = [&](std::string const& why) {
         throw BadInput(fmt::format("{}: {} {} has {} {}", target.what, table, row + 1, column.name, why));
@@ -169,7 +169,7 @@ void set_field(OGRFeature& feature, int index, Column const& column, std::int64_
     }
 }
 
-void set_parts(OGRFeature& feature, Table const& table, std::int64_t row, LayerTarget const& target) {
+void set_parts(OGRFeature& feature, Table const& table, std::size_t row, LayerTarget const& target) {
     OGRMultiPolygon parts;
     for (Polygon const& part : table.parts_at(row)) {
         OGRPolygon drawn;
@@ -187,7 +187,7 @@ void set_parts(OGRFeature& feature, Table const& table, std::int64_t row, LayerT
     target.require(feature.SetGeometry(&parts) == OGRERR_NONE);
 }
 
-void set_shape(OGRFeature& feature, Table const& table, std::int64_t row, LayerTarget const& target) {
+void set_shape(OGRFeature& feature, Table const& table, std::size_t row, LayerTarget const& target) {
     if (table.shape == Table::Shape::multi_polygon) {
         set_parts(feature, table, row, target);
         return;
@@ -225,7 +225,7 @@ void set_shape(OGRFeature& feature, Table const& table, std::int64_t row, LayerT
     target.require(polygon.addRing(&ring) == OGRERR_NONE && feature.SetGeometry(&polygon) == OGRERR_NONE);
 }
 
-GIntBig id_of(std::int64_t row, LayerFormat format) {
+GIntBig id_of(GIntBig row, LayerFormat format) {
     // A shapefile counts its features from 0 and would leave a gap; the others count by themselves.
     return format == LayerFormat::geopackage ? row + 1 : format == LayerFormat::shapefile ? row : OGRNullFID;
 }
@@ -247,10 +247,10 @@ void LayerTarget::require(bool done) const {
 }
 
 void write_layer(LayerTarget const& target, Table const& table, Run const& run) {
-    constexpr std::int64_t rows_between_reports = 1024;
+    constexpr std::size_t rows_between_reports = 1024;
     OGRLayer& layer = create_layer(target, table);
     OGRFeature feature(layer.GetLayerDefn());
-    for (std::int64_t row = 0; row < table.rows; ++row) {
+    for (std::size_t row = 0; row < table.rows; ++row) {
         if (row % rows_between_reports == 0) {
             run.at(static_cast<double>(row) / static_cast<double>(table.rows), "write");
         }
@@ -260,7 +260,7 @@ void write_layer(LayerTarget const& target, Table const& table, Run const& run) 
         if (table.shape != Table::Shape::none) {
             set_shape(feature, table, row, target);
         }
-        feature.SetFID(id_of(row, target.format));
+        feature.SetFID(id_of(static_cast<GIntBig>(row), target.format));
         target.require(layer.CreateFeature(&feature) == OGRERR_NONE);
     }
 }

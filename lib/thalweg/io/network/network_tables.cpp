@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <thalweg/core/length_in_plan.hpp>
-#include <thalweg/core/numbers/index.hpp>
 #include <thalweg/io/files/internal/decimals.hpp>
 #include <thalweg/io/network/internal/user_columns.hpp>
 
@@ -19,15 +18,15 @@ namespace {
 using Kind = Column::Kind;
 
 template <class Get> Column integer(char const* name, Get get) {
-    return {name, Kind::integer, 0, [get](std::int64_t row) { return static_cast<std::int64_t>(get(row)); }};
+    return {name, Kind::integer, 0, [get](std::size_t row) { return static_cast<std::int64_t>(get(row)); }};
 }
 
 template <class Get> Column real(char const* name, int decimals, Get get) {
-    return {name, Kind::real, decimals, [get](std::int64_t row) { return static_cast<double>(get(row)); }};
+    return {name, Kind::real, decimals, [get](std::size_t row) { return static_cast<double>(get(row)); }};
 }
 
 template <class Get> Column text(char const* name, Get get) {
-    return {name, Kind::text, 0, [get](std::int64_t row) { return std::string(get(row)); }};
+    return {name, Kind::text, 0, [get](std::size_t row) { return std::string(get(row)); }};
 }
 
 /// Files in metres have no such column: it would change none of them but their bytes.
@@ -53,16 +52,16 @@ Table arcs_table(NetworkTables const& tables, bool short_names) {
     StreamNetwork const& plan = tables.network.plan;
     auto const& arc_z = tables.network.arc_z;
     NetworkOrders const& orders = tables.orders;
-    auto const arc = [&](std::int64_t row) -> Arc const& { return plan.arc(as_index(row)); };
-    auto const up = [&](std::int64_t row) { return plan.from(as_index(row)); };
-    auto const down = [&](std::int64_t row) { return plan.to(as_index(row)); };
+    auto const arc = [&](std::size_t row) -> Arc const& { return plan.arc(row); };
+    auto const up = [&](std::size_t row) { return plan.from(row); };
+    auto const down = [&](std::size_t row) { return plan.to(row); };
 
     double const unit = metres_in(tables.unit);
-    Table table{"arcs", Table::Shape::line, static_cast<std::int64_t>(plan.arc_count()), {}, {}};
-    table.shape_at = [arc, unit, &arc_z](std::int64_t row) {
+    Table table{"arcs", Table::Shape::line, plan.arc_count(), {}, {}};
+    table.shape_at = [arc, unit, &arc_z](std::size_t row) {
         std::vector<Vec3> line;
         for (std::size_t i = 0; Vec2 const p : arc(row).line) {
-            line.push_back({p.x, p.y, arc_z[as_index(row)][i++] / unit});
+            line.push_back({p.x, p.y, arc_z[row][i++] / unit});
         }
         return line;
     };
@@ -72,38 +71,35 @@ Table arcs_table(NetworkTables const& tables, bool short_names) {
         integer("to_node", [down](auto row) { return down(row) + 1; }),
         integer("ds_arc", [down, &plan](auto row) { return plan.out(down(row)) + 1; }),
         integer("n_up", [up, &plan](auto row) { return plan.in(up(row)).size(); }),
-        integer("basin_id", [&orders](auto row) { return orders.arc_basin[as_index(row)]; }),
-        integer("topo_ord", [&orders](auto row) { return orders.topological[as_index(row)]; }),
-        integer("strahler", [&orders](auto row) { return orders.strahler[as_index(row)]; }),
-        integer("shreve", [&orders](auto row) { return orders.shreve[as_index(row)]; }),
-        integer("hack", [&orders](auto row) { return orders.hack[as_index(row)]; }),
-        real("length", length_decimals, [&plan](auto row) { return plan.length_m(as_index(row)); }),
+        integer("basin_id", [&orders](auto row) { return orders.arc_basin[row]; }),
+        integer("topo_ord", [&orders](auto row) { return orders.topological[row]; }),
+        integer("strahler", [&orders](auto row) { return orders.strahler[row]; }),
+        integer("shreve", [&orders](auto row) { return orders.shreve[row]; }),
+        integer("hack", [&orders](auto row) { return orders.hack[row]; }),
+        real("length", length_decimals, [&plan](auto row) { return plan.length_m(row); }),
         real("length_3d", length_decimals,
-             [arc, &arc_z](auto row) { return length_in_space(arc(row).line, arc_z[as_index(row)]); }),
+             [arc, &arc_z](auto row) { return length_in_space(arc(row).line, arc_z[row]); }),
         real("straight", length_decimals,
              [arc](auto row) { return distance(arc(row).line.front(), arc(row).line.back()); }),
-        real("z_up", length_decimals, [unit, &arc_z](auto row) { return arc_z[as_index(row)].front() / unit; }),
-        real("z_down", length_decimals, [unit, &arc_z](auto row) { return arc_z[as_index(row)].back() / unit; }),
+        real("z_up", length_decimals, [unit, &arc_z](auto row) { return arc_z[row].front() / unit; }),
+        real("z_down", length_decimals, [unit, &arc_z](auto row) { return arc_z[row].back() / unit; }),
         real("dist_out", length_decimals, [down, &orders](auto row) { return orders.node_dist_out_m[down(row)]; }),
         real("slope", slope_decimals,
-             [&arc_z, &plan](auto row) {
-                 return (arc_z[as_index(row)].front() - arc_z[as_index(row)].back()) / plan.length_m(as_index(row));
-             }),
-        real("us_area", area_decimals, [&area = tables.us_area_m2](auto row) { return area[as_index(row)]; }),
-        real("ds_area", area_decimals, [&area = tables.ds_area_m2](auto row) { return area[as_index(row)]; }),
+             [&arc_z, &plan](auto row) { return (arc_z[row].front() - arc_z[row].back()) / plan.length_m(row); }),
+        real("us_area", area_decimals, [&area = tables.us_area_m2](auto row) { return area[row]; }),
+        real("ds_area", area_decimals, [&area = tables.ds_area_m2](auto row) { return area[row]; }),
         real("survives", length_decimals,
              [arc](auto row) { return std::isinf(arc(row).persistence) ? -1.0 : arc(row).persistence; }),
-        {"feature", Kind::wide_integer, 0, [arc](std::int64_t row) { return arc(row).feature; }},
+        {"feature", Kind::wide_integer, 0, [arc](std::size_t row) { return arc(row).feature; }},
         // A shapefile reads an empty text back as NULL.
         text("type", [arc](auto row) { return arc(row).type.empty() ? "none" : arc(row).type; }),
-        integer("braided",
-                [of = tables.braided](auto row) { return of != nullptr && (*of)[as_index(row)] != 0 ? 1 : 0; }),
+        integer("braided", [of = tables.braided](auto row) { return of != nullptr && (*of)[row] != 0 ? 1 : 0; }),
         integer("given", [arc](auto row) { return arc(row).is_input ? 1 : 0; }),
     };
     if (tables.user != nullptr) {
         add_user_columns(
-            table, tables.user->attributes,
-            [&user = *tables.user](std::int64_t row) { return user.record[as_index(row)]; }, short_names);
+            table, tables.user->attributes, [&user = *tables.user](std::size_t row) { return user.record[row]; },
+            short_names);
     }
     add_unit(table, tables.unit);
     return table;
@@ -115,37 +111,37 @@ Table nodes_table(NetworkTables const& tables) {
     NetworkOrders const& orders = tables.orders;
 
     double const unit = metres_in(tables.unit);
-    Table table{"nodes", Table::Shape::point, static_cast<std::int64_t>(plan.node_count()), {}, {}};
-    table.shape_at = [unit, &plan, &node_z](std::int64_t row) {
-        Vec2 const p = plan.node(as_index(row)).at;
-        return std::vector<Vec3>{{p.x, p.y, node_z[as_index(row)] / unit}};
+    Table table{"nodes", Table::Shape::point, plan.node_count(), {}, {}};
+    table.shape_at = [unit, &plan, &node_z](std::size_t row) {
+        Vec2 const p = plan.node(row).at;
+        return std::vector<Vec3>{{p.x, p.y, node_z[row] / unit}};
     };
     table.columns = {
         integer("node_id", [](auto row) { return row + 1; }),
         text("kind",
              [&plan, &sinks = tables.sinks](auto row) {
-                 bool const is_sink = std::binary_search(sinks.begin(), sinks.end(), as_index(row));
-                 return name_of(is_sink ? NodeKind::sink : kind_of(plan, as_index(row)));
+                 bool const is_sink = std::binary_search(sinks.begin(), sinks.end(), row);
+                 return name_of(is_sink ? NodeKind::sink : kind_of(plan, row));
              }),
-        integer("deg_in", [&plan](auto row) { return plan.in(as_index(row)).size(); }),
-        integer("deg_out", [&plan](auto row) { return plan.out(as_index(row)) == no_arc ? 0 : 1; }),
-        integer("basin_id", [&orders](auto row) { return orders.node_basin[as_index(row)]; }),
-        integer("strahler", [&orders](auto row) { return orders.node_strahler[as_index(row)]; }),
-        real("z", length_decimals, [unit, &node_z](auto row) { return node_z[as_index(row)] / unit; }),
-        real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[as_index(row)]; }),
-        real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[as_index(row)]; }),
+        integer("deg_in", [&plan](auto row) { return plan.in(row).size(); }),
+        integer("deg_out", [&plan](auto row) { return plan.out(row) == no_arc ? 0 : 1; }),
+        integer("basin_id", [&orders](auto row) { return orders.node_basin[row]; }),
+        integer("strahler", [&orders](auto row) { return orders.node_strahler[row]; }),
+        real("z", length_decimals, [unit, &node_z](auto row) { return node_z[row] / unit; }),
+        real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[row]; }),
+        real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[row]; }),
     };
     add_unit(table, tables.unit);
     return table;
 }
 
 Table ridges_table(RidgeLines const& ridges, HeightUnit unit) {
-    auto const ridge = [&ridges](std::int64_t row) -> RidgeLine const& { return ridges.lines[as_index(row)]; };
+    auto const ridge = [&ridges](std::size_t row) -> RidgeLine const& { return ridges.lines[row]; };
     auto const lower = [](Vec3 const& a, Vec3 const& b) { return a.z < b.z; };
 
-    Table table{"ridges", Table::Shape::line, static_cast<std::int64_t>(ridges.lines.size()), {}, {}};
+    Table table{"ridges", Table::Shape::line, ridges.lines.size(), {}, {}};
     double const metres = metres_in(unit);
-    table.shape_at = [ridge, metres](std::int64_t row) {
+    table.shape_at = [ridge, metres](std::size_t row) {
         std::vector<Vec3> line = ridge(row).line;
         for (Vec3& p : line) {
             p.z /= metres;
@@ -167,9 +163,9 @@ Table ridges_table(RidgeLines const& ridges, HeightUnit unit) {
 }
 
 Table secondary_table(std::vector<SecondaryLine> const& secondary, UserData const* user) {
-    auto const one = [&secondary](std::int64_t row) -> SecondaryLine const& { return secondary[as_index(row)]; };
-    Table table{"secondary", Table::Shape::plan_line, static_cast<std::int64_t>(secondary.size()), {}, {}};
-    table.shape_at = [one](std::int64_t row) {
+    auto const one = [&secondary](std::size_t row) -> SecondaryLine const& { return secondary[row]; };
+    Table table{"secondary", Table::Shape::plan_line, secondary.size(), {}, {}};
+    table.shape_at = [one](std::size_t row) {
         std::vector<Vec3> line = one(row).vertices;
         for (Vec3& v : line) {
             v.z = 0.0;
@@ -177,13 +173,13 @@ Table secondary_table(std::vector<SecondaryLine> const& secondary, UserData cons
         return line;
     };
     table.columns = {
-        {"feature", Kind::wide_integer, 0, [one](std::int64_t row) { return one(row).feature; }},
+        {"feature", Kind::wide_integer, 0, [one](std::size_t row) { return one(row).feature; }},
         text("reason", [one](auto row) { return one(row).reason; }),
         real("length", length_decimals, [one](auto row) { return length_in_plan(one(row).vertices); }),
     };
     if (user != nullptr) {
         add_user_columns(
-            table, user->attributes, [one](std::int64_t row) { return one(row).record; }, false);
+            table, user->attributes, [one](std::size_t row) { return one(row).record; }, false);
     }
     return table;
 }
@@ -199,12 +195,12 @@ Table sources_table(UserData const& user) {
             rows->push_back({static_cast<std::int64_t>(a) + 1, s});
         }
     }
-    Table table{"sources", Table::Shape::none, static_cast<std::int64_t>(rows->size()), {}, {}};
+    Table table{"sources", Table::Shape::none, rows->size(), {}, {}};
     table.columns = {
-        integer("arc_id", [rows](auto row) { return (*rows)[as_index(row)].arc; }),
-        {"feature", Kind::wide_integer, 0, [rows](std::int64_t row) { return (*rows)[as_index(row)].stretch.feature; }},
-        real("from_m", length_decimals, [rows](auto row) { return (*rows)[as_index(row)].stretch.from_m; }),
-        real("to_m", length_decimals, [rows](auto row) { return (*rows)[as_index(row)].stretch.to_m; }),
+        integer("arc_id", [rows](auto row) { return (*rows)[row].arc; }),
+        {"feature", Kind::wide_integer, 0, [rows](std::size_t row) { return (*rows)[row].stretch.feature; }},
+        real("from_m", length_decimals, [rows](auto row) { return (*rows)[row].stretch.from_m; }),
+        real("to_m", length_decimals, [rows](auto row) { return (*rows)[row].stretch.to_m; }),
     };
     return table;
 }

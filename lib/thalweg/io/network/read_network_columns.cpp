@@ -134,10 +134,9 @@ void FileColumn::require_numbers(OGRLayer& layer, std::string const& what, Notes
 ArcColumns::ArcColumns(OGRLayer& layer, std::optional<Schema> schema, std::map<Quantity, std::string> const& mapped,
                        std::string const& what, Notes& notes) {
     SchemaTable const& table = table_of(schema.value_or(Schema::native));
-    auto const told = [&](Quantity quantity) -> Told& { return columns_.at(static_cast<std::size_t>(quantity)); };
     for (SchemaField const& field : table.fields) {
         if (field.quantity != Quantity::constant && schema && !has(field.quantity)) {
-            told(field.quantity) = {FileColumn(layer, names_of(field)), &field};
+            columns_[field.quantity] = {FileColumn(layer, names_of(field)), &field};
         }
     }
     for (auto const& [quantity, name] : mapped) {
@@ -146,17 +145,17 @@ ArcColumns::ArcColumns(OGRLayer& layer, std::optional<Schema> schema, std::map<Q
             throw BadInput(fmt::format("{}: no field {}.{} (there are {})", what, name,
                                        did_you_mean(name, field_names(layer)), fields_of(layer)));
         }
-        told(quantity) = {std::move(column), field_of(table, quantity)};
+        columns_[quantity] = {std::move(column), field_of(table, quantity)};
     }
-    for (std::size_t q = 0; q < columns_.size(); ++q) {
-        if (static_cast<Quantity>(q) != Quantity::type && columns_.at(q).column.is_there()) {
-            columns_.at(q).column.require_numbers(layer, what, notes);
+    for (Told const& told : columns_.entries) {
+        if (&told != &columns_[Quantity::type] && told.column.is_there()) {
+            told.column.require_numbers(layer, what, notes);
         }
     }
 }
 
 double ArcColumns::real(OGRFeature const& feature, Quantity quantity) const {
-    Told const& told = columns_.at(static_cast<std::size_t>(quantity));
+    Told const& told = columns_[quantity];
     if (!told.column.is_there()) {
         return nan;
     }
@@ -168,7 +167,7 @@ double ArcColumns::real(OGRFeature const& feature, Quantity quantity) const {
 }
 
 std::optional<std::int64_t> ArcColumns::none(Quantity quantity) const {
-    SchemaField const* const field = columns_.at(static_cast<std::size_t>(quantity)).field;
+    SchemaField const* const field = columns_[quantity].field;
     return field == nullptr ? std::nullopt : whole_in(field->unknown);
 }
 

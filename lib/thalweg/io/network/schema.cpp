@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/suggest.hpp>
 #include <thalweg/io/files/internal/decimals.hpp>
@@ -213,7 +214,7 @@ constexpr std::array<std::string_view, 2> nhdplus_told{"comid nhdplusid", "hydro
 constexpr std::array<std::string_view, 2> hydrorivers_told{"hyriv_id", "next_down"};
 constexpr std::array<std::string_view, 2> grass_told{"stream cat", "next_stream next_strea stream_type stream_typ"};
 
-constexpr std::array tables{
+constexpr ByEnum<Schema, SchemaTable, 5> tables{{
     SchemaTable{.name = "native", .fields = native_fields, .told_by = native_told},
     SchemaTable{.schema = Schema::taudem,
                 .name = "taudem",
@@ -240,23 +241,23 @@ constexpr std::array tables{
                 .told_by = grass_told,
                 .layer = "streams",
                 .most_upstream = 5},
-};
+}};
 
 // In the order of the enumerators.
-constexpr std::array<std::string_view, 52> quantity_names{
-    "arc_id",      "from_node", "to_node",     "ds_arc",    "n_up",        "basin_id",   "topo_ord", "strahler",
-    "shreve",      "hack",      "length",      "length_3d", "straight",    "z_up",       "z_down",   "dist_out",
-    "slope",       "us_area",   "ds_area",     "survives",  "feature",     "type",       "braided",  "given",
-    "us_arc_1",    "us_arc_2",  "us_arc_3",    "us_arc_4",  "us_arc_5",    "outlet_arc", "key",      "ds_key",
-    "us_key",      "path",      "ds_path",     "us_path",   "outlet_path", "ds_hack",    "n_down",   "is_source",
-    "is_outlet",   "horton",    "scheidegger", "drwal",     "drop",        "sinuosity",  "dist_mid", "dist_up",
-    "dist_source", "length_us", "own_area",    "constant"};
-static_assert(quantity_names.size() == static_cast<std::size_t>(Quantity::constant) + 1);
+constexpr ByEnum<Quantity, std::string_view, static_cast<std::size_t>(Quantity::constant) + 1> quantity_names{
+    {"arc_id",      "from_node", "to_node",     "ds_arc",    "n_up",        "basin_id",   "topo_ord", "strahler",
+     "shreve",      "hack",      "length",      "length_3d", "straight",    "z_up",       "z_down",   "dist_out",
+     "slope",       "us_area",   "ds_area",     "survives",  "feature",     "type",       "braided",  "given",
+     "us_arc_1",    "us_arc_2",  "us_arc_3",    "us_arc_4",  "us_arc_5",    "outlet_arc", "key",      "ds_key",
+     "us_key",      "path",      "ds_path",     "us_path",   "outlet_path", "ds_hack",    "n_down",   "is_source",
+     "is_outlet",   "horton",    "scheidegger", "drwal",     "drop",        "sinuosity",  "dist_mid", "dist_up",
+     "dist_source", "length_us", "own_area",    "constant"}};
+static_assert(quantity_names[Quantity::constant] == "constant");
 
 // Written so that a table in another order does not compile.
 constexpr bool in_order() {
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-        if (tables.at(i).schema != static_cast<Schema>(i)) {
+    for (std::size_t i = 0; i < tables.entries.size(); ++i) {
+        if (tables.entries.at(i).schema != static_cast<Schema>(i)) {
             return false;
         }
     }
@@ -267,28 +268,28 @@ static_assert(in_order());
 } // namespace
 
 std::string_view name_of(Quantity quantity) {
-    return quantity_names.at(static_cast<std::size_t>(quantity));
+    return quantity_names[quantity];
 }
 
 std::optional<Quantity> quantity_of(std::string_view name) {
-    auto const* const found = std::ranges::find(quantity_names, name);
-    if (found == quantity_names.end() || *found == name_of(Quantity::constant)) {
+    auto const* const found = std::ranges::find(quantity_names.entries, name);
+    if (found == quantity_names.entries.end() || *found == name_of(Quantity::constant)) {
         return std::nullopt;
     }
-    return static_cast<Quantity>(found - quantity_names.begin());
+    return static_cast<Quantity>(found - quantity_names.entries.begin());
 }
 
 SchemaTable const& table_of(Schema schema) {
-    return tables.at(static_cast<std::size_t>(schema));
+    return tables[schema];
 }
 
 std::span<SchemaTable const> all_schemas() {
-    return tables;
+    return tables.entries;
 }
 
 Schema schema_named(std::string const& name) {
     std::vector<std::string> names;
-    for (SchemaTable const& table : tables) {
+    for (SchemaTable const& table : tables.entries) {
         if (table.name == name) {
             return table.schema;
         }

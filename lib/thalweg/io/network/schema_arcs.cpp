@@ -13,7 +13,6 @@
 #include <variant>
 #include <vector>
 
-#include <thalweg/core/numbers/index.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/network/internal/user_columns.hpp>
 
@@ -23,7 +22,7 @@ namespace {
 
 using Value = Column::Value;
 
-/// What the quantities of an arc are, by its number; links to arcs are numbers too, -1 for none.
+/// What the quantities of an arc are, by its number; links to arcs are numbers too, no_arc for none.
 class Arcs {
 public:
     explicit Arcs(NetworkTables const& tables) : tables_(tables), plan_(tables.network.plan) {
@@ -35,27 +34,27 @@ public:
         longest_up_m_.assign(arcs, 0.0);
         std::int64_t key = 0;
         for (NodeId const n : tables.network.plan.upstream_order()) { // outlets first
-            if (auto const a = static_cast<std::int64_t>(tables.network.plan.out(n)); a >= 0) {
-                std::int64_t const below = down(a);
-                key_[as_index(a)] = ++key;
-                outlet_[as_index(a)] = below < 0 ? a : outlet_[as_index(below)];
-                mouth_[as_index(a)] = below >= 0 && hack(below) == hack(a) ? mouth_[as_index(below)] : a;
+            if (ArcId const a = tables.network.plan.out(n); a != no_arc) {
+                ArcId const below = down(a);
+                key_[a] = ++key;
+                outlet_[a] = below == no_arc ? a : outlet_[below];
+                mouth_[a] = below != no_arc && hack(below) == hack(a) ? mouth_[below] : a;
             }
         }
         for (auto n = tables.network.plan.upstream_order().rbegin(); n != tables.network.plan.upstream_order().rend();
              ++n) { // sources first
-            if (auto const a = static_cast<std::int64_t>(tables.network.plan.out(*n)); a >= 0) {
+            if (ArcId const a = tables.network.plan.out(*n); a != no_arc) {
                 for (ArcId const above : tables.network.plan.in(*n)) {
-                    length_up_m_[as_index(a)] += length_up_m_[above];
-                    longest_up_m_[as_index(a)] = std::max(longest_up_m_[as_index(a)], longest_up_m_[above]);
+                    length_up_m_[a] += length_up_m_[above];
+                    longest_up_m_[a] = std::max(longest_up_m_[a], longest_up_m_[above]);
                 }
-                length_up_m_[as_index(a)] += length(a);
-                longest_up_m_[as_index(a)] += length(a);
+                length_up_m_[a] += length(a);
+                longest_up_m_[a] += length(a);
             }
         }
     }
 
-    std::vector<Vec3> line(std::int64_t a) const {
+    std::vector<Vec3> line(ArcId a) const {
         std::vector<Vec3> line;
         for (std::size_t i = 0; Vec2 const p : arc(a).line) {
             line.push_back({p.x, p.y, z(a)[i++]});
@@ -63,8 +62,8 @@ public:
         return line;
     }
 
-    /// The arc that a quantity names, -1 for none.
-    std::int64_t arc_of(Quantity quantity, std::int64_t a) const {
+    /// The arc that a quantity names, no_arc for none.
+    ArcId arc_of(Quantity quantity, ArcId a) const {
         using enum Quantity;
         switch (quantity) {
         case arc_id:
@@ -76,54 +75,53 @@ public:
         case us_arc_3: return up(a, 2);
         case us_arc_4: return up(a, 3);
         case us_arc_5: return up(a, 4);
-        case outlet_arc: return outlet_[as_index(a)];
+        case outlet_arc: return outlet_[a];
         case us_key: return main_up(a);
-        case path: return mouth_[as_index(a)];
-        case ds_path: return down(a) < 0 ? -1 : mouth_[as_index(down(a))];
-        case us_path: return main_up(a) < 0 ? -1 : mouth_[as_index(main_up(a))];
-        case outlet_path: return mouth_[as_index(outlet_[as_index(a)])];
-        default: return -1;
+        case path: return mouth_[a];
+        case ds_path: return down(a) == no_arc ? no_arc : mouth_[down(a)];
+        case us_path: return main_up(a) == no_arc ? no_arc : mouth_[main_up(a)];
+        case outlet_path: return mouth_[outlet_[a]];
+        default: return no_arc;
         }
     }
-    std::int64_t key_of(std::int64_t a) const { return key_[as_index(a)]; }
+    std::int64_t key_of(ArcId a) const { return key_[a]; }
 
-    std::int64_t count(Quantity quantity, std::int64_t a) const {
+    std::int64_t count(Quantity quantity, ArcId a) const {
         using enum Quantity;
         NetworkOrders const& orders = tables_.orders;
         switch (quantity) {
-        case from_node: return static_cast<std::int64_t>(plan_.from(as_index(a))) + 1;
-        case to_node: return static_cast<std::int64_t>(plan_.to(as_index(a))) + 1;
+        case from_node: return static_cast<std::int64_t>(plan_.from(a)) + 1;
+        case to_node: return static_cast<std::int64_t>(plan_.to(a)) + 1;
         case n_up: return static_cast<std::int64_t>(above(a).size());
-        case basin_id: return orders.arc_basin[as_index(a)];
-        case topo_ord: return orders.topological[as_index(a)];
-        case strahler: return orders.strahler[as_index(a)];
-        case shreve: return orders.shreve[as_index(a)];
+        case basin_id: return orders.arc_basin[a];
+        case topo_ord: return orders.topological[a];
+        case strahler: return orders.strahler[a];
+        case shreve: return orders.shreve[a];
         case hack: return this->hack(a);
         case feature: return arc(a).feature;
-        case braided: return tables_.braided != nullptr && (*tables_.braided)[as_index(a)] != 0 ? 1 : 0;
+        case braided: return tables_.braided != nullptr && (*tables_.braided)[a] != 0 ? 1 : 0;
         case given: return arc(a).is_input ? 1 : 0;
-        case ds_hack: return down(a) < 0 ? 0 : this->hack(down(a));
-        case n_down: return down(a) < 0 ? 0 : 1;
+        case ds_hack: return down(a) == no_arc ? 0 : this->hack(down(a));
+        case n_down: return down(a) == no_arc ? 0 : 1;
         case is_source: return above(a).empty() ? 1 : 0;
-        case is_outlet: return down(a) < 0 ? 1 : 0;
-        case horton: return orders.strahler[as_index(mouth_[as_index(a)])]; // orders never fall downstream
-        case scheidegger: return 2 * orders.shreve[as_index(a)];
-        case drwal:
-            return static_cast<std::int64_t>(std::bit_width(static_cast<std::uint64_t>(orders.shreve[as_index(a)])));
+        case is_outlet: return down(a) == no_arc ? 1 : 0;
+        case horton: return orders.strahler[mouth_[a]]; // orders never fall downstream
+        case scheidegger: return 2 * orders.shreve[a];
+        case drwal: return static_cast<std::int64_t>(std::bit_width(static_cast<std::uint64_t>(orders.shreve[a])));
         default: return 0;
         }
     }
 
     /// [m, m2, m/m]; NaN where it is not known.
-    double measure(Quantity quantity, std::int64_t a) const {
+    double measure(Quantity quantity, ArcId a) const {
         using enum Quantity;
         NetworkOrders const& orders = tables_.orders;
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         double const drop_m = z(a).front() - z(a).back();
         double const straight_m = distance(arc(a).line.front(), arc(a).line.back());
-        double const dist_out_m = orders.node_dist_out_m[plan_.to(as_index(a))];
-        double const us_m2 = tables_.us_area_m2[as_index(a)];
-        double const ds_m2 = tables_.ds_area_m2[as_index(a)];
+        double const dist_out_m = orders.node_dist_out_m[plan_.to(a)];
+        double const us_m2 = tables_.us_area_m2[a];
+        double const ds_m2 = tables_.ds_area_m2[a];
         auto const known = [&](bool is_known, double value) { return is_known ? value : unknown; };
         switch (quantity) {
         case length: return this->length(a);
@@ -136,8 +134,8 @@ public:
         case dist_out: return dist_out_m;
         case dist_mid: return dist_out_m + this->length(a) / 2.0;
         case dist_up: return dist_out_m + this->length(a);
-        case dist_source: return longest_up_m_[as_index(a)];
-        case length_us: return length_up_m_[as_index(a)];
+        case dist_source: return longest_up_m_[a];
+        case length_us: return length_up_m_[a];
         case sinuosity: return known(straight_m > 0.0, this->length(a) / straight_m);
         case us_area: return known(us_m2 >= 0.0, us_m2);
         case ds_area: return known(ds_m2 >= 0.0, ds_m2);
@@ -147,32 +145,28 @@ public:
         }
     }
 
-    std::string const& type(std::int64_t a) const { return arc(a).type; }
+    std::string const& type(ArcId a) const { return arc(a).type; }
 
 private:
-    Arc const& arc(std::int64_t a) const { return plan_.arc(as_index(a)); }
-    std::vector<double> const& z(std::int64_t a) const { return tables_.network.arc_z[as_index(a)]; }
-    double length(std::int64_t a) const { return plan_.length_m(as_index(a)); }
-    int hack(std::int64_t a) const { return tables_.orders.hack[as_index(a)]; }
-    std::int64_t down(std::int64_t a) const {
-        ArcId const below = plan_.out(plan_.to(as_index(a)));
-        return below == no_arc ? -1 : static_cast<std::int64_t>(below);
-    }
-    std::span<ArcId const> above(std::int64_t a) const { return plan_.in(plan_.from(as_index(a))); }
-    std::int64_t up(std::int64_t a, std::size_t k) const {
-        return k < above(a).size() ? static_cast<std::int64_t>(above(a)[k]) : -1;
-    }
+    Arc const& arc(ArcId a) const { return plan_.arc(a); }
+    std::vector<double> const& z(ArcId a) const { return tables_.network.arc_z[a]; }
+    double length(ArcId a) const { return plan_.length_m(a); }
+    int hack(ArcId a) const { return tables_.orders.hack[a]; }
+    ArcId down(ArcId a) const { return plan_.out(plan_.to(a)); }
+    std::span<ArcId const> above(ArcId a) const { return plan_.in(plan_.from(a)); }
+    ArcId up(ArcId a, std::size_t k) const { return k < above(a).size() ? above(a)[k] : no_arc; }
     /// The arc upstream on the same main stem.
-    std::int64_t main_up(std::int64_t a) const {
-        auto const found = std::ranges::find_if(above(a), [&](std::int64_t b) { return hack(b) == hack(a); });
-        return found == above(a).end() ? -1 : static_cast<std::int64_t>(*found);
+    ArcId main_up(ArcId a) const {
+        std::span<ArcId const> const upstream = above(a);
+        auto const found = std::ranges::find_if(upstream, [&](ArcId b) { return hack(b) == hack(a); });
+        return found == upstream.end() ? no_arc : *found;
     }
 
     NetworkTables const& tables_;
     StreamNetwork const& plan_;
     std::vector<std::int64_t> key_;    ///< 1, 2, ... from the outlets upstream
-    std::vector<std::int64_t> mouth_;  ///< last arc downstream of the same main stem
-    std::vector<std::int64_t> outlet_; ///< the arc at the outlet
+    std::vector<ArcId> mouth_;         ///< last arc downstream of the same main stem
+    std::vector<ArcId> outlet_;        ///< the arc at the outlet
     std::vector<double> length_up_m_;  ///< of all arcs upstream and its own
     std::vector<double> longest_up_m_; ///< of the longest way from a source, its own length with it
 };
@@ -187,12 +181,12 @@ bool names_a_key(Quantity quantity) {
     return quantity >= Quantity::key && quantity <= Quantity::outlet_path;
 }
 
-std::function<Value(std::int64_t)> value_of(SchemaField const& field, SchemaTable const& schema,
-                                            std::shared_ptr<Arcs const> const& arcs) {
+std::function<Value(ArcId)> value_of(SchemaField const& field, SchemaTable const& schema,
+                                     std::shared_ptr<Arcs const> const& arcs) {
     double const none = std::isnan(field.unknown) ? -1.0 : field.unknown;
     Quantity const quantity = field.quantity;
     if (quantity == Quantity::constant) {
-        return [field](std::int64_t) -> Value {
+        return [field](ArcId) -> Value {
             using enum Column::Kind;
             return field.kind == text   ? Value(std::string(field.text))
                    : field.kind == real ? Value(field.value)
@@ -201,18 +195,20 @@ std::function<Value(std::int64_t)> value_of(SchemaField const& field, SchemaTabl
     }
     if (names_an_arc(quantity) || names_a_key(quantity)) {
         bool const is_key = names_a_key(quantity);
-        return [=, first = schema.first_id](std::int64_t a) -> Value {
-            std::int64_t const named = arcs->arc_of(quantity, a);
-            return named < 0 ? static_cast<std::int64_t>(none) : is_key ? arcs->key_of(named) : named + first;
+        return [=, first = schema.first_id](ArcId a) -> Value {
+            ArcId const named = arcs->arc_of(quantity, a);
+            return named == no_arc ? static_cast<std::int64_t>(none)
+                   : is_key        ? arcs->key_of(named)
+                                   : static_cast<std::int64_t>(named) + first;
         };
     }
     if (field.kind == Column::Kind::text) {
-        return [=](std::int64_t a) -> Value { return arcs->type(a).empty() ? "none" : arcs->type(a); };
+        return [=](ArcId a) -> Value { return arcs->type(a).empty() ? "none" : arcs->type(a); };
     }
     if (field.kind != Column::Kind::real) {
-        return [=](std::int64_t a) -> Value { return arcs->count(quantity, a); };
+        return [=](ArcId a) -> Value { return arcs->count(quantity, a); };
     }
-    return [=, unit = field.unit](std::int64_t a) -> Value {
+    return [=, unit = field.unit](ArcId a) -> Value {
         double const value = arcs->measure(quantity, a);
         return std::isnan(value) ? none : value / unit;
     };
@@ -236,12 +232,8 @@ std::string short_name(SchemaField const& field) {
 
 Table schema_arcs(SchemaTable const& schema, NetworkTables const& tables, bool short_names) {
     auto const arcs = std::make_shared<Arcs const>(tables);
-    Table table{std::string(schema.layer),
-                Table::Shape::line,
-                static_cast<std::int64_t>(tables.network.plan.arc_count()),
-                {},
-                {}};
-    table.shape_at = [arcs, upstream = schema.drawn_upstream](std::int64_t row) {
+    Table table{std::string(schema.layer), Table::Shape::line, tables.network.plan.arc_count(), {}, {}};
+    table.shape_at = [arcs, upstream = schema.drawn_upstream](ArcId row) {
         std::vector<Vec3> line = arcs->line(row);
         if (upstream) {
             std::ranges::reverse(line);
@@ -256,8 +248,7 @@ Table schema_arcs(SchemaTable const& schema, NetworkTables const& tables, bool s
     }
     if (tables.user != nullptr) {
         add_user_columns(
-            table, tables.user->attributes,
-            [&user = *tables.user](std::int64_t a) { return user.record[static_cast<std::size_t>(a)]; }, short_names,
+            table, tables.user->attributes, [&user = *tables.user](ArcId a) { return user.record[a]; }, short_names,
             schema.schema);
     }
     return table;

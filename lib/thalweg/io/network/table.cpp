@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
+#include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/frame/internal/spatial_reference.hpp>
 #include <thalweg/io/gdal/driver.hpp>
@@ -26,8 +27,8 @@ struct FileFormat {
 };
 
 // In the order of LayerFormat.
-constexpr std::array<FileFormat, 4> file_formats{
-    {{"geopackage", "GPKG"}, {"shapefile", "ESRI Shapefile"}, {"flatgeobuf", "FlatGeobuf"}, {"geojson", "GeoJSON"}}};
+constexpr ByEnum<LayerFormat, FileFormat, 4> file_formats{
+    {{{"geopackage", "GPKG"}, {"shapefile", "ESRI Shapefile"}, {"flatgeobuf", "FlatGeobuf"}, {"geojson", "GeoJSON"}}}};
 
 void require_code(OGRSpatialReference const* reference, std::string const& what) {
     if (reference == nullptr || reference->GetAuthorityCode(nullptr) == nullptr) {
@@ -54,7 +55,7 @@ void require_crs(std::string const& path, OGRSpatialReference const& wanted, std
 
 void write_file(std::vector<Table const*> const& tables, std::string const& crs, std::string const& path,
                 LayerFormat format, Run const& run) {
-    FileFormat const& file_format = file_formats.at(static_cast<std::size_t>(format));
+    FileFormat const& file_format = file_formats[format];
     std::string const what = fmt::format("io.write_{}: {}", file_format.word, path);
     if (std::error_code ignored; std::filesystem::exists(path, ignored)) {
         throw IoError(what + " exists already");

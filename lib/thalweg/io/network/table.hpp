@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -21,9 +22,9 @@ struct Column {
 
     std::string name; ///< in a shapefile at most 10 characters
     Kind kind = Kind::integer;
-    int decimals = 0;                          ///< of a real in a shapefile, whose fields have 24 characters
-    std::function<Value(std::int64_t row)> at; ///< of the kind's type; texts for dates and times
-    bool is_users = false;                     ///< may be NULL, and numbers of any size
+    int decimals = 0;                         ///< of a real in a shapefile, whose fields have 24 characters
+    std::function<Value(std::size_t row)> at; ///< of the kind's type; texts for dates and times
+    bool is_users = false;                    ///< may be NULL, and numbers of any size
 };
 
 /// A layer of a vector file: its features are the rows [0, rows), numbered from 1.
@@ -32,11 +33,11 @@ struct Table {
 
     std::string name;
     Shape shape = Shape::none;
-    std::int64_t rows = 0;
+    std::size_t rows = 0;
     std::vector<Column> columns;
-    std::function<std::vector<Vec3>(std::int64_t row)>
+    std::function<std::vector<Vec3>(std::size_t row)>
         shape_at; ///< one position for a point; a closed ring for a polygon
-    std::function<std::vector<Polygon>(std::int64_t row)> parts_at =
+    std::function<std::vector<Polygon>(std::size_t row)> parts_at =
         {}; ///< of a multi_polygon, in plan: outer ring first; asked instead of shape_at
 };
 

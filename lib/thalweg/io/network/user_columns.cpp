@@ -154,7 +154,7 @@ std::vector<std::string> short_user_names(std::vector<std::string> const& names,
 }
 
 void add_user_columns(Table& table, AttributeTable const& attributes,
-                      std::function<std::int64_t(std::int64_t row)> const& record, bool short_names, Schema schema) {
+                      std::function<std::int64_t(std::size_t row)> const& record, bool short_names, Schema schema) {
     std::vector<std::string> taken;
     for (Column const& column : table.columns) {
         taken.push_back(column.name);
@@ -169,7 +169,7 @@ void add_user_columns(Table& table, AttributeTable const& attributes,
         column.kind = user_kind(attributes.columns[c].type, short_names);
         column.is_users = true;
         column.decimals = short_names && column.kind == Column::Kind::real ? user_decimals(attributes, c) : 0;
-        column.at = [&attributes, record, c, short_names](std::int64_t row) -> Column::Value {
+        column.at = [&attributes, record, c, short_names](std::size_t row) -> Column::Value {
             std::int64_t const r = record(row);
             if (r <= 0 || r > static_cast<std::int64_t>(attributes.rows.size())) {
                 return {};

@@ -74,7 +74,7 @@ public:
     Writer(GraphTables const& graph, std::string const& path, char const* who, Quote quote)
         : graph_(graph), what_(fmt::format("io.{}: {}", who, path)), quote_(quote), file_(path, what_) {}
 
-    std::string value(Table const& table, Column const& column, std::int64_t row) const {
+    std::string value(Table const& table, Column const& column, std::size_t row) const {
         Value const value = column.at(row);
         if (std::holds_alternative<std::monostate>(value)) {
             return quote_ == in_python ? "None" : "";
@@ -92,11 +92,8 @@ public:
         }
         return fmt::format("{:#}", real); // with a point: nobody takes it for an integer
     }
-    std::string geometry(std::int64_t row) const { return quote_(well_known(graph_.arcs.shape_at(row))); }
-    std::pair<NodeId, NodeId> ends(std::int64_t row) const {
-        auto const a = static_cast<std::size_t>(row);
-        return {graph_.plan.from(a) + 1, graph_.plan.to(a) + 1};
-    }
+    std::string geometry(std::size_t row) const { return quote_(well_known(graph_.arcs.shape_at(row))); }
+    std::pair<NodeId, NodeId> ends(ArcId a) const { return {graph_.plan.from(a) + 1, graph_.plan.to(a) + 1}; }
     void append(std::string_view text) { file_.append(text); }
     void close() { file_.close(); }
 
@@ -109,8 +106,8 @@ private:
 
 /// Calls body for each row of a table.
 template <class Body> void each_row(Table const& table, Run const& run, Body const& body) {
-    constexpr std::int64_t rows_between_reports = 1024;
-    for (std::int64_t row = 0; row < table.rows; ++row) {
+    constexpr std::size_t rows_between_reports = 1024;
+    for (std::size_t row = 0; row < table.rows; ++row) {
         if (row % rows_between_reports == 0) {
             run.at(static_cast<double>(row) / static_cast<double>(table.rows), "write");
         }
@@ -159,7 +156,7 @@ void write_graphml(GraphTables const& graph, std::string const& path, Run const&
     text += fmt::format("  <graph id=\"network\" edgedefault=\"directed\">\n    <data key=\"crs\">{}</data>\n",
                         in_xml(graph.crs));
     writer.append(text);
-    auto const data = [&](Table const& table, char letter, std::int64_t row) {
+    auto const data = [&](Table const& table, char letter, std::size_t row) {
         std::string out;
         for (std::size_t i = 0; i < table.columns.size(); ++i) {
             fmt::format_to(std::back_inserter(out), "<data key=\"{}{}\">{}</data>", letter, i,
@@ -167,13 +164,13 @@ void write_graphml(GraphTables const& graph, std::string const& path, Run const&
         }
         return out;
     };
-    each_row(graph.nodes, run, [&](std::int64_t row) {
+    each_row(graph.nodes, run, [&](std::size_t row) {
         Vec3 const at = graph.nodes.shape_at(row).front();
         writer.append(
             fmt::format("    <node id=\"{}\"><data key=\"x\">{:#}</data><data key=\"y\">{:#}</data>{}</node>\n",
                         row + 1, at.x, at.y, data(graph.nodes, 'n', row)));
     });
-    each_row(graph.arcs, run, [&](std::int64_t row) {
+    each_row(graph.arcs, run, [&](std::size_t row) {
         auto const [from, to] = writer.ends(row);
         writer.append(fmt::format("    <edge source=\"{}\" target=\"{}\">{}<data key=\"geometry\">{}</data></edge>\n",
                                   from, to, data(graph.arcs, 'e', row), writer.geometry(row)));
@@ -189,7 +186,7 @@ void write_edge_table(GraphTables const& graph, std::string const& path, Run con
         header += is_end(column) ? "" : fmt::format(",{}", in_csv(column.name));
     }
     writer.append(header + ",geometry\r\n");
-    each_row(graph.arcs, run, [&](std::int64_t row) {
+    each_row(graph.arcs, run, [&](std::size_t row) {
         auto const [from, to] = writer.ends(row);
         std::string line = fmt::format("{},{}", from, to);
         for (Column const& column : graph.arcs.columns) {
@@ -203,7 +200,7 @@ void write_edge_table(GraphTables const& graph, std::string const& path, Run con
 void write_edge_list(GraphTables const& graph, std::string const& path, Run const& run) {
     Writer writer(graph, path, "write_edge_list", in_python);
     writer.append("# networkx.read_edgelist(path, nodetype=int, create_using=networkx.DiGraph)\n");
-    each_row(graph.arcs, run, [&](std::int64_t row) {
+    each_row(graph.arcs, run, [&](std::size_t row) {
         auto const [from, to] = writer.ends(row);
         std::string line;
         for (Column const& column : graph.arcs.columns) {

@@ -31,12 +31,11 @@ void require_lines(RidgeLines const& ridges, std::string const& what) {
 
 Table run_table(std::map<std::string, std::string> const& rows) {
     std::vector<std::pair<std::string, std::string>> const list(rows.begin(), rows.end());
-    auto const at = [](std::int64_t row) { return static_cast<std::size_t>(row); };
     return {"run",
             Table::Shape::none,
-            static_cast<std::int64_t>(list.size()),
-            {{"name", Column::Kind::text, 0, [=](std::int64_t row) { return list[at(row)].first; }},
-             {"value", Column::Kind::text, 0, [=](std::int64_t row) { return list[at(row)].second; }}},
+            list.size(),
+            {{"name", Column::Kind::text, 0, [=](std::size_t row) { return list[row].first; }},
+             {"value", Column::Kind::text, 0, [=](std::size_t row) { return list[row].second; }}},
             {}};
 }
 

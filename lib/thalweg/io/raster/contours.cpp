@@ -88,19 +88,17 @@ void write_contours(std::vector<ContourLine> const& lines, double interval_m, st
 void write_contours(std::vector<ContourLine> const& lines, double interval, std::string const& crs,
                     std::string const& path, HeightUnit unit, Run const& run) {
     constexpr double index_every = 5.0;
-    auto const line_at = [&lines](std::int64_t row) -> ContourLine const& {
-        return lines[static_cast<std::size_t>(row)];
-    };
-    Table table{"contours", Table::Shape::line, static_cast<std::int64_t>(lines.size()), {}, {}};
+    auto const line_at = [&lines](std::size_t row) -> ContourLine const& { return lines[row]; };
+    Table table{"contours", Table::Shape::line, lines.size(), {}, {}};
     table.columns = {
-        {"z", Column::Kind::real, 0, [=](std::int64_t row) { return line_at(row).z; }},
+        {"z", Column::Kind::real, 0, [=](std::size_t row) { return line_at(row).z; }},
         {"is_index", Column::Kind::integer, 0,
-         [=](std::int64_t row) {
+         [=](std::size_t row) {
              double const level = std::floor(line_at(row).z / interval + 0.5);
              return static_cast<std::int64_t>(level == index_every * std::floor(level / index_every));
          }},
     };
-    table.shape_at = [=](std::int64_t row) {
+    table.shape_at = [=](std::size_t row) {
         std::vector<Vec3> line;
         for (Vec2 const p : line_at(row).line) {
             line.push_back({p.x, p.y, line_at(row).z});
@@ -109,7 +107,7 @@ void write_contours(std::vector<ContourLine> const& lines, double interval, std:
     };
     if (unit != HeightUnit::metre) {
         table.columns.push_back(
-            {"z_unit", Column::Kind::text, 0, [unit](std::int64_t) { return std::string(name_of(unit)); }});
+            {"z_unit", Column::Kind::text, 0, [unit](std::size_t) { return std::string(name_of(unit)); }});
     }
     write_tables({table}, crs, path, run);
 }

@@ -10,6 +10,7 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
@@ -84,10 +85,10 @@ std::vector<std::vector<Polygon>> polygonise(Raster<std::int32_t> const& numbers
     if (error != CE_None) {
         throw IoError(what + " failed");
     }
-    std::vector<std::vector<Polygon>> polygons(static_cast<std::size_t>(count));
+    Indexed<std::int64_t, std::vector<Polygon>> polygons(count);
     for (auto const& feature : *layer) {
         auto const number = feature->GetFieldAsInteger64(0);
-        polygons[static_cast<std::size_t>(number)].push_back(taken(*feature->GetGeometryRef()->toPolygon(), number));
+        polygons[number].push_back(taken(*feature->GetGeometryRef()->toPolygon(), number));
     }
     driver.check(what); // an allocation that fails ends the loop, too
     return polygons;

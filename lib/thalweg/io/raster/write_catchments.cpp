@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/table.hpp>
 #include <thalweg/io/raster/internal/polygonise.hpp>
@@ -24,10 +25,10 @@ struct Basin {
 };
 
 void require_counted(CatchmentTables const& tables, std::string const& what) {
-    std::vector<std::int64_t> counted(tables.rows.size(), 0);
+    Indexed<std::int32_t, std::int64_t> counted(tables.rows.size(), 0);
     for (std::int32_t const number : tables.number.values()) {
-        if (number >= 0 && static_cast<std::size_t>(number) < counted.size()) {
-            ++counted[static_cast<std::size_t>(number)];
+        if (number >= 0 && number < counted.count()) {
+            ++counted[number];
         }
     }
     for (std::size_t i = 0; i < counted.size(); ++i) {
@@ -39,7 +40,7 @@ void require_counted(CatchmentTables const& tables, std::string const& what) {
 }
 
 /// Basins by their id, and by row which it is.
-std::vector<Basin> basins_of(std::vector<CatchmentRow> const& rows, std::vector<std::int32_t>& basin_of_row) {
+std::vector<Basin> basins_of(std::vector<CatchmentRow> const& rows, Indexed<std::int32_t, std::int32_t>& basin_of_row) {
     std::map<std::int64_t, Basin> by_id;
     for (CatchmentRow const& row : rows) {
         if (row.cells > 0) {
@@ -77,42 +78,40 @@ CatchmentCount write_catchments(CatchmentTables const& tables, std::string const
             count.parts += static_cast<std::int64_t>(outlines[i].size());
         }
     }
-    std::vector<std::int32_t> basin_of_row;
+    Indexed<std::int32_t, std::int32_t> basin_of_row;
     auto const basins = basins_of(tables.rows, basin_of_row);
     Raster<std::int32_t> basin_number(grid, -1);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         if (tables.number[i] >= 0) {
-            basin_number[i] = basin_of_row[static_cast<std::size_t>(tables.number[i])];
+            basin_number[i] = basin_of_row[tables.number[i]];
         }
     }
     auto const shores = polygonise(basin_number, static_cast<std::int64_t>(basins.size()), run);
     count.catchments = static_cast<std::int64_t>(drawn.size());
     count.basins = static_cast<std::int64_t>(basins.size());
 
-    auto const row_at = [&](std::int64_t row) -> CatchmentRow const& {
-        return tables.rows[drawn[static_cast<std::size_t>(row)]];
-    };
+    auto const row_at = [&](std::size_t row) -> CatchmentRow const& { return tables.rows[drawn[row]]; };
     auto const area = [cell_m2](std::int64_t cells) { return static_cast<double>(cells) * cell_m2; };
-    Table catchments{"catchments", Table::Shape::multi_polygon, count.catchments, {}, {}};
+    Table catchments{"catchments", Table::Shape::multi_polygon, drawn.size(), {}, {}};
     catchments.columns = {
-        {"arc_id", Kind::wide_integer, 0, [=](std::int64_t row) { return row_at(row).arc_id; }},
-        {"ds_arc", Kind::wide_integer, 0, [=](std::int64_t row) { return row_at(row).ds_arc; }},
-        {"basin_id", Kind::wide_integer, 0, [=](std::int64_t row) { return row_at(row).basin_id; }},
-        {"cells", Kind::wide_integer, 0, [=](std::int64_t row) { return row_at(row).cells; }},
-        {"area", Kind::real, 0, [=](std::int64_t row) { return area(row_at(row).cells); }},
-        {"ds_area", Kind::real, 0, [=](std::int64_t row) { return area(row_at(row).upstream_cells); }},
+        {"arc_id", Kind::wide_integer, 0, [=](std::size_t row) { return row_at(row).arc_id; }},
+        {"ds_arc", Kind::wide_integer, 0, [=](std::size_t row) { return row_at(row).ds_arc; }},
+        {"basin_id", Kind::wide_integer, 0, [=](std::size_t row) { return row_at(row).basin_id; }},
+        {"cells", Kind::wide_integer, 0, [=](std::size_t row) { return row_at(row).cells; }},
+        {"area", Kind::real, 0, [=](std::size_t row) { return area(row_at(row).cells); }},
+        {"ds_area", Kind::real, 0, [=](std::size_t row) { return area(row_at(row).upstream_cells); }},
     };
-    catchments.parts_at = [&](std::int64_t row) { return outlines[drawn[static_cast<std::size_t>(row)]]; };
+    catchments.parts_at = [&](std::size_t row) { return outlines[drawn[row]]; };
 
-    auto const basin_at = [&](std::int64_t row) -> Basin const& { return basins[static_cast<std::size_t>(row)]; };
-    Table whole{"basins", Table::Shape::multi_polygon, count.basins, {}, {}};
+    auto const basin_at = [&](std::size_t row) -> Basin const& { return basins[row]; };
+    Table whole{"basins", Table::Shape::multi_polygon, basins.size(), {}, {}};
     whole.columns = {
-        {"basin_id", Kind::wide_integer, 0, [=](std::int64_t row) { return basin_at(row).id; }},
-        {"arcs", Kind::wide_integer, 0, [=](std::int64_t row) { return basin_at(row).arcs; }},
-        {"cells", Kind::wide_integer, 0, [=](std::int64_t row) { return basin_at(row).cells; }},
-        {"area", Kind::real, 0, [=](std::int64_t row) { return area(basin_at(row).cells); }},
+        {"basin_id", Kind::wide_integer, 0, [=](std::size_t row) { return basin_at(row).id; }},
+        {"arcs", Kind::wide_integer, 0, [=](std::size_t row) { return basin_at(row).arcs; }},
+        {"cells", Kind::wide_integer, 0, [=](std::size_t row) { return basin_at(row).cells; }},
+        {"area", Kind::real, 0, [=](std::size_t row) { return area(basin_at(row).cells); }},
     };
-    whole.parts_at = [&](std::int64_t row) { return shores[static_cast<std::size_t>(row)]; };
+    whole.parts_at = [&](std::size_t row) { return shores[row]; };
     write_tables({std::move(catchments), std::move(whole)}, grid.crs, path, run);
     return count;
 }

@@ -13,6 +13,7 @@
 
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/measure/drainage/internal/agreement.hpp>
 
@@ -41,7 +42,7 @@ void mark_without_corners(std::vector<Vec2> const& line, Mask& marked) {
 
 class Certifier {
 public:
-    Certifier(Raster<float> const& dem, flow::FlowField const& drainage, std::vector<flow::Reach> const& reaches,
+    Certifier(Raster<float> const& dem, flow::FlowField const& drainage, flow::Reaches const& reaches,
               Claims const& claims, Run const& run)
         : dem_(dem), drainage_(drainage), reaches_(reaches), claims_(claims), run_(run), grid_(dem.grid()),
           owner_(grid_, no_reach), corner_(grid_), fed_(reaches.size(), 0) {
@@ -59,7 +60,7 @@ public:
         }
         for (std::size_t r = 0; r < reaches.size(); ++r) {
             if (reaches[r].ds >= 0 && brings_water(ends_[r])) {
-                fed_[static_cast<std::size_t>(reaches[r].ds)] = 1;
+                fed_[reaches[r].ds] = 1;
             }
         }
     }
@@ -199,10 +200,9 @@ private:
     }
 
     /// Whether a reach is another, or lies downstream of it.
-    bool leads_to(std::size_t from, std::size_t to) const {
-        for (std::int64_t at = static_cast<std::int64_t>(from); at >= 0;
-             at = reaches_[static_cast<std::size_t>(at)].ds) {
-            if (at == static_cast<std::int64_t>(to)) {
+    bool leads_to(std::size_t from, flow::ReachId to) const {
+        for (auto at = static_cast<flow::ReachId>(from); at >= 0; at = reaches_[at].ds) {
+            if (at == to) {
                 return true;
             }
         }
@@ -231,9 +231,8 @@ private:
                      fmt::format("arc {} runs along the border of the DEM at {}", reaches_[c.reach].id, place(at)));
             }
             std::int64_t const next = next_of(c.cell);
-            bool const on =
-                ends_river(c) || lake_[c.cell] != 0 ||
-                (next >= 0 && owner_[next] != no_reach && leads_to(c.reach, static_cast<std::size_t>(owner_[next])));
+            bool const on = ends_river(c) || lake_[c.cell] != 0 ||
+                            (next >= 0 && owner_[next] != no_reach && leads_to(c.reach, owner_[next]));
             out_.following_cells += on ? 1 : 0;
             if (!on) {
                 double const drop =
@@ -255,8 +254,8 @@ private:
     /// Where the network lets the water of a reach out: the last cell of the last reach that lies in the grid.
     std::int64_t outlet_of(std::size_t reach) const {
         std::int64_t outlet = -1;
-        for (auto at = static_cast<std::int64_t>(reach); at >= 0; at = reaches_[static_cast<std::size_t>(at)].ds) {
-            Ends const& ends = ends_[static_cast<std::size_t>(at)];
+        for (auto at = static_cast<flow::ReachId>(reach); at >= 0; at = reaches_[at].ds) {
+            Ends const& ends = ends_[at];
             outlet = ends.last >= 0 ? ends.last : outlet;
         }
         return outlet;
@@ -339,7 +338,7 @@ private:
 
     Raster<float> const& dem_;
     flow::FlowField const& drainage_;
-    std::vector<flow::Reach> const& reaches_;
+    flow::Reaches const& reaches_;
     Claims const& claims_;
     Run const& run_;
     Grid const& grid_;
@@ -347,8 +346,8 @@ private:
     Mask lake_;
     Mask corner_; ///< 1: only corners of reaches
     std::vector<flow::RiverCell> rivers_;
-    std::vector<Ends> ends_;
-    std::vector<std::uint8_t> fed_; ///< by reach: another runs into it
+    Indexed<flow::ReachId, Ends> ends_;
+    Indexed<flow::ReachId, std::uint8_t> fed_; ///< another runs into it
     std::map<std::string, std::int64_t> told_;
     Certificate out_;
 };
@@ -374,7 +373,7 @@ std::vector<Check> Certificate::checks() const {
     return all;
 }
 
-Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, std::vector<flow::Reach> const& reaches,
+Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, flow::Reaches const& reaches,
                     Claims const& claims, Run const& run) {
     if (drainage.direction.grid() != dem.grid()) {
         throw BadInput("measure.certify: the drainage is not that of this DEM; drain it first");
@@ -388,7 +387,7 @@ Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, s
             throw BadInput("measure.certify: what stands, is drawn or honoured is not on the DEM's grid");
         }
     }
-    if (reaches.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    if (std::cmp_greater(reaches.size(), std::numeric_limits<std::int32_t>::max())) {
         throw BadInput("measure.certify: more than 2^31 reaches");
     }
     return Certifier(dem, drainage, reaches, claims, run).certify();

@@ -75,7 +75,7 @@ struct Claims {
 /// diagonal step of a reach passes
 /// \throws BadInput for drainage or claims of another DEM or other reaches; as river_cells
 /// \throws Cancelled
-Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, std::vector<flow::Reach> const& reaches,
+Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, flow::Reaches const& reaches,
                     Claims const& claims = {}, Run const& run = {});
 
 } // namespace thalweg::measure

@@ -35,7 +35,7 @@ std::optional<Vec2> chord_up(StreamNetwork const& network, std::size_t arc, doub
         if (above.size() != 1) {
             break;
         }
-        a = static_cast<std::size_t>(above.front());
+        a = above.front();
     }
     return left > 0.5 * reach_m ? std::nullopt : std::optional(Vec2{at.x - foot.x, at.y - foot.y});
 }
@@ -54,8 +54,8 @@ JunctionAngles junction_angles(StreamNetwork const& network, double reach_m) {
         if (above.size() < 2 || network.out(n) == no_arc) {
             continue;
         }
-        auto const one = chord_up(network, static_cast<std::size_t>(above[0]), reach_m);
-        auto const other = chord_up(network, static_cast<std::size_t>(above[1]), reach_m);
+        auto const one = chord_up(network, above[0], reach_m);
+        auto const other = chord_up(network, above[1], reach_m);
         auto const is_zero = [](Vec2 v) { return v == Vec2{}; };
         if (above.size() > 2 || !one || !other || is_zero(*one) || is_zero(*other)) {
             ++angles.left_out;

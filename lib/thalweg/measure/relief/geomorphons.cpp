@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
@@ -65,7 +66,7 @@ class RowOfLookers {
 public:
     RowOfLookers(Raster<float> const& dem, GeomorphonParams const& params)
         : dem_(dem), first_(params.search_cells), beyond_(dem.width() - params.search_cells), skip_(params.skip_cells),
-          up_(static_cast<std::size_t>(dem.width())), down_(up_.size()), rise_(up_.size()), fall_(up_.size()) {}
+          up_(dem.width()), down_(up_.size()), rise_(up_.size()), fall_(up_.size()) {}
 
     void look(std::int64_t row, std::array<Sight, 8> const& all, std::span<std::uint8_t> form) {
         std::fill(rise_.begin(), rise_.end(), std::uint8_t{0});
@@ -75,9 +76,9 @@ public:
             count(row, sight);
         }
         float const* const here = dem_.row(row).data();
+        std::uint8_t* const out = form.data();
         for (std::int64_t c = first_; c < beyond_; ++c) {
-            auto const i = static_cast<std::size_t>(c);
-            form[i] = std::isnan(here[c]) ? std::uint8_t{0} : static_cast<std::uint8_t>(forms[fall_[i]][rise_[i]]);
+            out[c] = std::isnan(here[c]) ? std::uint8_t{0} : static_cast<std::uint8_t>(forms[fall_[c]][rise_[c]]);
         }
     }
 
@@ -106,12 +107,11 @@ private:
     void count(std::int64_t row, Sight const& sight) {
         float const* const next = dem_.row(row + sight.step.row).data() + sight.step.col;
         for (std::int64_t c = first_; c < beyond_; ++c) {
-            auto const i = static_cast<std::size_t>(c);
-            double const up = std::fabs(up_[i]);
-            double const down = std::fabs(down_[i]);
+            double const up = std::fabs(up_[c]);
+            double const down = std::fabs(down_[c]);
             bool const seen = !std::isnan(next[c]) && (up > sight.level || down > sight.level);
-            rise_[i] = static_cast<std::uint8_t>(rise_[i] + (seen && up > down ? 1 : 0));
-            fall_[i] = static_cast<std::uint8_t>(fall_[i] + (seen && down > up ? 1 : 0));
+            rise_[c] = static_cast<std::uint8_t>(rise_[c] + (seen && up > down ? 1 : 0));
+            fall_[c] = static_cast<std::uint8_t>(fall_[c] + (seen && down > up ? 1 : 0));
         }
     }
 
@@ -119,10 +119,10 @@ private:
     std::int64_t first_;
     std::int64_t beyond_;
     std::int64_t skip_;
-    std::vector<double> up_;
-    std::vector<double> down_;
-    std::vector<std::uint8_t> rise_;
-    std::vector<std::uint8_t> fall_;
+    Indexed<ColumnIndex, double> up_;
+    Indexed<ColumnIndex, double> down_;
+    Indexed<ColumnIndex, std::uint8_t> rise_;
+    Indexed<ColumnIndex, std::uint8_t> fall_;
 };
 
 void check(GeomorphonParams const& params, Grid const& grid) {

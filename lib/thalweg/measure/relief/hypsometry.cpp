@@ -8,11 +8,13 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
@@ -46,8 +48,8 @@ struct Digit {
 constexpr std::array<Digit, 3> digits{{{21, 11}, {10, 11}, {0, 10}}};
 
 /// The digits read so far of the cells that are sought: from each digit's value to the node for the next digit.
-using Nodes = std::vector<std::int32_t>;
-constexpr std::int32_t nobody = -1;
+using Nodes = std::vector<std::uint32_t>;
+constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
 /// A cell that is sought by its place from the top, among those that share its digits so far.
 struct Sought {
@@ -70,12 +72,12 @@ std::vector<std::int64_t> count(Raster<float> const& dem, std::vector<Nodes> con
                 continue;
             }
             std::uint32_t const rank = rank_of(dem[i]);
-            std::int32_t node = 0;
+            std::uint32_t node = 0;
             for (std::size_t d = 0; d < depth && node != nobody; ++d) {
-                node = above[d][static_cast<std::size_t>(node) * digits[d].values() + digits[d].of(rank)];
+                node = above[d][node * digits[d].values() + digits[d].of(rank)];
             }
             if (node != nobody) {
-                ++here[static_cast<std::size_t>(node) * values + digits[depth].of(rank)];
+                ++here[node * values + digits[depth].of(rank)];
             }
         }
         std::scoped_lock const lock(adding);
@@ -103,10 +105,10 @@ std::vector<double> heights_at(std::vector<std::int64_t> const& places, Raster<f
                 s.place -= counts[at];
             }
             if (next[at] == nobody) {
-                next[at] = static_cast<std::int32_t>(further++);
+                next[at] = static_cast<std::uint32_t>(further++);
             }
             s.rank |= static_cast<std::uint32_t>(at - s.node * values) << digits[depth].shift;
-            s.node = static_cast<std::size_t>(next[at]);
+            s.node = next[at];
         }
         above.push_back(std::move(next));
         nodes = further;
@@ -140,12 +142,12 @@ std::int64_t cells_with_height(Raster<float> const& dem) {
 
 /// Mean height above the lowest; rows are put together in their order.
 double mean_above(double lowest, Raster<float> const& dem, std::int64_t cells, Run const& run) {
-    std::vector<CompensatedSum> rows(static_cast<std::size_t>(dem.height()));
+    Indexed<RowIndex, CompensatedSum> rows(dem.height());
     parallel_ranges(run, dem.height(), 64, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t r = begin; r < end; ++r) {
             for (float const z : dem.row(r)) {
                 if (!std::isnan(z)) {
-                    rows[static_cast<std::size_t>(r)].add(static_cast<double>(z) - lowest);
+                    rows[r].add(static_cast<double>(z) - lowest);
                 }
             }
         }
@@ -168,9 +170,8 @@ Hypsometry hypsometry(Raster<float> const& dem, Run const& run) {
     }
     std::vector<double> const heights = heights_at(places, dem, run);
     Hypsometry result;
-    for (std::int64_t k = 0; k <= shares; ++k) {
-        result.points.push_back(
-            {static_cast<double>(k) / static_cast<double>(shares), heights[static_cast<std::size_t>(k)]});
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        result.points.push_back({static_cast<double>(k) / static_cast<double>(shares), heights[k]});
     }
     double const lowest = heights.back();
     double const range = heights.front() - lowest;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
@@ -132,11 +133,11 @@ Slopes slopes(Raster<float> const& dem, Run const& run) {
     std::int64_t const rows = std::max<std::int64_t>(dem.height() - 2, 0);
     Sector const wide = sector(11.25);
     Sector const narrow = sector(2.5);
-    std::vector<Block> blocks(static_cast<std::size_t>((rows + rows_a_block - 1) / rows_a_block));
-    parallel_ranges(run, static_cast<std::int64_t>(blocks.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+    Indexed<std::int64_t, Block> blocks((rows + rows_a_block - 1) / rows_a_block);
+    parallel_ranges(run, blocks.count(), 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t b = begin; b < end; ++b) {
             run.check();
-            Block& block = blocks[static_cast<std::size_t>(b)];
+            Block& block = blocks[b];
             block.counts.assign(classes, 0);
             for (std::int64_t r = b * rows_a_block; r < std::min((b + 1) * rows_a_block, rows); ++r) {
                 add_row(dem, r + 1, wide, narrow, block);

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
@@ -186,12 +187,12 @@ Statistics statistics(Raster<float> const& dem, Run const& run) {
         throw BadInput(fmt::format("measure.statistics: the DEM's cells have a side of {} m; it must be greater than 0",
                                    dem.grid().cell_m));
     }
-    std::vector<RowSums> rows(static_cast<std::size_t>(dem.height()));
+    Indexed<RowIndex, RowSums> rows(dem.height());
     auto const for_rows = [&](auto const& add) {
         parallel_ranges(run, dem.height(), rows_a_sum, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t r = begin; r < end; ++r) {
                 run.check();
-                add(r, rows[static_cast<std::size_t>(r)]);
+                add(r, rows[r]);
             }
         });
     };

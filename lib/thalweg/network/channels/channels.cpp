@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/numbers/index.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
@@ -67,11 +67,11 @@ public:
     explicit Drawing(Grid const& grid) : number_(grid, -1) {}
 
     std::int64_t number(Cell c) const { return number_[c]; }
-    std::int64_t size() const { return static_cast<std::int64_t>(cell_.size()); }
-    std::int64_t receiver(std::int64_t i) const { return receiver_[as_index(i)]; }
-    std::int64_t donors(std::int64_t i) const { return donors_[as_index(i)]; }
-    bool is_gone(std::int64_t i) const { return gone_[as_index(i)] != 0; }
-    Cell at(std::int64_t i) const { return number_.grid().at(cell_[as_index(i)]); }
+    ChannelId size() const { return cell_.count(); }
+    std::int64_t receiver(std::int64_t i) const { return receiver_[i]; }
+    std::int64_t donors(std::int64_t i) const { return donors_[i]; }
+    bool is_gone(std::int64_t i) const { return gone_[i] != 0; }
+    Cell at(std::int64_t i) const { return number_.grid().at(cell_[i]); }
 
     void add(Cell c, std::int64_t receiver) {
         if (size() >= std::numeric_limits<std::int32_t>::max()) {
@@ -83,19 +83,19 @@ public:
         donors_.push_back(0);
         gone_.push_back(0);
         if (receiver >= 0) {
-            ++donors_[as_index(receiver)];
+            ++donors_[receiver];
         }
     }
     void lead(std::int64_t i, std::int64_t to) {
-        --donors_[as_index(receiver_[as_index(i)])];
-        ++donors_[as_index(to)];
-        receiver_[as_index(i)] = to;
+        --donors_[receiver_[i]];
+        ++donors_[to];
+        receiver_[i] = to;
     }
     void leave_out(std::int64_t i) {
-        gone_[as_index(i)] = 1;
-        number_[cell_[as_index(i)]] = -1;
-        if (std::int64_t const below = receiver_[as_index(i)]; below >= 0) {
-            --donors_[as_index(below)];
+        gone_[i] = 1;
+        number_[cell_[i]] = -1;
+        if (std::int64_t const below = receiver_[i]; below >= 0) {
+            --donors_[below];
         }
     }
 
@@ -113,13 +113,13 @@ public:
     }
 
     /// Numbers without those left out, -1 for these.
-    std::vector<std::int64_t> renumbered(Channels& out) const {
-        std::vector<std::int64_t> now(cell_.size(), -1);
+    Indexed<ChannelId, ChannelId> renumbered(Channels& out) const {
+        Indexed<ChannelId, ChannelId> now(cell_.size(), -1);
         for (std::size_t i = 0; i < cell_.size(); ++i) {
             if (gone_[i] == 0) {
-                now[i] = static_cast<std::int64_t>(out.cell.size());
+                now[i] = out.cell.count();
                 out.cell.push_back(cell_[i]);
-                out.receiver.push_back(receiver_[i] < 0 ? -1 : now[as_index(receiver_[i])]);
+                out.receiver.push_back(receiver_[i] < 0 ? -1 : now[receiver_[i]]);
             }
         }
         return now;
@@ -127,10 +127,10 @@ public:
 
 private:
     Raster<std::int32_t> number_; ///< by cell, -1 where no channel is
-    std::vector<std::int64_t> cell_;
-    std::vector<std::int64_t> receiver_; ///< less than the number itself
-    std::vector<std::int64_t> donors_;
-    std::vector<std::uint8_t> gone_;
+    Indexed<ChannelId, CellIndex> cell_;
+    Indexed<ChannelId, ChannelId> receiver_; ///< less than the number itself
+    Indexed<ChannelId, std::int64_t> donors_;
+    Indexed<ChannelId, std::uint8_t> gone_;
 };
 
 /// The arcs by steps to their outlet, then number: a cell belongs to the first that comes.
@@ -198,7 +198,7 @@ private:
     }
 
     void note_capture(std::size_t a, std::size_t i, std::int64_t receiver) {
-        std::size_t const by = owner_[as_index(receiver)];
+        std::size_t const by = owner_[receiver];
         if (by == a || network_.to(by) == network_.to(a) || is_downstream(a, by)) {
             return;
         }
@@ -214,31 +214,31 @@ private:
 
     StreamNetwork const& network_;
     Grid grid_;
-    std::vector<std::size_t> owner_; ///< arc, by channel cell
+    Indexed<ChannelId, ArcId> owner_; ///< by channel cell
     std::vector<std::pair<std::size_t, Finding>> notes_;
 };
 
 /// By channel cell whether a river begins there. Ways that begin where rivers share cells begin there too, but the
 /// short ones, which are left out.
-std::vector<std::uint8_t> sources(Drawer& drawer, StreamNetwork const& network, std::int64_t stub_cells) {
+Indexed<ChannelId, std::uint8_t> sources(Drawer& drawer, StreamNetwork const& network, std::int64_t stub_cells) {
     Drawing& drawing = drawer.drawing;
-    std::vector<std::uint8_t> begins(as_index(drawing.size()), 0);
+    Indexed<ChannelId, std::uint8_t> begins(drawing.size(), 0);
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
         if (network.in(network.from(a)).empty()) {
-            begins[as_index(drawing.number(drawer.way[a].front()))] = 1;
+            begins[drawing.number(drawer.way[a].front())] = 1;
         }
     }
     for (std::int64_t i = drawing.size() - 1; i >= 0; --i) {
-        if (begins[as_index(i)] != 0 || drawing.is_gone(i) || drawing.donors(i) != 0) {
+        if (begins[i] != 0 || drawing.is_gone(i) || drawing.donors(i) != 0) {
             continue;
         }
         std::vector<std::int64_t> stub{i};
         while (drawing.receiver(stub.back()) >= 0 && drawing.donors(drawing.receiver(stub.back())) == 1 &&
-               begins[as_index(drawing.receiver(stub.back()))] == 0) {
+               begins[drawing.receiver(stub.back())] == 0) {
             stub.push_back(drawing.receiver(stub.back()));
         }
         if (static_cast<std::int64_t>(stub.size()) >= stub_cells) {
-            begins[as_index(i)] = 1;
+            begins[i] = 1;
             continue;
         }
         for (std::int64_t const cell : stub) {
@@ -263,7 +263,7 @@ std::int64_t farthest_neighbour(Drawing const& drawing, std::int64_t i, std::int
 }
 
 /// Takes short cuts until there are none. Each brings a cell nearer to its outlet, so this ends.
-void take_short_cuts(Drawing& drawing, std::vector<std::uint8_t> const& begins, std::int64_t look_cells,
+void take_short_cuts(Drawing& drawing, Indexed<ChannelId, std::uint8_t> const& begins, std::int64_t look_cells,
                      Run const& run) {
     for (bool changed = true; changed;) {
         run.check();
@@ -272,7 +272,7 @@ void take_short_cuts(Drawing& drawing, std::vector<std::uint8_t> const& begins, 
             if (drawing.is_gone(i)) {
                 continue;
             }
-            if (drawing.donors(i) == 0 && begins[as_index(i)] == 0) {
+            if (drawing.donors(i) == 0 && begins[i] == 0) {
                 drawing.leave_out(i);
                 changed = true;
                 continue;
@@ -300,17 +300,17 @@ ChannelsOfArcs channels(StreamNetwork const& network, Grid const& grid, Channels
         run.check();
         drawer.draw(a);
     }
-    std::vector<std::uint8_t> const begins = sources(drawer, network, params.stub_cells);
+    Indexed<ChannelId, std::uint8_t> const begins = sources(drawer, network, params.stub_cells);
     take_short_cuts(drawer.drawing, begins, params.look_cells, run);
 
     ChannelsOfArcs out;
     out.channels.grid = grid;
-    std::vector<std::int64_t> const now = drawer.drawing.renumbered(out.channels);
+    Indexed<ChannelId, ChannelId> const now = drawer.drawing.renumbered(out.channels);
     out.of_arc.resize(network.arc_count());
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
         for (Cell const c : drawer.way[a]) {
             if (std::int64_t const i = drawer.drawing.number(c); i >= 0) {
-                out.of_arc[a].push_back(now[as_index(i)]);
+                out.of_arc[a].push_back(now[i]);
             }
         }
     }

@@ -55,10 +55,10 @@ public:
         Grid const& grid = labels.grid();
         auto const& way = drawn_.of_arc[arc];
         auto const at = static_cast<std::size_t>(along * static_cast<double>(way.size()));
-        std::int64_t const first = drawn_.channels.cell[static_cast<std::size_t>(way[at])];
+        std::int64_t const first = drawn_.channels.cell[way[at]];
         std::unordered_set<std::int64_t> river; // looked up only, never walked
         for (std::int64_t const i : way) {
-            river.insert(drawn_.channels.cell[static_cast<std::size_t>(i)]);
+            river.insert(drawn_.channels.cell[i]);
         }
         std::uint64_t const own_seed = random_word(seed_, lake_stage, arc);
         double const wave = std::max(3.0, 0.6 * std::sqrt(static_cast<double>(cells)));

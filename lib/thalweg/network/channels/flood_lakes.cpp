@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/index.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/channels/internal/lake_basins.hpp>
 
@@ -31,8 +31,8 @@ public:
         for (std::size_t i = cell.size(); i-- > 0;) {
             number_[cell[i]] = static_cast<std::int32_t>(i);
             if (receiver[i] >= 0) {
-                above_[as_index(receiver[i])] += above_[i];
-                ++donors_[as_index(receiver[i])];
+                above_[receiver[i]] += above_[i];
+                ++donors_[receiver[i]];
             }
         }
     }
@@ -71,10 +71,10 @@ public:
         }
     }
 
-    std::vector<std::int64_t> cell;     ///< by channel cell; new ones at the end
-    std::vector<std::int64_t> receiver; ///< likewise
-    std::vector<std::uint8_t> is_gone;  ///< likewise
-    std::vector<std::uint8_t> is_level; ///< likewise
+    Indexed<ChannelId, CellIndex> cell;        ///< new ones at the end
+    Indexed<ChannelId, ChannelId> receiver;    ///< likewise
+    Indexed<ChannelId, std::uint8_t> is_gone;  ///< likewise
+    Indexed<ChannelId, std::uint8_t> is_level; ///< likewise
     std::vector<Lake> lakes;
     std::vector<Finding> notes;
 
@@ -84,11 +84,11 @@ private:
         std::int64_t towards; ///< cell
     };
 
-    bool is_in(std::int64_t channel) const { return lake_[cell[as_index(channel)]] != 0; }
+    bool is_in(std::int64_t channel) const { return lake_[cell[channel]] != 0; }
 
     /// Whether the water of a channel cell comes into the lake below it.
     bool comes_in(std::int64_t channel) const {
-        for (std::int64_t i = receiver[as_index(channel)]; i >= 0; i = receiver[as_index(i)]) {
+        for (std::int64_t i = receiver[channel]; i >= 0; i = receiver[i]) {
             if (is_in(i)) {
                 return true;
             }
@@ -100,11 +100,10 @@ private:
         std::int64_t best = no_cell;
         for (std::int64_t const c : basin.cells) {
             std::int64_t const i = number_[c];
-            if (i < 0 || (receiver[as_index(i)] >= 0 && is_in(receiver[as_index(i)])) || comes_in(i)) {
+            if (i < 0 || (receiver[i] >= 0 && is_in(receiver[i])) || comes_in(i)) {
                 continue;
             }
-            bool const more = best != no_cell && (above_[as_index(i)] > above_[as_index(best)] ||
-                                                  (above_[as_index(i)] == above_[as_index(best)] && i < best));
+            bool const more = best != no_cell && (above_[i] > above_[best] || (above_[i] == above_[best] && i < best));
             best = best == no_cell || more ? i : best;
         }
         return best;
@@ -117,7 +116,7 @@ private:
             changed = false;
             std::unordered_map<std::int64_t, bool> passes; // looked up only, never walked
             for (std::int64_t const c : basin.cells) {
-                if (lake_[c] == 0 || c == cell[as_index(outlet)]) {
+                if (lake_[c] == 0 || c == cell[outlet]) {
                     continue;
                 }
                 bool leaks = false;
@@ -144,21 +143,21 @@ private:
 
     /// Whether all that flows into a channel cell comes from the lake, not by its outlet: it will be taken off.
     bool is_dry_below(std::int64_t channel, std::int64_t outlet) const {
-        if (receiver[as_index(outlet)] == channel) {
+        if (receiver[outlet] == channel) {
             return false;
         }
         std::int64_t from_lake = 0;
-        each_neighbour(grid_, cell[as_index(channel)], [&](std::int64_t n) {
+        each_neighbour(grid_, cell[channel], [&](std::int64_t n) {
             std::int64_t const i = number_[n];
-            from_lake += i >= 0 && lake_[n] != 0 && receiver[as_index(i)] == channel ? 1 : 0;
+            from_lake += i >= 0 && lake_[n] != 0 && receiver[i] == channel ? 1 : 0;
         });
-        return from_lake > 0 && from_lake == donors_[as_index(channel)];
+        return from_lake > 0 && from_lake == donors_[channel];
     }
 
     /// The cells of the lake that hang together with its outlet, nearest first, each with the next on its way there.
     std::vector<Link> links_to(std::int64_t outlet) {
         std::vector<Link> out;
-        std::vector<std::int64_t> front{cell[as_index(outlet)]};
+        std::vector<std::int64_t> front{cell[outlet]};
         lake_[front.front()] = 0;
         for (std::size_t k = 0; k < front.size(); ++k) {
             each_neighbour(grid_, front[k], [&](std::int64_t n) {
@@ -188,12 +187,12 @@ private:
         for (Link const& link : links) {
             std::int64_t const i = number_[link.cell];
             std::int64_t const to = number_[link.towards];
-            std::int64_t const before = receiver[as_index(i)];
-            is_level[as_index(i)] = 1;
-            receiver[as_index(i)] = to;
-            ++donors_[as_index(to)];
+            std::int64_t const before = receiver[i];
+            is_level[i] = 1;
+            receiver[i] = to;
+            ++donors_[to];
             if (before >= 0) {
-                --donors_[as_index(before)];
+                --donors_[before];
                 left_.push_back(before);
             }
         }
@@ -205,33 +204,32 @@ private:
         for (Link const& link : links) {
             lake_[link.cell] = 1;
         }
-        lake_[cell[as_index(outlet)]] = 1;
+        lake_[cell[outlet]] = 1;
         std::sort(left_.begin(), left_.end());
         left_.erase(std::unique(left_.begin(), left_.end()), left_.end());
         std::int64_t rivers = 0;
         for (std::int64_t i : left_) {
             rivers += is_in(i) ? 0 : 1;
             bool const returns = comes_in(i);
-            while (i >= 0 && !is_in(i) && donors_[as_index(i)] == 0 && is_level[as_index(i)] == 0 &&
-                   (returns || touches(i))) {
-                is_gone[as_index(i)] = 1;
-                number_[cell[as_index(i)]] = -1;
-                i = receiver[as_index(i)];
+            while (i >= 0 && !is_in(i) && donors_[i] == 0 && is_level[i] == 0 && (returns || touches(i))) {
+                is_gone[i] = 1;
+                number_[cell[i]] = -1;
+                i = receiver[i];
                 if (i >= 0) {
-                    --donors_[as_index(i)];
+                    --donors_[i];
                 }
             }
         }
         for (Link const& link : links) {
             lake_[link.cell] = 0;
         }
-        lake_[cell[as_index(outlet)]] = 0;
+        lake_[cell[outlet]] = 0;
         return rivers;
     }
 
     bool touches(std::int64_t channel) const {
         bool any = false;
-        each_neighbour(grid_, cell[as_index(channel)], [&](std::int64_t n) { any |= lake_[n] != 0; });
+        each_neighbour(grid_, cell[channel], [&](std::int64_t n) { any |= lake_[n] != 0; });
         return any;
     }
 
@@ -243,21 +241,21 @@ private:
 
     Run const& run_;
     Grid grid_;
-    Raster<std::int32_t> number_;     ///< by cell, -1 where no channel is
-    Mask lake_;                       ///< the lake that is being laid
-    std::vector<std::int64_t> above_; ///< channel cells that flow into each, before there were lakes; itself too
-    std::vector<std::int64_t> donors_;
+    Raster<std::int32_t> number_;            ///< by cell, -1 where no channel is
+    Mask lake_;                              ///< the lake that is being laid
+    Indexed<ChannelId, std::int64_t> above_; ///< channel cells that flow into each, before there were lakes; itself too
+    Indexed<ChannelId, std::int64_t> donors_;
     std::vector<std::int64_t> left_; ///< cells that the lake's water flowed into
 };
 
 /// Old numbers in an order in which receivers come first.
 std::vector<std::int64_t> downstream_first(Lakes const& lakes) {
-    std::vector<std::int64_t> first(lakes.cell.size(), no_cell); // donor, and the next one of the same receiver
-    std::vector<std::int64_t> next(lakes.cell.size(), no_cell);
+    Indexed<ChannelId, ChannelId> first(lakes.cell.size(), no_cell); // donor, and the next one of the same receiver
+    Indexed<ChannelId, ChannelId> next(lakes.cell.size(), no_cell);
     std::vector<std::int64_t> order;
     for (std::size_t i = lakes.cell.size(); i-- > 0;) {
         if (lakes.is_gone[i] == 0 && lakes.receiver[i] >= 0) {
-            next[i] = std::exchange(first[as_index(lakes.receiver[i])], static_cast<std::int64_t>(i));
+            next[i] = std::exchange(first[lakes.receiver[i]], static_cast<std::int64_t>(i));
         }
     }
     for (std::size_t i = 0; i < lakes.cell.size(); ++i) {
@@ -266,7 +264,7 @@ std::vector<std::int64_t> downstream_first(Lakes const& lakes) {
         }
     }
     for (std::size_t k = 0; k < order.size(); ++k) {
-        for (std::int64_t i = first[as_index(order[k])]; i >= 0; i = next[as_index(i)]) {
+        for (std::int64_t i = first[order[k]]; i >= 0; i = next[i]) {
             order.push_back(i);
         }
     }
@@ -275,31 +273,31 @@ std::vector<std::int64_t> downstream_first(Lakes const& lakes) {
 
 /// Level cells beside a river that does not flow into their lake: what it ran into before may have become another's.
 std::vector<std::int64_t> leaks(Lakes const& lakes, std::vector<std::int64_t> const& order, Grid const& grid) {
-    std::vector<std::int64_t> outlet(lakes.cell.size(), no_cell); // by level cell
-    std::unordered_map<std::int64_t, std::int64_t> number;        // looked up only, never walked
+    Indexed<ChannelId, ChannelId> outlet(lakes.cell.size(), no_cell); // by level cell
+    std::unordered_map<std::int64_t, std::int64_t> number;            // looked up only, never walked
     for (std::int64_t const i : order) {
-        number[lakes.cell[as_index(i)]] = i;
-        if (lakes.is_level[as_index(i)] != 0) {
-            std::int64_t const to = lakes.receiver[as_index(i)];
-            outlet[as_index(i)] = lakes.is_level[as_index(to)] != 0 ? outlet[as_index(to)] : to;
+        number[lakes.cell[i]] = i;
+        if (lakes.is_level[i] != 0) {
+            std::int64_t const to = lakes.receiver[i];
+            outlet[i] = lakes.is_level[to] != 0 ? outlet[to] : to;
         }
     }
     auto const flows_into = [&](std::int64_t i, std::int64_t lake) {
-        for (; i >= 0 && i != lake && outlet[as_index(i)] != lake; i = lakes.receiver[as_index(i)]) {
+        for (; i >= 0 && i != lake && outlet[i] != lake; i = lakes.receiver[i]) {
         }
         return i >= 0;
     };
     std::vector<std::int64_t> out;
     for (std::int64_t const i : order) {
         bool leaks = false;
-        if (outlet[as_index(i)] >= 0) {
-            each_neighbour(grid, lakes.cell[as_index(i)], [&](std::int64_t n) {
+        if (outlet[i] >= 0) {
+            each_neighbour(grid, lakes.cell[i], [&](std::int64_t n) {
                 auto const river = number.find(n);
-                leaks |= river != number.end() && !flows_into(river->second, outlet[as_index(i)]);
+                leaks |= river != number.end() && !flows_into(river->second, outlet[i]);
             });
         }
         if (leaks) {
-            out.push_back(lakes.cell[as_index(i)]);
+            out.push_back(lakes.cell[i]);
         }
     }
     return out;
@@ -311,7 +309,7 @@ void raise_to_lakes(Channels& channels) {
         if (channels.receiver[i] < 0) {
             continue;
         }
-        float const below = channels.z[as_index(channels.receiver[i])];
+        float const below = channels.z[channels.receiver[i]];
         channels.z[i] = channels.level[i] != 0 || channels.z[i] < below ? below : channels.z[i];
     }
 }
@@ -319,33 +317,32 @@ void raise_to_lakes(Channels& channels) {
 /// The channels with their lakes, in a new order.
 Flooded with_lakes(ChannelsOfArcs const& drawn, Lakes lakes, std::vector<std::int64_t> const& order) {
     Flooded out;
-    std::vector<std::int64_t> now(lakes.cell.size(), no_cell);
+    Indexed<ChannelId, ChannelId> now(lakes.cell.size(), no_cell);
     Channels& channels = out.drawn.channels;
     channels.grid = drawn.channels.grid;
     for (std::int64_t const i : order) {
-        now[as_index(i)] = static_cast<std::int64_t>(channels.cell.size());
-        channels.cell.push_back(lakes.cell[as_index(i)]);
-        channels.receiver.push_back(lakes.receiver[as_index(i)] < 0 ? no_cell
-                                                                    : now[as_index(lakes.receiver[as_index(i)])]);
-        channels.level.push_back(lakes.is_level[as_index(i)]);
+        now[i] = channels.cell.count();
+        channels.cell.push_back(lakes.cell[i]);
+        channels.receiver.push_back(lakes.receiver[i] < 0 ? no_cell : now[lakes.receiver[i]]);
+        channels.level.push_back(lakes.is_level[i]);
         if (!drawn.channels.z.empty()) {
-            bool const is_new = as_index(i) >= drawn.channels.z.size();
-            channels.z.push_back(is_new ? std::numeric_limits<float>::quiet_NaN() : drawn.channels.z[as_index(i)]);
+            bool const is_new = i >= drawn.channels.z.count();
+            channels.z.push_back(is_new ? std::numeric_limits<float>::quiet_NaN() : drawn.channels.z[i]);
         }
     }
     raise_to_lakes(channels);
     for (auto const& numbers : drawn.of_arc) {
         auto& cells = out.drawn.of_arc.emplace_back();
         for (std::int64_t const i : numbers) {
-            if (now[as_index(i)] >= 0) {
-                cells.push_back(now[as_index(i)]);
+            if (now[i] >= 0) {
+                cells.push_back(now[i]);
             }
         }
     }
     out.drawn.notes = drawn.notes;
     out.notes = std::move(lakes.notes);
     for (Lake lake : lakes.lakes) {
-        lake.outlet = now[as_index(lake.outlet)];
+        lake.outlet = now[lake.outlet];
         out.lakes.push_back(lake);
     }
     return out;

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/numbers/index.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
@@ -22,19 +22,20 @@ namespace thalweg::network {
 namespace {
 
 using Flags = std::vector<std::uint8_t>;
+using ChannelFlags = Indexed<ChannelId, std::uint8_t>;
 
 /// By channel cell whether it is gone.
-Flags flags_of(std::vector<std::int64_t> const& gone, Channels const& channels) {
-    Flags is_gone(channels.cell.size(), 0);
+ChannelFlags flags_of(std::vector<std::int64_t> const& gone, Channels const& channels) {
+    ChannelFlags is_gone(channels.cell.size(), 0);
     for (std::int64_t const i : gone) {
-        if (i < 0 || as_index(i) >= is_gone.size()) {
+        if (i < 0 || i >= is_gone.count()) {
             throw BadInput(fmt::format("network.shorten: cell {} of {} channel cells", i, is_gone.size()));
         }
-        is_gone[as_index(i)] = 1;
+        is_gone[i] = 1;
     }
     for (std::size_t i = 0; i < is_gone.size(); ++i) {
-        if (channels.receiver[i] >= 0 && is_gone[i] == 0 && is_gone[as_index(channels.receiver[i])] != 0) {
-            Vec2 const at = channels.grid.centre(channels.grid.at(channels.cell[as_index(channels.receiver[i])]));
+        if (channels.receiver[i] >= 0 && is_gone[i] == 0 && is_gone[channels.receiver[i]] != 0) {
+            Vec2 const at = channels.grid.centre(channels.grid.at(channels.cell[channels.receiver[i]]));
             throw BadInput(fmt::format("network.shorten: a river that stays flows into the cell at ({:.3f}, {:.3f}), "
                                        "which is to go; let it go with all above it",
                                        at.x, at.y));
@@ -101,17 +102,17 @@ std::vector<Vec2> rest_of(std::vector<Vec2> const& line, Grid const& grid, Mask 
 }
 
 /// Marks some of an arc's channel cells in a mask, or clears them.
-void mark(Mask& mask, Channels const& channels, std::vector<std::int64_t> const& numbers, Flags const& is_gone,
+void mark(Mask& mask, Channels const& channels, std::vector<std::int64_t> const& numbers, ChannelFlags const& is_gone,
           std::uint8_t which, std::uint8_t value) {
     for (std::int64_t const i : numbers) {
-        if (is_gone[as_index(i)] == which) {
-            mask[channels.cell[as_index(i)]] = value;
+        if (is_gone[i] == which) {
+            mask[channels.cell[i]] = value;
         }
     }
 }
 
 /// What is left of the channels, and the new numbers; -1 for those that are gone.
-Channels left_of(Channels const& channels, Flags const& is_gone, std::vector<std::int64_t>& now) {
+Channels left_of(Channels const& channels, ChannelFlags const& is_gone, Indexed<ChannelId, ChannelId>& now) {
     Channels out;
     out.grid = channels.grid;
     now.assign(is_gone.size(), -1);
@@ -119,9 +120,9 @@ Channels left_of(Channels const& channels, Flags const& is_gone, std::vector<std
         if (is_gone[i] != 0) {
             continue;
         }
-        now[i] = static_cast<std::int64_t>(out.cell.size());
+        now[i] = out.cell.count();
         out.cell.push_back(channels.cell[i]);
-        out.receiver.push_back(channels.receiver[i] < 0 ? -1 : now[as_index(channels.receiver[i])]);
+        out.receiver.push_back(channels.receiver[i] < 0 ? -1 : now[channels.receiver[i]]);
         if (!channels.z.empty()) {
             out.z.push_back(channels.z[i]);
         }
@@ -135,7 +136,7 @@ Channels left_of(Channels const& channels, Flags const& is_gone, std::vector<std
 /// The network while its tips are taken off.
 class Tips {
 public:
-    Tips(StreamNetwork const& network, ChannelsOfArcs const& drawn, Flags const& is_gone)
+    Tips(StreamNetwork const& network, ChannelsOfArcs const& drawn, ChannelFlags const& is_gone)
         : kept(network.arc_count(), 1), network_(network), draft_(network.draft()), drawn_(drawn), is_gone_(is_gone),
           goes_(drawn.channels.grid, 0), stays_(drawn.channels.grid, 0), has_water_(network.arc_count(), 0) {}
 
@@ -165,7 +166,7 @@ private:
         Grid const& grid = drawn_.channels.grid;
         Cell const first = cells_of_vertices({draft_.arcs[a].arc.line.front()}, grid).front();
         return !network_.in(network_.from(a)).empty() &&
-               grid.index(first) != drawn_.channels.cell[as_index(drawn_.of_arc[a].front())];
+               grid.index(first) != drawn_.channels.cell[drawn_.of_arc[a].front()];
     }
 
     void leave_out_above(std::size_t a) {
@@ -183,7 +184,7 @@ private:
     void visit(std::size_t a) {
         auto const& cells = drawn_.of_arc[a];
         bool const goes_on = has_water_above(a);
-        if (cells.empty() || goes_on || (is_gone_[as_index(cells.front())] == 0 && !lost_its_node(a))) {
+        if (cells.empty() || goes_on || (is_gone_[cells.front()] == 0 && !lost_its_node(a))) {
             has_water_[a] = goes_on || !cells.empty() ? 1 : 0;
             return;
         }
@@ -219,7 +220,7 @@ private:
     StreamNetwork const& network_;
     NetworkDraft draft_; ///< the network as far as it is shortened
     ChannelsOfArcs const& drawn_;
-    Flags const& is_gone_;
+    ChannelFlags const& is_gone_;
     Mask goes_;
     Mask stays_;
     Flags has_water_; ///< by arc, where sources first have come to it
@@ -233,7 +234,7 @@ Shortened shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn, std
         throw BadInput(fmt::format("network.shorten: channels of {} arcs for {}; draw this network",
                                    drawn.of_arc.size(), network.arc_count()));
     }
-    Flags const is_gone = flags_of(gone, drawn.channels);
+    ChannelFlags const is_gone = flags_of(gone, drawn.channels);
     Tips tips(network, drawn, is_gone);
     tips.take_off();
 
@@ -246,15 +247,15 @@ Shortened shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn, std
     Shortened out;
     out.network = std::move(kept.network);
     out.notes = std::move(tips.notes);
-    std::vector<std::int64_t> now;
+    Indexed<ChannelId, ChannelId> now;
     out.drawn.channels = left_of(drawn.channels, is_gone, now);
     out.drawn.notes = drawn.notes;
     for (std::vector<std::size_t> const& pieces : kept.pieces) {
         auto& cells = out.drawn.of_arc.emplace_back();
         for (std::size_t const piece : pieces) {
             for (std::int64_t const i : drawn.of_arc[piece]) {
-                if (now[as_index(i)] >= 0 && (cells.empty() || cells.back() != now[as_index(i)])) {
-                    cells.push_back(now[as_index(i)]);
+                if (now[i] >= 0 && (cells.empty() || cells.back() != now[i])) {
+                    cells.push_back(now[i]);
                 }
             }
         }

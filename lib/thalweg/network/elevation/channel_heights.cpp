@@ -10,14 +10,14 @@ namespace thalweg::network {
 
 std::vector<float> channel_heights(ElevatedNetwork const& network, Channels const& channels) {
     Raster<float> const drawn = rasterise(network, channels.grid).valley.z;
-    std::vector<float> z;
+    Indexed<ChannelId, float> z;
     z.reserve(channels.cell.size());
     for (std::int64_t const cell : channels.cell) {
         z.push_back(drawn[cell]);
     }
     for (std::size_t i = z.size(); i-- > 0;) { // donors before their receivers
         if (channels.receiver[i] >= 0) {
-            float& below = z[static_cast<std::size_t>(channels.receiver[i])];
+            float& below = z[channels.receiver[i]];
             below = z[i] < below ? z[i] : below;
         }
     }

@@ -53,7 +53,7 @@ public:
         for (std::size_t i = 0; i < channels.level.size(); ++i) {
             if (channels.level[i] != 0) {
                 lake_.insert(channels.cell[i]);
-                lake_.insert(channels.cell[static_cast<std::size_t>(channels.receiver[i])]);
+                lake_.insert(channels.cell[channels.receiver[i]]);
             }
         }
         for (std::size_t a = 0; a < network.arc_count(); ++a) {

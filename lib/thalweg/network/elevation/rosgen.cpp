@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include <thalweg/core/by_enum.hpp>
+
 namespace thalweg::network {
 
 namespace {
@@ -17,18 +19,18 @@ struct Class {
 };
 
 // In the order of the enumeration.
-constexpr std::array<Class, rosgen_types.size()> classes{{{"Aa+", {0.10, greatest, 0.12}},
-                                                          {"A", {0.04, 0.10, 0.07}},
-                                                          {"B", {0.02, 0.04, 0.03}},
-                                                          {"C", {least, 0.02, 0.01}},
-                                                          {"D", {least, 0.04, 0.02}},
-                                                          {"DA", {least, 0.005, 0.003}},
-                                                          {"E", {least, 0.02, 0.01}},
-                                                          {"F", {least, 0.02, 0.01}},
-                                                          {"G", {0.02, 0.04, 0.03}}}};
+constexpr ByEnum<Rosgen, Class, rosgen_types.size()> classes{{{{"Aa+", {0.10, greatest, 0.12}},
+                                                               {"A", {0.04, 0.10, 0.07}},
+                                                               {"B", {0.02, 0.04, 0.03}},
+                                                               {"C", {least, 0.02, 0.01}},
+                                                               {"D", {least, 0.04, 0.02}},
+                                                               {"DA", {least, 0.005, 0.003}},
+                                                               {"E", {least, 0.02, 0.01}},
+                                                               {"F", {least, 0.02, 0.01}},
+                                                               {"G", {0.02, 0.04, 0.03}}}}};
 
 Class const& class_of(Rosgen type) {
-    return classes.at(static_cast<std::size_t>(type));
+    return classes[type];
 }
 
 } // namespace

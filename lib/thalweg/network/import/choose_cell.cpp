@@ -3,6 +3,7 @@
 #include <thalweg/network/import/choose_cell.hpp>
 
 #include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <fmt/format.h>
@@ -134,7 +135,7 @@ template <class Visit> void around(Grid const& grid, Cell at, std::int64_t reach
          ++row) {
         for (std::int64_t col = std::max<std::int64_t>(0, at.col - reach);
              col <= std::min(grid.width - 1, at.col + reach); ++col) {
-            visit(static_cast<std::size_t>(grid.index({col, row})));
+            visit(grid.index({col, row}));
         }
     }
 }
@@ -143,11 +144,11 @@ double crowded_share(RiverLines const& rivers, std::vector<Vec2> const& joints, 
     constexpr std::int64_t near_joint = 5;
     constexpr std::int32_t nobody = -1;
     constexpr std::int32_t several = -2;
-    std::vector<std::uint8_t> near(static_cast<std::size_t>(grid.cells()));
+    Mask near(grid, 0);
     for (Vec2 const& joint : joints) {
-        around(grid, grid.cell_of(joint), near_joint, [&](std::size_t cell) { near[cell] = 1; });
+        around(grid, grid.cell_of(joint), near_joint, [&](std::int64_t cell) { near[cell] = 1; });
     }
-    std::vector<std::int32_t> owner(static_cast<std::size_t>(grid.cells()), nobody);
+    Raster<std::int32_t> owner(grid, nobody);
     std::vector<Cell> used;
     std::vector<Vec2> plan;
     for (std::size_t i = 0; i < rivers.lines.size(); ++i) {
@@ -157,7 +158,7 @@ double crowded_share(RiverLines const& rivers, std::vector<Vec2> const& joints, 
             plan.push_back({p.x, p.y});
         }
         for (Cell const c : cells_along(plan, grid)) {
-            std::int32_t& own = owner[static_cast<std::size_t>(grid.index(c))];
+            std::int32_t& own = owner[c];
             if (own == nobody) {
                 own = static_cast<std::int32_t>(i);
                 used.push_back(c);
@@ -168,10 +169,10 @@ double crowded_share(RiverLines const& rivers, std::vector<Vec2> const& joints, 
     }
     std::int64_t crowded = 0;
     for (Cell const c : used) {
-        auto const cell = static_cast<std::size_t>(grid.index(c));
-        bool other = owner[cell] == several;
-        around(grid, c, 1, [&](std::size_t n) { other = other || (owner[n] != nobody && owner[n] != owner[cell]); });
-        crowded += other && near[cell] == 0;
+        std::int32_t const own = owner[c];
+        bool other = own == several;
+        around(grid, c, 1, [&](std::int64_t n) { other = other || (owner[n] != nobody && owner[n] != own); });
+        crowded += other && near[c] == 0;
     }
     return static_cast<double>(crowded) / static_cast<double>(std::max<std::size_t>(used.size(), 1));
 }

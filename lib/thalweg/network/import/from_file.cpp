@@ -58,7 +58,7 @@ public:
     /// Numbers nodes as the arcs come to name them: ids that were made for places follow the order of features, which
     /// is the format's own affair.
     void number_by(std::vector<std::size_t> const& arcs) {
-        constexpr auto none = static_cast<std::size_t>(-1);
+        constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
         std::vector<std::size_t> number(sorted_.size(), none);
         std::vector<std::size_t> order;
         auto const name = [&](std::size_t place) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -14,7 +15,7 @@
 namespace thalweg::network::import_steps {
 namespace {
 
-constexpr std::size_t no_owner = static_cast<std::size_t>(-1);
+constexpr std::size_t no_owner = std::numeric_limits<std::size_t>::max();
 
 struct Hash {
     static std::size_t mix(std::uint64_t a, std::uint64_t b) {

@@ -19,8 +19,6 @@
 namespace thalweg::network::import_steps {
 namespace {
 
-constexpr std::size_t no_piece = static_cast<std::size_t>(-1);
-
 constexpr char const* minor_channel = "minor channel";
 constexpr char const* closes_loop = "closes a loop";
 constexpr char const* circle = "runs in a circle";
@@ -306,7 +304,7 @@ private:
             whole.push_back(p_.at_node[n]);
             std::erase_if(p_.at_node[n], [&](std::size_t k) { return is_out(k); });
         }
-        towards_.resize(p_.nodes.size(), -1);
+        towards_.resize(p_.nodes.size(), no_piece);
         cost_.resize(p_.nodes.size(), 0);
         drawn_.resize(p_.pieces.size(), 1);
         Tree tree{{}, towards_};
@@ -379,9 +377,9 @@ private:
     std::vector<char> state_ = {};  ///< by node: 1 on the way that is walked, 2 known to lead out
     std::vector<double> length_above_ = {};
     std::vector<double> border_m_ = {};
-    std::vector<char> reached_ = {};         ///< by node, while its component is spanned
-    std::vector<std::int64_t> towards_ = {}; ///< room for a tree
-    std::vector<std::int64_t> cost_ = {};    ///< likewise
+    std::vector<char> reached_ = {};      ///< by node, while its component is spanned
+    std::vector<PieceId> towards_ = {};   ///< room for a tree
+    std::vector<std::int64_t> cost_ = {}; ///< likewise
     Votes drawn_ = {};
     Sets kept_;
     Divided divided_ = {};

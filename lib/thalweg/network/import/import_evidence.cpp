@@ -62,7 +62,7 @@ Votes by_rank(Pieces const& p, std::vector<RiverLine> const& lines) {
 // A line ends where it meets the line that the file names as the next downstream, and begins where it meets those that
 // name it.
 Votes by_links(Pieces const& p, std::vector<RiverLine> const& lines) {
-    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> first(lines.size(), none);
     std::vector<std::size_t> last(lines.size(), none);
     for (auto const& piece : p.pieces) {

@@ -15,7 +15,9 @@
 namespace thalweg::network {
 namespace {
 
+using import_steps::no_piece;
 using import_steps::Piece;
+using import_steps::PieceId;
 using import_steps::Pieces;
 
 void refuse_unusable(RiverLines const& file) {
@@ -58,11 +60,11 @@ double diagonal_of(std::vector<RiverLine> const& lines) {
 struct Flow {
     Pieces const& pieces;
     std::vector<RiverLine> const& lines;
-    std::vector<std::int64_t> leaves; // by node: the piece that leaves it, -1 at outlets
+    std::vector<PieceId> leaves; // by node: the piece that leaves it, no_piece at outlets
 
     // Its vertices, upstream first.
     std::vector<Vec3> vertices(std::size_t node) const {
-        auto const& piece = pieces.pieces[static_cast<std::size_t>(leaves[node])];
+        auto const& piece = pieces.pieces[leaves[node]];
         auto const& v = lines[piece.line].vertices;
         std::vector<Vec3> out(v.begin() + static_cast<std::ptrdiff_t>(piece.first),
                               v.begin() + static_cast<std::ptrdiff_t>(piece.last) + 1);
@@ -72,12 +74,10 @@ struct Flow {
         return out;
     }
     std::size_t downstream(std::size_t node) const {
-        auto const& piece = pieces.pieces[static_cast<std::size_t>(leaves[node])];
+        auto const& piece = pieces.pieces[leaves[node]];
         return piece.from == node ? piece.to : piece.from;
     }
-    RiverLine const& line(std::size_t node) const {
-        return lines[pieces.pieces[static_cast<std::size_t>(leaves[node])].line];
-    }
+    RiverLine const& line(std::size_t node) const { return lines[pieces.pieces[leaves[node]].line]; }
 };
 
 // Every node after the node downstream of it.
@@ -85,7 +85,7 @@ std::vector<std::size_t> upstream_order(Flow const& flow) {
     std::vector<std::vector<std::size_t>> above(flow.leaves.size());
     std::vector<std::size_t> order;
     for (std::size_t n = 0; n < flow.leaves.size(); ++n) {
-        if (flow.leaves[n] < 0) {
+        if (flow.leaves[n] == no_piece) {
             order.push_back(n);
         } else {
             above[flow.downstream(n)].push_back(n);
@@ -112,7 +112,7 @@ std::vector<double> node_heights(Flow const& flow, std::vector<Finding>& repairs
             high = std::max(high, end);
         }
         z[n] = low;
-        if (flow.leaves[n] >= 0) {
+        if (flow.leaves[n] != no_piece) {
             auto const v = flow.vertices(n);
             z[n] = std::max(low, v.size() == 2 ? z[flow.downstream(n)] : v[1].z);
         }
@@ -131,28 +131,27 @@ std::vector<double> node_heights(Flow const& flow, std::vector<Finding>& repairs
 // Nodes where one river ends and another goes on vanish, unless its type changes.
 std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
     std::size_t const nodes = flow.leaves.size();
-    constexpr std::int64_t none = -1;
-    std::vector<std::int64_t> above(nodes, none);
+    std::vector<std::size_t> above(nodes, 0);
     std::vector<int> arriving(nodes, 0);
     for (std::size_t n = 0; n < nodes; ++n) {
-        if (flow.leaves[n] >= 0) {
-            above[flow.downstream(n)] = static_cast<std::int64_t>(n);
+        if (flow.leaves[n] != no_piece) {
+            above[flow.downstream(n)] = n;
             ++arriving[flow.downstream(n)];
         }
     }
     std::vector<char> result(nodes, 0);
     for (std::size_t n = 0; n < nodes; ++n) {
-        if (arriving[n] != 1 || flow.leaves[n] < 0) {
+        if (arriving[n] != 1 || flow.leaves[n] == no_piece) {
             continue;
         }
-        auto const& upper = flow.line(static_cast<std::size_t>(above[n]));
+        auto const& upper = flow.line(above[n]);
         auto const& lower = flow.line(n);
         if (upper.type != lower.type) {
             continue;
         }
         result[n] = 1;
         if (upper.feature != lower.feature) {
-            auto const& piece = flow.pieces.pieces[static_cast<std::size_t>(flow.leaves[n])];
+            auto const& piece = flow.pieces.pieces[flow.leaves[n]];
             Vec2 const at = flow.pieces.nodes[n];
             repairs.push_back({"joined", upper.feature, at, piece.length_m,
                                fmt::format("river {} goes on as river {} at ({:.6f}, {:.6f}): one arc", upper.feature,
@@ -180,7 +179,7 @@ void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& n
     auto const heads = [&] {
         std::vector<std::size_t> by_piece; // arcs are numbered in the order of the file
         for (std::size_t n = 0; n < flow.leaves.size(); ++n) {
-            if (flow.leaves[n] >= 0 && inner[n] == 0) {
+            if (flow.leaves[n] != no_piece && inner[n] == 0) {
                 by_piece.push_back(n);
             }
         }
@@ -202,7 +201,7 @@ void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& n
         std::vector<Stretch> stretches;
         std::size_t n = head;
         do {
-            auto const& piece = flow.pieces.pieces[static_cast<std::size_t>(flow.leaves[n])];
+            auto const& piece = flow.pieces.pieces[flow.leaves[n]];
             arc.type = flow.line(n).type;
             add_stretch(stretches, flow.line(n).feature, piece.length_m);
             auto const vertices = flow.vertices(n);
@@ -264,7 +263,7 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     import_steps::split(lines, run);
     run.at(0.7, "adopt");
     auto pieces = import_steps::cut(lines, left);
-    std::vector<std::int64_t> leaves;
+    std::vector<PieceId> leaves;
     if (params.divergences == Divergences::error) {
         import_steps::refuse_cycles(pieces, lines, file.name);
         leaves = import_steps::orient(pieces, lines, file, params);
@@ -277,7 +276,7 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     }
     import_steps::report_turned(pieces, lines, leaves, repairs);
     Flow const flow{pieces, lines, std::move(leaves)};
-    if (std::ranges::all_of(flow.leaves, [](std::int64_t k) { return k < 0; })) {
+    if (std::ranges::all_of(flow.leaves, [](PieceId k) { return k == no_piece; })) {
         throw BadInput(
             fmt::format("network.import_lines: the lines of {} are closed rings: no river runs anywhere", file.name));
     }

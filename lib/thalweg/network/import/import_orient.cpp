@@ -18,16 +18,16 @@ namespace {
                                      Votes const& votes, std::string const& name, char const* evidence) {
     for (std::size_t const n : tree.nodes) {
         auto const k = tree.towards[n];
-        if (k < 0) {
+        if (k == no_piece) {
             continue;
         }
-        auto const& piece = p.pieces[static_cast<std::size_t>(k)];
-        int const vote = votes[static_cast<std::size_t>(k)];
+        auto const& piece = p.pieces[k];
+        int const vote = votes[k];
         if (vote == 0 || (vote > 0) == (piece.from == n)) {
             continue;
         }
         std::size_t const place = other_end(piece, n); // left by this piece and by the one towards the outlet
-        auto const& next = p.pieces[static_cast<std::size_t>(tree.towards[place])];
+        auto const& next = p.pieces[tree.towards[place]];
         Vec2 const at = p.nodes[place];
         throw BadInput(
             fmt::format("network.import_lines: rivers {} and {} in {} both run away from ({:.6f}, {:.6f}) by {}; "
@@ -39,15 +39,15 @@ namespace {
 
 } // namespace
 
-void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::vector<std::int64_t> const& leaves,
+void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::vector<PieceId> const& leaves,
                    std::vector<Finding>& repairs) {
     std::vector<double> length_m(lines.size(), 0.0);
     std::vector<Vec2> towards(lines.size());
     for (std::size_t n = 0; n < p.nodes.size(); ++n) {
-        if (leaves[n] < 0) {
+        if (leaves[n] == no_piece) {
             continue;
         }
-        auto const& piece = p.pieces[static_cast<std::size_t>(leaves[n])];
+        auto const& piece = p.pieces[leaves[n]];
         if (piece.to == n) {
             towards[piece.line] = p.nodes[piece.from];
             length_m[piece.line] += piece.length_m;
@@ -62,14 +62,14 @@ void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::ve
     }
 }
 
-std::vector<std::int64_t> orient(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
-                                 ImportParams const& params) {
+std::vector<PieceId> orient(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
+                            ImportParams const& params) {
     Orientation const orientation = params.orientation;
     auto const evidence = evidence_of(p, lines, file, orientation);
     Evidence const silence{Evidence::Kind::drawn, Votes(p.pieces.size(), 0), "nothing"};
     Votes const drawn(p.pieces.size(), orientation == Orientation::topology ? 0 : 1);
     auto const border_m = border_distances(p, lines);
-    std::vector<std::int64_t> leaves(p.nodes.size(), -1);
+    std::vector<PieceId> leaves(p.nodes.size(), no_piece);
     std::vector<std::int64_t> cost(p.nodes.size(), 0);
     std::vector<char> done(p.nodes.size(), 0);
     for (std::size_t start = 0; start < p.nodes.size(); ++start) {
@@ -79,9 +79,8 @@ std::vector<std::int64_t> orient(Pieces const& p, std::vector<RiverLine> const& 
         Tree tree{{}, leaves};
         root_at(p, start, tree);
         auto const speaks = [&](Evidence const& e) {
-            return std::ranges::any_of(tree.nodes, [&](std::size_t n) {
-                return leaves[n] >= 0 && e.votes[static_cast<std::size_t>(leaves[n])] != 0;
-            });
+            return std::ranges::any_of(tree.nodes,
+                                       [&](std::size_t n) { return leaves[n] != no_piece && e.votes[leaves[n]] != 0; });
         };
         auto const first = std::ranges::find_if(evidence, speaks);
         Evidence const& chosen = first == evidence.end() ? silence : *first;

@@ -26,12 +26,12 @@ std::vector<std::vector<std::size_t>> outside_at(Pieces const& p, Divided const&
 
 } // namespace
 
-void drop_unfed(Pieces& p, Divided& divided, std::vector<std::int64_t>& leaves) {
+void drop_unfed(Pieces& p, Divided& divided, std::vector<PieceId>& leaves) {
     auto const outside = outside_at(p, divided);
     std::vector<int> arriving(p.nodes.size(), 0);
-    auto const below = [&](std::size_t n) { return other_end(p.pieces[static_cast<std::size_t>(leaves[n])], n); };
+    auto const below = [&](std::size_t n) { return other_end(p.pieces[leaves[n]], n); };
     for (std::size_t n = 0; n < p.nodes.size(); ++n) {
-        if (leaves[n] >= 0) {
+        if (leaves[n] != no_piece) {
             ++arriving[below(n)];
         }
     }
@@ -39,16 +39,16 @@ void drop_unfed(Pieces& p, Divided& divided, std::vector<std::int64_t>& leaves) 
         return divided.runs[k] != 0 && (divided.runs[k] > 0 ? p.pieces[k].from : p.pieces[k].to) == n;
     };
     for (std::size_t start = 0; start < p.nodes.size(); ++start) {
-        bool const is_spring = leaves[start] >= 0 && runs_from(static_cast<std::size_t>(leaves[start]), start) &&
+        bool const is_spring = leaves[start] != no_piece && runs_from(leaves[start], start) &&
                                std::ranges::all_of(outside[start], [&](std::size_t k) { return runs_from(k, start); });
         if (arriving[start] > 0 || outside[start].empty() || is_spring) {
             continue;
         }
-        for (std::size_t n = start; leaves[n] >= 0 && arriving[n] == 0;) {
-            auto const k = static_cast<std::size_t>(leaves[n]);
+        for (std::size_t n = start; leaves[n] != no_piece && arriving[n] == 0;) {
+            PieceId const k = leaves[n];
             std::size_t const next = below(n);
             divided.reason[k] = unfed;
-            leaves[n] = -1;
+            leaves[n] = no_piece;
             std::erase(p.at_node[n], k);
             std::erase(p.at_node[next], k);
             --arriving[next];

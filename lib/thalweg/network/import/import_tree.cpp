@@ -13,13 +13,13 @@ std::size_t other_end(Piece const& piece, std::size_t node) {
 
 void root_at(Pieces const& p, std::size_t outlet, Tree& tree) {
     tree.nodes = {outlet};
-    tree.towards[outlet] = -1;
+    tree.towards[outlet] = no_piece;
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         std::size_t const n = tree.nodes[i];
-        for (std::size_t const k : p.at_node[n]) {
-            if (static_cast<std::int64_t>(k) != tree.towards[n]) {
+        for (PieceId const k : p.at_node[n]) {
+            if (k != tree.towards[n]) {
                 std::size_t const up = other_end(p.pieces[k], n);
-                tree.towards[up] = static_cast<std::int64_t>(k);
+                tree.towards[up] = k;
                 tree.nodes.push_back(up);
             }
         }
@@ -33,7 +33,7 @@ std::int64_t weight(Piece const& piece) {
 std::vector<std::int64_t> against(Pieces const& p, Tree const& tree, Votes const& votes,
                                   std::vector<std::int64_t>& cost) {
     auto const gain = [&](std::size_t n) { // from the node downstream to n
-        auto const k = static_cast<std::size_t>(tree.towards[n]);
+        PieceId const k = tree.towards[n];
         std::int64_t const w = weight(p.pieces[k]) * votes[k];
         return p.pieces[k].from == n ? w : -w;
     };
@@ -45,7 +45,7 @@ std::vector<std::int64_t> against(Pieces const& p, Tree const& tree, Votes const
     std::vector<std::int64_t> result{cost[first]};
     for (std::size_t i = 1; i < tree.nodes.size(); ++i) {
         std::size_t const n = tree.nodes[i];
-        auto const k = static_cast<std::size_t>(tree.towards[n]);
+        PieceId const k = tree.towards[n];
         cost[n] = cost[other_end(p.pieces[k], n)] + gain(n);
         result.push_back(cost[n]);
     }

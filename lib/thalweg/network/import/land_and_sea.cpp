@@ -179,7 +179,7 @@ Mask land_behind_outlets(StreamNetwork const& network, Grid const& grid, Run con
         if (grid.on_border(end) || network.in(outlet).empty()) {
             continue;
         }
-        auto const last = static_cast<std::size_t>(network.in(outlet).front());
+        ArcId const last = network.in(outlet).front();
         Vec2 const from = before_end(network.arc(last).line, heading_cells * grid.cell_m);
         Vec2 const at = network.node(outlet).at;
         cells_around(grid, end, mouth_cells, [&](Cell c) {

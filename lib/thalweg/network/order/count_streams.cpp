@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/index.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg::network {
@@ -18,19 +18,20 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
     std::size_t const links = down.size();
     StreamCounts counts;
     counts.links = static_cast<std::int64_t>(links);
-    std::vector<int> order(links, 1);
-    std::vector<int> highest(links, 0); // of those above
-    std::vector<int> equals(links, 0);  // of those above, of the highest order
+    std::size_t orders = 0;
+    Indexed<std::int64_t, std::size_t> order(links, 1);
+    Indexed<std::int64_t, std::size_t> highest(links, 0); // of those above
+    Indexed<std::int64_t, int> equals(links, 0);          // of those above, of the highest order
     for (std::size_t i = links; i-- > 0;) {
         if (down[i] >= static_cast<std::int64_t>(i)) {
             throw BadInput(fmt::format("network.count_streams: link {} flows into link {}; number them from the outlet",
                                        i, down[i]));
         }
         counts.sources += highest[i] == 0 ? 1 : 0;
-        order[i] = std::max(1, highest[i] + (equals[i] > 1 ? 1 : 0));
-        counts.order = std::max(counts.order, order[i]);
+        order[i] = std::max<std::size_t>(1, highest[i] + (equals[i] > 1 ? 1 : 0));
+        orders = std::max(orders, order[i]);
         if (down[i] >= 0) {
-            std::size_t const below = as_index(down[i]);
+            std::int64_t const below = down[i];
             if (order[i] > highest[below]) {
                 highest[below] = order[i];
                 equals[below] = 0;
@@ -38,7 +39,7 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
             equals[below] += order[i] == highest[below] ? 1 : 0;
         }
     }
-    auto const orders = as_index(counts.order);
+    counts.order = static_cast<int>(orders);
     counts.streams.assign(orders, 0);
     counts.branches.assign(orders, {});
     for (std::size_t w = 0; w < orders; ++w) {
@@ -46,14 +47,12 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
     }
     for (std::size_t i = 0; i < links; ++i) {
         bool const mouth = down[i] < 0;
-        if (mouth || order[as_index(down[i])] != order[i]) {
-            ++counts.streams[as_index(order[i]) - 1];
+        if (mouth || order[down[i]] != order[i]) {
+            ++counts.streams[order[i] - 1];
         }
         // The two that make a stream of the next order are none of its side branches.
-        if (!mouth && order[as_index(down[i])] > order[i] &&
-            !(highest[as_index(down[i])] == order[i] && order[as_index(down[i])] == order[i] + 1)) {
-            ++counts
-                  .branches[as_index(order[as_index(down[i])]) - 1][as_index(order[as_index(down[i])] - order[i]) - 1];
+        if (!mouth && order[down[i]] > order[i] && !(highest[down[i]] == order[i] && order[down[i]] == order[i] + 1)) {
+            ++counts.branches[order[down[i]] - 1][order[down[i]] - order[i] - 1];
         }
     }
     for (std::size_t k = 1; k < orders; ++k) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include <thalweg/core/numbers/index.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
 namespace thalweg::network {

@@ -61,7 +61,7 @@ std::uint8_t diagonal(Cell a, Cell b) {
 CarryGround::CarryGround(Grid const& grid, CarryParams const& params)
     : grid_(grid), params_(params), slack_m_(slack_cells * grid.cell_m), distance_(grid, far), corner_(grid, 0) {}
 
-void CarryGround::add(std::vector<Vec2> const& line, std::size_t basin, std::string const& what) {
+void CarryGround::add(std::vector<Vec2> const& line, std::int64_t basin, std::string const& what) {
     for (std::size_t i = 1; i + 1 < line.size(); ++i) {
         Cell const cell = cells_along({line[i]}, grid_, what).front();
         confluences_.try_emplace(grid_.index(cell), Confluence{line[i], basin});

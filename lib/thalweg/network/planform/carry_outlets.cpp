@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/numbers/index.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
@@ -26,18 +26,18 @@ namespace {
 /// Which basins have become one.
 class Basins {
 public:
-    explicit Basins(std::size_t count) : into_(count) { std::iota(into_.begin(), into_.end(), std::size_t{0}); }
+    explicit Basins(std::size_t count) : into_(count) { std::iota(into_.begin(), into_.end(), std::int64_t{0}); }
 
-    std::size_t root(std::size_t basin) const {
+    std::int64_t root(std::int64_t basin) const {
         while (into_[basin] != basin) {
             basin = into_[basin];
         }
         return basin;
     }
-    void join(std::size_t basin, std::size_t into) { into_[root(basin)] = root(into); }
+    void join(std::int64_t basin, std::int64_t into) { into_[root(basin)] = root(into); }
 
 private:
-    std::vector<std::size_t> into_;
+    Indexed<std::int64_t, std::int64_t> into_;
 };
 
 /// A network in which rivers end in vertices of others: those become nodes.
@@ -103,14 +103,14 @@ public:
         : network_(network), ends_(ends), params_(params), ground_(grid, params), basins_(network.outlets().size() + 1),
           longer_(network.draft()) {
         for (std::size_t a = 0; a < network.arc_count(); ++a) {
-            ground_.add(network.arc(a).line, as_index(network.basin(network.from(a))), fmt::format("arc {}", a + 1));
+            ground_.add(network.arc(a).line, network.basin(network.from(a)), fmt::format("arc {}", a + 1));
         }
     }
 
     /// Draws the river of an outlet on, and says so; or says that there is no way.
     Finding carry(NodeId outlet) {
         Vec2 const at = network_.node(outlet).at;
-        std::size_t const basin = as_index(network_.basin(outlet));
+        std::int64_t const basin = network_.basin(outlet);
         Way const way =
             way_out(at, cells_along({at}, ground_.grid()).front(), ground_, ends_, [&](Confluence const& into) {
                 return params_.join && basins_.root(into.basin) != basins_.root(basin);

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/index.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
@@ -23,8 +22,6 @@ namespace {
 /// arc in any order, and pruning again finds the same lengths. A step between cells is one cell to the unit however
 /// the coordinates are rounded.
 constexpr double units_per_cell = 0x1p24;
-
-using Number = std::int64_t;
 
 std::vector<std::int64_t> lengths_in_units(StreamNetwork const& network, double cell_m) {
     double total_m = 0.0;
@@ -55,55 +52,55 @@ class Remains {
 public:
     Remains(StreamNetwork const& network, std::vector<std::int64_t> units)
         : units_(std::move(units)), source_(network.from()), mouth_(network.to()), arriving_(network.node_count(), 0),
-          arriving_xor_(network.node_count(), 0), gone_(units_.size(), 0), next_piece_(units_.size(), -1),
+          arriving_xor_(network.node_count(), 0), gone_(units_.size(), 0), next_piece_(units_.size(), no_arc),
           last_piece_(units_.size()) {
-        for (Number a = 0; a < static_cast<Number>(units_.size()); ++a) {
-            last_piece_[as_index(a)] = a;
-            ++arriving_[mouth_[as_index(a)]];
-            arriving_xor_[mouth_[as_index(a)]] ^= a;
+        for (ArcId a = 0; a < units_.size(); ++a) {
+            last_piece_[a] = a;
+            ++arriving_[mouth_[a]];
+            arriving_xor_[mouth_[a]] ^= a;
         }
         for (NodeId n = 0; n < arriving_.size(); ++n) {
-            leaving_.push_back(network.out(n) == no_arc ? -1 : static_cast<Number>(network.out(n)));
+            leaving_.push_back(network.out(n));
         }
         for (NodeId n = 0; n < arriving_.size(); ++n) {
             merge_at(n);
         }
     }
 
-    Number arcs() const { return static_cast<Number>(units_.size()); }
-    std::int64_t units(Number reach) const { return units_[as_index(reach)]; }
-    NodeId source(Number reach) const { return source_[as_index(reach)]; }
+    std::size_t arcs() const { return units_.size(); }
+    std::int64_t units(ArcId reach) const { return units_[reach]; }
+    NodeId source(ArcId reach) const { return source_[reach]; }
     /// A reach that still exists and has no river above it.
-    bool is_leaf(Number reach) const { return gone_[as_index(reach)] == 0 && arriving_[source_[as_index(reach)]] == 0; }
+    bool is_leaf(ArcId reach) const { return gone_[reach] == 0 && arriving_[source_[reach]] == 0; }
 
-    /// Removes a leaf; gives the reach that was merged at its confluence, or -1.
-    Number remove(Number leaf) {
-        NodeId const at = mouth_[as_index(leaf)];
-        gone_[as_index(leaf)] = 1;
+    /// Removes a leaf; gives the reach that was merged at its confluence, or no_arc.
+    ArcId remove(ArcId leaf) {
+        NodeId const at = mouth_[leaf];
+        gone_[leaf] = 1;
         --arriving_[at];
         arriving_xor_[at] ^= leaf;
         return merge_at(at);
     }
-    template <class F> void each_piece(Number reach, F f) const {
-        for (Number piece = reach; piece >= 0; piece = next_piece_[as_index(piece)]) {
-            f(as_index(piece));
+    template <class F> void each_piece(ArcId reach, F f) const {
+        for (ArcId piece = reach; piece != no_arc; piece = next_piece_[piece]) {
+            f(piece);
         }
     }
 
 private:
-    Number merge_at(NodeId node) {
-        if (arriving_[node] != 1 || leaving_[node] < 0) {
-            return -1;
+    ArcId merge_at(NodeId node) {
+        if (arriving_[node] != 1 || leaving_[node] == no_arc) {
+            return no_arc;
         }
-        Number const up = arriving_xor_[node];
-        Number const down = leaving_[node];
-        units_[as_index(up)] += units_[as_index(down)];
-        next_piece_[as_index(last_piece_[as_index(up)])] = down;
-        last_piece_[as_index(up)] = last_piece_[as_index(down)];
-        mouth_[as_index(up)] = mouth_[as_index(down)];
-        arriving_xor_[mouth_[as_index(up)]] ^= up ^ down;
-        leaving_[source_[as_index(up)]] = up;
-        gone_[as_index(down)] = 1;
+        ArcId const up = arriving_xor_[node];
+        ArcId const down = leaving_[node];
+        units_[up] += units_[down];
+        next_piece_[last_piece_[up]] = down;
+        last_piece_[up] = last_piece_[down];
+        mouth_[up] = mouth_[down];
+        arriving_xor_[mouth_[up]] ^= up ^ down;
+        leaving_[source_[up]] = up;
+        gone_[down] = 1;
         return up;
     }
 
@@ -111,11 +108,11 @@ private:
     std::vector<NodeId> source_;
     std::vector<NodeId> mouth_;
     std::vector<std::int64_t> arriving_; ///< by node: how many reaches end in it
-    std::vector<Number> arriving_xor_;   ///< by node: their numbers, so that the last one left is known
-    std::vector<Number> leaving_;        ///< by node: a reach or piece of one, -1 at an outlet
+    std::vector<ArcId> arriving_xor_;    ///< by node: their numbers, so that the last one left is known
+    std::vector<ArcId> leaving_;         ///< by node: a reach or piece of one, no_arc at an outlet
     std::vector<std::uint8_t> gone_;
-    std::vector<Number> next_piece_;
-    std::vector<Number> last_piece_;
+    std::vector<ArcId> next_piece_;
+    std::vector<ArcId> last_piece_;
 };
 
 /// A leaf in the order of removal: shortest first, of equals the northernmost source, then the westernmost.
@@ -123,23 +120,23 @@ struct Leaf {
     std::int64_t units;
     double minus_y;
     double x;
-    Number reach;
+    ArcId reach;
     auto operator<=>(Leaf const&) const = default;
 };
 
 /// The largest L in units at which each arc is kept: the running maximum of the removed lengths.
 std::vector<std::int64_t> survival(StreamNetwork const& network, Remains remains, Run const& run) {
     std::priority_queue<Leaf, std::vector<Leaf>, std::greater<>> queue;
-    auto const push = [&](Number reach) {
+    auto const push = [&](ArcId reach) {
         Vec2 const at = network.node(remains.source(reach)).at;
         queue.push({remains.units(reach), -at.y, at.x, reach});
     };
-    for (Number a = 0; a < remains.arcs(); ++a) {
+    for (ArcId a = 0; a < remains.arcs(); ++a) {
         if (remains.is_leaf(a)) {
             push(a);
         }
     }
-    std::vector<std::int64_t> persistence(as_index(remains.arcs()), 0);
+    std::vector<std::int64_t> persistence(remains.arcs(), 0);
     std::int64_t longest = 0;
     for (std::int64_t popped = 1; !queue.empty(); ++popped) {
         if (popped % 65536 == 0) {
@@ -151,8 +148,8 @@ std::vector<std::int64_t> survival(StreamNetwork const& network, Remains remains
             continue;
         }
         longest = std::max(longest, leaf.units);
-        remains.each_piece(leaf.reach, [&](std::size_t piece) { persistence[piece] = longest; });
-        if (Number const merged = remains.remove(leaf.reach); merged >= 0 && remains.is_leaf(merged)) {
+        remains.each_piece(leaf.reach, [&](ArcId piece) { persistence[piece] = longest; });
+        if (ArcId const merged = remains.remove(leaf.reach); merged != no_arc && remains.is_leaf(merged)) {
             push(merged);
         }
     }

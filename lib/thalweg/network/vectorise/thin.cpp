@@ -7,6 +7,8 @@
 #include <bit>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
+
 namespace thalweg::network {
 
 namespace {
@@ -119,14 +121,14 @@ template <int Subiteration> Word mark_row(Word const* up, Word const* mid, Word 
 
 /// What has to be looked at in each subiteration: per row the words around which something changed since they were
 /// looked at last in that subiteration. Row y is at y + 1.
-using Live = std::array<std::vector<Span>, 2>;
+using Live = std::array<Indexed<RowIndex, Span>, 2>;
 
 template <int Subiteration> bool subiterate(BitRows& bits, BitRows& marks, Live& live, std::int64_t height) {
-    std::vector<Span>& mine = live[Subiteration];
+    Indexed<RowIndex, Span>& mine = live[Subiteration];
     std::vector<std::int64_t> changed;
     std::vector<Span> looked_at;
     for (std::int64_t y = 0; y < height; ++y) {
-        Span& span = mine[static_cast<std::size_t>(y + 1)];
+        Span& span = mine[y + 1];
         if (span.empty()) {
             continue;
         }
@@ -149,9 +151,9 @@ template <int Subiteration> bool subiterate(BitRows& bits, BitRows& marks, Live&
         }
         std::int64_t const from = std::max<std::int64_t>(hit.first - 1, 0);
         std::int64_t const to = std::min(hit.last + 1, bits.words() - 1);
-        for (std::vector<Span>& spans : live) {
+        for (Indexed<RowIndex, Span>& spans : live) {
             for (std::int64_t near = y; near <= y + 2; ++near) {
-                spans[static_cast<std::size_t>(near)].cover(from, to);
+                spans[near].cover(from, to);
             }
         }
     }
@@ -166,7 +168,7 @@ Mask thin(Mask const& mask, Run const& run) {
     BitRows marks(mask.width(), height);
     pack(mask, bits);
     Live live;
-    live.fill(std::vector<Span>(static_cast<std::size_t>(height + 2), Span{0, bits.words() - 1}));
+    live.fill(Indexed<RowIndex, Span>(height + 2, Span{0, bits.words() - 1}));
     for (bool changed = true; changed;) {
         run.check();
         changed = subiterate<0>(bits, marks, live, height);

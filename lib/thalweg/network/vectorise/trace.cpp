@@ -7,19 +7,25 @@
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/stream_network.hpp>
 
 namespace thalweg::network {
 
 namespace {
 
+using Number = std::size_t; ///< of a cell of the skeleton
+constexpr Number none = std::numeric_limits<Number>::max();
+
 struct Neighbours {
     std::size_t count = 0;
-    std::array<std::int64_t, 8> number{};
+    std::array<Number, 8> number{};
     std::array<std::uint8_t, 8> diagonal{};
 };
 
@@ -28,22 +34,23 @@ class SkeletonGraph {
 public:
     explicit SkeletonGraph(Mask const& mask) : mask_(mask) {
         for (std::int64_t row = 0; row < mask.height(); ++row) {
-            row_begin_.push_back(size());
-            auto const values = mask.row(row);
-            for (std::int64_t col = 0; col < mask.width(); ++col) {
-                if (values[static_cast<std::size_t>(col)] != 0) {
+            row_begin_.push_back(cells_.size());
+            std::int64_t col = 0;
+            for (std::uint8_t const value : mask.row(row)) {
+                if (value != 0) {
                     cells_.push_back({col, row});
                 }
+                ++col;
             }
         }
-        row_begin_.push_back(size());
+        row_begin_.push_back(cells_.size());
     }
 
-    std::int64_t size() const { return static_cast<std::int64_t>(cells_.size()); }
-    Cell cell(std::int64_t number) const { return cells_[static_cast<std::size_t>(number)]; }
+    std::size_t size() const { return cells_.size(); }
+    Cell cell(Number number) const { return cells_[number]; }
 
     /// A diagonal neighbour counts only where neither orthogonal cell between is set.
-    Neighbours neighbours(std::int64_t number) const {
+    Neighbours neighbours(Number number) const {
         Neighbours found;
         Cell const c = cell(number);
         for (std::int64_t dr = -1; dr <= 1; ++dr) {
@@ -63,16 +70,16 @@ public:
 
 private:
     bool set(Cell c) const { return mask_.grid().contains(c) && mask_[c] != 0; }
-    std::int64_t number_of(Cell c) const {
-        auto const begin = cells_.begin() + row_begin_[static_cast<std::size_t>(c.row)];
-        auto const end = cells_.begin() + row_begin_[static_cast<std::size_t>(c.row + 1)];
-        auto const at = std::lower_bound(begin, end, c.col, [](Cell a, std::int64_t col) { return a.col < col; });
-        return at - cells_.begin();
+    Number number_of(Cell c) const {
+        Number const first = row_begin_[c.row];
+        auto const row = std::span(cells_).subspan(first, row_begin_[c.row + 1] - first);
+        auto const before = [&](Cell a) { return a.col < c.col; };
+        return first + static_cast<Number>(std::partition_point(row.begin(), row.end(), before) - row.begin());
     }
 
     Mask const& mask_;
     std::vector<Cell> cells_;
-    std::vector<std::int64_t> row_begin_;
+    Indexed<RowIndex, Number> row_begin_;
 };
 
 /// Distance to the outlet in steps of both kinds: equal distances are equal, whatever the order of the steps.
@@ -93,13 +100,13 @@ Vec2 in_cells(Grid const& grid, Vec2 p) {
 }
 
 /// The cell of number `start`'s component nearest to the mouth [cells]; marks the component as seen.
-std::int64_t outlet_of(std::int64_t start, SkeletonGraph const& graph, Vec2 mouth, std::vector<std::uint8_t>& seen) {
-    std::int64_t best = start;
+Number outlet_of(Number start, SkeletonGraph const& graph, Vec2 mouth, std::vector<std::uint8_t>& seen) {
+    Number best = start;
     double best_distance = std::numeric_limits<double>::infinity();
-    std::vector<std::int64_t> open{start};
-    seen[static_cast<std::size_t>(start)] = 1;
+    std::vector<Number> open{start};
+    seen[start] = 1;
     while (!open.empty()) {
-        std::int64_t const u = open.back();
+        Number const u = open.back();
         open.pop_back();
         Cell const c = graph.cell(u);
         double const d = distance({static_cast<double>(c.col) + 0.5, static_cast<double>(c.row) + 0.5}, mouth);
@@ -109,7 +116,7 @@ std::int64_t outlet_of(std::int64_t start, SkeletonGraph const& graph, Vec2 mout
         }
         Neighbours const near = graph.neighbours(u);
         for (std::size_t k = 0; k < near.count; ++k) {
-            if (std::uint8_t& mark = seen[static_cast<std::size_t>(near.number[k])]; mark == 0) {
+            if (std::uint8_t& mark = seen[near.number[k]]; mark == 0) {
                 mark = 1;
                 open.push_back(near.number[k]);
             }
@@ -119,29 +126,29 @@ std::int64_t outlet_of(std::int64_t start, SkeletonGraph const& graph, Vec2 mout
 }
 
 /// Sets the cell downstream of every cell that reaches the outlet (Dijkstra; of equal ways the lower cell).
-void drain_to(std::int64_t outlet, SkeletonGraph const& graph, std::vector<std::int64_t>& downstream,
-              std::vector<Steps>& steps, Run const& run) {
-    using Entry = std::pair<double, std::int64_t>;
+void drain_to(Number outlet, SkeletonGraph const& graph, std::vector<Number>& downstream, std::vector<Steps>& steps,
+              Run const& run) {
+    using Entry = std::pair<double, Number>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     queue.emplace(0.0, outlet);
-    downstream[static_cast<std::size_t>(outlet)] = outlet;
+    downstream[outlet] = outlet;
     for (std::int64_t popped = 1; !queue.empty(); ++popped) {
         auto const [at, u] = queue.top();
         queue.pop();
         if (popped % 65536 == 0) {
             run.check();
         }
-        Steps const here = steps[static_cast<std::size_t>(u)];
+        Steps const here = steps[u];
         if (at > here.cells()) {
             continue;
         }
         Neighbours const near = graph.neighbours(u);
         for (std::size_t k = 0; k < near.count; ++k) {
-            std::int64_t const v = near.number[k];
+            Number const v = near.number[k];
             Steps const there{here.orthogonal + 1 - near.diagonal[k], here.diagonal + near.diagonal[k]};
-            std::int64_t& parent = downstream[static_cast<std::size_t>(v)];
-            Steps& known = steps[static_cast<std::size_t>(v)];
-            if (parent < 0 || there.cells() < known.cells()) {
+            Number& parent = downstream[v];
+            Steps& known = steps[v];
+            if (parent == none || there.cells() < known.cells()) {
                 parent = u;
                 known = there;
                 queue.emplace(there.cells(), v);
@@ -161,18 +168,17 @@ StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& 
     }
     SkeletonGraph const graph(skeleton);
     Grid const& grid = skeleton.grid();
-    std::int64_t const count = graph.size();
-    if (count == 0) {
+    std::size_t const cells = graph.size();
+    if (cells == 0) {
         throw BadInput("network.trace: the skeleton is empty; grow a larger cluster or choose another branch");
     }
 
     Vec2 const mouth = in_cells(grid, asked);
-    auto const cells = static_cast<std::size_t>(count);
     std::vector<std::uint8_t> seen(cells, 0);
-    std::vector<std::int64_t> downstream(cells, -1);
+    std::vector<Number> downstream(cells, none);
     std::vector<Steps> steps(cells);
-    for (std::int64_t i = 0; i < count; ++i) {
-        if (seen[static_cast<std::size_t>(i)] == 0) {
+    for (Number i = 0; i < cells; ++i) {
+        if (seen[i] == 0) {
             run.check();
             drain_to(outlet_of(i, graph, mouth, seen), graph, downstream, steps, run);
         }
@@ -180,36 +186,37 @@ StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& 
 
     std::vector<std::uint8_t> upstream(cells, 0);
     for (std::size_t i = 0; i < cells; ++i) {
-        if (auto const down = static_cast<std::size_t>(downstream[i]); down != i) {
+        if (Number const down = downstream[i]; down != i) {
             ++upstream[down];
         }
     }
     NetworkDraft network;
-    std::vector<std::int64_t> node(cells, -1);
+    constexpr NodeId no_node = std::numeric_limits<NodeId>::max();
+    std::vector<NodeId> node(cells, no_node);
     for (std::size_t i = 0; i < cells; ++i) {
-        bool const outlet = downstream[i] == static_cast<std::int64_t>(i);
+        bool const outlet = downstream[i] == i;
         if (outlet ? upstream[i] > 0 : upstream[i] != 1) {
-            Vec2 const at = grid.centre(graph.cell(static_cast<std::int64_t>(i)));
-            node[i] = static_cast<std::int64_t>(network.add_node(at));
+            Vec2 const at = grid.centre(graph.cell(i));
+            node[i] = network.add_node(at);
         }
     }
     for (std::size_t i = 0; i < cells; ++i) {
-        if (node[i] < 0 || downstream[i] == static_cast<std::int64_t>(i)) {
+        if (node[i] == no_node || downstream[i] == i) {
             continue;
         }
         Arc arc;
-        arc.line.push_back(grid.centre(graph.cell(static_cast<std::int64_t>(i))));
-        std::size_t at = i;
+        arc.line.push_back(grid.centre(graph.cell(i)));
+        Number at = i;
         do {
-            at = static_cast<std::size_t>(downstream[at]);
-            arc.line.push_back(grid.centre(graph.cell(static_cast<std::int64_t>(at))));
-        } while (node[at] < 0);
-        network.add_arc(static_cast<NodeId>(node[i]), static_cast<NodeId>(node[at]), std::move(arc));
+            at = downstream[at];
+            arc.line.push_back(grid.centre(graph.cell(at)));
+        } while (node[at] == no_node);
+        network.add_arc(node[i], node[at], std::move(arc));
     }
     if (network.arcs.empty()) {
         throw BadInput(fmt::format("network.trace: no two of the skeleton's {} cells are neighbours, there is nothing "
                                    "to trace; grow a larger cluster or choose another branch",
-                                   count));
+                                   cells));
     }
     return network;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid/internal/coloured_problem.hpp>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/solver/grid/unreached.hpp>
@@ -169,11 +170,11 @@ double sum_of(std::vector<double> const& parts) {
 
 void residual_row(ColouredProblem const& problem, std::int64_t y, int colour, float* r, GridRows const& rows) {
     Board const& board = problem.top.board;
-    std::vector<double> b(static_cast<std::size_t>(board.half()));
+    Indexed<ColumnIndex, double> b(board.half());
     if (problem.b != nullptr) {
-        auto const given = problem.b->row(y);
+        double const* const given = problem.b->row(y).data();
         for (std::int64_t x = Board::first(y, colour); x < board.width; x += 2) {
-            b[static_cast<std::size_t>(x / 2)] = given[static_cast<std::size_t>(x)];
+            b[x / 2] = given[x];
         }
     }
     rows.residual(r, b.data(), problem.x.of[colour].row(y), {problem.top.degree.of[colour].row(y)},
@@ -183,7 +184,7 @@ void residual_row(ColouredProblem const& problem, std::int64_t y, int colour, fl
 double residual_norm(ColouredProblem const& problem, GridRows const& rows, Run const& run) {
     Board const& board = problem.top.board;
     return std::sqrt(sum_of(each_row(board, run, [&](std::int64_t y) {
-        std::vector<float> r(static_cast<std::size_t>(board.stride()));
+        Indexed<ColumnIndex, float> r(board.stride());
         double squares = 0.0;
         for (int colour : {0, 1}) {
             residual_row(problem, y, colour, r.data(), rows);

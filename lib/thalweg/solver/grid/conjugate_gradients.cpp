@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid/internal/conjugate_gradients.hpp>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
@@ -59,7 +60,7 @@ public:
     double advance() {
         auto const conjugate = static_cast<float>(rz_before_ > 0.0 ? rz_ / rz_before_ : 0.0);
         rz_before_ = rz_;
-        std::vector<Products> parts(static_cast<std::size_t>(board_.height));
+        Indexed<RowIndex, Products> parts(board_.height);
         std::int64_t const chunk = rows_a_range(board_);
         std::int64_t const chunks = (board_.height + chunk - 1) / chunk;
         parallel_ranges(run_, chunks, 1, [&](std::int64_t first, std::int64_t last) {
@@ -68,7 +69,7 @@ public:
                 for (std::int64_t y = i * chunk; y < end; ++y) {
                     direct(y, conjugate);
                     if (y >= i * chunk + 2) {
-                        parts[static_cast<std::size_t>(y - 1)] = apply(y - 1);
+                        parts[y - 1] = apply(y - 1);
                     }
                 }
             }
@@ -77,7 +78,7 @@ public:
         parallel_ranges(run_, chunks, 32, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t i = first; i < last; ++i) {
                 for (std::int64_t const y : {i * chunk, std::min(board_.height, (i + 1) * chunk) - 1}) {
-                    parts[static_cast<std::size_t>(y)] = apply(y);
+                    parts[y] = apply(y);
                 }
             }
         });

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid/internal/grid_levels.hpp>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/solver/grid/poisson.hpp>
 
@@ -36,7 +37,7 @@ Padded<std::uint8_t> degrees(Raster<std::uint8_t> const& kind, Board const& boar
     Padded<std::uint8_t> degree(board);
     parallel_ranges(run, board.height, 64, [&](std::int64_t begin, std::int64_t end) {
         // No row beyond the border: all of it is outside.
-        std::vector<std::uint8_t> const nothing(static_cast<std::size_t>(board.width), outside_cell);
+        Indexed<ColumnIndex, std::uint8_t> const nothing(board.width, outside_cell);
         for (std::int64_t y = begin; y < end; ++y) {
             std::uint8_t const* const here = kind.row(y).data();
             std::uint8_t const* const above = y > 0 ? kind.row(y - 1).data() : nothing.data();
@@ -113,11 +114,11 @@ CoarseLevel level_of(Equations const& from, Run const& run) {
                       Plane<float>(board),
                       Plane<float>(board)};
     parallel_ranges(run, board.height, 64, [&](std::int64_t begin, std::int64_t end) {
-        std::vector<float> inverse(static_cast<std::size_t>(2 * board.half()));
+        Indexed<ColumnIndex, float> inverse(2 * board.half());
         for (std::int64_t y = begin; y < end; ++y) {
             float const* const diagonal = from.diagonal.row(y);
             for (std::int64_t x = 0; x < board.width; ++x) {
-                inverse[static_cast<std::size_t>(x)] = diagonal[x] > 0.0F ? 1.0F / diagonal[x] : 0.0F;
+                inverse[x] = diagonal[x] > 0.0F ? 1.0F / diagonal[x] : 0.0F;
             }
             split(inverse.data(), y, board, level.inverse);
             for (std::int64_t x = Board::first(y, 0); x < board.width; x += 2) {

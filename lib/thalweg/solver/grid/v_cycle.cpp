@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid/internal/v_cycle.hpp>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/parallel.hpp>
 
 #include <algorithm>
@@ -45,9 +46,9 @@ public:
             keep(y);
         }
     }
-    float* row(std::int64_t y) { return rows_[static_cast<std::size_t>(y & 3)]; }
+    float* row(std::int64_t y) { return rows_[y & 3]; }
     void keep(std::int64_t y) { lend(y, values_.data() + 8 + (y & 3) * stride_); }
-    void lend(std::int64_t y, float* place) { rows_[static_cast<std::size_t>(y & 3)] = place; }
+    void lend(std::int64_t y, float* place) { rows_[y & 3] = place; }
     Around<float> around(std::int64_t y, int colour) {
         std::int64_t const shift = Board::first(y, colour);
         return {row(y - 1), row(y) + shift - 1, row(y) + shift, row(y + 1)};
@@ -68,16 +69,15 @@ void down(Level const& level, TwoColours<float> const& r, CoarseLevel& coarse, G
     parallel_ranges(run, coarse.board.height, rows_a_range(coarse.board), [&](std::int64_t begin, std::int64_t end) {
         Window e_red(level.board);
         Window e_black(level.board);
-        std::array<std::vector<float>, 2> rest;
-        rest.fill(std::vector<float>(static_cast<std::size_t>(level.board.stride())));
+        std::array<Indexed<ColumnIndex, float>, 2> rest;
+        rest.fill(Indexed<ColumnIndex, float>(level.board.stride()));
         for (std::int64_t y = 2 * begin - 2; y < 2 * end + 2; ++y) {
             loop.first(e_red.row(y), r.of[red].row(y), equations(level, y, red), n);
             if (std::int64_t const b = y - 1; b >= 2 * begin - 1) {
                 loop.relax(e_black.row(b), r.of[black].row(b), equations(level, b, black), e_red.around(b, black), n);
             }
             if (std::int64_t const q = y - 2; q >= 2 * begin) {
-                loop.rest(rest[static_cast<std::size_t>(q & 1)].data(), equations(level, q, red),
-                          e_black.around(q, red), n);
+                loop.rest(rest[q & 1].data(), equations(level, q, red), e_black.around(q, red), n);
                 if ((q & 1) != 0) {
                     std::int64_t const row = q / 2;
                     std::int64_t const even = Board::first(row, red);
@@ -95,11 +95,11 @@ double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, 
           GridRows const& rows, Run const& run) {
     SmoothingRows<std::remove_cvref_t<decltype(equations(level, 0, red))>> const& loop = loops(rows, level);
     std::int64_t const n = level.board.half();
-    std::vector<double> sums(static_cast<std::size_t>(coarse.board.height));
+    Indexed<RowIndex, double> sums(coarse.board.height);
     parallel_ranges(run, coarse.board.height, rows_a_range(coarse.board), [&](std::int64_t begin, std::int64_t end) {
         Window e_red(level.board);
         Window e_black(level.board);
-        std::vector<float> correction(static_cast<std::size_t>(level.board.stride()));
+        Indexed<ColumnIndex, float> correction(level.board.stride());
         for (std::int64_t y = 2 * begin - 2; y < 2 * end + 2; ++y) {
             if ((y & 1) == 0) {
                 std::int64_t const row = y / 2;
@@ -115,8 +115,8 @@ double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, 
             }
             if (std::int64_t const q = y - 2; q >= 2 * begin) {
                 loop.relax(e.of[red].row(q), r.of[red].row(q), equations(level, q, red), e_black.around(q, red), n);
-                sums[static_cast<std::size_t>(q / 2)] += rows.dot(r.of[red].row(q), e.of[red].row(q), n) +
-                                                         rows.dot(r.of[black].row(q), e.of[black].row(q), n);
+                sums[q / 2] += rows.dot(r.of[red].row(q), e.of[red].row(q), n) +
+                               rows.dot(r.of[black].row(q), e.of[black].row(q), n);
             }
         }
     });

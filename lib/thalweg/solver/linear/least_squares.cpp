@@ -124,8 +124,8 @@ Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, 
     VectorXd const right = Eigen::Map<VectorXd const>(b.data(), static_cast<Index>(b.size()));
     std::vector<Index> const others = unbound_columns(a.columns, sphere.unknowns);
     MatrixXd with(all.rows(), p);
-    for (Index i = 0; i < p; ++i) {
-        with.col(i) = all.col(static_cast<Index>(sphere.unknowns[static_cast<std::size_t>(i)]));
+    for (Index i = 0; std::size_t const column : sphere.unknowns) {
+        with.col(i++) = all.col(static_cast<Index>(column));
     }
     MatrixXd const free = all(Eigen::all, others);
     Eigen::ColPivHouseholderQR<MatrixXd> qr;
@@ -156,8 +156,8 @@ Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, 
     VectorXd const u = least_on_sphere(s, l.solve(pull), sphere.tau);
     VectorXd const y = l.transpose().solve(u);
     VectorXd x(all.cols());
-    for (Index i = 0; i < p; ++i) {
-        x[static_cast<Index>(sphere.unknowns[static_cast<std::size_t>(i)])] = y[i];
+    for (Index i = 0; std::size_t const column : sphere.unknowns) {
+        x[static_cast<Index>(column)] = y[i++];
     }
     if (!others.empty()) {
         VectorXd const z = qr.solve(right - with * y);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ struct SparseFactor::Factor {
 
 SparseFactor::SparseFactor(std::size_t size, std::vector<SparseEntry> const& entries)
     : factor_(std::make_unique<Factor>()) {
-    if (size > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+    if (std::cmp_greater(size, std::numeric_limits<int>::max())) {
         throw BadInput(fmt::format("solver.sparse: a matrix of {} rows; at most 2^31 - 1", size));
     }
     std::vector<Eigen::Triplet<double>> triplets;

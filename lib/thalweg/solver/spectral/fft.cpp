@@ -45,9 +45,9 @@ LineTransform::LineTransform(std::int64_t length, Direction direction) : plan_(s
     kiss.m_twiddles.resize(static_cast<std::size_t>(length));
     // Not kissfft's own twiddles: those are libm's sin and cos, whose bits depend on the processor.
     double const step = (kiss.m_inverse ? 2.0 : -2.0) * portable::pi;
-    for (std::int64_t i = 0; i < length; ++i) {
+    for (std::size_t i = 0; i < kiss.m_twiddles.size(); ++i) {
         double const angle = step * (static_cast<double>(i) / static_cast<double>(length));
-        kiss.m_twiddles[static_cast<std::size_t>(i)] = {portable::cos(angle), portable::sin(angle)};
+        kiss.m_twiddles[i] = {portable::cos(angle), portable::sin(angle)};
     }
     if (length > 1) { // kissfft does not know length 1
         kiss.factorize(static_cast<int>(length));

@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/run/parallel.hpp>
@@ -63,15 +64,17 @@ Stencil stencil(float before, float after) {
     return std::isnan(after) ? Stencil{-1.0, 1.0, 0.0} : Stencil{-0.5, 0.0, 0.5};
 }
 
+using Slopes = Indexed<ColumnIndex, Gradient>; ///< of a row of cells
+
 /// Derivatives of one row's arctan |grad z| by the differences along both axes.
-std::vector<Gradient> slope_row(Raster<float> const& dem, std::int64_t r) {
-    std::vector<Gradient> row(static_cast<std::size_t>(dem.width()));
+Slopes slope_row(Raster<float> const& dem, std::int64_t r) {
+    Slopes row(dem.width());
     for (std::int64_t c = 0; c < dem.width() && r >= 0 && r < dem.height(); ++c) {
         if (!std::isnan(dem[Cell{c, r}])) {
             Gradient const g = gradient_at(dem, c, r);
             double const square = g.x * g.x + g.y * g.y;
             double const weight = square > 0.0 ? 1.0 / ((1.0 + square) * std::sqrt(square)) : 0.0;
-            row[static_cast<std::size_t>(c)] = {weight * g.x, weight * g.y};
+            row[c] = {weight * g.x, weight * g.y};
         }
     }
     return row;
@@ -82,27 +85,26 @@ Raster<double> slope_derivative(Raster<float> const& dem, std::int64_t cells, Ru
     Raster<double> result(dem.grid());
     double const share = 1.0 / static_cast<double>(cells);
     parallel_ranges(run, dem.height(), 32, [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Gradient> north = slope_row(dem, begin - 1);
-        std::vector<Gradient> here = slope_row(dem, begin);
+        Slopes north = slope_row(dem, begin - 1);
+        Slopes here = slope_row(dem, begin);
         for (std::int64_t r = begin; r < end; ++r) {
             run.check();
-            std::vector<Gradient> south = slope_row(dem, r + 1);
+            Slopes south = slope_row(dem, r + 1);
             for (std::int64_t c = 0; c < dem.width(); ++c) {
                 float const z = dem[Cell{c, r}];
                 if (std::isnan(z)) {
                     continue;
                 }
-                auto const i = static_cast<std::size_t>(c);
-                double sum = stencil(height_at(dem, c - 1, r), height_at(dem, c + 1, r)).here * here[i].x +
-                             stencil(height_at(dem, c, r - 1), height_at(dem, c, r + 1)).here * here[i].y;
+                double sum = stencil(height_at(dem, c - 1, r), height_at(dem, c + 1, r)).here * here[c].x +
+                             stencil(height_at(dem, c, r - 1), height_at(dem, c, r + 1)).here * here[c].y;
                 if (c > 0) {
-                    sum += stencil(height_at(dem, c - 2, r), z).after * here[i - 1].x;
+                    sum += stencil(height_at(dem, c - 2, r), z).after * here[c - 1].x;
                 }
                 if (c + 1 < dem.width()) {
-                    sum += stencil(z, height_at(dem, c + 2, r)).before * here[i + 1].x;
+                    sum += stencil(z, height_at(dem, c + 2, r)).before * here[c + 1].x;
                 }
-                sum += stencil(height_at(dem, c, r - 2), z).after * north[i].y +
-                       stencil(z, height_at(dem, c, r + 2)).before * south[i].y;
+                sum += stencil(height_at(dem, c, r - 2), z).after * north[c].y +
+                       stencil(z, height_at(dem, c, r + 2)).before * south[c].y;
                 result[Cell{c, r}] = share * sum;
             }
             north = std::move(here);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
@@ -15,7 +16,8 @@ namespace thalweg::solver {
 
 namespace {
 
-using Line = std::vector<Complex>;
+using Line = Indexed<std::int64_t, Complex>;
+using Lines = Indexed<std::int64_t, Line>;
 
 // Two real lines make one complex one, and so many pairs are read at once that a row's part fills a cache line.
 constexpr std::int64_t lines_at_once = 16;
@@ -37,20 +39,20 @@ struct LinesOfDem {
     }
 
     /// Heights less the datum, 0 where there are none, of the lines from first on, by twos as real and imaginary parts.
-    void heights(std::int64_t first, std::vector<Line>& pairs) const {
+    void heights(std::int64_t first, Lines& pairs) const {
         read(first, pairs, [&](float z) { return std::isnan(z) ? 0.0 : z - datum; });
     }
     /// 1 where there are heights, 0 where there are none.
-    void presence(std::int64_t first, std::vector<Line>& pairs) const {
+    void presence(std::int64_t first, Lines& pairs) const {
         read(first, pairs, [](float z) { return std::isnan(z) ? 0.0 : 1.0; });
     }
-    template <class Value> void read(std::int64_t first, std::vector<Line>& pairs, Value const& value) const {
+    template <class Value> void read(std::int64_t first, Lines& pairs, Value const& value) const {
         for (Line& pair : pairs) {
             std::fill(pair.begin(), pair.end(), Complex{});
         }
         std::int64_t const beyond = std::min(first + lines_at_once, count());
         auto const take = [&](std::int64_t line, std::int64_t i) {
-            Complex& number = pairs[static_cast<std::size_t>((line - first) / 2)][static_cast<std::size_t>(i)];
+            Complex& number = pairs[(line - first) / 2][i];
             double const v = value(dem[index(line, i)]);
             number = (line - first) % 2 == 0 ? Complex{v, number.imag()} : Complex{number.real(), v};
         };
@@ -70,8 +72,8 @@ struct LinesOfDem {
     }
 };
 
-std::vector<Line> empty_pairs(std::int64_t length) {
-    return std::vector<Line>(lines_at_once / 2, Line(static_cast<std::size_t>(length)));
+Lines empty_pairs(std::int64_t length) {
+    return Lines(lines_at_once / 2, Line(length));
 }
 
 struct Power {
@@ -95,8 +97,8 @@ std::vector<double> lagged(LinesOfDem const& lines, std::int64_t lags, Run const
     std::int64_t const blocks = std::min(bundles, most_blocks);
     Power const power = sum_rows(run, blocks, [&](std::int64_t block) {
         LineTransform transform = prepared;
-        std::vector<Line> pairs = empty_pairs(size);
-        Line spectrum(static_cast<std::size_t>(size));
+        Lines pairs = empty_pairs(size);
+        Line spectrum(size);
         Power part{std::vector<double>(spectrum.size(), 0.0)};
         for (std::int64_t b = block; b < bundles; b += blocks) {
             run.check();
@@ -148,7 +150,7 @@ void weigh_many(LinesOfDem const& lines, std::vector<double> const& weights, Ras
     std::int64_t const size = good_size(lines.length() + static_cast<std::int64_t>(weights.size()));
     LineTransform const there(size, Direction::forward);
     LineTransform const back(size, Direction::inverse);
-    Line kernel(static_cast<std::size_t>(size));
+    Line kernel(size);
     for (std::size_t k = 1; k <= weights.size(); ++k) {
         kernel[k] += weights[k - 1];
         kernel[kernel.size() - k] += weights[k - 1];
@@ -159,8 +161,8 @@ void weigh_many(LinesOfDem const& lines, std::vector<double> const& weights, Ras
     parallel_ranges(run, bundles, 1, [&](std::int64_t begin, std::int64_t end) {
         LineTransform forward = there;
         LineTransform inverse = back;
-        std::vector<Line> pairs = empty_pairs(size);
-        Line line(static_cast<std::size_t>(size));
+        Lines pairs = empty_pairs(size);
+        Line line(size);
         for (std::int64_t b = begin; b < end; ++b) {
             run.check();
             std::int64_t const first = b * lines_at_once;
@@ -175,8 +177,7 @@ void weigh_many(LinesOfDem const& lines, std::vector<double> const& weights, Ras
             std::int64_t const beyond = std::min(first + lines_at_once, lines.count());
             for (std::int64_t i = 0; i < lines.length(); ++i) {
                 for (std::int64_t l = first; l < beyond; ++l) {
-                    Complex const& number =
-                        pairs[static_cast<std::size_t>((l - first) / 2)][static_cast<std::size_t>(i)];
+                    Complex const& number = pairs[(l - first) / 2][i];
                     std::int64_t const cell = lines.index(l, i);
                     sums[cell] = std::isnan(lines.dem[cell]) ? 0.0
                                  : (l - first) % 2 == 0      ? number.real()
@@ -192,13 +193,11 @@ void weigh_many(LinesOfDem const& lines, std::vector<double> const& weights, Ras
 LagSums lag_sums(Raster<float> const& dem, double datum, Axis axis, std::int64_t lags, Run const& run) {
     LinesOfDem const lines{dem, datum, axis};
     LagSums sums;
-    sums.products =
-        lagged(lines, lags, run, [&](std::int64_t first, std::vector<Line>& pairs) { lines.heights(first, pairs); });
+    sums.products = lagged(lines, lags, run, [&](std::int64_t first, Lines& pairs) { lines.heights(first, pairs); });
     auto const values = dem.values();
     bool const holes = std::any_of(values.begin(), values.end(), [](float z) { return std::isnan(z); });
     if (holes) {
-        sums.pairs = lagged(lines, lags, run,
-                            [&](std::int64_t first, std::vector<Line>& pairs) { lines.presence(first, pairs); });
+        sums.pairs = lagged(lines, lags, run, [&](std::int64_t first, Lines& pairs) { lines.presence(first, pairs); });
         for (double& count : sums.pairs) {
             count = std::floor(count + 0.5);
         }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include <thalweg/core/by_enum.hpp>
 #include <thalweg/io/network/internal/read_network_notes.hpp>
 #include <thalweg/io/network/schema.hpp>
 
@@ -59,7 +60,7 @@ public:
                std::string const& what, Notes& notes);
 
     bool has(Quantity quantity) const { return column(quantity).is_there(); }
-    FileColumn const& column(Quantity quantity) const { return columns_.at(static_cast<std::size_t>(quantity)).column; }
+    FileColumn const& column(Quantity quantity) const { return columns_[quantity].column; }
     /// In SI units; NaN where there is no such column, or no value that is known.
     double real(OGRFeature const& feature, Quantity quantity) const;
     /// What stands for no arc in a column of links.
@@ -70,7 +71,7 @@ private:
         FileColumn column;
         SchemaField const* field = nullptr;
     };
-    std::array<Told, static_cast<std::size_t>(Quantity::constant)> columns_;
+    ByEnum<Quantity, Told, static_cast<std::size_t>(Quantity::constant)> columns_;
 };
 
 /// The schemas of which a layer has all the fields that tell it.

@@ -27,7 +27,7 @@ std::vector<std::string> short_user_names(std::vector<std::string> const& names,
 /// Adds the columns to a table. Takes: by row of the table the record of its values, 0 for none, where all are NULL.
 /// The attributes must outlive the table.
 void add_user_columns(Table& table, AttributeTable const& attributes,
-                      std::function<std::int64_t(std::int64_t row)> const& record, bool short_names,
+                      std::function<std::int64_t(std::size_t row)> const& record, bool short_names,
                       Schema schema = Schema::native);
 
 } // namespace thalweg::io

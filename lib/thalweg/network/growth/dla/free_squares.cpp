@@ -17,11 +17,10 @@ using Profile = std::array<std::array<std::uint8_t, 64>, 16>;
 
 constexpr Profile make_profile() {
     Profile profile{};
-    for (int dy = 0; dy < 16; ++dy) {
-        for (int dx = -15; dx <= 15; ++dx) {
-            int const distance = std::max(dx < 0 ? -dx : dx, dy);
-            profile[static_cast<std::size_t>(dy)][static_cast<std::size_t>(dx + 32)] =
-                static_cast<std::uint8_t>(16 - distance);
+    for (std::size_t dy = 0; dy < 16; ++dy) {
+        for (std::size_t place = 32 - 15; place <= 32 + 15; ++place) {
+            std::size_t const distance = std::max(place < 32 ? 32 - place : place - 32, dy);
+            profile[dy][place] = static_cast<std::uint8_t>(16 - distance);
         }
     }
     return profile;

@@ -27,10 +27,12 @@ struct DlaParams {
 
 enum class GrowthStop : std::uint8_t { particles, radius };
 
+using ParticleId = std::int64_t; ///< number of a particle in order of arrival; -1: none
+
 /// A cluster on the lattice: the seed is cell (0, 0), columns count eastwards, rows southwards.
 struct Cluster {
     std::vector<Cell> cells; ///< in order of arrival, the seed first
-    std::vector<std::int64_t>
+    std::vector<ParticleId>
         parent;               ///< by particle: the occupied 4-neighbour it sticks to (uniform choice); -1: the seed
     std::int64_t walkers = 0; ///< number released
     double radius = 0.0;      ///< [cells] largest distance from the seed

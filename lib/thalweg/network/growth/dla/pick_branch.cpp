@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
@@ -38,12 +39,12 @@ void check(Cluster const& cluster, BranchParams const& params) {
     }
 }
 
-/// By particle: whether it descends from the root, which does itself.
-std::vector<std::uint8_t> descendants(Cluster const& cluster, std::size_t root) {
-    std::vector<std::uint8_t> descends(cluster.cells.size(), 0);
+/// Whether each descends from the root, which does itself.
+Indexed<ParticleId, std::uint8_t> descendants(Cluster const& cluster, std::size_t root) {
+    Indexed<ParticleId, std::uint8_t> descends(cluster.cells.size(), 0);
     descends[root] = 1;
     for (std::size_t p = root + 1; p < descends.size(); ++p) {
-        descends[p] = descends[static_cast<std::size_t>(cluster.parent[p])];
+        descends[p] = descends[cluster.parent[p]];
     }
     return descends;
 }
@@ -64,13 +65,13 @@ bool lies(Cell c, BranchChoice direction) {
 /// The particle whose descendants are the arm; 0 where there is none.
 std::size_t root_of(Cluster const& cluster, BranchChoice choice) {
     std::size_t const count = cluster.cells.size();
-    std::vector<std::int64_t> size(count, 1);
-    std::vector<std::int64_t> inside(count, 0);
+    Indexed<ParticleId, std::int64_t> size(count, 1);
+    Indexed<ParticleId, std::int64_t> inside(count, 0);
     Cell const seed = cluster.cells.front();
     for (std::size_t p = count - 1; p > 0; --p) { // children arrive after their parents
         Cell const c{cluster.cells[p].col - seed.col, cluster.cells[p].row - seed.row};
         inside[p] += lies(c, choice) ? 1 : 0;
-        auto const up = static_cast<std::size_t>(cluster.parent[p]);
+        ParticleId const up = cluster.parent[p];
         size[up] += size[p];
         inside[up] += inside[p];
     }

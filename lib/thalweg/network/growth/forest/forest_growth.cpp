@@ -74,8 +74,8 @@ template <class Visit> bool ForestGrowth::all_near(Cell c, Visit visit) const {
     std::int64_t const reach = 2 * step_;
     bool all = true;
     cells_around(first_.grid(), {c.col / step_, c.row / step_}, 2, [&](Cell block) {
-        for (std::int32_t p = first_[block]; all && p >= 0; p = next_[static_cast<std::size_t>(p)]) {
-            if (squared_cells(particles_[static_cast<std::size_t>(p)], c) < reach * reach) {
+        for (std::int32_t p = first_[block]; all && p >= 0; p = next_[p]) {
+            if (squared_cells(particles_[p], c) < reach * reach) {
                 all = visit(p);
             }
         }
@@ -97,7 +97,7 @@ void ForestGrowth::add(Cell c) {
 }
 
 void ForestGrowth::place(Cell c, std::int64_t parent) {
-    auto const number = static_cast<std::int32_t>(particles_.size());
+    std::int32_t const number = particles_.count();
     particles_.push_back(c);
     parents_.push_back(parent);
     std::int32_t& first = first_[Cell{c.col / step_, c.row / step_}];
@@ -110,7 +110,7 @@ void ForestGrowth::place(Cell c, std::int64_t parent) {
             return;
         }
         std::int32_t& nearest = nearest_[at];
-        if (nearest < 0 || far < squared_cells(at, particles_[static_cast<std::size_t>(nearest)])) {
+        if (nearest < 0 || far < squared_cells(at, particles_[nearest])) {
             nearest = number;
         }
         if (!inside(at)) {
@@ -140,9 +140,8 @@ bool ForestGrowth::may_hold(Cell c) const {
     std::int32_t const on = nearest_[c];
     std::int64_t const step2 = step_ * step_;
     return all_near(c, [&](std::int32_t p) {
-        std::int64_t const far = squared_cells(particles_[static_cast<std::size_t>(p)], c);
-        return p == on || (p == parents_[static_cast<std::size_t>(on)] && 2 * far >= 5 * step2) ||
-               (parents_[static_cast<std::size_t>(p)] == on && 2 * far >= 3 * step2);
+        std::int64_t const far = squared_cells(particles_[p], c);
+        return p == on || (p == parents_[on] && 2 * far >= 5 * step2) || (parents_[p] == on && 2 * far >= 3 * step2);
     });
 }
 

@@ -106,7 +106,7 @@ GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, Fore
     forest.parent = growth.parents();
     for (std::size_t p = 0; p < forest.cells.size(); ++p) {
         std::int64_t const up = forest.parent[p];
-        forest.tree.push_back(up < 0 ? static_cast<std::int64_t>(p) : forest.tree[static_cast<std::size_t>(up)]);
+        forest.tree.push_back(up < 0 ? static_cast<std::int64_t>(p) : forest.tree[up]);
     }
     return forest;
 }

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include <thalweg/core/grid.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
 
 namespace thalweg::network {
 
@@ -25,10 +27,10 @@ enum class ForestStop : std::uint8_t { full, particles };
 
 /// Trees in a region, one from each seed.
 struct GrownForest {
-    std::vector<Cell> cells;          ///< in order of arrival, the seeds first
-    std::vector<std::int64_t> parent; ///< by particle: its parent; -1: a seed
-    std::vector<std::int64_t> tree;   ///< by particle: number of its seed
-    std::int64_t walkers = 0;         ///< number released
+    Indexed<ParticleId, Cell> cells;        ///< in order of arrival, the seeds first
+    Indexed<ParticleId, ParticleId> parent; ///< by particle: its parent; -1: a seed
+    Indexed<ParticleId, std::int64_t> tree; ///< by particle: number of its seed
+    std::int64_t walkers = 0;               ///< number released
     ForestStop stop = ForestStop::full;
 };
 

@@ -12,6 +12,7 @@
 
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
@@ -183,34 +184,34 @@ void note_dry_land(Mask const& land, Mouths const& mouths, std::vector<Finding>&
 
 /// The trees as arcs: every particle without or with several children is a node, and so is every outlet.
 NetworkDraft as_network(GrownForest const& forest, Grid const& grid, std::vector<Mouth> const& mouths) {
-    std::size_t const count = forest.cells.size();
-    std::vector<int> children(count, 0);
+    ParticleId const count = forest.cells.count();
+    Indexed<ParticleId, int> children(count, 0);
     for (std::int64_t const up : forest.parent) {
         if (up >= 0) {
-            ++children[static_cast<std::size_t>(up)];
+            ++children[up];
         }
     }
     NetworkDraft network;
     for (Mouth const& mouth : mouths) {
         network.add_node(grid.centre(mouth.outlet));
     }
-    std::vector<NodeId> node(count, 0);
-    for (std::size_t p = 0; p < count; ++p) {
+    Indexed<ParticleId, NodeId> node(count, 0);
+    for (ParticleId p = 0; p < count; ++p) {
         if (children[p] != 1) {
             node[p] = network.add_node(grid.centre(forest.cells[p]));
         }
     }
-    for (std::size_t p = 0; p < count; ++p) {
+    for (ParticleId p = 0; p < count; ++p) {
         if (children[p] == 1) {
             continue;
         }
         Arc arc;
-        std::size_t at = p;
+        ParticleId at = p;
         do {
             arc.line.push_back(grid.centre(forest.cells[at]));
-            at = forest.parent[at] < 0 ? count : static_cast<std::size_t>(forest.parent[at]);
-        } while (at < count && children[at] == 1);
-        NodeId const end = at < count ? node[at] : static_cast<NodeId>(forest.tree[p]);
+            at = forest.parent[at];
+        } while (at >= 0 && children[at] == 1);
+        NodeId const end = at >= 0 ? node[at] : static_cast<NodeId>(forest.tree[p]);
         arc.line.push_back(network.nodes[end].at);
         network.add_arc(node[p], end, std::move(arc));
     }

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
@@ -62,7 +63,7 @@ private:
     static double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
     static double mix(double a, double b, double t) { return a + t * (b - a); }
     double slope(std::int64_t i, std::int64_t j, double fu, double fv) const {
-        Vec2 const g = gradients_[static_cast<std::size_t>((j + half_) * (2 * half_ + 1) + i + half_)];
+        Vec2 const g = gradients_[(j + half_) * (2 * half_ + 1) + i + half_];
         return g.x * fu + g.y * fv;
     }
 
@@ -70,7 +71,7 @@ private:
     Vec2 along_;
     Vec2 offset_;
     std::int64_t half_ = 0;
-    std::vector<Vec2> gradients_;
+    Indexed<std::int64_t, Vec2> gradients_;
 };
 
 /// Octaves of which each is half as long as the one before, and nearly half as strong.

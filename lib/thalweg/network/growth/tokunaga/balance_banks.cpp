@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/tokunaga/internal/balance_banks.hpp>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/range.hpp>
 
 #include <fmt/format.h>
@@ -14,15 +15,15 @@ namespace thalweg::network {
 namespace {
 
 struct Wing {
-    std::size_t link;
+    LinkId link;
     std::int64_t links; ///< with all above
 };
 
 /// By link: links above it and itself.
-std::vector<std::int64_t> sizes_of(TokunagaTree const& tree) {
-    std::vector<std::int64_t> links(tree.links.size(), 1);
+Indexed<LinkId, std::int64_t> sizes_of(TokunagaTree const& tree) {
+    Indexed<LinkId, std::int64_t> links(tree.links.size(), 1);
     for (std::size_t i = tree.links.size(); i-- > 1;) {
-        links[static_cast<std::size_t>(tree.links[i].down)] += links[i];
+        links[tree.links[i].down] += links[i];
     }
     return links;
 }
@@ -31,33 +32,32 @@ std::vector<std::int64_t> sizes_of(TokunagaTree const& tree) {
 
 std::vector<std::size_t> trunk_of(TokunagaTree const& tree) {
     std::vector<std::size_t> trunk;
-    std::int64_t link = 0;
+    LinkId link = 0;
     while (link >= 0) {
-        TreeLink const& here = tree.links[static_cast<std::size_t>(link)];
+        TreeLink const& here = tree.links[link];
         trunk.push_back(static_cast<std::size_t>(link));
-        std::int64_t const next = here.up[0];
-        link = next >= 0 && tree.links[static_cast<std::size_t>(next)].order == here.order ? next : -1;
+        LinkId const next = here.up[0];
+        link = next >= 0 && tree.links[next].order == here.order ? next : -1;
     }
     return trunk;
 }
 
 void balance_banks(TokunagaTree& tree, double share_left) {
     require_in("network.balance_banks", "share_left", share_left, Range::between(0.0, 1.0));
-    std::vector<std::int64_t> const sizes = sizes_of(tree);
+    Indexed<LinkId, std::int64_t> const sizes = sizes_of(tree);
     std::int64_t left = 0;
     std::int64_t right = 0;
     std::vector<Wing> branches;
     for (std::size_t const t : trunk_of(tree)) {
-        for (std::int64_t const up : tree.links[t].up) {
-            if (up < 0 || tree.links[static_cast<std::size_t>(up)].turn == 0) {
+        for (LinkId const up : tree.links[t].up) {
+            if (up < 0 || tree.links[up].turn == 0) {
                 continue;
             }
-            auto const link = static_cast<std::size_t>(up);
-            int const turn = tree.links[link].turn;
+            int const turn = tree.links[up].turn;
             if (turn == 1 || turn == -1) { // of the fork
-                (turn > 0 ? left : right) += sizes[link];
+                (turn > 0 ? left : right) += sizes[up];
             } else {
-                branches.push_back({link, sizes[link]});
+                branches.push_back({up, sizes[up]});
             }
         }
     }

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
@@ -99,33 +100,33 @@ Vec2 far_end(EmbedParams const& params, double spacing) {
 
 /// A tree without its lowest orders; links between which nothing enters any more are one.
 struct Thinned {
-    std::vector<ForestLink> links;
-    std::vector<std::vector<std::int64_t>> links_of; ///< of the tree, by link of the forest, downstream first
+    Indexed<LinkId, ForestLink> links;
+    Indexed<LinkId, std::vector<LinkId>> links_of; ///< of the tree, by link of the forest, downstream first
 };
 
 Thinned thinned(TokunagaTree const& tree, int lowest) {
-    std::vector<int> arrivals(tree.links.size(), 0);
+    Indexed<LinkId, int> arrivals(tree.links.size(), 0);
     for (TreeLink const& link : tree.links) {
         if (link.down >= 0 && link.order >= lowest) {
-            ++arrivals[static_cast<std::size_t>(link.down)];
+            ++arrivals[link.down];
         }
     }
     Thinned out;
-    std::vector<std::int64_t> part(tree.links.size(), -1); // of the forest
+    Indexed<LinkId, LinkId> part(tree.links.size(), -1); // of the forest
     for (std::size_t i = 0; i < tree.links.size(); ++i) {
         TreeLink const& link = tree.links[i];
         if (link.order < lowest) {
             continue;
         }
-        std::int64_t const below = link.down < 0 ? -1 : part[static_cast<std::size_t>(link.down)];
-        if (link.down >= 0 && arrivals[static_cast<std::size_t>(link.down)] == 1) {
+        LinkId const below = link.down < 0 ? -1 : part[link.down];
+        if (link.down >= 0 && arrivals[link.down] == 1) {
             part[i] = below;
         } else {
-            part[i] = static_cast<std::int64_t>(out.links.size());
+            part[i] = out.links.count();
             out.links.push_back({.down = below, .order = link.order, .turn = link.turn, .tree = 0, .pinned = {}});
             out.links_of.emplace_back();
         }
-        out.links_of[static_cast<std::size_t>(part[i])].push_back(static_cast<std::int64_t>(i));
+        out.links_of[part[i]].push_back(static_cast<LinkId>(i));
     }
     return out;
 }
@@ -182,10 +183,10 @@ EmbeddedTree embed_tree(TokunagaTree const& tree, EmbedParams const& params, Run
     }
     KeptNetwork kept = join_links(forest, settled.at, settled.stays);
     out.network = std::move(kept.network);
-    for (std::vector<std::int64_t> const& parts : kept.links_of_arc) {
-        std::vector<std::int64_t>& links = out.links_of_arc.emplace_back();
-        for (std::int64_t const part : parts) {
-            std::vector<std::int64_t> const& own = fits.links_of[static_cast<std::size_t>(part)];
+    for (std::vector<LinkId> const& parts : kept.links_of_arc) {
+        std::vector<LinkId>& links = out.links_of_arc.emplace_back();
+        for (LinkId const part : parts) {
+            std::vector<LinkId> const& own = fits.links_of[part];
             links.insert(links.end(), own.rbegin(), own.rend());
         }
         out.placed += static_cast<std::int64_t>(links.size());

@@ -27,7 +27,7 @@ struct EmbedParams {
 struct EmbeddedTree {
     StreamNetwork network; ///< arcs between outlet, confluences and sources
     /// by arc: links of the tree, upstream; one per piece of the line, unless streams of the lowest orders are left out
-    std::vector<std::vector<std::int64_t>> links_of_arc;
+    std::vector<std::vector<LinkId>> links_of_arc;
     std::int64_t placed = 0;  ///< number of links
     std::int64_t dropped = 0; ///< links without room, with all upstream of them
     double spacing_m = 0.0;   ///< [m] square root of the region's area per link

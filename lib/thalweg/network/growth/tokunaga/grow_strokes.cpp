@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/tokunaga/grow_strokes.hpp>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
@@ -72,13 +73,13 @@ std::vector<double> ways_of_trunk(std::size_t nodes, double length_m, std::vecto
 
 class Planting {
 public:
-    Planting(std::vector<Stroke> const& strokes, RiverLines const& drawn, StrokeLands const& lands, double width_m,
+    Planting(Strokes const& strokes, RiverLines const& drawn, StrokeLands const& lands, double width_m,
              StrokesParams const& params)
         : strokes_(strokes), drawn_(drawn), lands_(lands), width_m_(width_m), params_(params),
           joints_(strokes.size(), -1), junctions_(strokes.size()) {
         for (std::size_t k = 0; k < strokes.size(); ++k) {
             if (strokes[k].onto >= 0) {
-                junctions_[static_cast<std::size_t>(strokes[k].onto)].push_back({strokes[k].onto_way_m, k});
+                junctions_[strokes[k].onto].push_back({strokes[k].onto_way_m, k});
             }
         }
         for (auto& list : junctions_) {
@@ -96,8 +97,8 @@ public:
         std::vector<std::size_t> const trunk = trunk_of(tree);
         std::vector<double> const ways = ways_of_trunk(trunk.size(), strokes_[stroke].way.back(), junctions_[stroke]);
 
-        std::vector<std::int64_t> number(tree.links.size(), -1); // of its links in the forest
-        std::int64_t below = joints_[stroke];
+        Indexed<LinkId, LinkId> number(tree.links.size(), -1); // of its links in the forest
+        LinkId below = joints_[stroke];
         int turn = below < 0 ? 0 : side_of(stroke);
         std::size_t joined = 0;
         for (std::size_t i = 0; i < trunk.size(); ++i) {
@@ -115,16 +116,16 @@ public:
         for (std::size_t i = 0; i < tree.links.size(); ++i) {
             TreeLink const& link = tree.links[i];
             if (number[i] < 0) {
-                number[i] = add(number[static_cast<std::size_t>(link.down)], link.order, link.turn, stroke, {});
+                number[i] = add(number[link.down], link.order, link.turn, stroke, {});
             }
         }
     }
 
     /// A river is of no lower order than those that flow into it.
-    std::vector<ForestLink> take() {
+    Indexed<LinkId, ForestLink> take() {
         for (std::size_t i = links_.size(); i-- > 0;) {
             if (links_[i].down >= 0) {
-                int& order = links_[static_cast<std::size_t>(links_[i].down)].order;
+                int& order = links_[links_[i].down].order;
                 order = std::max(order, links_[i].order);
             }
         }
@@ -140,33 +141,33 @@ private:
     /// The bank from which a stroke joins another, as TreeLink::turn has it.
     int side_of(std::size_t stroke) const {
         Stroke const& own = strokes_[stroke];
-        Stroke const& onto = strokes_[static_cast<std::size_t>(own.onto)];
+        Stroke const& onto = strokes_[own.onto];
         Vec2 const a = place_at(onto, own.onto_way_m);
         Vec2 const b = place_at(onto, own.onto_way_m + 0.01 * onto.way.back());
         Vec2 const c = own.line[1];
         return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0.0 ? 2 : -2;
     }
 
-    std::int64_t add(std::int64_t down, int order, int turn, std::size_t tree, std::optional<Vec2> pinned) {
+    LinkId add(LinkId down, int order, int turn, std::size_t tree, std::optional<Vec2> pinned) {
         links_.push_back({.down = down, .order = order, .turn = turn, .tree = tree, .pinned = pinned});
-        return static_cast<std::int64_t>(links_.size()) - 1;
+        return links_.count() - 1;
     }
 
-    std::vector<Stroke> const& strokes_;
+    Strokes const& strokes_;
     RiverLines const& drawn_;
     StrokeLands const& lands_;
     double width_m_; ///< [m] of the grid
     StrokesParams const& params_;
-    std::vector<ForestLink> links_;
-    std::vector<std::int64_t> joints_; ///< by stroke: the link into which it flows, -1 for its own mouth
-    std::vector<std::vector<Junction>> junctions_;
+    Indexed<LinkId, ForestLink> links_;
+    Indexed<StrokeId, LinkId> joints_; ///< the link into which it flows, -1 for its own mouth
+    Indexed<StrokeId, std::vector<Junction>> junctions_;
 };
 
 } // namespace
 
 GrownStrokes grow_strokes(RiverLines const& drawn, Grid const& grid, StrokesParams const& params, Run const& run) {
     check(params);
-    std::vector<Stroke> const strokes = join_strokes(drawn, grid, run);
+    Strokes const strokes = join_strokes(drawn, grid, run);
     GrownStrokes grown;
     if (strokes.empty()) {
         return grown;
@@ -196,8 +197,7 @@ GrownStrokes grow_strokes(RiverLines const& drawn, Grid const& grid, StrokesPara
     grown.dropped = static_cast<std::int64_t>(forest.links.size()) - grown.placed;
     KeptNetwork kept = join_links(forest, settled.at, settled.stays);
     for (ArcId a = 0; a < kept.network.arcs.size(); ++a) {
-        RiverLine const& stroke =
-            drawn.lines[forest.links[static_cast<std::size_t>(kept.links_of_arc[a].front())].tree];
+        RiverLine const& stroke = drawn.lines[forest.links[kept.links_of_arc[a].front()].tree];
         kept.network.arcs[a].arc.type = stroke.type;
         kept.network.arcs[a].arc.feature = stroke.feature;
     }

@@ -32,18 +32,18 @@ public:
         }
     }
 
-    std::vector<TreeLink> refine(std::vector<TreeLink> const& coarse) {
+    Indexed<LinkId, TreeLink> refine(Indexed<LinkId, TreeLink> const& coarse) {
         links_.clear();
         tops_.assign(coarse.size(), -1);
         for (std::size_t i = 0; i < coarse.size(); ++i) {
             words_ = random_block(params_.seed, tokunaga_stage, static_cast<std::uint64_t>(step_), i);
             TreeLink const& old = coarse[i];
-            std::int64_t const below = old.down < 0 ? -1 : tops_[static_cast<std::size_t>(old.down)];
+            LinkId const below = old.down < 0 ? -1 : tops_[old.down];
             bool const source = old.up[0] < 0;
             int const sides = source ? params_.generator - 1 : side_branches(old.order);
-            std::int64_t top = add(below, old.order + 1, old.turn);
+            LinkId top = add(below, old.order + 1, old.turn);
             for (int k = 0; k < sides; ++k) {
-                std::int64_t const next = add(top, old.order + 1, 0);
+                LinkId const next = add(top, old.order + 1, 0);
                 add(top, 1, bank(source, k, sides));
                 top = next;
             }
@@ -53,7 +53,7 @@ public:
                 add(top, 1, -first);
             }
             tops_[i] = top;
-            if (static_cast<std::int64_t>(links_.size()) > params_.max_links) {
+            if (links_.count() > params_.max_links) {
                 throw BadParameter(fmt::format("network.grow_tokunaga: order {} with generator {} has more than {} "
                                                "links; lower the order or the generator",
                                                params_.order, params_.generator, params_.max_links));
@@ -65,18 +65,18 @@ public:
 private:
     static constexpr int fork_bit = 63;
 
-    std::int64_t add(std::int64_t down, int order, int turn) {
-        auto const link = static_cast<std::int64_t>(links_.size());
+    LinkId add(LinkId down, int order, int turn) {
+        LinkId const link = links_.count();
         links_.push_back({.down = down, .up = {{-1, -1}}, .order = order, .turn = turn});
         if (down >= 0) {
-            auto& up = links_[static_cast<std::size_t>(down)].up;
+            auto& up = links_[down].up;
             up[up[0] < 0 ? 0 : 1] = link;
         }
         return link;
     }
 
     int side_branches(int order) const {
-        double const mean = means_[static_cast<std::size_t>(order - 2)];
+        double const mean = means_[order - 2];
         double const whole = std::floor(mean);
         return static_cast<int>(whole) + (unit(words_[0]) < mean - whole ? 1 : 0);
     }
@@ -94,10 +94,10 @@ private:
 
     TokunagaParams const& params_;
     int step_;
-    std::vector<double> means_; ///< by order - 2
+    Indexed<int, double> means_; ///< by order - 2
     std::array<std::uint64_t, 4> words_{};
-    std::vector<TreeLink> links_;
-    std::vector<std::int64_t> tops_; ///< by old link: the uppermost of those it became
+    Indexed<LinkId, TreeLink> links_;
+    Indexed<LinkId, LinkId> tops_; ///< by old link: the uppermost of those it became
 };
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
 
@@ -27,11 +28,13 @@ struct TokunagaParams {
     std::int64_t max_links = 2'000'000; ///< [1, ...] larger networks are rejected
 };
 
+using LinkId = std::int64_t; ///< number of a link of a tree: 0, 1, ... from downstream; -1: none
+
 /// A link: a piece of river between two junctions, or from a source to the first.
 struct TreeLink {
-    std::int64_t down = -1; ///< the link downstream, a lower number; -1: the outlet
+    LinkId down = -1; ///< the link downstream, a lower number; -1: the outlet
     /// the links upstream, first the one that continues the stream; -1, -1: a source
-    std::array<std::int64_t, 2> up{{-1, -1}};
+    std::array<LinkId, 2> up{{-1, -1}};
     int order = 1; ///< Strahler order
     /// relative to the link below, looking upstream: 0 straight on; 1, -1 left and right of a fork; 2, -2 a side branch
     /// from the left and right
@@ -40,7 +43,7 @@ struct TreeLink {
 
 /// The topology of a network: a binary tree of links, the outlet's first.
 struct TokunagaTree {
-    std::vector<TreeLink> links;
+    Indexed<LinkId, TreeLink> links;
     double link_length = 1.0; ///< of every link, relative to a generator's trunk: c^-(order - 2)
 };
 

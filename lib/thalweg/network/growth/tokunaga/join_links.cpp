@@ -5,40 +5,39 @@
 #include <algorithm>
 #include <utility>
 
-#include <thalweg/core/numbers/index.hpp>
-
 namespace thalweg::network {
 
 namespace {} // namespace
 
-KeptNetwork join_links(Forest const& forest, std::vector<Vec2> const& at, std::vector<std::uint8_t> const& stays) {
+KeptNetwork join_links(Forest const& forest, Indexed<LinkId, Vec2> const& at,
+                       Indexed<LinkId, std::uint8_t> const& stays) {
     std::size_t const links = at.size();
-    std::vector<int> arrivals(links, 0);
+    Indexed<LinkId, int> arrivals(links, 0);
     for (std::size_t i = 0; i < links; ++i) {
         if (stays[i] != 0 && forest.links[i].down >= 0) {
-            ++arrivals[as_index(forest.links[i].down)];
+            ++arrivals[forest.links[i].down];
         }
     }
     KeptNetwork kept;
-    std::vector<NodeId> node(links);
+    Indexed<LinkId, NodeId> node(links);
     std::vector<NodeId> mouth(forest.shares.size());
     std::vector<std::uint8_t> has_mouth(forest.shares.size(), 0);
     struct Course {
         std::vector<Vec2> line; ///< upstream
-        std::vector<std::int64_t> links;
+        std::vector<LinkId> links;
         NodeId to = 0;
     };
-    std::vector<Course> open(links); ///< by link: the course that has come up to its node
+    Indexed<LinkId, Course> open(links); ///< the course that has come up to its node
     for (std::size_t i = 0; i < links; ++i) {
         if (stays[i] == 0) {
             continue;
         }
         ForestLink const& link = forest.links[i];
         Course course;
-        if (link.down >= 0 && arrivals[as_index(link.down)] == 1) {
-            course = std::move(open[as_index(link.down)]);
+        if (link.down >= 0 && arrivals[link.down] == 1) {
+            course = std::move(open[link.down]);
         } else if (link.down >= 0) {
-            course = {{at[as_index(link.down)]}, {}, node[as_index(link.down)]};
+            course = {{at[link.down]}, {}, node[link.down]};
         } else {
             if (has_mouth[link.tree] == 0) {
                 mouth[link.tree] = kept.network.add_node(forest.shares[link.tree].mouth);
@@ -47,7 +46,7 @@ KeptNetwork join_links(Forest const& forest, std::vector<Vec2> const& at, std::v
             course = {{forest.shares[link.tree].mouth}, {}, mouth[link.tree]};
         }
         course.line.push_back(at[i]);
-        course.links.push_back(static_cast<std::int64_t>(i));
+        course.links.push_back(static_cast<LinkId>(i));
         if (arrivals[i] == 1) {
             open[i] = std::move(course);
             continue;

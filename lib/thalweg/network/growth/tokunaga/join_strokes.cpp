@@ -71,7 +71,7 @@ struct Spot {
 };
 
 /// Finds the stroke on which another begins as they are drawn, if any.
-Spot find_beginning(std::size_t number, std::vector<Stroke>& strokes, double tolerance_m) {
+Spot find_beginning(std::size_t number, Strokes& strokes, double tolerance_m) {
     Stroke& stroke = strokes[number];
     double least = tolerance_m;
     Spot spot;
@@ -86,7 +86,7 @@ Spot find_beginning(std::size_t number, std::vector<Stroke>& strokes, double tol
             if (off < least || (off == least && stroke.onto < 0)) {
                 least = off;
                 spot = {i, foot.along};
-                stroke.onto = static_cast<std::int64_t>(other);
+                stroke.onto = static_cast<StrokeId>(other);
                 stroke.onto_way_m = strokes[other].way[i] + foot.along * distance(line[i], line[i + 1]);
             }
         }
@@ -116,7 +116,7 @@ bool meets_itself(std::vector<Meeting> const& here) {
 }
 
 /// Throws where strokes meet otherwise than by one that begins on another.
-void require_joined(std::vector<Stroke> const& strokes, RiverLines const& names, double tolerance_m, Run const& run) {
+void require_joined(Strokes const& strokes, RiverLines const& names, double tolerance_m, Run const& run) {
     std::vector<std::vector<Vec2>> lines;
     for (Stroke const& s : strokes) {
         lines.push_back(s.line);
@@ -133,8 +133,7 @@ void require_joined(std::vector<Stroke> const& strokes, RiverLines const& names,
                            " meets itself; draw it without loops");
         }
         auto const begins_here = [&](std::size_t k, std::size_t on) {
-            return strokes[k].onto == static_cast<std::int64_t>(on) &&
-                   distance(strokes[k].line.front(), at) <= tolerance_m;
+            return std::cmp_equal(strokes[k].onto, on) && distance(strokes[k].line.front(), at) <= tolerance_m;
         };
         for (auto const& [other, other_segment] : here) {
             for (auto const& [one, segment] : here) {
@@ -150,7 +149,7 @@ void require_joined(std::vector<Stroke> const& strokes, RiverLines const& names,
 }
 
 /// Throws where the upper end of a stroke lies on another.
-void require_mouths_below(std::vector<Stroke> const& strokes, RiverLines const& names, double tolerance_m) {
+void require_mouths_below(Strokes const& strokes, RiverLines const& names, double tolerance_m) {
     for (std::size_t k = 0; k < strokes.size(); ++k) {
         Vec2 const end = strokes[k].line.back();
         for (std::size_t other = 0; other < strokes.size(); ++other) {
@@ -166,7 +165,7 @@ void require_mouths_below(std::vector<Stroke> const& strokes, RiverLines const& 
 
 /// Throws where two begin or join at one place, a stroke begins where another does, or strokes begin on one another in
 /// a ring.
-void require_apart(std::vector<Stroke> const& strokes, RiverLines const& names, double tolerance_m) {
+void require_apart(Strokes const& strokes, RiverLines const& names, double tolerance_m) {
     for (std::size_t k = 0; k < strokes.size(); ++k) {
         for (std::size_t m = 0; m < k; ++m) {
             if (distance(strokes[k].line.front(), strokes[m].line.front()) <= tolerance_m) {
@@ -177,7 +176,7 @@ void require_apart(std::vector<Stroke> const& strokes, RiverLines const& names, 
     }
     for (Stroke const& s : strokes) {
         if (s.onto >= 0) {
-            Stroke const& below = strokes[static_cast<std::size_t>(s.onto)];
+            Stroke const& below = strokes[s.onto];
             if (s.onto_way_m >= below.way.back() - tolerance_m) {
                 throw BadInput(named(names, s.feature, s.line.front()) +
                                fmt::format(" begins at the upper end of stroke {}; draw both as one, or let it begin "
@@ -185,21 +184,21 @@ void require_apart(std::vector<Stroke> const& strokes, RiverLines const& names, 
                                            below.feature));
             }
         }
-        std::int64_t below = s.onto;
+        StrokeId below = s.onto;
         for (std::size_t steps = 0; below >= 0; ++steps) {
             if (steps > strokes.size()) {
                 throw BadInput(named(names, s.feature, s.line.front()) + " flows in a ring of strokes; let one end");
             }
-            below = strokes[static_cast<std::size_t>(below)].onto;
+            below = strokes[below].onto;
         }
     }
 }
 
 } // namespace
 
-std::vector<Stroke> join_strokes(RiverLines const& drawn, Grid const& grid, Run const& run) {
+Strokes join_strokes(RiverLines const& drawn, Grid const& grid, Run const& run) {
     double const tolerance_m = 0.5 * grid.cell_m;
-    std::vector<Stroke> strokes;
+    Strokes strokes;
     for (RiverLine const& line : drawn.lines) {
         strokes.push_back(as_drawn(line, drawn, grid));
     }
@@ -210,7 +209,7 @@ std::vector<Stroke> join_strokes(RiverLines const& drawn, Grid const& grid, Run 
     require_apart(strokes, drawn, tolerance_m);
     for (std::size_t const k : downstream_first(strokes)) {
         if (strokes[k].onto >= 0) {
-            move_beginning(strokes[k], strokes[static_cast<std::size_t>(strokes[k].onto)], spots[k]);
+            move_beginning(strokes[k], strokes[strokes[k].onto], spots[k]);
         }
         if (!(strokes[k].way.back() > tolerance_m)) {
             throw BadInput(named(drawn, strokes[k].feature, strokes[k].line.front()) +
@@ -230,12 +229,12 @@ double distance_to(Stroke const& stroke, Vec2 p) {
     return least;
 }
 
-std::vector<std::size_t> downstream_first(std::vector<Stroke> const& strokes) {
+std::vector<std::size_t> downstream_first(Strokes const& strokes) {
     std::vector<std::size_t> turn;
-    std::vector<std::uint8_t> done(strokes.size(), 0);
+    Indexed<StrokeId, std::uint8_t> done(strokes.size(), 0);
     while (turn.size() < strokes.size()) {
         for (std::size_t k = 0; k < strokes.size(); ++k) {
-            if (done[k] == 0 && (strokes[k].onto < 0 || done[static_cast<std::size_t>(strokes[k].onto)] != 0)) {
+            if (done[k] == 0 && (strokes[k].onto < 0 || done[strokes[k].onto] != 0)) {
                 done[k] = 1;
                 turn.push_back(k);
             }

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/index.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 
@@ -35,8 +35,8 @@ public:
 
 private:
     struct Open {
-        std::size_t at;    ///< of its [
-        std::int64_t link; ///< at whose upper end it stands
+        std::size_t at; ///< of its [
+        LinkId link;    ///< at whose upper end it stands
     };
 
     [[noreturn]] static void refuse(std::size_t at, std::string const& what) {
@@ -87,7 +87,7 @@ private:
             refuse(at_, "the first link cannot turn; remove + and -");
         }
         if (here_ >= 0) {
-            auto& [link, source, branches, place] = links_[as_index(here_)];
+            auto& [link, source, branches, place] = links_[here_];
             if (source) {
                 refuse(at_, "nothing can stand above a G; write F");
             }
@@ -101,10 +101,10 @@ private:
                 refuse(at_,
                        branch ? "a branch must turn; write + or - before it" : "only a branch can turn; put it in [ ]");
             }
-            link.up[as_index(branches++)] = static_cast<std::int64_t>(links_.size());
+            link.up[branches++] = links_.count();
         }
         links_.push_back({{.down = here_, .turn = turn_}, sign == 'G', 0, at_});
-        here_ = static_cast<std::int64_t>(links_.size()) - 1;
+        here_ = links_.count() - 1;
         here_is_new_ = false;
         turn_ = 0;
     }
@@ -116,21 +116,21 @@ private:
         if (turn_ != 0) {
             refuse(at_ - 1, "a turn without a link behind it");
         }
-        if (!links_[as_index(here_)].source && links_[as_index(here_)].branches != 2) {
-            refuse(links_[as_index(here_)].at, "above this F are not two links; write G for a source");
+        if (!links_[here_].source && links_[here_].branches != 2) {
+            refuse(links_[here_].at, "above this F are not two links; write G for a source");
         }
     }
 
-    std::vector<TreeLink> ordered() const {
-        std::vector<TreeLink> out;
+    Indexed<LinkId, TreeLink> ordered() const {
+        Indexed<LinkId, TreeLink> out;
         for (Drawn const& drawn : links_) {
             out.push_back(drawn.link);
         }
         for (std::size_t i = out.size(); i-- > 0;) {
             TreeLink& link = out[i];
             if (link.up[0] >= 0) {
-                TreeLink const& first = out[as_index(link.up[0])];
-                TreeLink const& second = out[as_index(link.up[1])];
+                TreeLink const& first = out[link.up[0]];
+                TreeLink const& second = out[link.up[1]];
                 link.order = std::max({first.order, second.order, std::min(first.order, second.order) + 1});
                 if (second.order > first.order || (second.order == first.order && second.turn == 0)) {
                     std::swap(link.up[0], link.up[1]);
@@ -143,15 +143,15 @@ private:
     struct Drawn {
         TreeLink link;
         bool source = false;
-        int branches = 0;
+        std::size_t branches = 0;
         std::size_t at = 0;
     };
 
     std::string_view word_;
     std::size_t at_ = 0;
-    std::vector<Drawn> links_;
+    Indexed<LinkId, Drawn> links_;
     std::vector<Open> open_;
-    std::int64_t here_ = -1;
+    LinkId here_ = -1;
     bool here_is_new_ = true; ///< a branch has been opened here and has no link yet
     int turn_ = 0;
 };
@@ -161,18 +161,18 @@ private:
 std::string write_lsystem(TokunagaTree const& tree) {
     std::string word;
     // What is still to be written, the next last: a link, or -1 for the end of a branch.
-    std::vector<std::int64_t> ahead{0};
+    std::vector<LinkId> ahead{0};
     while (!ahead.empty()) {
-        std::int64_t const number = ahead.back();
+        LinkId const number = ahead.back();
         ahead.pop_back();
         if (number < 0) {
             word += ']';
             continue;
         }
-        TreeLink const& link = tree.links[as_index(number)];
+        TreeLink const& link = tree.links[number];
         if (link.turn != 0) {
             word += '[';
-            word.append(as_index(std::abs(link.turn)), link.turn > 0 ? '+' : '-');
+            word.append(static_cast<std::size_t>(std::abs(link.turn)), link.turn > 0 ? '+' : '-');
         }
         word += link.up[0] < 0 ? 'G' : 'F';
         if (link.turn != 0) {
@@ -180,7 +180,7 @@ std::string write_lsystem(TokunagaTree const& tree) {
         }
         if (link.up[0] >= 0) {
             auto [first, second] = link.up;
-            if (tree.links[as_index(first)].turn == 0 || (tree.links[as_index(second)].turn != 0 && second < first)) {
+            if (tree.links[first].turn == 0 || (tree.links[second].turn != 0 && second < first)) {
                 std::swap(first, second);
             }
             ahead.push_back(second);
@@ -204,12 +204,12 @@ std::vector<std::vector<Vec2>> draw_turtle(TokunagaTree const& tree, TurtleParam
         throw BadParameter(fmt::format("network.draw_turtle: link_m is {}, it must be above 0", params.link_m));
     }
     double const delta = params.delta_deg / 180.0 * portable::pi;
-    std::vector<int> turns(tree.links.size(), 0);
-    std::vector<std::vector<Vec2>> lines;
+    Indexed<LinkId, int> turns(tree.links.size(), 0);
+    Indexed<LinkId, std::vector<Vec2>> lines;
     for (std::size_t i = 0; i < tree.links.size(); ++i) {
         TreeLink const& link = tree.links[i];
-        Vec2 const from = link.down < 0 ? Vec2{} : lines[as_index(link.down)].back();
-        turns[i] = link.turn + (link.down < 0 ? 0 : turns[as_index(link.down)]);
+        Vec2 const from = link.down < 0 ? Vec2{} : lines[link.down].back();
+        turns[i] = link.turn + (link.down < 0 ? 0 : turns[link.down]);
         double const angle = delta * turns[i];
         lines.push_back(
             {from, {from.x - params.link_m * portable::sin(angle), from.y + params.link_m * portable::cos(angle)}});

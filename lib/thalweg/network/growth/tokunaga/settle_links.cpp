@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include <thalweg/core/numbers/index.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg::network {
@@ -57,12 +57,12 @@ public:
         std::stable_sort(turn.begin(), turn.end(),
                          [&](std::size_t i, std::size_t k) { return forest_.links[i].order > forest_.links[k].order; });
         for (std::size_t const i : turn) {
-            std::int64_t const down = forest_.links[i].down;
-            if ((down < 0 || stays_[as_index(down)] != 0) && (fits(i) || fits_elsewhere(i))) {
+            LinkId const down = forest_.links[i].down;
+            if ((down < 0 || stays_[down] != 0) && (fits(i) || fits_elsewhere(i))) {
                 stays_[i] = 1;
                 grid_->add(i, segment(i));
                 if (down >= 0) {
-                    up_[as_index(down)].push_back(i);
+                    up_[down].push_back(i);
                 }
             }
         }
@@ -72,14 +72,14 @@ public:
 private:
     Vec2 lower_end(std::size_t i) const {
         ForestLink const& link = forest_.links[i];
-        return link.down < 0 ? forest_.shares[link.tree].mouth : at_[as_index(link.down)];
+        return link.down < 0 ? forest_.shares[link.tree].mouth : at_[link.down];
     }
     Segment segment(std::size_t i) const { return {lower_end(i), at_[i]}; }
 
     bool neighbours(std::size_t i, std::size_t k) const {
-        std::int64_t const down = forest_.links[i].down;
-        std::int64_t const other = forest_.links[k].down;
-        return (down >= 0 && (as_index(down) == k || down == other)) || (other >= 0 && as_index(other) == i);
+        LinkId const down = forest_.links[i].down;
+        LinkId const other = forest_.links[k].down;
+        return std::cmp_equal(down, k) || (down >= 0 && down == other) || std::cmp_equal(other, i);
     }
 
     /// Whether somebody else chose the link's place, which then counts more than what is near it.
@@ -148,25 +148,25 @@ private:
     }
 
     bool bends_gently(std::size_t i) const {
-        std::int64_t const down = forest_.links[i].down;
+        LinkId const down = forest_.links[i].down;
         if (down < 0) {
             return true;
         }
-        Vec2 const here = at_[as_index(down)];
+        auto const below = static_cast<std::size_t>(down);
+        Vec2 const here = at_[below];
         auto const apart = [&](std::size_t other, Vec2 to) {
             return cosine_at(here, to, at_[i]) <= (drawn(i) && drawn(other) ? sharpest_drawn : sharpest);
         };
-        return apart(as_index(down), lower_end(as_index(down))) &&
-               std::all_of(up_[as_index(down)].begin(), up_[as_index(down)].end(),
-                           [&](std::size_t k) { return apart(k, at_[k]); });
+        return apart(below, lower_end(below)) &&
+               std::all_of(up_[below].begin(), up_[below].end(), [&](std::size_t k) { return apart(k, at_[k]); });
     }
 
     Forest const& forest_;
-    std::vector<Vec2> at_;
+    Indexed<LinkId, Vec2> at_;
     std::vector<double> usual_; ///< [m] by tree: root of its land for each link
     std::size_t links_;
-    std::vector<std::uint8_t> stays_;
-    std::vector<std::vector<std::size_t>> up_;
+    Indexed<LinkId, std::uint8_t> stays_;
+    Indexed<LinkId, std::vector<std::size_t>> up_;
     std::optional<SegmentGrid> grid_;
 };
 

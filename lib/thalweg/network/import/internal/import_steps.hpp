@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,9 @@ void snap(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& r
 /// Throws BadInput naming the place where that comes to no end.
 void split(std::vector<RiverLine>& lines, Run const& run);
 
+using PieceId = std::size_t; ///< place in Pieces::pieces
+inline constexpr PieceId no_piece = std::numeric_limits<PieceId>::max();
+
 /// A part of a line between two nodes, without nodes inside.
 struct Piece {
     std::size_t line = 0;
@@ -87,17 +91,17 @@ struct Divided {
 Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
                Run const& run);
 
-/// The piece that leaves each node, by node; -1 at outlets. The network flows along pieces towards them.
+/// The piece that leaves each node, by node; no_piece at outlets. The network flows along pieces towards them.
 /// Takes: a forest. Throws: BadInput naming rivers and place where two run away, under Divergences::error.
-std::vector<std::int64_t> orient(Pieces const& pieces, std::vector<RiverLine> const& lines, RiverLines const& file,
-                                 ImportParams const& params);
+std::vector<PieceId> orient(Pieces const& pieces, std::vector<RiverLine> const& lines, RiverLines const& file,
+                            ImportParams const& params);
 
 /// Takes out of the network what a minor channel fed alone: from there down to the next node where something else
 /// flows in.
-void drop_unfed(Pieces& pieces, Divided& divided, std::vector<std::int64_t>& leaves);
+void drop_unfed(Pieces& pieces, Divided& divided, std::vector<PieceId>& leaves);
 
 /// Tells of the lines that run against their drawn direction.
-void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::vector<std::int64_t> const& leaves,
+void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::vector<PieceId> const& leaves,
                    std::vector<Finding>& repairs);
 
 /// The secondary pieces as lines, each with a finding.

@@ -30,8 +30,8 @@ std::size_t other_end(Piece const& piece, std::size_t node);
 
 /// The pieces that lead to a root.
 struct Tree {
-    std::vector<std::size_t> nodes;     ///< the component, each after the one it was reached from
-    std::vector<std::int64_t>& towards; ///< by node: piece towards the first of them, -1 for it
+    std::vector<std::size_t> nodes; ///< the component, each after the one it was reached from
+    std::vector<PieceId>& towards;  ///< by node: piece towards the first of them, no_piece for it
 };
 
 /// Takes: pieces whose component at `outlet` is a tree.

@@ -19,7 +19,7 @@ namespace thalweg::network {
 /// A vertex at which a river may be joined.
 struct Confluence {
     Vec2 at;
-    std::size_t basin = 0;
+    std::int64_t basin = 0;
 };
 
 /// Where rivers run: their cells, the corners they cut diagonally, and the segments near each cell.
@@ -31,7 +31,7 @@ public:
     double cost_of_joining() const { return params_.join_cells; }
 
     /// basin: by whose number inner vertices may be joined.
-    void add(std::vector<Vec2> const& line, std::size_t basin, std::string const& what);
+    void add(std::vector<Vec2> const& line, std::int64_t basin, std::string const& what);
 
     /// What it costs to enter a cell: rivers repel.
     double cost(Cell c) const;

@@ -43,7 +43,7 @@ public:
                 for (std::uint32_t const number : cells_[row * width_ + col]) {
                     if (seen_[number] != stamp_) {
                         seen_[number] = stamp_;
-                        if (!visit(static_cast<std::size_t>(number))) {
+                        if (!visit(std::size_t{number})) {
                             return false;
                         }
                     }

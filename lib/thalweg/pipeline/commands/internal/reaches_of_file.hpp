@@ -14,7 +14,7 @@ namespace thalweg::pipeline {
 
 /// What the arcs of a network file are to the land of a DEM.
 struct FileReaches {
-    std::vector<flow::Reach> reaches; ///< an arc's parts in the grid
+    flow::Reaches reaches;            ///< an arc's parts in the grid
     std::vector<std::int64_t> basins; ///< by reach: that of the file, else 1, 2, ... by outlet
     std::int64_t cut = 0;             ///< reaches that leave the grid
     std::int64_t outside = 0;         ///< reaches that have no part in it

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -73,11 +74,11 @@ void collect(ColouredProblem const& coloured, Contents const& contents, GridProb
 
 /// What term(row) gives for each row of a board.
 template <class Part = double, class Term>
-std::vector<Part> each_row(Board const& board, Run const& run, Term const& term) {
-    std::vector<Part> parts(static_cast<std::size_t>(board.height));
+Indexed<RowIndex, Part> each_row(Board const& board, Run const& run, Term const& term) {
+    Indexed<RowIndex, Part> parts(board.height);
     parallel_ranges(run, board.height, rows_a_range(board), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t y = begin; y < end; ++y) {
-            parts[static_cast<std::size_t>(y)] = term(y);
+            parts[y] = term(y);
         }
     });
     return parts;

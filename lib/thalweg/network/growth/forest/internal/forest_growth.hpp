@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/network/growth/forest/internal/region_walk.hpp>
@@ -52,11 +53,11 @@ private:
     Mask land_; ///< what walkers reach
     RegionWalk walk_;
     std::int64_t cells_ = 0;
-    std::vector<Cell> particles_;
-    std::vector<std::int64_t> parents_;
-    Raster<std::int32_t> nearest_;   ///< by cell: the nearest particle, within s + 1; -1 for none
-    Raster<std::int32_t> first_;     ///< by block of s x s cells: its last particle, -1 for none
-    std::vector<std::int32_t> next_; ///< by particle: the one before it in its block
+    Indexed<std::int32_t, Cell> particles_;
+    Indexed<std::int32_t, std::int64_t> parents_;
+    Raster<std::int32_t> nearest_;             ///< by cell: the nearest particle, within s + 1; -1 for none
+    Raster<std::int32_t> first_;               ///< by block of s x s cells: its last particle, -1 for none
+    Indexed<std::int32_t, std::int32_t> next_; ///< by particle: the one before it in its block
     Raster<State> state_;
     std::int64_t open_cells_ = 0;
     std::vector<Cell> opened_;  ///< every open cell, and some that are so no more

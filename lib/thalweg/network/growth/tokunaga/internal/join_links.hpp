@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/growth/tokunaga/internal/spread_forest.hpp>
 
@@ -12,12 +13,13 @@ namespace thalweg::network {
 
 /// A network of the links that stay.
 struct KeptNetwork {
-    NetworkDraft network;                                ///< its arcs run between sources, confluences and outlets
-    std::vector<std::vector<std::int64_t>> links_of_arc; ///< by arc number, upstream first
+    NetworkDraft network;                          ///< its arcs run between sources, confluences and outlets
+    std::vector<std::vector<LinkId>> links_of_arc; ///< by arc number, upstream first
 };
 
 /// Makes a network of links: one arc of those between which no other link enters.
 /// Gives: arcs in the order of their lowest link.
-KeptNetwork join_links(Forest const& forest, std::vector<Vec2> const& at, std::vector<std::uint8_t> const& stays);
+KeptNetwork join_links(Forest const& forest, Indexed<LinkId, Vec2> const& at,
+                       Indexed<LinkId, std::uint8_t> const& stays);
 
 } // namespace thalweg::network

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/growth/tokunaga/internal/spread_forest.hpp>
 
@@ -12,8 +13,8 @@ namespace thalweg::network {
 
 /// Links that keep clear of one another.
 struct SettledLinks {
-    std::vector<Vec2> at;            ///< by link: the place of its node, in multiples of 1e-6 m
-    std::vector<std::uint8_t> stays; ///< by link: 1 where there was room for it
+    Indexed<LinkId, Vec2> at;            ///< by link: the place of its node, in multiples of 1e-6 m
+    Indexed<LinkId, std::uint8_t> stays; ///< by link: 1 where there was room for it
 };
 
 /// Lets links stay that keep clear of one another, streams of the highest order first, and finds other places for the

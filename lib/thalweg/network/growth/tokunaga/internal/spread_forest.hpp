@@ -7,15 +7,17 @@
 #include <optional>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
+#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/planform/internal/segment_grid.hpp>
 
 namespace thalweg::network {
 
 /// A link that wants a place; its node is its upper end.
 struct ForestLink {
-    std::int64_t down = -1;     ///< the link it flows into, a lower number; -1: it ends in the mouth of its tree
+    LinkId down = -1;           ///< the link it flows into, a lower number; -1: it ends in the mouth of its tree
     int order = 1;              ///< of its stream: the higher are placed first
     int turn = 0;               ///< as in TreeLink
     std::size_t tree = 0;       ///< to whose land it belongs
@@ -31,7 +33,7 @@ struct ForestShare {
 };
 
 struct Forest {
-    std::vector<ForestLink> links;
+    Indexed<LinkId, ForestLink> links;
     std::vector<ForestShare> shares;  ///< by tree
     std::vector<Segment> walls;       ///< that no link may come near, but those at the mouths
     std::function<bool(Vec2)> inside; ///< the land of all

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace thalweg {
+
+using CellIndex = std::int64_t;   ///< place of a cell in a grid, row by row from the north-west; -1 for none
+using RowIndex = std::int64_t;    ///< row of a grid, from the north
+using ColumnIndex = std::int64_t; ///< column of a grid, from the west
+
+/// A std::vector whose places are numbers of type Id, for numbers that may be negative where they name no place (-1) or
+/// while they are reckoned with. Law: contiguous, and as fast as std::vector; a number that names no place
+/// is a programming error, which debug builds find.
+template <std::integral Id, class T> class Indexed : public std::vector<T> {
+    using Values = std::vector<T>;
+
+public:
+    Indexed() = default;
+    Indexed(std::initializer_list<T> values) : Values(values) {}
+    Indexed(Values values) : Values(std::move(values)) {}
+    template <std::input_iterator At> Indexed(At first, At last) : Values(first, last) {}
+    template <std::integral Size>
+    explicit Indexed(Size size, T const& fill = T{}) : Values(static_cast<std::size_t>(size), fill) {}
+
+    template <std::integral Place> T& operator[](Place i) { return Values::operator[](static_cast<std::size_t>(i)); }
+    template <std::integral Place> T const& operator[](Place i) const {
+        return Values::operator[](static_cast<std::size_t>(i));
+    }
+
+    /// \return how many there are, which is the number that the next to be added gets.
+    Id count() const { return static_cast<Id>(Values::size()); }
+};
+
+} // namespace thalweg
