@@ -22,7 +22,6 @@ PIPELINE_FUNCTIONS = {
     ("lib/thalweg/pipeline/recipe/recipe_keys_land.cpp", "add_surface_keys"),
     ("lib/thalweg/pipeline/recipe/recipe_keys.cpp", "make_keys"),
     ("lib/thalweg/pipeline/recipe/key_uses.cpp", "make_rows"),
-    ("lib/thalweg/pipeline/report/report.cpp", "write_report"),
 }
 
 
