@@ -14,6 +14,9 @@ STAGES = ["network", "skeleton", "surface", "fractal", "blend", "measure", "draw
 ROOMS = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"], "pipeline": BELOW + STAGES}
 ROOMS.update({stage: BELOW for stage in STAGES})
 
+# The families of pipeline, in their order: each may include those before it.
+FAMILIES = ["recipe", "plan", "make", "report", "commands"]
+
 # Which foreign headers (by how their names begin) a room's .cpp files may include.
 FOREIGN = {
     "core": ["oneapi/tbb/", "Random123/"],
@@ -55,6 +58,9 @@ DISTRIBUTION = re.compile(r"\b(?:std::)?(?:uniform_int|uniform_real|normal|berno
 PREFIX = re.compile(r'"([a-z]+)\.\w+: ')
 # rapidcheck gives its verdict back; a test that does not look at it cannot fail.
 UNASKED = re.compile(r"^\s*rc::check\(")
+# A value of the pipeline that a function would change for its caller. Only the reader of recipes does so.
+CHANGED_VALUE = re.compile(r"(?<![\w<])(?:pipeline::)?(Recipe|Plan|Rivers|Terrain|Assessment|Made)& ?\w*[,)]")
+READER = "lib/thalweg/pipeline/recipe/"
 # What opens and closes a namespace, and a type defined in one, as clang-format writes them.
 NAMESPACE = re.compile(r"(?:inline )?namespace(?: ([\w:]+))? \{|\} // namespace")
 TYPE = re.compile(r"(?:struct|class|union|enum class|enum) (\w+)(?![\w:])[^;]*\{")
@@ -110,6 +116,12 @@ def check_own_include(name, header):
     return None
 
 
+def includes_upwards(name, header):
+    """Whether a file of pipeline includes a family that comes after its own."""
+    of, other = (path.split("/")[-2 if "/internal/" not in path else -3] for path in (name, header))
+    return other in FAMILIES and of in FAMILIES and FAMILIES.index(other) > FAMILIES.index(of)
+
+
 def check_include(name, room, quoted, header):
     """What is wrong with one include of a file in lib or tools, or None."""
     if quoted:
@@ -120,6 +132,8 @@ def check_include(name, room, quoted, header):
         target = header.split("/")[1]
         if "/internal/" in header and (room != target or (name.endswith(".hpp") and "/internal/" not in name)):
             return f"<{header}> is for the .cpp files of {target} alone"
+        if room == target == "pipeline" and len(pathlib.PurePath(name).parts) > 3 and includes_upwards(name, header):
+            return f"<{header}> lies above this file: the order is {', '.join(FAMILIES)}"
         if room == "tools" or target == room or target in ROOMS[room]:
             return None
         what = "stage rooms meet in pipeline only" if target in STAGES and room in STAGES else "dependencies point one way"
@@ -152,6 +166,8 @@ def check_source(name, lines):
                 yield number, fault
         if include and re.search(r"\.cpp$", include[2]):
             yield number, "a .cpp file is included"
+        if room in ("pipeline", "tools") and not name.startswith(READER) and (found := CHANGED_VALUE.search(code)):
+            yield number, f"{found[1]}&: values of the pipeline are not changed; take it by value or const and return one"
         if found := DISTRIBUTION.search(code):
             yield number, f"{found[0]}: distributions differ between libraries; use core/random.hpp"
         if room and (found := PREFIX.search(code)) and found[1] in ROOMS and found[1] != room:

@@ -126,6 +126,39 @@ std::vector<Finding> findings_of(std::optional<measure::Certificate> const& cert
     return ok ? std::vector<Finding>{} : certificate->findings;
 }
 
+/// What is measured of rivers without a surface.
+Assessment of_rivers_alone(Terrain const& terrain, Run const& run) {
+    Assessment found;
+    found.areas = flow::areas_nearest(terrain.network.plan, terrain.grid, run);
+    found.laws = laws_of_terrain(terrain, found.areas, terrain.grid.cells(), run);
+    return found;
+}
+
+/// With what drawing the terrain found out, first.
+Assessment with_requests(Terrain const& terrain, Assessment found) {
+    std::vector<Check> checks = terrain.checks;
+    append(checks, std::move(found.checks));
+    found.checks = std::move(checks);
+    found.findings = terrain.findings;
+    return found;
+}
+
+/// With checks of the network, which is to fall and to hang together.
+Assessment with_topology(Plan const& plan, Terrain const& terrain, Assessment found, Diary& diary, Run const& run) {
+    if (!plan.recipe.network) {
+        return found;
+    }
+    measure::TopologyReport topology = diary.stage(
+        "check", [&] { return measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run); });
+    found.checks.insert(found.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
+    append(found.checks, std::move(topology.checks));
+    append(found.findings, std::move(topology.findings));
+    if (terrain.drained) {
+        append(found.findings, findings_of(found.certificate));
+    }
+    return found;
+}
+
 } // namespace
 
 bool Assessment::passed() const {
@@ -134,28 +167,9 @@ bool Assessment::passed() const {
 
 Assessment assess(Plan const& plan, Terrain const& terrain, Run const& run) {
     Diary diary(run);
-    Assessment found;
-    if (terrain.surface) {
-        found = of_surface(plan, terrain, diary, run);
-    } else {
-        found.areas = flow::areas_nearest(terrain.network.plan, terrain.grid, run);
-        found.laws = laws_of_terrain(terrain, found.areas, terrain.grid.cells(), run);
-    }
-    std::vector<Check> checks = terrain.checks;
-    append(checks, std::move(found.checks));
-    found.findings = terrain.findings;
-    if (plan.recipe.network) {
-        measure::TopologyReport topology = diary.stage("check", [&] {
-            return measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run);
-        });
-        checks.insert(checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.network)));
-        append(checks, std::move(topology.checks));
-        append(found.findings, std::move(topology.findings));
-        if (terrain.drained) {
-            append(found.findings, findings_of(found.certificate));
-        }
-    }
-    found.checks = std::move(checks);
+    Assessment found = terrain.surface ? of_surface(plan, terrain, diary, run) : of_rivers_alone(terrain, run);
+    found = with_requests(terrain, std::move(found));
+    found = with_topology(plan, terrain, std::move(found), diary, run);
     found.timings_s = diary.take();
     return found;
 }

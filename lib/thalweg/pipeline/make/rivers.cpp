@@ -202,8 +202,20 @@ RiversInPlan with_conversions(Plan const& plan, RiversInPlan planned, Run const&
     return planned;
 }
 
-/// Rivers with heights of their own, in their cells.
-Rivers with_heights(Plan const& plan, RiversInPlan const& planned, Rivers rivers, Diary& diary, Run const& run) {
+/// Rivers with their types, and with heights where these do not follow from the land.
+Rivers with_heights(Plan const& plan, RiversInPlan planned, Diary& diary, Run const& run) {
+    Typed typed = type_rivers(std::move(planned.network), *plan.recipe.network, run);
+    planned.network = std::move(typed.plan);
+    Rivers rivers;
+    rivers.grid = planned.grid;
+    rivers.file = std::move(planned.file);
+    rivers.land = std::move(planned.land);
+    rivers.types = std::move(typed.types);
+    rivers.story = std::move(planned.story);
+    if (follows_land(plan.recipe)) {
+        rivers.network.plan = std::move(planned.network);
+        return rivers;
+    }
     Elevated raised = diary.stage("raise", [&] { return raise(plan, planned, rivers.types, run); });
     network::Rasterised rasterised = network::rasterise(raised.network, planned.grid);
     rivers.story.heights = raised.report;
@@ -224,24 +236,12 @@ Rivers make_rivers(Plan const& plan, Run const& run) {
     }
     io::RecipeFiles const confined;
     Diary diary(run);
-    RiversInPlan planned = with_conversions(plan, drawn_in_plan(plan, diary, run), run);
+    RiversInPlan planned = drawn_in_plan(plan, diary, run);
+    planned = with_conversions(plan, std::move(planned), run);
     planned = pruned(plan, std::move(planned), diary, run);
     planned = with_outlets_carried(plan, std::move(planned), run);
     planned = let_wander(plan, std::move(planned), diary, run);
-    Typed typed = type_rivers(std::move(planned.network), *plan.recipe.network, run);
-    planned.network = std::move(typed.plan);
-
-    Rivers rivers;
-    rivers.grid = planned.grid;
-    rivers.file = std::move(planned.file);
-    rivers.land = std::move(planned.land);
-    rivers.types = std::move(typed.types);
-    rivers.story = std::move(planned.story);
-    if (follows_land(plan.recipe)) {
-        rivers.network.plan = std::move(planned.network); // their heights are the land's
-    } else {
-        rivers = with_heights(plan, planned, std::move(rivers), diary, run);
-    }
+    Rivers rivers = with_heights(plan, std::move(planned), diary, run);
     rivers.timings_s = diary.take();
     return rivers;
 }

@@ -165,9 +165,9 @@ double seconds_of(Recipe const& recipe, Forecast const& found) {
 
 /// The Run of a forecast: planning warns, but tells no news.
 Run warning_only(Run run) {
-    run.log = [log = std::move(run.log)](std::string_view line) {
-        if (log && line.starts_with("warning:")) {
-            log(line);
+    run.log = [say = std::move(run.log)](std::string_view line) {
+        if (say && line.starts_with("warning:")) {
+            say(line);
         }
     };
     return run;

@@ -115,8 +115,11 @@ Plan by_source(Recipe const& recipe, Diary& diary, Run const& run) {
     return recipe.network->tokunaga.strokes.empty() ? plan_tree(recipe, diary, run) : plan_strokes(recipe, diary, run);
 }
 
-/// With what a recipe leaves to the source of its rivers.
-Plan with_rivers_settled(Plan plan) {
+/// With what a recipe leaves to the source of its rivers, and the points beside them.
+Plan with_rivers_settled(Plan plan, Run const& run) {
+    if (!plan.recipe.network) {
+        return plan;
+    }
     NetworkRecipe& rivers = *plan.recipe.network;
     if (rivers.heights == Heights::automatic) {
         rivers.heights = in_equilibrium(plan.recipe) ? Heights::graded : Heights::straight_repaired;
@@ -124,11 +127,16 @@ Plan with_rivers_settled(Plan plan) {
     bool const all_over = rivers.source == Source::dla || rivers.source == Source::forest;
     rivers.prune_cells = rivers.prune_cells.value_or(all_over ? 20.0 : 0.0);
     rivers.meander = rivers.meander.value_or(grown_for_land(plan) ? 1.0 : 0.0);
+    refuse_unused_keys(plan.recipe); // now that the rivers' heights are known
+    plan.points = plan.recipe.skeleton ? given_points(plan.recipe, run) : FeaturePoints{};
     return plan;
 }
 
 /// With what it leaves to the method of its surface.
 Plan with_surface_settled(Plan plan) {
+    if (!plan.recipe.surface) {
+        return plan;
+    }
     SurfaceRecipe& wanted = *plan.recipe.surface;
     EquilibriumRecipe& land = wanted.equilibrium;
     bool const has_rivers = plan.recipe.network.has_value();
@@ -141,8 +149,11 @@ Plan with_surface_settled(Plan plan) {
     return plan;
 }
 
-/// Throws where the grid cannot take what the plan puts on it.
+/// Throws where the grid, if it is known, cannot take what the plan puts on it.
 void require_fit(Plan const& plan) {
+    if (!plan.grid) {
+        return;
+    }
     check_memory(plan.grid->width, plan.grid->height);
     check_detail(plan.recipe, plan.grid->width, plan.grid->height);
     if (plan.recipe.skeleton) {
@@ -157,18 +168,10 @@ Plan resolve(Recipe const& recipe, Run const& run) {
     io::RecipeFiles const confined;
     Diary diary(run);
     Plan plan = by_source(recipe, diary, run);
-    if (recipe.network) {
-        plan = with_rivers_settled(std::move(plan));
-        refuse_unused_keys(plan.recipe); // now that the rivers' heights are known
-        plan.points = recipe.skeleton ? given_points(plan.recipe, run) : FeaturePoints{};
-    }
-    if (recipe.surface) {
-        plan = with_surface_settled(std::move(plan));
-    }
+    plan = with_rivers_settled(std::move(plan), run);
+    plan = with_surface_settled(std::move(plan));
     require_files(plan.recipe);
-    if (plan.grid) {
-        require_fit(plan);
-    }
+    require_fit(plan);
     plan.timings_s = diary.take();
     return plan;
 }

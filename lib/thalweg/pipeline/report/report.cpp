@@ -237,21 +237,16 @@ double metres_per_unit(Made const& t) {
                : used[static_cast<std::size_t>(greatest - named.begin())] / *greatest;
 }
 
-} // namespace
-
-std::string version() {
-    return THALWEG_VERSION;
+/// What stages took, by their names.
+ordered_json timings_object(Timings const& timings_s) {
+    ordered_json out = ordered_json::object();
+    for (auto const& [stage, seconds] : timings_s) {
+        out[stage] = seconds;
+    }
+    return out;
 }
 
-std::string write_report(Made const& t, std::vector<std::string> const& files) {
-    ordered_json timings = ordered_json::object();
-    for (auto const& [stage, seconds] : timings_of(t)) {
-        timings[stage] = seconds;
-    }
-    ordered_json report{{"version", version()},
-                        {"recipe", recipe_object(t.recipe)},
-                        {"timings_s", timings},
-                        {"peak_rss_mb", static_cast<double>(peak_memory_bytes()) / 1e6}};
+void add_rivers(Made const& t, ordered_json& report) {
     if (t.recipe.network) {
         report["network"] = network_object(t);
         report["network"]["secondary"] = secondary_of(t).size();
@@ -260,6 +255,9 @@ std::string write_report(Made const& t, std::vector<std::string> const& files) {
             report["shortened_fields"].push_back({{"field", one.name}, {"in_shapefile", one.in_shapefile}});
         }
     }
+}
+
+void add_dem(Made const& t, ordered_json& report) {
     if (t.assessment.statistics) {
         report["dem"] = dem(*t.assessment.statistics);
         report["dem"]["hypsometric_integral"] = t.assessment.hypsometry->integral;
@@ -277,6 +275,9 @@ std::string write_report(Made const& t, std::vector<std::string> const& files) {
             report["dem"]["relief"] = ordered_json::parse(relief_json(*t.assessment.relief));
         }
     }
+}
+
+void add_drainage(Made const& t, ordered_json& report) {
     if (t.terrain.drained) {
         report["drained"] = {{"banks", change_object(t.terrain.drained->banks)},
                              {"depressions", change_object(t.terrain.drained->depressions)}};
@@ -289,6 +290,9 @@ std::string write_report(Made const& t, std::vector<std::string> const& files) {
         report["catchments"] = {{"count", std::count_if(cells.begin(), cells.end(), [](auto n) { return n > 0; })},
                                 {"cells_without", t.assessment.catchments->without}};
     }
+}
+
+void add_lines(Made const& t, ordered_json& report) {
     if (t.terrain.tin) {
         report["tin"] = {{"vertices", t.terrain.tin->vertices.size()}, {"triangles", t.terrain.tin->triangles.size()}};
     }
@@ -300,6 +304,10 @@ std::string write_report(Made const& t, std::vector<std::string> const& files) {
                                              {"agreement", agreements_object(t.assessment.surface_ridges->extracted)}};
         }
     }
+}
+
+/// How the land came about.
+void add_story(Made const& t, ordered_json& report) {
     if (t.terrain.equilibrium) {
         EquilibriumStory const& e = *t.terrain.equilibrium;
         report["equilibrium"] = {{"channel_cells", e.channel_cells},
@@ -323,6 +331,24 @@ std::string write_report(Made const& t, std::vector<std::string> const& files) {
         report["statistics"] = statistics_object(*t.terrain.projection);
         report["statistics"]["fine_forms_cells"] = t.terrain.fine_forms_cells;
     }
+}
+
+} // namespace
+
+std::string version() {
+    return THALWEG_VERSION;
+}
+
+std::string write_report(Made const& t, std::vector<std::string> const& files) {
+    ordered_json report{{"version", version()},
+                        {"recipe", recipe_object(t.recipe)},
+                        {"timings_s", timings_object(timings_of(t))},
+                        {"peak_rss_mb", static_cast<double>(peak_memory_bytes()) / 1e6}};
+    add_rivers(t, report);
+    add_dem(t, report);
+    add_drainage(t, report);
+    add_lines(t, report);
+    add_story(t, report);
     report["checks"] = checks_array(t.assessment.checks);
     report["findings"] = findings_array(t.assessment.findings);
     report["repairs"] = findings_array(repairs_of(t));

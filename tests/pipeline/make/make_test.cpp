@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/make.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace thalweg;
+using namespace thalweg::pipeline;
+
+namespace {
+
+std::string const rivers_of = "[grid]\nwidth = 96\nheight = 96\n[network]\nsource = \"tokunaga\"\n"
+                              "[network.tokunaga]\norder = 4\n";
+
+Recipe recipe_of_text(std::string const& text) {
+    return read_recipe(text, "r.toml");
+}
+
+std::vector<float> heights(Terrain const& terrain) {
+    auto const values = terrain.surface->dem.values();
+    return {values.begin(), values.end()};
+}
+
+/// NaN where both have none counts as the same.
+void expect_same(std::vector<float> const& a, std::vector<float> const& b) {
+    ASSERT_EQ(a.size(), b.size());
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        other += a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i])) ? 0U : 1U;
+    }
+    EXPECT_EQ(other, 0U);
+}
+
+/// Two terrains around rivers that are grown once, and as two runs make them.
+void expect_rivers_serve_both(std::string const& one, std::string const& two) {
+    Rivers const rivers = make_rivers(resolve(recipe_of_text(rivers_of + one)));
+    for (std::string const& surface : {one, two}) {
+        Recipe const recipe = recipe_of_text(rivers_of + surface);
+        Made const whole = make(recipe);
+        Plan const plan = resolve(recipe);
+        Terrain const terrain = make_terrain(plan, rivers);
+        Assessment const assessment = assess(plan, terrain);
+        expect_same(heights(terrain), heights(whole.terrain));
+        EXPECT_EQ(terrain.network.arc_z, whole.terrain.network.arc_z);
+        EXPECT_EQ(write_recipe(recipe_of(plan, terrain)), write_recipe(whole.recipe));
+        EXPECT_EQ(assessment.passed(), whole.assessment.passed());
+        EXPECT_EQ(assessment.areas.ds_area_m2, whole.assessment.areas.ds_area_m2);
+    }
+}
+
+} // namespace
+
+// The law: stages keep nothing, so values may be used again.
+TEST(Make, RiversServeTerrainsOfTwoSlopes) {
+    expect_rivers_serve_both("[surface]\nmean_slope = 15\n", "[surface]\nmean_slope = 30\n");
+}
+
+TEST(Make, RiversServeTerrainsOfTwoMethods) {
+    expect_rivers_serve_both("[surface]\nmethod = \"dilate\"\n", "[surface]\nmethod = \"diffuse\"\n");
+}
+
+TEST(Make, RiversAloneHaveNoTerrain) {
+    Made const made = make(recipe_of_text(rivers_of));
+    EXPECT_FALSE(made.terrain.surface);
+    EXPECT_FALSE(made.terrain.drainage);
+    EXPECT_GT(made.terrain.network.plan.arc_count(), 0U);
+    EXPECT_TRUE(made.assessment.passed());
+}
+
+TEST(Make, LandAloneHasNoRivers) {
+    Made const made = make(recipe_of_text("[grid]\nwidth = 64\nheight = 48\n[statistics]\nmean = 100\nstd = 10\n"));
+    EXPECT_EQ(made.rivers.network.plan.arc_count(), 0U);
+    EXPECT_EQ(made.terrain.grid, made.plan.grid);
+    EXPECT_TRUE(made.terrain.drainage);
+}
+
+// Each value has its own timings; together they are those of the run.
+TEST(Make, TimingsAreThoseOfTheValues) {
+    Made const made = make(recipe_of_text(rivers_of + "[surface]\n"));
+    EXPECT_EQ(made.plan.timings_s.front().first, "grow");
+    EXPECT_EQ(made.rivers.timings_s.front().first, "embed");
+    EXPECT_EQ(made.terrain.timings_s.front().first, "channels");
+    EXPECT_EQ(made.assessment.timings_s.back().first, "check");
+    EXPECT_EQ(timings_of(made).size(), made.plan.timings_s.size() + made.rivers.timings_s.size() +
+                                           made.terrain.timings_s.size() + made.assessment.timings_s.size());
+}
