@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/plan/forecast.hpp>
 
+#include "old_recipes.hpp"
+
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 
@@ -19,16 +20,6 @@ using namespace thalweg::pipeline;
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Small recipes, one of each method.
-fs::path const folder = fs::path(THALWEG_SOURCE_DIR) / "tests/data/recipes_0_1_0";
-
-Recipe recipe_in(fs::path const& place) {
-    std::string const file = (place / "recipe.toml").string();
-    Recipe recipe = read_recipe(io::read_text(file, 1 << 20), file);
-    recipe.folder = place.string();
-    return recipe;
-}
 
 void expect_as_foretold(Recipe const& recipe, std::string const& name) {
     Forecast const said = forecast(recipe);
@@ -69,7 +60,7 @@ TEST(Forecast, RefusesWhatMakeRefuses) {
 // The law: a run times these stages in this order, on this grid.
 TEST(Forecast, IsWhatARunDoes) {
     int recipes = 0;
-    for (fs::directory_entry const& entry : fs::directory_iterator(folder)) {
+    for (fs::directory_entry const& entry : fs::directory_iterator(old_recipes())) {
         if (entry.is_directory()) {
             expect_as_foretold(recipe_in(entry.path()), entry.path().filename().string());
             ++recipes;
@@ -84,13 +75,13 @@ TEST(Forecast, OfSettingsThatAddStages) {
              {"network.heights=soft", "network.slope=0.01", "output.catchments=false"},
              {"surface.drain=none"},
              {"network.meander=0.5"}}) {
-        Recipe recipe = recipe_in(folder / "equilibrium_lines");
+        Recipe recipe = recipe_in(old_recipes() / "equilibrium_lines");
         for (std::string const& setting : settings) {
             set_key(recipe, setting);
         }
         expect_as_foretold(recipe, settings.front());
     }
-    Recipe recipe = recipe_in(folder / "equilibrium_lines");
+    Recipe recipe = recipe_in(old_recipes() / "equilibrium_lines");
     recipe.grid.cell_m = 0.0;
     expect_as_foretold(recipe, "a cell chosen from the rivers");
 }

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/plan/plan.hpp>
 
+#include "old_recipes.hpp"
+
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/plan/forecast.hpp>
 
 #include <gtest/gtest.h>
@@ -18,16 +19,6 @@ using namespace thalweg::pipeline;
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Small recipes, one of each method.
-fs::path const folder = fs::path(THALWEG_SOURCE_DIR) / "tests/data/recipes_0_1_0";
-
-Recipe recipe_in(fs::path const& place) {
-    std::string const file = (place / "recipe.toml").string();
-    Recipe recipe = read_recipe(io::read_text(file, 1 << 20), file);
-    recipe.folder = place.string();
-    return recipe;
-}
 
 void expect_same_lines(RiverLines const& a, RiverLines const& b) {
     ASSERT_EQ(a.lines.size(), b.lines.size());
@@ -53,7 +44,7 @@ TEST(Resolve, TwiceGivesTheSamePlan) {
     Run alone;
     alone.threads = 1;
     int recipes = 0;
-    for (fs::directory_entry const& entry : fs::directory_iterator(folder)) {
+    for (fs::directory_entry const& entry : fs::directory_iterator(old_recipes())) {
         if (!entry.is_directory()) {
             continue;
         }
@@ -78,7 +69,7 @@ TEST(Resolve, TwiceGivesTheSamePlan) {
 
 // The law: a plan's recipe is a recipe of its own, of which the plan is the same.
 TEST(Resolve, APlansRecipeResolvesToItself) {
-    for (fs::directory_entry const& entry : fs::directory_iterator(folder)) {
+    for (fs::directory_entry const& entry : fs::directory_iterator(old_recipes())) {
         if (entry.is_directory()) {
             SCOPED_TRACE(entry.path().filename().string());
             Recipe planned = resolve(recipe_in(entry.path())).recipe;
@@ -102,7 +93,7 @@ TEST(Resolve, SettlesWhatTheRecipeLeavesOpen) {
     EXPECT_FALSE(grown.recipe.grid.crs.empty());
     EXPECT_EQ(grown.recipe.network->dla.seed, recipe.seed);
 
-    Recipe lines = recipe_in(folder / "equilibrium_lines");
+    Recipe lines = recipe_in(old_recipes() / "equilibrium_lines");
     lines.grid.cell_m = 0.0;
     Plan const drawn = resolve(lines);
     ASSERT_TRUE(drawn.grid);
