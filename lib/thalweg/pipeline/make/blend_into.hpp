@@ -46,11 +46,15 @@ struct MadeBlend {
 
 /// Reads a DEM and sets a patch of it into another: place_patch, then paste. A source in another CRS or with other
 /// cells is warped first, a window cut out of it before: into the target's CRS where both lie on the same part of the
-/// earth; else it is measured in its own CRS or, where that is not in metres, in its UTM zone. \param target [m] the
-/// DEM that is changed; NaN: no data \param keep its cells that are kept \param params options, each with its default,
-/// unit and range \param run progress, log, stop token and number of threads \return the target with the patch in it,
-/// as the stages do; params.target names it in messages, params.keep is not read. \throws BadParameter \throws BadInput
-/// as the stages and doors do, also when a target in degrees is asked to take a turned patch \throws NotConverged
+/// earth; else it is measured in its own CRS or, where that is not in metres, in its UTM zone.
+/// \param target [m] the DEM that is changed; NaN: no data
+/// \param keep its cells that are kept
+/// \param params options, each with its default, unit and range; target names it in messages, keep is not read
+/// \param run progress, log, stop token and number of threads
+/// \return the target with the patch in it, as the stages do
+/// \throws BadParameter
+/// \throws BadInput as the stages and doors do, also when a target in degrees is asked to take a turned patch
+/// \throws NotConverged
 /// \throws IoError
 /// \throws Cancelled
 MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run = {});

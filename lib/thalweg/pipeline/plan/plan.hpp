@@ -39,8 +39,9 @@ struct Plan {
     Timings timings_s;                         ///< of what was read and grown for it
 };
 
-/// Checks a recipe and its input files and settles all that follows from them. Lines, polygons and points are read here
-/// and nowhere else; rasters are not read.
+/// Checks a recipe and its input files and settles all that follows from them. Rivers, strokes, regions, outlets and
+/// points are read here and nowhere else; what lies over the surface (masks, fields, lakes, patches) has to be there,
+/// and is read when the surface is drawn.
 /// \param recipe the recipe
 /// \param run progress, log, stop token and number of threads
 /// \return the same plan for the same recipe and files, whatever the Run.
