@@ -41,7 +41,7 @@ TEST(Resolve, RefusesAnEmptyRecipeAndAMissingFile) {
 
 // The law: the same recipe and files give the same plan.
 TEST(Resolve, TwiceGivesTheSamePlan) {
-    Run alone;
+    thalweg::Run alone;
     alone.threads = 1;
     int recipes = 0;
     for (fs::directory_entry const& entry : fs::directory_iterator(old_recipes())) {
