@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds docs/architecture.md to the pipeline: make() and its steps stand there in full, and are short. Usage: steps_test.py"""
+"""Holds docs/pipeline.md to the pipeline: make() and its steps stand there in full, and are short. Usage: steps_test.py"""
 import pathlib
 import re
 import unittest
@@ -24,7 +24,7 @@ class Steps(unittest.TestCase):
                       for file, head in STEPS]
 
     def test_the_page_shows_them(self):
-        page = (ROOT / "docs/architecture.md").read_text(encoding="utf-8")
+        page = (ROOT / "docs/pipeline.md").read_text(encoding="utf-8")
         self.assertEqual(SHOWN.findall(page), ["\n".join(self.steps)])
 
     def test_they_are_short(self):

@@ -16,8 +16,8 @@ namespace thalweg::solver {
 
 namespace {
 
-using Line = Indexed<std::int64_t, Complex>;
-using Lines = Indexed<std::int64_t, Line>;
+using PairLine = Indexed<std::int64_t, Complex>;
+using PairLines = Indexed<std::int64_t, PairLine>;
 
 // Two real lines make one complex one, and so many pairs are read at once that a row's part fills a cache line.
 constexpr std::int64_t lines_at_once = 16;
@@ -39,15 +39,15 @@ struct LinesOfDem {
     }
 
     /// Heights less the datum, 0 where there are none, of the lines from first on, by twos as real and imaginary parts.
-    void heights(std::int64_t first, Lines& pairs) const {
+    void heights(std::int64_t first, PairLines& pairs) const {
         read(first, pairs, [&](float z) { return std::isnan(z) ? 0.0 : z - datum; });
     }
     /// 1 where there are heights, 0 where there are none.
-    void presence(std::int64_t first, Lines& pairs) const {
+    void presence(std::int64_t first, PairLines& pairs) const {
         read(first, pairs, [](float z) { return std::isnan(z) ? 0.0 : 1.0; });
     }
-    template <class Value> void read(std::int64_t first, Lines& pairs, Value const& value) const {
-        for (Line& pair : pairs) {
+    template <class Value> void read(std::int64_t first, PairLines& pairs, Value const& value) const {
+        for (PairLine& pair : pairs) {
             std::fill(pair.begin(), pair.end(), Complex{});
         }
         std::int64_t const beyond = std::min(first + lines_at_once, count());
@@ -72,8 +72,8 @@ struct LinesOfDem {
     }
 };
 
-Lines empty_pairs(std::int64_t length) {
-    return Lines(lines_at_once / 2, Line(length));
+PairLines empty_pairs(std::int64_t length) {
+    return PairLines(lines_at_once / 2, PairLine(length));
 }
 
 struct Power {
@@ -97,13 +97,13 @@ std::vector<double> lagged(LinesOfDem const& lines, std::int64_t lags, Run const
     std::int64_t const blocks = std::min(bundles, most_blocks);
     Power const power = sum_rows(run, blocks, [&](std::int64_t block) {
         LineTransform transform = prepared;
-        Lines pairs = empty_pairs(size);
-        Line spectrum(size);
+        PairLines pairs = empty_pairs(size);
+        PairLine spectrum(size);
         Power part{std::vector<double>(spectrum.size(), 0.0)};
         for (std::int64_t b = block; b < bundles; b += blocks) {
             run.check();
             read(b * lines_at_once, pairs);
-            for (Line const& pair : pairs) {
+            for (PairLine const& pair : pairs) {
                 transform(pair.data(), spectrum.data());
                 for (std::size_t i = 0; i < spectrum.size(); ++i) {
                     part.values[i] += std::norm(spectrum[i]);
@@ -112,8 +112,8 @@ std::vector<double> lagged(LinesOfDem const& lines, std::int64_t lags, Run const
         }
         return part;
     });
-    Line spectrum(power.values.begin(), power.values.end());
-    Line sums(spectrum.size());
+    PairLine spectrum(power.values.begin(), power.values.end());
+    PairLine sums(spectrum.size());
     LineTransform(size, Direction::inverse)(spectrum.data(), sums.data());
     std::vector<double> result(static_cast<std::size_t>(lags + 1));
     for (std::size_t k = 0; k < result.size(); ++k) {
@@ -150,24 +150,24 @@ void weigh_many(LinesOfDem const& lines, std::vector<double> const& weights, Ras
     std::int64_t const size = good_size(lines.length() + static_cast<std::int64_t>(weights.size()));
     LineTransform const there(size, Direction::forward);
     LineTransform const back(size, Direction::inverse);
-    Line kernel(size);
+    PairLine kernel(size);
     for (std::size_t k = 1; k <= weights.size(); ++k) {
         kernel[k] += weights[k - 1];
         kernel[kernel.size() - k] += weights[k - 1];
     }
-    Line spectrum(kernel.size());
+    PairLine spectrum(kernel.size());
     LineTransform(size, Direction::forward)(kernel.data(), spectrum.data());
     std::int64_t const bundles = (lines.count() + lines_at_once - 1) / lines_at_once;
     parallel_ranges(run, bundles, 1, [&](std::int64_t begin, std::int64_t end) {
         LineTransform forward = there;
         LineTransform inverse = back;
-        Lines pairs = empty_pairs(size);
-        Line line(size);
+        PairLines pairs = empty_pairs(size);
+        PairLine line(size);
         for (std::int64_t b = begin; b < end; ++b) {
             run.check();
             std::int64_t const first = b * lines_at_once;
             lines.heights(first, pairs);
-            for (Line& pair : pairs) {
+            for (PairLine& pair : pairs) {
                 forward(pair.data(), line.data());
                 for (std::size_t i = 0; i < line.size(); ++i) {
                     line[i] *= spectrum[i].real() / static_cast<double>(size); // even weights: a real spectrum
@@ -193,11 +193,13 @@ void weigh_many(LinesOfDem const& lines, std::vector<double> const& weights, Ras
 LagSums lag_sums(Raster<float> const& dem, double datum, Axis axis, std::int64_t lags, Run const& run) {
     LinesOfDem const lines{dem, datum, axis};
     LagSums sums;
-    sums.products = lagged(lines, lags, run, [&](std::int64_t first, Lines& pairs) { lines.heights(first, pairs); });
+    sums.products =
+        lagged(lines, lags, run, [&](std::int64_t first, PairLines& pairs) { lines.heights(first, pairs); });
     auto const values = dem.values();
     bool const holes = std::any_of(values.begin(), values.end(), [](float z) { return std::isnan(z); });
     if (holes) {
-        sums.pairs = lagged(lines, lags, run, [&](std::int64_t first, Lines& pairs) { lines.presence(first, pairs); });
+        sums.pairs =
+            lagged(lines, lags, run, [&](std::int64_t first, PairLines& pairs) { lines.presence(first, pairs); });
         for (double& count : sums.pairs) {
             count = std::floor(count + 0.5);
         }
