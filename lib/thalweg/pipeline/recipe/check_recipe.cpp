@@ -98,7 +98,7 @@ void check_network(Recipe const& recipe, Faults& faults) {
         faults.emplace_back("network.rotate turns a cluster: it needs source = \"dla\"");
     }
     if (n.source != Source::lines && n.heights == Heights::file) {
-        faults.emplace_back("network.heights = \"file\" needs source = \"lines\"");
+        faults.emplace_back(R"(network.heights = "file" needs source = "lines")");
     }
     if (recipe.statistics) {
         faults.emplace_back("[statistics] and [network] do not go together: statistics would move the rivers");
@@ -129,7 +129,7 @@ void check_land(Recipe const& recipe, bool has_points, Faults& faults) {
                             "skeleton.scatter");
     }
     bool const is_drawn =
-        !recipe.statistics || recipe.statistics->skeleton == Prior::points || recipe.set_at.count("surface.method") > 0;
+        !recipe.statistics || recipe.statistics->skeleton == Prior::points || recipe.set_at.contains("surface.method");
     if (is_drawn && (method == Method::dilate || method == Method::equilibrium) && recipe.surface) {
         faults.push_back(fmt::format("surface.method = \"{}\" needs [network]: use diffuse, tin or regress",
                                      method == Method::dilate ? "dilate" : "equilibrium"));
@@ -149,7 +149,7 @@ bool has_random_points(Recipe const& recipe) {
 
 void check_surface(Recipe const& recipe, Faults& faults) {
     if (recipe.surface && recipe.surface->base == Base::tin && recipe.surface->method != Method::dilate) {
-        faults.emplace_back("surface.base = \"tin\" goes with surface.method = \"dilate\"");
+        faults.emplace_back(R"(surface.base = "tin" goes with surface.method = "dilate")");
     }
     if (recipe.surface && recipe.surface->dilate.increment.function) {
         faults.emplace_back(

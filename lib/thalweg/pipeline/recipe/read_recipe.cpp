@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace thalweg::pipeline {
 
@@ -31,7 +32,7 @@ Section const* section_of(std::string const& path) {
 /// Puts the entries of a file into a recipe and collects what is wrong with them.
 class Reader {
 public:
-    explicit Reader(std::string const& name) : name_(name) {}
+    explicit Reader(std::string name) : name_(std::move(name)) {}
 
     Recipe read(std::vector<TomlEntry> const& entries) {
         for (std::size_t i = 0; i < entries.size() && faults_.size() < most_faults;) {

@@ -48,7 +48,7 @@ std::vector<UnusedKey> unused_keys(Recipe const& recipe) {
 void refuse_unused_keys(Recipe const& resolved) {
     std::vector<std::string> faults;
     for (UnusedKey const& key : unused_keys(resolved)) {
-        if (resolved.set_at.count(key.path) > 0) {
+        if (resolved.set_at.contains(key.path)) {
             faults.push_back(key.words);
         }
     }
