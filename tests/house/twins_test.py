@@ -15,8 +15,6 @@ ALLOWED = {
         "a terrain has the fields of its drawn land; together() moves them",
     ("lib/thalweg/io/network/write_graph.cpp", "lib/thalweg/pipeline/report/page.cpp"):
         "XML 1.0 forbids control characters, HTML escapes apostrophes: two formats, five entities in common",
-    ("lib/thalweg/pipeline/recipe/key_kinds.cpp", "lib/thalweg/pipeline/recipe/key_kinds.cpp"):
-        "a key and an optional key store through fields of different types",
     ("tests/blend/paste_tin_test.cpp", "tests/geometry/cotangents_test.cpp"):
         "the two ways to halve a square, each in a lattice of its own module's",
     ("tests/flow/catchments/areas_test.cpp", "tests/flow/catchments/catchments_test.cpp"):

@@ -60,6 +60,15 @@ TEST(Forecast, RefusesWhatMakeRefuses) {
         EXPECT_STREQ(e.what(), "surface.erodibility = \"nowhere.tif\": there is no such file");
     }
     recipe = default_recipe();
+    set_key(recipe, "patch.1.source=nowhere.tif");
+    set_key(recipe, "patch.2.source=" + (folder / "detail_points/recipe.toml").string());
+    try {
+        forecast(recipe);
+        FAIL() << "the file of the first patch is missing";
+    } catch (BadInput const& e) {
+        EXPECT_STREQ(e.what(), "patch.1.source = \"nowhere.tif\": there is no such file");
+    }
+    recipe = default_recipe();
     set_key(recipe, "grid.width=1000000");
     set_key(recipe, "grid.height=1000000");
     EXPECT_THROW(forecast(recipe), BadInput); // more memory than any machine has

@@ -8,12 +8,14 @@
 
 #include <thalweg/core/run/error.hpp>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <house/fnv.hpp>
 #include <pipeline/walk_files.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -111,48 +113,34 @@ std::vector<BaseRecipe> const bases = {
     {"ExactDetail", points + "[detail]\nstencil = \"exact\"\n", {"detail.", "-detail.method"}},
 };
 
-/// Values away from the default. Those of keys with a list of words are all words.
+/// Values away from the default, of keys for which the table gives none: numbers of which double and half are not
+/// allowed, take too long or change too little on so small a terrain, and what is no number.
 std::map<std::string, Words> const values = {
-    {"seed", {"11"}},
     {"grid.width", {"72"}},
     {"grid.height", {"72"}},
-    {"grid.cell", {"40"}},
     {"grid.crs", {"EPSG:32632"}},
     {"grid.origin", {"[499980, 5000010]", "[499980, 5001950]"}},
     {"network.prune", {"12", "3"}},
-    {"network.slope", {"0.2"}},
-    {"network.concavity", {"0.7"}},
     {"network.rotate", {"33"}},
     {"network.meander", {"0.5"}},
-    {"network.support", {"60"}},
     {"network.coast", {"600"}},
     {"network.dla.particles", {"300"}},
     {"network.dla.radius", {"20"}},
-    {"network.dla.sticking", {"0.5"}},
-    {"network.dla.visits", {"3"}},
-    {"network.tokunaga.generator", {"3"}},
     {"network.tokunaga.order", {"3"}},
     {"network.tokunaga.region", {"second_region.geojson"}},
     {"network.tokunaga.strokes", {"one_stroke.geojson"}},
     {"network.tokunaga.layer", {"one_stroke"}},
-    {"network.tokunaga.spacing", {"1", "5"}},
-    {"network.forest.ruggedness", {"1"}},
     {"network.forest.region", {"second_region.geojson"}},
     {"network.forest.outlets", {"outlets.csv"}},
     {"network.forest.seeds", {"3"}},
-    {"network.forest.spacing", {"14"}},
     {"network.forest.particles", {"60"}},
-    {"network.forest.sticking", {"0.5"}},
-    {"network.forest.visits", {"4"}},
     {"network.lines.path", {"second.geojson"}},
     {"network.lines.layer", {"second"}},
     {"network.lines.type_field", {"kind"}},
     {"network.lines.rank_field", {"up"}},
     {"network.lines.snap", {"40"}},
-    {"skeleton.ridge_gain", {"0.6"}},
     {"skeleton.ridge_farthest", {"60"}},
     {"skeleton.ridge_noise", {"15"}},
-    {"skeleton.ridge_wavelength", {"300"}},
     {"skeleton.midpoint_inverse", {"3"}},
     {"skeleton.points", {"higher.csv"}},
     {"skeleton.scatter", {"40"}},
@@ -161,19 +149,13 @@ std::map<std::string, Words> const values = {
     {"surface.mask", {"mask.asc"}},
     {"surface.mean_slope", {"12"}},
     {"surface.hillslope", {"120"}},
-    {"surface.floor_width", {"0.5"}},
-    {"surface.roughness", {"0.1"}},
     {"surface.uplift", {"uplift.asc"}},
     {"surface.erodibility", {"erodibility.asc"}},
     {"surface.lakes", {"lakes.geojson"}},
     {"surface.lake_share", {"1"}},
     {"surface.tolerance", {"0.01"}},
     {"surface.sweeps", {"50"}},
-    {"surface.alpha", {"0.1"}},
-    {"surface.smoothing", {"3"}},
     {"surface.noise", {"20"}},
-    {"surface.frequency_x", {"3"}},
-    {"surface.frequency_y", {"3"}},
     {"statistics.mean", {"450"}},
     {"statistics.std", {"80"}},
     {"statistics.max", {"[900, 40, 20]"}},
@@ -181,7 +163,6 @@ std::map<std::string, Words> const values = {
     {"statistics.length", {"[6, 8]"}},
     {"statistics.slope", {"1.3"}},
     {"statistics.dimension", {"2.5"}},
-    {"statistics.reach", {"12"}},
     {"detail.levels", {"1"}},
     {"detail.hurst", {"0.3"}},
     {"detail.sigma", {"15"}},
@@ -190,8 +171,6 @@ std::map<std::string, Words> const values = {
     {"patch.window", {"[2, 2, 16, 16]"}},
     {"patch.mask", {"patch_mask.geojson"}},
     {"patch.rotate", {"30"}},
-    {"patch.scale", {"0.7"}},
-    {"patch.gain", {"2"}},
     {"patch.feather", {"4"}},
     {"output.title", {"A walk"}},
     {"output.contour_interval", {"7.5"}},
@@ -325,12 +304,32 @@ Outcome const& outcome_of_base(BaseRecipe const& base, Words const& context, boo
                             : made.emplace(name, outcome(recipe_of(base, context), in_files)).first->second;
 }
 
-Words values_of(KeyHelp const& key) {
-    if (!key.choices.empty()) {
-        return key.choices;
+/// Double and half the default of a number, within its range.
+Words numbers_of(Key const& key) {
+    static Recipe const standard = with_all_sections();
+    auto const value = key.take(standard);
+    auto const* const whole = value ? std::get_if<std::int64_t>(&*value) : nullptr;
+    auto const* const real = value ? std::get_if<double>(&*value) : nullptr;
+    double const usual = whole != nullptr ? static_cast<double>(*whole) : real != nullptr ? *real : 0.0;
+    Words words;
+    for (double const x : {2.0 * usual, whole != nullptr ? std::floor(0.5 * usual) : 0.5 * usual}) {
+        if (usual != 0.0 && key.range->holds(x)) {
+            words.push_back(fmt::format("{}", x));
+        }
     }
-    auto const at = values.find(key.path);
-    return at == values.end() ? Words{} : at->second;
+    return words;
+}
+
+/// What a key is tried with: its words, a row of values, or what its range and default give.
+Words values_of(Key const& key) {
+    if (!key.help.choices.empty()) {
+        return key.help.choices;
+    }
+    auto const at = values.find(key.help.path);
+    if (at != values.end()) {
+        return at->second;
+    }
+    return key.range ? numbers_of(key) : Words{};
 }
 
 std::string section_of(std::string const& path) {
@@ -395,7 +394,7 @@ Walked walk(BaseRecipe const& base, Key const& key) {
     Walked walked;
     for (Words const& context : contexts_of(base, path)) {
         auto const before = key.take(recipe_of(base, context));
-        for (std::string const& value : values_of(key.help)) {
+        for (std::string const& value : values_of(key)) {
             Words all = context;
             all.push_back(path + "=" + value);
             Recipe const recipe = recipe_of(base, all);
@@ -442,11 +441,11 @@ INSTANTIATE_TEST_SUITE_P(Methods, KeysWalk, testing::ValuesIn(bases),
 TEST(Keys, EachIsTriedInARecipeOfTheWalk) {
     for (Key const& key : all_keys()) {
         std::string const& path = key.help.path;
-        ASSERT_FALSE(values_of(key.help).empty()) << "give a value of " << path << " away from its default";
+        ASSERT_FALSE(values_of(key).empty()) << "give a value of " << path << " away from its default";
         bool used = false;
         for (BaseRecipe const& base : bases) {
             for (Words context : is_walked(base, path) ? contexts_of(base, path) : std::vector<Words>{}) {
-                context.push_back(path + "=" + values_of(key.help).back());
+                context.push_back(path + "=" + values_of(key).back());
                 used = used || (has_stage(base, path) && key.use.holds(recipe_of(base, context)));
             }
         }

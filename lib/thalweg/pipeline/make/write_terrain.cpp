@@ -22,7 +22,7 @@
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/make/internal/split_areas.hpp>
 #include <thalweg/pipeline/make/internal/user_data.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
 #include <thalweg/pipeline/report/report.hpp>
@@ -32,7 +32,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <utility>
 
@@ -91,36 +90,18 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
     return into + own;
 }
 
-/// The folder of a key's file: its own word, but for the two keys whose file is the thing itself.
-std::string folder_of(std::string const& path) {
-    std::string const word = path.substr(path.rfind('.') + 1);
-    return path == "network.lines.path" || path == "patch.source" ? "" : word + "/";
-}
-
-/// Copies the files that the keys of a recipe name, those of [[patch]] but of the last patch only.
-void keep_files(Recipe& recipe, std::string const& into, io::OutputFolder const& out,
-                std::function<bool(Key const&)> const& wanted) {
-    for (Key const& key : all_keys()) {
-        auto const value = key.help.is_file && wanted(key) ? key.take(recipe) : std::nullopt;
-        auto const* const name = value ? std::get_if<std::string>(&*value) : nullptr;
-        if (name != nullptr && !name->empty()) {
-            key.put(recipe, keep_input(out, recipe.folder, *name, into + folder_of(key.help.path)));
-        }
-    }
-}
-
 /// Copies every file the recipe names into inputs/ and gives the recipe that names the copies.
 Recipe keep_inputs(Terrain const& terrain, io::OutputFolder const& out) {
     io::RecipeFiles const confined;
     Recipe recipe = terrain.recipe;
-    auto const of_patch = [](Key const& key) { return key.section() == "patch"; };
-    keep_files(recipe, "inputs/", out, [&](Key const& key) { return !of_patch(key) && key.use.holds(recipe); });
-    for (std::size_t i = 0; i < recipe.patches.size(); ++i) {
-        Recipe one;
-        one.folder = recipe.folder;
-        one.patches.push_back(recipe.patches[i]);
-        keep_files(one, fmt::format("inputs/patch{}/", i + 1), out, of_patch);
-        recipe.patches[i] = one.patches.front();
+    for (NamedFile const& file : files_of(recipe)) {
+        Key const& key = *file.key;
+        bool const is_array = key.part->is_array;
+        if (is_array || key.use.holds(recipe)) {
+            std::string const items = is_array ? fmt::format("{}{}/", key.part->name, file.item + 1) : "";
+            std::string const into = "inputs/" + items + key.folder;
+            key.put(recipe, keep_input(out, recipe.folder, file.name, into), file.item);
+        }
     }
     recipe.folder.clear();
     return recipe;

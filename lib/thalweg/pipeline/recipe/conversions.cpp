@@ -5,39 +5,14 @@
 #include <thalweg/io/frame/places_on_earth.hpp>
 #include <thalweg/io/gdal/conversions.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 #include <fmt/format.h>
 
 #include <string>
-#include <variant>
 
 namespace thalweg::pipeline {
 
 namespace {
-
-/// A file's path and layer.
-struct NamedLayer {
-    std::string name;
-    std::string layer;
-};
-
-/// The files that a recipe names, in the order of their keys.
-std::vector<NamedLayer> files_of(Recipe const& recipe) {
-    std::vector<NamedLayer> files;
-    for (Key const& key : all_keys()) {
-        auto const value = names_file(key) && key.section() != "patch" ? key.take(recipe) : std::nullopt;
-        if (value) {
-            bool const of_rivers = key.help.path == "network.lines.path";
-            files.push_back({std::get<std::string>(*value), of_rivers ? recipe.network->lines.layer : ""});
-        }
-    }
-    for (PatchRecipe const& patch : recipe.patches) {
-        files.push_back({patch.source, ""});
-        files.push_back({patch.mask, ""});
-    }
-    return files;
-}
 
 /// Far from its central meridian a UTM zone measures other lengths than the ground has.
 std::vector<Finding> warn_of_stretch(Grid const& grid, Run const& run) {
@@ -59,10 +34,7 @@ std::vector<Finding> warn_of_stretch(Grid const& grid, Run const& run) {
 
 std::vector<Finding> report_conversions(Recipe const& recipe, Grid const& grid, Run const& run) {
     std::vector<Finding> notes;
-    for (NamedLayer const& file : files_of(recipe)) {
-        if (file.name.empty()) {
-            continue;
-        }
+    for (NamedFile const& file : files_of(recipe)) {
         for (std::string const& words : io::conversions_of(file_in(recipe, file.name), file.layer, grid.crs)) {
             run.say(fmt::format("{:<6} {}", "units", words));
             notes.push_back({"converted", 0, {}, 0.0, words});

@@ -17,7 +17,6 @@
 #include <thalweg/pipeline/make/internal/plan_rivers.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 #include <fmt/format.h>
 
@@ -38,12 +37,11 @@ struct KnownBefore {
 };
 
 void require_files(Recipe const& recipe) {
-    for (Key const& key : all_keys()) {
-        auto const value = key.help.is_file ? key.take(recipe) : std::nullopt;
-        auto const* const name = value ? std::get_if<std::string>(&*value) : nullptr;
+    for (NamedFile const& file : files_of(recipe)) {
         std::error_code ignored;
-        if (name != nullptr && !name->empty() && !std::filesystem::exists(file_in(recipe, *name), ignored)) {
-            throw BadInput(fmt::format("pipeline.forecast: {} = \"{}\": there is no such file", key.help.path, *name));
+        if (!std::filesystem::exists(file_in(recipe, file.name), ignored)) {
+            throw BadInput(fmt::format("pipeline.forecast: {} = \"{}\": there is no such file",
+                                       file.key->place(file.item), file.name));
         }
     }
 }

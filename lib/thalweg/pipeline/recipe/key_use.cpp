@@ -29,13 +29,9 @@ std::string in_quotes(std::string const& word) {
     return word == "true" || word == "false" ? word : '"' + word + '"';
 }
 
-bool has_section(Recipe const& recipe, std::string const& section) {
-    return section == "network"      ? recipe.network.has_value()
-           : section == "skeleton"   ? recipe.skeleton.has_value()
-           : section == "surface"    ? recipe.surface.has_value()
-           : section == "statistics" ? recipe.statistics.has_value()
-           : section == "detail"     ? recipe.detail.has_value()
-                                     : !recipe.patches.empty();
+bool has_section(Recipe const& recipe, std::string const& name) {
+    Section const* const section = find_section(name);
+    return section != nullptr && section->count(recipe) > 0;
 }
 
 bool is_given(Recipe const& recipe, std::string const& path) {
@@ -44,7 +40,8 @@ bool is_given(Recipe const& recipe, std::string const& path) {
 }
 
 /// A simple condition: what holds, and what the recipe has where it does not.
-Use simple(std::string text, std::function<bool(Recipe const&)> holds, std::function<std::string(Recipe const&)> here) {
+Use simple(std::string text, std::function<bool(Recipe const&)> holds,
+           std::function<std::string(Recipe const&)> const& here) {
     Use use;
     use.lacks = [text, holds, here](Recipe const& recipe) {
         return holds(recipe) ? std::string() : text + here(recipe);
@@ -122,7 +119,7 @@ Use when(std::string text, std::function<bool(Recipe const&)> holds) {
     return simple(std::move(text), std::move(holds), nothing);
 }
 
-Use operator&&(Use a, Use b) {
+Use operator&&(Use const& a, Use const& b) {
     if (a.text.empty() || b.text.empty()) {
         return a.text.empty() ? b : a;
     }
@@ -138,7 +135,7 @@ Use operator&&(Use a, Use b) {
     return use;
 }
 
-Use operator||(Use a, Use b) {
+Use operator||(Use const& a, Use const& b) {
     Use use;
     use.kind = Use::Kind::either;
     use.text = bracketed(a, Use::Kind::both) + " or " + bracketed(b, Use::Kind::both);

@@ -3,7 +3,6 @@
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 #include <filesystem>
 #include <variant>
@@ -19,31 +18,29 @@ std::string file_in(Recipe const& recipe, std::string const& name) {
     return recipe.folder.empty() || stands_alone ? name : recipe.folder + "/" + name;
 }
 
-namespace {
-
-std::string absolute_file(Recipe const& recipe, std::string const& name) {
-    return name.empty() || is_address(name)
-               ? name
-               : std::filesystem::absolute(file_in(recipe, name)).lexically_normal().string();
-}
-
-} // namespace
-
-Recipe with_absolute_files(Recipe recipe) {
-    for (Key const& key : all_keys()) {
-        if (!names_file(key) || key.section() == "patch") { // whose keys reach the last patch only
-            continue;
-        }
-        if (auto const value = key.take(recipe)) {
-            std::string const& name = std::get<std::string>(*value);
-            if (!name.empty()) {
-                key.put(recipe, absolute_file(recipe, name));
+std::vector<NamedFile> files_of(Recipe const& recipe) {
+    std::vector<NamedFile> files;
+    for (Section const& section : all_sections()) {
+        std::size_t const count = section.count(recipe);
+        for (std::size_t item = 0; item < count; ++item) {
+            for (Key const& key : all_keys()) {
+                bool const is_named = key.part == &section && key.help.is_file;
+                auto const value = is_named ? key.take(recipe, item) : std::optional<Value>();
+                if (value && !std::get<std::string>(*value).empty()) {
+                    files.push_back({&key, item, std::get<std::string>(*value), key.layer(recipe, item)});
+                }
             }
         }
     }
-    for (PatchRecipe& patch : recipe.patches) {
-        patch.source = absolute_file(recipe, patch.source);
-        patch.mask = absolute_file(recipe, patch.mask);
+    return files;
+}
+
+Recipe with_absolute_files(Recipe recipe) {
+    for (NamedFile const& file : files_of(recipe)) {
+        if (!is_address(file.name)) {
+            std::filesystem::path const path = std::filesystem::absolute(file_in(recipe, file.name));
+            file.key->put(recipe, path.lexically_normal().string(), file.item);
+        }
     }
     recipe.folder.clear();
     return recipe;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/recipe/internal/key_kinds.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_sections.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/pipeline/recipe/internal/key_rows.hpp>
+#include <thalweg/pipeline/recipe/internal/sections.hpp>
 
 #include <fmt/format.h>
 
@@ -13,118 +14,205 @@ namespace thalweg::pipeline {
 
 namespace {
 
-std::vector<Key> make_keys() {
+/// Where a recipe holds the struct of a section.
+template <class S> struct Holder {
+    std::function<std::size_t(Recipe const&)> count;
+    std::function<void(Recipe&)> begin;
+    std::function<S&(Recipe&, std::size_t)> in;
+    std::function<S const&(Recipe const&, std::size_t)> of;
+    bool is_array = false;
+};
+
+void nothing_to_begin(Recipe&) {}
+
+std::size_t always_one(Recipe const&) {
+    return 1;
+}
+
+Holder<Recipe> the_recipe() {
+    return {always_one, nothing_to_begin, [](Recipe& r, std::size_t) -> Recipe& { return r; },
+            [](Recipe const& r, std::size_t) -> Recipe const& { return r; }};
+}
+
+template <class S> Holder<S> member(S Recipe::*part) {
+    return {always_one, nothing_to_begin, [part](Recipe& r, std::size_t) -> S& { return r.*part; },
+            [part](Recipe const& r, std::size_t) -> S const& { return r.*part; }};
+}
+
+/// A section that is named is a stage that runs, empty or not.
+template <class S> Holder<S> member(std::optional<S> Recipe::*part) {
+    return {[part](Recipe const& r) -> std::size_t { return (r.*part).has_value() ? 1 : 0; },
+            [part](Recipe& r) {
+                if (!(r.*part)) {
+                    (r.*part).emplace();
+                }
+            },
+            [part](Recipe& r, std::size_t) -> S& { return *(r.*part); },
+            [part](Recipe const& r, std::size_t) -> S const& { return *(r.*part); }};
+}
+
+template <class S> Holder<S> member(std::vector<S> Recipe::*part) {
+    return {[part](Recipe const& r) { return (r.*part).size(); }, [part](Recipe& r) { (r.*part).emplace_back(); },
+            [part](Recipe& r, std::size_t item) -> S& { return (r.*part)[item]; },
+            [part](Recipe const& r, std::size_t item) -> S const& { return (r.*part)[item]; }, true};
+}
+
+/// A section with its keys, before they know where it lies.
+struct Chapter {
+    Section section;
     std::vector<Key> keys;
+};
 
-    Key seed = integer<std::uint64_t>(
-        "seed", "", {0, endless},
-        "random seed of the whole recipe; recorded in the network's run table and, without output.title, in the titles",
-        in_recipe<std::uint64_t>([](Recipe& r) -> std::uint64_t& { return r.seed; }));
-    keys.push_back(std::move(seed));
+template <class S> Chapter chapter(char const* name, Holder<S> const& holder, Rows<S> const& rows) {
+    Chapter made{{name, holder.is_array, holder.count, holder.begin}, {}};
+    for (KeyOf<S> const& row : rows) {
+        Key& key = made.keys.emplace_back();
+        key.help = row.help;
+        key.help.path = fmt::format("{}{}{}", name, *name == '\0' ? "" : ".", row.help.path);
+        key.help.used_by = row.use.text;
+        key.use = row.use;
+        key.earlier = row.earlier;
+        key.folder = row.folder;
+        key.range = row.range;
+        key.check = row.check;
+        key.store = [in = holder.in, store = row.store](Recipe& r, std::size_t item, Value const& v) {
+            store(in(r, item), v);
+        };
+        key.show = [of = holder.of, show = row.show](Recipe const& r, std::size_t item) { return show(of(r, item)); };
+        key.layer = [of = holder.of, layer = row.layer](Recipe const& r, std::size_t item) {
+            return layer ? layer(of(r, item)) : std::string();
+        };
+    }
+    return made;
+}
 
-    keys.push_back(side("grid.width", "number of columns; left out: the network's extent and a margin of 5 %",
-                        in_recipe<std::int64_t>([](Recipe& r) -> std::int64_t& { return r.grid.width; })));
-    keys.push_back(side("grid.height", "number of rows; left out: the network's extent and a margin of 5 %",
-                        in_recipe<std::int64_t>([](Recipe& r) -> std::int64_t& { return r.grid.height; })));
-    keys.push_back(number("grid.cell", "m", {0, 1e6, true}, "cell size",
-                          in_recipe<double>([](Recipe& r) -> double& { return r.grid.cell_m; })));
-    keys.push_back(text("grid.crs", "EPSG code or WKT; projected, in metres",
-                        "coordinate system; \"\": that of the line file or its UTM zone, else EPSG:32631",
-                        in_recipe<std::string>([](Recipe& r) -> std::string& { return r.grid.crs; })));
-    {
-        Key key;
-        key.help = {"grid.origin", "two numbers", "[west, north]", "m", "", "north-western corner of the grid"};
-        key.put = [](Recipe& r, Value const& v) {
-            auto const* p = std::get_if<Pair>(&v);
-            if (p == nullptr || !std::isfinite((*p)[0]) || !std::isfinite((*p)[1]) || std::fabs((*p)[0]) > 1e9 ||
-                std::fabs((*p)[1]) > 1e9) {
-                throw BadParameter(
-                    fmt::format("two numbers [west, north] within 1e9 are required, not {}", toml_text(v)));
+std::vector<Chapter> make_chapters() {
+    return {chapter("", the_recipe(), seed_keys()),
+            chapter("grid", member(&Recipe::grid), grid_keys()),
+            chapter("network", member(&Recipe::network), network_keys()),
+            chapter("skeleton", member(&Recipe::skeleton), skeleton_keys()),
+            chapter("surface", member(&Recipe::surface), surface_keys()),
+            chapter("statistics", member(&Recipe::statistics), statistics_keys()),
+            chapter("detail", member(&Recipe::detail), detail_keys()),
+            chapter("patch", member(&Recipe::patches), patch_keys()),
+            chapter("output", member(&Recipe::output), output_keys())};
+}
+
+std::string standard_text(Value const& value) {
+    auto const* const number = std::get_if<double>(&value); // for a reader: 0.087, not its 17 digits
+    return number != nullptr ? fmt::format("{}", *number) : toml_text(value);
+}
+
+struct Table {
+    std::vector<Section> sections;
+    std::vector<Key> keys;
+};
+
+Table make_table() {
+    Table table;
+    std::vector<Chapter> const chapters = make_chapters();
+    Recipe standard;
+    for (Chapter const& one : chapters) {
+        table.sections.push_back(one.section);
+        one.section.begin(standard);
+    }
+    for (std::size_t i = 0; i < chapters.size(); ++i) {
+        for (Key key : chapters[i].keys) {
+            key.part = &table.sections[i];
+            auto const value = key.take(standard);
+            if (key.help.standard.empty() && value) {
+                key.help.standard = standard_text(*value);
             }
-            r.grid.origin = *p;
-        };
-        key.take = [](Recipe const& r) -> std::optional<Value> {
-            return r.grid.origin ? std::optional<Value>(*r.grid.origin) : std::nullopt;
-        };
-        keys.push_back(std::move(key));
-    }
-    keys.push_back(yes_no("grid.clip",
-                          "cut rivers and polygons at the grid's edge instead of refusing those that cross it",
-                          in_recipe<bool>([](Recipe& r) -> bool& { return r.grid.clip; })));
-
-    add_network_keys(keys);
-    add_skeleton_keys(keys);
-    add_surface_keys(keys);
-    add_statistics_keys(keys);
-    add_detail_keys(keys);
-    add_patch_keys(keys);
-
-    keys.push_back(text("output.title", "text", "title of the pictures and the report; \"\": names the seed",
-                        in_recipe<std::string>([](Recipe& r) -> std::string& { return r.output.title; })));
-    keys.push_back(
-        choice<HeightUnit>("output.units", {{"m", HeightUnit::metre}, {"ft", HeightUnit::foot}},
-                           "unit of heights in dem.tif, networks, contours and TINs: metres or international feet",
-                           in_recipe<HeightUnit>([](Recipe& r) -> HeightUnit& { return r.output.units; })));
-    keys.push_back(number("output.contour_interval", "", {0, 1e5},
-                          "contour interval in output.units; 0: a round number",
-                          in_recipe<double>([](Recipe& r) -> double& { return r.output.contour_interval; })));
-    keys.push_back(yes_no("output.catchments", "write the catchment of each arc: catchments.gpkg",
-                          in_recipe<bool>([](Recipe& r) -> bool& { return r.output.catchments; })));
-    keys.push_back(yes_no("output.accumulation", "write contributing areas by cell: area_d8.tif, area_dinf.tif",
-                          in_recipe<bool>([](Recipe& r) -> bool& { return r.output.accumulation; })));
-    Choices<io::Schema> schemas;
-    for (io::SchemaTable const& table : io::all_schemas()) {
-        schemas.emplace_back(table.name, table.schema);
-    }
-    keys.push_back(choice<io::Schema>("output.schema", schemas,
-                                      "also write network_SCHEMA.gpkg in this schema, unless native",
-                                      in_recipe<io::Schema>([](Recipe& r) -> io::Schema& { return r.output.schema; })));
-
-    Recipe const standard = with_all_sections();
-    for (Key& key : keys) {
-        if (auto const value = key.take(standard)) {
-            auto const* const number = std::get_if<double>(&*value); // for a reader: 0.087, not its 17 digits
-            key.help.standard = number != nullptr ? fmt::format("{}", *number) : toml_text(*value);
+            table.keys.push_back(std::move(key));
         }
     }
-    for (Key& key : keys) {
-        key.use = use_of(key.help.path);
-        key.help.used_by = key.use.text;
-        if (key.help.path == "network.prune") {
-            key.help.standard = "20 for dla and forest, else 0";
-        } else if (key.help.path == "grid.origin") {
-            key.help.standard = "[500000, 5000000], or the line file's box";
-        }
-    }
-    return keys;
+    return table;
+}
+
+Table const& the_table() {
+    static Table const table = make_table();
+    return table;
 }
 
 } // namespace
 
-bool names_file(Key const& key) {
-    return key.help.is_file;
+void Key::put(Recipe& recipe, Value const& value, std::optional<std::size_t> item) const {
+    check(value);
+    std::size_t const count = part->count(recipe);
+    if (count == 0 || item == count) {
+        part->begin(recipe);
+    }
+    store(recipe, item.value_or(part->count(recipe) - 1), value);
+}
+
+std::optional<Value> Key::take(Recipe const& recipe, std::optional<std::size_t> item) const {
+    std::size_t const count = part->count(recipe);
+    return count == 0 ? std::nullopt : show(recipe, item.value_or(count - 1));
+}
+
+std::string Key::place(std::size_t item) const {
+    return part->is_array ? fmt::format("{}.{}.{}", part->name, item + 1, name()) : help.path;
+}
+
+std::string Key::section() const {
+    auto const dot = help.path.rfind('.');
+    return dot == std::string::npos ? "" : help.path.substr(0, dot);
+}
+
+std::string Key::name() const {
+    return help.path.substr(help.path.rfind('.') + 1);
 }
 
 Recipe with_all_sections() {
     Recipe recipe;
-    recipe.network.emplace();
-    recipe.skeleton.emplace();
-    recipe.surface.emplace();
-    recipe.statistics.emplace();
-    recipe.detail.emplace();
-    recipe.patches.emplace_back();
+    for (Section const& section : all_sections()) {
+        section.begin(recipe);
+    }
     return recipe;
 }
 
+std::vector<Section> const& all_sections() {
+    return the_table().sections;
+}
+
 std::vector<Key> const& all_keys() {
-    static std::vector<Key> const keys = make_keys();
-    return keys;
+    return the_table().keys;
+}
+
+Section const* find_section(std::string const& name) {
+    auto const& sections = all_sections();
+    auto const at = std::find_if(sections.begin(), sections.end(), [&](Section const& s) { return s.name == name; });
+    return at == sections.end() ? nullptr : &*at;
 }
 
 Key const* find_key(std::string const& path) {
     auto const& keys = all_keys();
     auto const at = std::find_if(keys.begin(), keys.end(), [&](Key const& k) { return k.help.path == path; });
     return at == keys.end() ? nullptr : &*at;
+}
+
+std::string unknown_key(std::string const& path) {
+    std::vector<std::string> paths;
+    for (Key const& key : all_keys()) {
+        paths.push_back(key.help.path);
+    }
+    std::string near = closest(path, paths);
+    if (near.empty()) { // the right word in the wrong section
+        std::string const word = path.substr(path.rfind('.') + 1);
+        auto const at =
+            std::find_if(all_keys().begin(), all_keys().end(), [&](Key const& k) { return k.name() == word; });
+        near = at == all_keys().end() ? "" : at->help.path;
+    }
+    return fmt::format("unknown key '{}'.{} `thalweg recipe` lists every key.", path,
+                       near.empty() ? "" : " Did you mean '" + near + "'?");
+}
+
+std::vector<KeyHelp> recipe_keys() {
+    std::vector<KeyHelp> keys;
+    for (Key const& key : all_keys()) {
+        keys.push_back(key.help);
+    }
+    return keys;
 }
 
 } // namespace thalweg::pipeline

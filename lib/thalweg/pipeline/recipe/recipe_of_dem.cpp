@@ -28,10 +28,8 @@ std::string in_one_line(std::string const& text) {
 }
 
 void put(DemRecipe& made, std::string const& path, Value const& value) {
-    auto const& keys = all_keys();
-    auto const key = std::find_if(keys.begin(), keys.end(), [&](Key const& k) { return k.help.path == path; });
     try {
-        key->put(made.recipe, value);
+        find_key(path)->put(made.recipe, value);
     } catch (BadParameter const& fault) {
         made.notes.push_back(fmt::format("{} is left out: {}", path, fault.what()));
     }

@@ -9,26 +9,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
 
 namespace thalweg::pipeline {
 
 namespace {
 
-/// Values that recipe.toml files of earlier versions hold for keys that their recipe did not use: defaults of then, and
-/// what those that were left out came to.
-std::multimap<std::string, Value> const earlier_defaults = {
-    {"network.concavity", 0.45},
-    {"surface.roughness", 0.4},
-    {"surface.mean_slope", 25.0},
-};
-
 bool is_default(Key const& key, Value const& value, bool set_by_someone) {
     static Recipe const standard = with_all_sections();
     static Recipe const built_in = default_recipe();
-    auto const [first, last] = earlier_defaults.equal_range(key.help.path);
-    return key.take(standard) == value ||
-           std::any_of(first, last, [&](auto const& row) { return row.second == value; }) ||
+    return key.take(standard) == value || std::count(key.earlier.begin(), key.earlier.end(), value) > 0 ||
            (!set_by_someone && key.take(built_in) == value);
 }
 
@@ -37,30 +26,20 @@ std::string words_of(std::string const& path, Value const& value, std::string co
                        toml_text(value), place.empty() ? "" : " (" + place + ")", lacks);
 }
 
-/// of: holds the key's value; recipe: decides.
-void collect(Key const& key, Recipe const& of, Recipe const& recipe, std::string const& path,
-             std::vector<UnusedKey>& found) {
-    auto const value = key.take(of);
-    auto const place = recipe.set_at.find(path);
-    bool const is_set = place != recipe.set_at.end();
-    if (value && !key.use.holds(recipe) && !is_default(key, *value, is_set)) {
-        found.push_back({path, words_of(path, *value, is_set ? place->second : "", key.use.lacks(recipe))});
-    }
-}
-
 } // namespace
 
 std::vector<UnusedKey> unused_keys(Recipe const& recipe) {
     std::vector<UnusedKey> found;
     for (Key const& key : all_keys()) {
-        if (key.section() != "patch") {
-            collect(key, recipe, recipe, key.help.path, found);
-            continue;
-        }
-        for (std::size_t i = 0; i < recipe.patches.size(); ++i) {
-            Recipe one;
-            one.patches.push_back(recipe.patches[i]);
-            collect(key, one, recipe, fmt::format("patch.{}.{}", i + 1, key.name()), found);
+        std::size_t const count = key.use.holds(recipe) ? 0 : key.part->count(recipe);
+        for (std::size_t item = 0; item < count; ++item) {
+            std::string const path = key.place(item);
+            auto const value = key.take(recipe, item);
+            auto const place = recipe.set_at.find(path);
+            bool const is_set = place != recipe.set_at.end();
+            if (value && !is_default(key, *value, is_set)) {
+                found.push_back({path, words_of(path, *value, is_set ? place->second : "", key.use.lacks(recipe))});
+            }
         }
     }
     return found;
@@ -69,7 +48,7 @@ std::vector<UnusedKey> unused_keys(Recipe const& recipe) {
 void refuse_unused_keys(Recipe const& resolved) {
     std::vector<std::string> faults;
     for (UnusedKey const& key : unused_keys(resolved)) {
-        if (resolved.set_at.count(key.path) > 0) {
+        if (resolved.set_at.contains(key.path)) {
             faults.push_back(key.words);
         }
     }

@@ -6,12 +6,10 @@
 #include <thalweg/io/gdal/plain_copy.hpp>
 #include <thalweg/io/mesh/read_points.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <variant>
 
 namespace thalweg::pipeline {
 
@@ -27,23 +25,9 @@ bool is_users(Recipe const& recipe, std::string const& path) {
 } // namespace
 
 UserFiles::UserFiles(Recipe& recipe, Run const& run) {
-    for (Key const& key : all_keys()) {
-        if (!names_file(key) || key.section() == "patch" || !is_users(recipe, key.help.path)) {
-            continue;
-        }
-        if (auto const value = key.take(recipe)) {
-            bool const is_lines = key.help.path == "network.lines.path" && recipe.network;
-            key.put(recipe, copied(recipe, std::get<std::string>(*value),
-                                   is_lines ? recipe.network->lines.layer : std::string(), run));
-        }
-    }
-    for (std::size_t i = 0; i < recipe.patches.size(); ++i) {
-        PatchRecipe& patch = recipe.patches[i];
-        if (is_users(recipe, fmt::format("patch.{}.source", i + 1))) {
-            patch.source = copied(recipe, patch.source, "", run);
-        }
-        if (is_users(recipe, fmt::format("patch.{}.mask", i + 1))) {
-            patch.mask = copied(recipe, patch.mask, "", run);
+    for (NamedFile const& file : files_of(recipe)) {
+        if (is_users(recipe, file.key->place(file.item))) {
+            file.key->put(recipe, copied(recipe, file.name, file.layer, run), file.item);
         }
     }
 }

@@ -21,7 +21,7 @@ struct Use {
 };
 
 Use always();
-/// A section that is there: "network", "statistics".
+/// A section that is there: "network", "statistics"; of an array, an item of it.
 Use with(std::string const& section);
 Use without(std::string const& section);
 /// A key, left out or not, has one of these values, as they stand in a recipe file without quotes.
@@ -34,10 +34,7 @@ Use not_given(std::string const& path);
 /// A condition of its own, in words.
 Use when(std::string text, std::function<bool(Recipe const&)> holds);
 
-Use operator&&(Use a, Use b);
-Use operator||(Use a, Use b);
-
-/// The condition under which the key of this path has an effect: the table of key_uses.cpp.
-Use use_of(std::string const& path);
+Use operator&&(Use const& a, Use const& b);
+Use operator||(Use const& a, Use const& b);
 
 } // namespace thalweg::pipeline

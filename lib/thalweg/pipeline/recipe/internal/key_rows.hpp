@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+
+/// What the tables of keys are written in: a row names a key, its field by a chain of member pointers, and all that is
+/// known of it. Private to this room.
+namespace thalweg::pipeline {
+
+inline constexpr bool left_open = true; ///< of a Range
+inline constexpr double endless = 9.0e15;
+
+double as_number(Value const& v);
+std::int64_t as_integer(Value const& v);
+bool as_yes_no(Value const& v);
+std::string const& as_text(Value const& v);
+/// Throws BadParameter where no file or screen could hold the text.
+std::string const& as_short_text(Value const& v);
+/// Throws BadParameter: what is wanted, not the value.
+[[noreturn]] void refuse(std::string const& wanted, Value const& v);
+/// Throws BadParameter: the word is none of these.
+[[noreturn]] void refuse_word(std::string const& word, std::vector<std::string> const& words);
+/// "one | two | three"
+std::string alternatives(std::vector<std::string> const& words);
+
+void remember(std::vector<Value>& values, double value);
+
+/// A key of a section or part of one that fills an S; its path is its name in there.
+template <class S> struct KeyOf {
+    KeyHelp help;
+    Use use = always();
+    std::vector<Value> earlier;
+    std::string folder;
+    std::optional<Range> range;
+    std::function<void(Value const&)> check;
+    std::function<void(S&, Value const&)> store;
+    std::function<std::optional<Value>(S const&)> show;
+    std::function<std::string(S const&)> layer;
+};
+
+template <class S> using Rows = std::vector<KeyOf<S>>;
+
+/// Where a T lies in an S.
+template <class S, class T> struct Field {
+    std::function<T&(S&)> in;
+    std::function<T const&(S const&)> of;
+};
+
+template <class S, class T> Field<S, T> field(T S::*member) {
+    return {[member](S& s) -> T& { return s.*member; }, [member](S const& s) -> T const& { return s.*member; }};
+}
+
+template <class S, class Part, class T> Field<S, T> field(Part S::*part, T Part::*member) {
+    return {[part, member](S& s) -> T& { return s.*part.*member; },
+            [part, member](S const& s) -> T const& { return s.*part.*member; }};
+}
+
+template <class T> struct IsOptional : std::false_type {};
+template <class T> struct IsOptional<std::optional<T>> : std::true_type {};
+
+template <class T> constexpr char const* type_of() {
+    return std::is_same_v<T, bool>                                                 ? "yes/no"
+           : std::is_integral_v<T>                                                 ? "integer"
+           : std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>> ? "number"
+           : std::is_same_v<T, std::optional<Pair>>                                ? "two numbers"
+           : std::is_same_v<T, std::optional<Triple>>                              ? "three numbers"
+           : std::is_same_v<T, std::optional<Quad>>                                ? "four numbers"
+                                                                                   : "text";
+}
+
+template <class T> std::optional<Value> shown(T const& x) {
+    if constexpr (IsOptional<T>::value) {
+        return x ? std::optional<Value>(*x) : std::nullopt;
+    } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+        return static_cast<std::int64_t>(x);
+    } else {
+        return x;
+    }
+}
+
+template <class T> T number_in(Range const& range, Value const& v) {
+    if constexpr (std::is_integral_v<T>) {
+        std::int64_t const x = as_integer(v);
+        range.require(static_cast<double>(x));
+        return static_cast<T>(x);
+    } else {
+        double const x = as_number(v);
+        range.require(x);
+        return x;
+    }
+}
+
+template <class T> using Choices = std::vector<std::pair<std::string, T>>;
+
+/// A row of a table: a key that fills a T of an S.
+template <class S, class T> class Row {
+public:
+    using Read = std::function<T(Value const&)>;
+    using Show = std::function<std::optional<Value>(T const&)>;
+
+    Row(char const* name, Field<S, T> field) : field_(std::move(field)) {
+        key_.help.path = name;
+        key_.help.type = type_of<T>();
+    }
+
+    Row& means(char const* meaning) {
+        key_.help.meaning = meaning;
+        return *this;
+    }
+    Row& unit(char const* unit) {
+        key_.help.unit = unit;
+        return *this;
+    }
+    /// When it has an effect; without this in every recipe that has the section.
+    Row& used(Use use) {
+        key_.use = std::move(use);
+        return *this;
+    }
+    /// The default in words, where the value alone does not say it.
+    Row& standard(char const* words) {
+        key_.help.standard = words;
+        return *this;
+    }
+    /// A default of earlier versions, or what a key that was left out came to.
+    Row& earlier(double value) {
+        remember(key_.earlier, value);
+        return *this;
+    }
+    /// Of a number.
+    Row& range(Range range) {
+        key_.help.range = range.text();
+        key_.range = range;
+        return reads([range](Value const& v) { return number_in<T>(range, v); });
+    }
+    /// What a text is like, in words.
+    Row& form(std::string words) {
+        key_.help.range = std::move(words);
+        return *this;
+    }
+    /// What a list of numbers is like, in words, and whether one is.
+    template <class Holds> Row& form(char const* words, Holds holds) {
+        key_.help.range = words;
+        return reads([words, holds](Value const& v) -> T {
+            auto const* list = std::get_if<typename T::value_type>(&v);
+            if (list == nullptr || !holds(*list)) {
+                refuse(words, v);
+            }
+            return *list;
+        });
+    }
+    /// The words a text may be, and what each means.
+    Row& one_of(Choices<T> const& choices) {
+        std::vector<std::string> words;
+        for (auto const& [word, value] : choices) {
+            words.push_back(word);
+        }
+        key_.help.range = alternatives(words);
+        suggests(words);
+        shows([choices](T const& x) -> std::optional<Value> {
+            for (auto const& [word, value] : choices) {
+                if (value == x) {
+                    return word;
+                }
+            }
+            return std::nullopt;
+        });
+        return reads([choices, words](Value const& v) -> T {
+            std::string const& text = as_text(v);
+            for (auto const& [word, value] : choices) {
+                if (word == text) {
+                    return value;
+                }
+            }
+            refuse_word(text, words);
+        });
+    }
+    /// Words that completion offers.
+    Row& suggests(std::vector<std::string> words) {
+        key_.help.choices = std::move(words);
+        return *this;
+    }
+    /// Refuses more than its kind does, and does so first: throws BadParameter.
+    Row& checked(std::function<void(Value const&)> check) {
+        return reads([check, read = read_](Value const& v) {
+            check(v);
+            return read(v);
+        });
+    }
+    /// The field says by 0 that the key is left out.
+    Row& left_out_at_zero() {
+        return shows([](T const& x) { return x == T{} ? std::nullopt : shown(x); });
+    }
+    /// Of a file: the key of its layer.
+    Row& layer(std::string S::*member) {
+        key_.layer = [member](S const& s) { return s.*member; };
+        return *this;
+    }
+    /// Of a file: where below inputs/ a copy of it lies, in place of a folder of the key's name.
+    Row& kept_in(char const* folder) {
+        key_.folder = folder;
+        return *this;
+    }
+    Row& names_a_file() {
+        key_.help.is_file = true;
+        return kept_in((key_.help.path + "/").c_str()).form("file name");
+    }
+
+    Row& type(char const* words) {
+        key_.help.type = words;
+        return *this;
+    }
+    Row& reads(Read read) {
+        read_ = std::move(read);
+        key_.check = [r = read_](Value const& v) { r(v); };
+        key_.store = [r = read_, in = field_.in](S& s, Value const& v) { in(s) = r(v); };
+        return *this;
+    }
+    Row& shows(Show show) {
+        key_.show = [show = std::move(show), of = field_.of](S const& s) { return show(of(s)); };
+        return *this;
+    }
+
+    operator KeyOf<S>() const { return key_; }
+
+private:
+    KeyOf<S> key_;
+    Field<S, T> field_;
+    Read read_;
+};
+
+/// A number, or an integer, with a range; that of an optional field may be left out.
+template <class... Members> auto number(char const* name, Members... members) {
+    Row row(name, field(members...));
+    return row.shows([](auto const& x) { return shown(x); });
+}
+
+/// A list of numbers that may be left out.
+template <class... Members> auto numbers(char const* name, Members... members) {
+    return number(name, members...);
+}
+
+template <class... Members> auto text(char const* name, Members... members) {
+    return number(name, members...).reads(as_short_text);
+}
+
+/// A text that names a file.
+template <class... Members> auto file(char const* name, Members... members) {
+    return text(name, members...).names_a_file();
+}
+
+template <class... Members> auto yes_no(char const* name, Members... members) {
+    return number(name, members...).reads(as_yes_no).form("true | false").suggests({"true", "false"});
+}
+
+/// One of several words.
+template <class... Members> auto choice(char const* name, Members... members) {
+    return Row(name, field(members...));
+}
+
+/// The keys of a part as keys of the whole. prefix: of their names, "dla."
+template <class S, class Part> Rows<S> inside(std::string const& prefix, Part S::*part, Rows<Part> const& rows) {
+    Rows<S> keys;
+    for (KeyOf<Part> const& row : rows) {
+        KeyOf<S>& key = keys.emplace_back();
+        key.help = row.help;
+        key.help.path = prefix + row.help.path;
+        key.use = row.use;
+        key.earlier = row.earlier;
+        key.folder = row.folder;
+        key.range = row.range;
+        key.check = row.check;
+        key.store = [part, store = row.store](S& s, Value const& v) { store(s.*part, v); };
+        key.show = [part, show = row.show](S const& s) { return show(s.*part); };
+        if (row.layer) {
+            key.layer = [part, layer = row.layer](S const& s) { return layer(s.*part); };
+        }
+    }
+    return keys;
+}
+
+template <class S> Rows<S> joined(std::vector<Rows<S>> const& parts) {
+    Rows<S> all;
+    for (Rows<S> const& rows : parts) {
+        all.insert(all.end(), rows.begin(), rows.end());
+    }
+    return all;
+}
+
+} // namespace thalweg::pipeline

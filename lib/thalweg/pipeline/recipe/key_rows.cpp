@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/recipe/internal/key_rows.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/suggest.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <sstream>
+#include <string_view>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+/// The shortest text that reads back as the same number, and as one with a fraction.
+std::string text_of(double x) {
+    std::string text = fmt::format("{}", x);
+    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+}
+
+std::string text_of(bool b) {
+    return b ? "true" : "false";
+}
+
+std::string text_of(std::int64_t i) {
+    return fmt::format("{}", i);
+}
+
+std::string text_of(std::string const& s) {
+    std::ostringstream out;
+    out << toml::value<std::string>(s);
+    return out.str();
+}
+
+template <std::size_t N> std::string text_of(std::array<double, N> const& list) {
+    std::string out;
+    for (double const x : list) {
+        out += (out.empty() ? "" : ", ") + text_of(x);
+    }
+    return "[ " + out + " ]";
+}
+
+} // namespace
+
+std::string toml_text(Value const& value) {
+    return std::visit([](auto const& v) { return text_of(v); }, value);
+}
+
+std::string Range::text() const {
+    if (most >= endless) {
+        return fmt::format("{} {}", open ? ">" : ">=", least);
+    }
+    return fmt::format("{}{}, {}]", open ? "(" : "[", least, most);
+}
+
+void Range::require(double v) const {
+    if (!holds(v)) {
+        throw BadParameter(fmt::format("{} is outside its range {}", v, text()));
+    }
+}
+
+void refuse(std::string const& wanted, Value const& v) {
+    throw BadParameter(fmt::format("{} is required, not {}", wanted, toml_text(v)));
+}
+
+void refuse_word(std::string const& word, std::vector<std::string> const& words) {
+    throw BadParameter(
+        fmt::format("'{}' is not one of its values.{} ({})", word, did_you_mean(word, words), fmt::join(words, ", ")));
+}
+
+std::string alternatives(std::vector<std::string> const& words) {
+    return fmt::format("{}", fmt::join(words, " | "));
+}
+
+double as_number(Value const& v) {
+    if (auto const* i = std::get_if<std::int64_t>(&v)) {
+        return static_cast<double>(*i);
+    }
+    if (auto const* d = std::get_if<double>(&v)) {
+        return *d;
+    }
+    refuse("a number", v);
+}
+
+std::int64_t as_integer(Value const& v) {
+    if (auto const* i = std::get_if<std::int64_t>(&v)) {
+        return *i;
+    }
+    refuse("an integer", v);
+}
+
+std::string const& as_text(Value const& v) {
+    if (auto const* s = std::get_if<std::string>(&v)) {
+        return *s;
+    }
+    refuse("a text in quotes", v);
+}
+
+// Not in the header: g++ 12 warns falsely of a variant that it has taken apart.
+void remember(std::vector<Value>& values, double value) {
+    values.emplace_back(value);
+}
+
+bool as_yes_no(Value const& v) {
+    if (auto const* b = std::get_if<bool>(&v)) {
+        return *b;
+    }
+    refuse("true or false", v);
+}
+
+std::string const& as_short_text(Value const& v) {
+    std::string const& s = as_text(v);
+    if (s.size() > 4096 || s.find('\0') != std::string::npos) {
+        throw BadParameter("the text is too long or holds a null byte");
+    }
+    return s;
+}
+
+} // namespace thalweg::pipeline

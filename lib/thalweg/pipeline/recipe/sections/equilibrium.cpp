@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/recipe/internal/conditions.hpp>
+#include <thalweg/pipeline/recipe/internal/sections.hpp>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+Use no_relief() {
+    return when("surface.relief = 0", [](Recipe const& r) { return r.surface && r.surface->dilate.relief_m <= 0.0; });
+}
+
+Rows<EquilibriumRecipe> slope_keys() {
+    return {
+        number("mean_slope", &EquilibriumRecipe::mean_slope_deg)
+            .unit("degrees")
+            .range({0, 60, left_open})
+            .earlier(25.0)
+            .used(by_equilibrium() && no_relief())
+            .means("mean slope of the terrain; left out: 25, around rivers of a file less on cells above 30 m"),
+        number("hillslope", &EquilibriumRecipe::hillslope_m)
+            .unit("m")
+            .range({0, 1e5})
+            .used(by_equilibrium())
+            .means("length below which soil creep rounds the slopes, at least half a cell; 0: one cell"),
+        number("floor_width", &EquilibriumRecipe::floor_width)
+            .range({0, 1})
+            .used(by_equilibrium())
+            .means("half the width of a valley floor in cells, divided by (drainage area in cells) ^ 0.4"),
+        number("roughness", &EquilibriumRecipe::roughness)
+            .range({0, 1})
+            .earlier(0.4)
+            .used(by_equilibrium())
+            .means("standard deviation of the logarithm of erodibility"),
+    };
+}
+
+Rows<EquilibriumRecipe> ground_keys() {
+    using surface::Edge;
+    return {
+        choice("edge", &EquilibriumRecipe::edge)
+            .one_of({{"auto", std::nullopt},
+                     {"open", Edge::open},
+                     {"closed", Edge::closed},
+                     {"coast", Edge::coast},
+                     {"mainland", Edge::mainland}})
+            .used(by_equilibrium())
+            .means("boundary condition: the terrain continues (open), all water goes to the rivers (closed), sea "
+                   "(coast), or sea where the mask or coastlines say so and beyond the grid the terrain continues "
+                   "(mainland); auto: mainland with coastlines of a river file, coast with other sea, else open"),
+        file("uplift", &EquilibriumRecipe::uplift)
+            .used(by_equilibrium())
+            .means("raster over the grid, values above 0; only ratios count"),
+        file("erodibility", &EquilibriumRecipe::erodibility)
+            .used(by_equilibrium())
+            .means("raster over the grid, values above 0, or polygons with a field erodibility (1 elsewhere); only "
+                   "ratios count"),
+        file("lakes", &EquilibriumRecipe::lakes).used(by_equilibrium()).means("polygons of lakes"),
+        number("lake_share", &EquilibriumRecipe::lake_share)
+            .range({0, 1})
+            .used(by_equilibrium())
+            .means("share of the reaches with enough water that run through a lake"),
+    };
+}
+
+} // namespace
+
+Rows<EquilibriumRecipe> equilibrium_keys() {
+    return joined<EquilibriumRecipe>({slope_keys(), ground_keys()});
+}
+
+} // namespace thalweg::pipeline

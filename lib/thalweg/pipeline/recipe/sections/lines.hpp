@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/network/import/import_lines.hpp>
+
+namespace thalweg::pipeline {
+
+/// What coastlines among the lines of a file are to the land.
+enum class Coastlines : std::uint8_t {
+    sea, ///< its coast
+    none ///< nothing
+};
+
+/// The keys of section [network] for drawn lines.
+struct LinesRecipe {
+    std::string path;
+    std::string layer;
+    std::string type_field = "rosgen";
+    std::string rank_field;
+    double snap_m = 0.0; ///< [m] 0 takes 1e-6 of the box's diagonal
+    network::Orientation orientation = network::Orientation::automatic;
+    network::Divergences divergences = network::Divergences::main;
+    io::LineFilter filter = io::LineFilter::natural;
+    Coastlines coastlines = Coastlines::sea;
+};
+
+} // namespace thalweg::pipeline
