@@ -23,12 +23,10 @@ namespace thalweg::flow {
 /// Source: \cite ocallaghan1984; \cite barnes2014; queue: radix heap of \cite ahuja1990.
 FlowField route(Raster<float> const& dem, Run const& run = {});
 
-/// Routes flow over a DEM with endorheic basins: water may also end in sinks, and what drains to them is not a depression.
-/// \param dem [m] by cell; NaN: no data; not changed
-/// \param sinks indices of cells with data
-/// \param run progress, log, stop token and number of threads
-/// \return as route without sinks
-/// \throws BadInput as route, and for a sink off the grid or without data
+/// Routes flow over a DEM with endorheic basins: water may also end in sinks, and what drains to them is not a
+/// depression. \param dem [m] by cell; NaN: no data; not changed \param sinks indices of cells with data \param run
+/// progress, log, stop token and number of threads \return as route without sinks \throws BadInput as route, and for a
+/// sink off the grid or without data
 FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks, Run const& run = {});
 
 } // namespace thalweg::flow
