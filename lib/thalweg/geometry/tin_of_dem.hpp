@@ -12,13 +12,13 @@ namespace thalweg::geometry {
 
 /// Options of tin_of_dem().
 struct TinOfDemParams {
-    double error_m = 1.0; ///< [m] > 0: greatest vertical distance of a cell from the TIN
+    double error_m = 1.0; ///< [m] > 0, largest vertical distance of a cell from the TIN
 };
 
 /// A DEM as a TIN.
 struct SimplifiedDem {
     Tin tin;
-    double error_m = 0.0;      ///< the greatest there is
+    double error_m = 0.0;      ///< [m] largest vertical distance reached
     std::int64_t left_out = 0; ///< cells with data in no triangle
 };
 
