@@ -28,7 +28,7 @@ struct Bounds {
 struct Diagram {
     /// A vertex of a line (a == b), or the segment that begins at it.
     struct Site {
-        std::size_t line = 0;   ///< the first line that has it
+        std::size_t line = 0;   ///< the first line with this site
         std::size_t vertex = 0; ///< of that line
         Vec2 a;
         Vec2 b;
