@@ -9,16 +9,17 @@
 
 namespace thalweg::fractal {
 
-/// Whether some land can have the statistics at all.
-/// \param dem [m] heights by cell; NaN: no data
-/// \param targets the target statistics
+/// Checks whether any DEM on the grid can have the statistics.
+/// \param dem [m] by cell; NaN: no data
+/// \param targets statistics to match
 /// \throws BadParameter with the numbers, as match_statistics
 void check_targets(Raster<float> const& dem, Targets const& targets);
 
-/// \param dem [m] heights by cell; NaN: no data
-/// \param targets the target statistics
-/// \param fixed what keeps its place or height
-/// \return the heights to keep, extremes first, each cell once.
+/// Collects the heights to keep.
+/// \param dem [m] by cell; NaN: no data
+/// \param targets with extremes, if any
+/// \param fixed heights of cells
+/// \return extremes first, each cell once
 /// \throws BadInput as match_statistics
 std::vector<FixedHeight> kept_heights(Raster<float> const& dem, Targets const& targets,
                                       std::vector<FixedHeight> const& fixed);

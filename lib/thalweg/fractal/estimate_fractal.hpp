@@ -10,7 +10,7 @@
 
 namespace thalweg::fractal {
 
-/// Least and greatest Hurst exponent that is estimated or taken.
+/// Range of Hurst exponents that are estimated or accepted.
 inline constexpr double least_hurst = 0.05;
 inline constexpr double greatest_hurst = 0.95;
 
@@ -22,15 +22,15 @@ enum class Differences : std::uint8_t {
 /// Options of estimate_fractal().
 struct EstimateParams {
     Differences differences = Differences::squares;
-    std::optional<double> hurst; ///< [0.05, 0.95] held, so that only sigma is estimated; empty: estimated
+    std::optional<double> hurst; ///< [0.05, 0.95] prescribed, so that only sigma is estimated; empty: estimated
 };
 
 /// A fractional Brownian surface, E (z(p) - z(q))^2 = sigma^2 |p - q|^(2H) with distances in cells.
 struct Fractal {
     double hurst = 0.5;     ///< [0.05, 0.95] H; the fractal dimension is 3 - H
     double sigma = 0.0;     ///< [m] root mean square difference of two heights one cell apart
-    int lags = 0;           ///< [0, 4] lags with differences other than 0
-    std::int64_t pairs = 0; ///< of cells compared, over all lags
+    int lags = 0;           ///< [0, 4] number of lags with a difference other than 0
+    std::int64_t pairs = 0; ///< of cells, over all lags
 };
 
 /// Cells [col, col + width) x [row, row + height).
@@ -41,24 +41,25 @@ struct CellWindow {
     std::int64_t height = 0;
 };
 
-/// H and sigma of a raster by a straight line through ln S(k) over ln k, k = 1 .. 4 cells, by least squares.
-/// \param dem NaN cells are left out, with every pair they belong to. S(k) is the mean of its values along rows and
-/// along columns, or the one of them there is
+/// Estimates H and sigma of a raster by the least-squares line of ln S(k) over ln k, k = 1 ... 4 cells; S(k) is the
+/// average of its means along rows and columns, or the only one.
+/// \param dem [m] by cell; NaN: no data, left out with its pairs
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return H clamped to [0.05, 0.95], then sigma at that H. From one lag: H = 0.5 (unless held) and sigma. From none,
-/// as of a flat raster: sigma = 0. The same bits for any number of threads.
-/// \throws BadInput an infinite height
-/// \throws BadParameter H held outside [0.05, 0.95]
+/// \return H clamped to [0.05, 0.95], then sigma at that H. From one lag: H = 0.5 (unless prescribed) and sigma; from
+/// none, as of a flat raster: sigma = 0. The same bits for any number of threads.
+/// \throws BadInput for an infinite height
+/// \throws BadParameter when the prescribed H is outside its range
 /// \throws Cancelled
 ///
 /// Source: \cite zhang, section on fractal interpolation (H and sigma of the initial grid); specification 1.6.
 Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params = {}, Run const& run = {});
 
-/// \param dem [m] heights by cell; NaN: no data
-/// \param window the cells that count
+/// Estimates H and sigma from the pairs of cells inside a window.
+/// \param dem [m] by cell; NaN: no data
+/// \param window inside the raster
 /// \param params options, each with its default, unit and range
-/// \return the same from the pairs inside a window, which lies inside the raster.
+/// \return as for a whole raster
 Fractal estimate_fractal(Raster<float> const& dem, CellWindow const& window, EstimateParams const& params = {});
 
 } // namespace thalweg::fractal

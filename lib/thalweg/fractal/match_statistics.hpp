@@ -13,70 +13,67 @@
 
 namespace thalweg::fractal {
 
-/// A height that a cell must have.
+/// A prescribed height of a cell.
 struct FixedHeight {
     Cell cell;
     double z = 0.0; ///< [m]
 };
 
-/// The statistics that a DEM must have, as measure::statistics estimates them; one that is not named is left as it
-/// comes.
+/// Statistics that a DEM is matched to, by the definitions of measure::statistics; an empty one is free.
 struct Targets {
     std::optional<double> mean{};      ///< [m]
     std::optional<double> std{};       ///< [m] > 0
-    std::optional<FixedHeight> max{};  ///< no other cell is as high
-    std::optional<FixedHeight> min{};  ///< no other cell is as low
+    std::optional<FixedHeight> max{};  ///< the single highest cell
+    std::optional<FixedHeight> min{};  ///< the single lowest cell
     std::optional<double> lx_cells{};  ///< [cells] > 0
     std::optional<double> ly_cells{};  ///< [cells] > 0
     std::optional<double> slope_rad{}; ///< [rad] in (0, pi/2)
     std::optional<double> dimension{}; ///< in (2, 3)
 };
 
-/// Options of project().
+/// Options of match_statistics().
 struct MatchParams {
-    solver::StableCovariance prior{}; ///< how changes at two places go together; best that of the land handed in
+    solver::StableCovariance prior{}; ///< covariance of the changes; ideally the DEM's own
     int iterations = 60;              ///< [0, 1000]
-    double tolerance = 1e-4;          ///< [0, 1] of each statistic's value; of the deviation for the mean
-    double gap_m = 0.5; ///< [m] > 0 between the extremes and all other cells; at most a thousandth of the relief
+    double tolerance = 1e-4; ///< [0, 1] relative to each statistic's value; for the mean to the standard deviation
+    double gap_m = 0.5;      ///< [m] > 0, from the extremes to all other cells; at most a thousandth of the relief
 };
 
-/// How a statistic came out.
+/// The result for one statistic.
 struct Residual {
     std::string name; ///< "mean", "std", "lx_cells", "ly_cells", "slope_rad", "dimension", "max", "min"
     double asked = 0.0;
-    double got = 0.0;   ///< NaN when the heights tell none
-    double error = 0.0; ///< of the value asked for; of the deviation for mean, max and min
+    double got = 0.0;   ///< NaN: undefined
+    double error = 0.0; ///< relative to the target; for mean, max and min to the standard deviation
 };
 
-/// What project() returns.
+/// What match_statistics() returns.
 struct MatchedDem {
     Raster<float> dem;
-    std::vector<Residual> residuals; ///< one for each target named
+    std::vector<Residual> residuals; ///< one per target
     bool converged = false;          ///< every error is within the tolerance
     int iterations = 0;
-    std::int64_t limited_cells = 0; ///< that would lie near or beyond an extreme, and are bent back below or above it
+    std::int64_t limited_cells = 0; ///< bent back because they would be near or beyond an extreme
     double largest_error = 0.0;     ///< of all residuals
 };
 
-/// Most heights that can be fixed, extremes among them: a dense matrix of that size is solved.
+/// Most prescribed heights, extremes included: a dense matrix of that size is solved.
 inline constexpr std::size_t most_fixed = 2000;
 
-/// Changes a land as little as it takes to have all the statistics asked for at once, extremes and fixed heights
-/// exactly.
-/// \pre a DEM, NaN where there is no data: such cells do not count and stay; targets; heights to keep, at most
-/// most_fixed with the extremes; params, of which the prior says what "little" means.
-/// \param dem [m] heights by cell; NaN: no data
-/// \param targets the target statistics
-/// \param fixed what keeps its place or height
+/// Changes a DEM as little as possible so that it has all target statistics at once, and extremes and fixed heights
+/// exactly: Gauss-Newton steps of least energy in the prior's covariance, conditioned on the fixed heights; heights
+/// near an extreme are bent so that none reaches it. Memory: about 150 bytes a cell.
+/// \param dem [m] by cell; NaN: no data, unchanged
+/// \param targets statistics to match
+/// \param fixed heights of cells, at most most_fixed with the extremes
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return Gauss-Newton steps of least energy in the prior's covariance, conditioned on the fixed heights; heights near
-/// an extreme are bent so that none reaches it. The best of all steps, with what is left in residuals: targets that
-/// contradict one another or the fixed heights are met as far as they can be, and converged says so. The same bits for
-/// any number of threads. Holds about 150 bytes a cell.
-/// \throws BadParameter when a target is out of its range, the mean is not between the extremes, std^2 exceeds (max -
-/// mean) (mean - min), both extremes are asked of one cell, or an extreme lies off the grid or in a hole
-/// \throws BadInput when a fixed height does, contradicts another at its cell, or there are too many
+/// \return the best of all steps, with its residuals: contradictory targets are met as far as possible, and `converged`
+/// is false. The same bits for any number of threads.
+/// \throws BadParameter when a target is outside its range, the mean is not between the extremes, std^2 exceeds (max -
+/// mean) (mean - min), both extremes are at one cell, or an extreme is off the grid or in a cell without data
+/// \throws BadInput when a fixed height is off the grid or in a cell without data, contradicts another at its cell, or
+/// there are too many
 /// \throws Cancelled
 ///
 /// Source: \cite zhang, table 4; \cite bhatia2000 for the bound.

@@ -12,23 +12,23 @@
 #include <thalweg/fractal/noise_row.hpp>
 #include <thalweg/fractal/stencil_weights.hpp>
 
-/// Inside of midpoint: a dense lattice per level, each streamed row by row from the one above.
+/// Implementation of midpoint: one dense lattice per level, each streamed row by row from the one above.
 namespace thalweg::fractal {
 
-/// H and sigma at the coarse points, bilinear between them; without steps the same everywhere.
+/// H and sigma at the coarse points, bilinear between them; without `steps` uniform.
 struct Character {
-    static constexpr double steps_of_hurst = 256.0; ///< where H changes from place to place it does so in such steps
+    static constexpr double steps_of_hurst = 256.0; ///< local H has a resolution of 1 / 256
     double hurst = 0.5;
-    double sigma = 0.0;               ///< [m] a coarse cell apart
+    double sigma = 0.0;               ///< [m] one coarse cell apart
     Indexed<CellIndex, float> steps;  ///< H x steps_of_hurst
-    Indexed<CellIndex, float> sigmas; ///< [m] a coarse cell apart
+    Indexed<CellIndex, float> sigmas; ///< [m] one coarse cell apart
     bool varies() const { return !steps.empty(); }
 };
 
-/// What the levels are made with. Points of every level are kept to the north-western part that the result needs.
+/// Input of refine(). Lattices of every level are cut to the north-western part that the result needs.
 struct Refinement {
     Raster<float> const* coarse = nullptr; ///< finite heights and NaN
-    bool holes = false;                    ///< whether the coarse raster holds NaN
+    bool holes = false;                    ///< the coarse raster has NaN
     int levels = 1;                        ///< [1, ...]
     Stencil stencil = Stencil::sixteen;
     Noise noise = Noise::normal;
@@ -37,7 +37,7 @@ struct Refinement {
     Lanes lanes = Lanes::plain;
 };
 
-/// Lattices between the coarse raster and the result, to be used again.
+/// A lattice between the coarse raster and the result, reusable.
 using Floor = std::vector<float, LargePages<float>>;
 /// Scratch space of refine().
 struct Floors {
@@ -45,10 +45,9 @@ struct Floors {
     Floor even;
 };
 
-/// Writes a level 2^levels finer than the coarse raster, from its north-western corner.
-/// \post every byte of dem.
-/// \param refinement what to refine, and how
-/// \param dem no more columns and rows than (coarse columns - 1) 2^levels + 1, any content
+/// Writes the lattice 2^levels finer than the coarse raster, from its north-western corner.
+/// \param refinement coarse raster, levels, stencil, noise, H and sigma
+/// \param dem at most (coarse columns - 1) 2^levels + 1 columns, rows likewise; every byte is written
 /// \param floors scratch space
 /// \param run progress, log, stop token and number of threads
 /// \throws Cancelled

@@ -8,13 +8,13 @@
 
 namespace thalweg::fractal {
 
-/// From which lattice neighbours a new point takes its mean, and how wide its noise is.
+/// The lattice neighbours whose mean a new point takes, and the deviation of its noise.
 enum class Stencil : std::uint8_t {
-    four,       ///< mean of the nearest; the printed factor sqrt(1 - 2^(2H-2)), which is that of a line
+    four,       ///< mean of the nearest; the published factor sqrt(1 - 2^(2H-2)), that of a line
     four_exact, ///< the same mean; the conditional deviation of a fractional Brownian surface
     twelve,     ///< ordinary kriging, without the four farthest
     sixteen,    ///< ordinary kriging
-    exact       ///< no stencil: every height at once, from all coarse cells; for midpoint alone
+    exact       ///< no stencil: every height at once, from all coarse cells; for midpoint only
 };
 
 /// An offset in columns and rows.
@@ -23,7 +23,7 @@ struct Offset {
     int row = 0;
 };
 
-/// Neighbours of the centre of a square of the lattice, in halves of its side: nearest, middle, farthest.
+/// Neighbours of the centre of a square of the lattice, in half sides: nearest, middle, farthest.
 inline constexpr std::array<Offset, 16> around_centre = {{{-1, -1},
                                                           {1, -1},
                                                           {-1, 1},
@@ -41,8 +41,9 @@ inline constexpr std::array<Offset, 16> around_centre = {{{-1, -1},
                                                           {-3, 3},
                                                           {3, 3}}};
 
+/// Rotates neighbours by 45 degrees, for the middle of a side.
 /// \param straight neighbours of the centre of a square
-/// \return the same neighbours of the middle of a side, where the lattice lies turned by 45 degrees.
+/// \return in the same order
 constexpr std::array<Offset, 16> turned(std::array<Offset, 16> const& straight) {
     std::array<Offset, 16> out{};
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -52,24 +53,25 @@ constexpr std::array<Offset, 16> turned(std::array<Offset, 16> const& straight) 
 }
 inline constexpr std::array<Offset, 16> around_edge = turned(around_centre);
 
-/// \param stencil the stencil
-/// \return Neighbours a stencil uses, as bits by their place in the lists above.
+/// Finds the neighbours that a stencil uses.
+/// \param stencil any
+/// \return bits by position in around_centre
 constexpr std::uint32_t used_neighbours(Stencil stencil) {
     return stencil == Stencil::sixteen ? 0xffff : stencil == Stencil::twelve ? 0x0fff : 0x000f;
 }
 
-/// Weights of neighbours, and the deviation of the noise.
+/// Weights of neighbours and deviation of the noise.
 struct StencilWeights {
-    std::array<double, 16> weight{}; ///< sum 1; 0 where nothing is known
-    double deviation = 0.0;          ///< of the noise, in units of sigma r^H, r the distance of the nearest neighbours
+    std::array<double, 16> weight{}; ///< sum 1; 0: unknown neighbour
+    double deviation = 0.0;          ///< in units of sigma r^H, r: distance of the nearest neighbours
 };
 
-/// Weights of the known neighbours in the mean of a new point, and the deviation of its noise.
+/// Computes the weights of known neighbours for a new point and the deviation of its noise.
 /// \param stencil any but exact
-/// \param known some of used_neighbours(stencil), at least one
-/// \param hurst in (0, 1)
-/// \return for the kriged stencils the weights of least variance under the variogram d^(2H), and that variance; equal
-/// weights of neighbours that lie alike when all are known.
+/// \param known at least one bit of used_neighbours(stencil)
+/// \param hurst (0, 1) Hurst exponent
+/// \return for kriged stencils the weights of least variance under the variogram d^(2H), and that variance; if all are
+/// known, symmetric neighbours have equal weights
 ///
 /// Source: \cite zhang, equation 14 (four); specification 1.6; ordinary kriging as in any textbook of geostatistics.
 StencilWeights stencil_weights(Stencil stencil, std::uint32_t known, double hurst);

@@ -10,23 +10,22 @@
 
 namespace thalweg::geometry {
 
-/// A point where two polylines meet, or where one touches itself.
+/// A point where polylines meet, or one touches itself.
 struct Crossing {
     std::size_t line = 0;    ///< index of the polyline
     std::size_t segment = 0; ///< index of its segment: between vertices segment and segment + 1
-    double along = 0.0;      ///< [0,1] place on the segment, exact and rounded once; 0 or 1 where it is its vertex
+    double along = 0.0;      ///< [0, 1] position on the segment, exact and rounded once; 0 or 1 at its vertices
     Vec2 at;                 ///< [m] the exact intersection, rounded once; the vertex itself where it is one
 
     friend bool operator==(Crossing const&, Crossing const&) = default;
 };
 
-/// Every point where polylines meet: proper crossings, touching ends and vertices, ends of overlaps.
-/// \param lines polylines of finite coordinates. A repeated vertex counts once; a polyline that is one repeated point
-/// is that point; one of fewer than two vertices is skipped
+/// Finds every point where polylines meet: crossings, touching ends and vertices, ends of overlaps.
+/// \param lines [m] finite coordinates; repeated vertices count once, a polyline of one repeated point is that point,
+/// one of fewer than two vertices is skipped
 /// \param run progress, log, stop token and number of threads
-/// \return for each such point one entry for each polyline and segment it lies on, sorted by line, segment and place;
-/// neighbouring segments of one line meeting at their common vertex do not count (folding back on each other does).
-/// Entries of the same point have the same `at`, bit for bit.
+/// \return for each point one entry per polyline and segment through it, sorted by line, segment and position, with the
+/// same `at` bit for bit; the common vertex of consecutive segments does not count, unless they fold back
 /// \throws BadInput when a coordinate is not finite
 /// \throws Cancelled
 ///

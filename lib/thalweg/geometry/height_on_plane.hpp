@@ -6,13 +6,10 @@
 
 namespace thalweg::geometry {
 
-/// \pre finite coordinates; points that do not lie on one line in plan.
-/// \param a [m] a point of the plane
-/// \param b [m] a point of the plane
-/// \param c [m] a point of the plane
+/// Computes the height of the plane through three points, exact and rounded once, also for slivers.
+/// \param a,b,c [m] not collinear in plan
 /// \param p [m] a position
-/// \return the height at p of the plane through three points, exact and rounded once: for slivers, where doubles lose
-/// it.
+/// \return [m] height at p
 ///
 /// Source: CGAL, exact constructions.
 double height_on_plane(Vec3 const& a, Vec3 const& b, Vec3 const& c, Vec2 p);

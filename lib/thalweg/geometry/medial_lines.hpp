@@ -10,20 +10,18 @@ namespace thalweg::geometry {
 
 /// Options of medial_lines().
 struct MedialLinesParams {
-    Required<double> tolerance_m; ///< [m] > 0, how far chords may leave a parabola
+    Required<double> tolerance_m; ///< [m] > 0, largest distance of chords from a parabola
 };
 
-/// Segment Voronoi diagram of lines: the exact lines midway between labels.
-/// \pre lines that meet only in vertices of both; a repeated vertex counts once, a segment of two lines has the labels
-/// of both.
-/// \param lines the polylines
-/// \param bounds the box that bounds the diagram
+/// Computes the segment Voronoi diagram of lines: the medial lines between labels, arcs of parabolas as chords.
+/// \param lines meet only at common vertices; a common segment has the labels of both
+/// \param bounds clips the diagram
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return edges all whose vertices are equally far from their two sites, which are the nearest; arcs of parabolas as
-/// chords; no edges where fewer than two labels are. Otherwise like voronoi().
-/// \throws BadInput naming the place when lines meet elsewhere or a vertex is not finite
-/// \throws BadParameter
+/// \return vertices of edges are equally far from their two sites, which are the nearest; no edges for fewer than two
+/// labels. Otherwise as voronoi().
+/// \throws BadInput naming the position where lines meet elsewhere or a vertex is not finite
+/// \throws BadParameter when the tolerance is not above 0 or bounds have no area
 /// \throws Cancelled
 ///
 /// Source: \cite karavelas2004, A robust and efficient implementation for the segment Voronoi diagram; CGAL, exact

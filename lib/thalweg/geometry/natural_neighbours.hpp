@@ -13,21 +13,20 @@ namespace thalweg::geometry {
 
 /// Options of natural_neighbours().
 struct NaturalNeighboursParams {
-    /// Cells whose centre lies outside the points' hull: NaN, or the height of the nearest point.
+    /// Values of cells outside the points' convex hull: NaN, or the nearest point's height.
     enum class Outside : std::uint8_t { no_data, nearest };
     Outside outside = Outside::no_data;
 };
 
-/// Heights of points carried to the centres of cells by Sibson's natural neighbours: each neighbour counts by the area
-/// it would lose to a point set there.
-/// \pre points as triangulate() does, of several at one place the first stands; a grid.
-/// \param points the points
-/// \param grid the grid
+/// Interpolates heights at cell centres by Sibson's natural neighbours: each neighbour is weighted by the area it would
+/// lose to a new point.
+/// \param points finite; of several at one position the first counts
+/// \param grid of the result
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return heights within those of the neighbours, those of the points where a centre is one; smooth but at the points,
-/// and exact for planes. The same bytes for any order of the points but for the last bit, and any number of threads.
-/// \throws BadInput like triangulate()
+/// \return [m] by cell: within the range of the neighbours, bit for bit at points, exact for planes. The same bytes for
+/// any number of threads, and, but for the last bit, any order of points.
+/// \throws BadInput as triangulate()
 /// \throws Cancelled
 ///
 /// Source: \cite sibson1981, A brief description of natural neighbour interpolation; CGAL.

@@ -11,17 +11,17 @@
 
 namespace thalweg::geometry {
 
-/// Points by the cells of a grid they lie in, to find the one nearest to a place.
+/// A bucket grid of points for nearest-neighbour queries.
 class PointGrid {
 public:
-    /// \pre one finite point at least; the side of a cell, > 0, best about the distance between points. Cells are made
-    /// larger where there would be more than 2000 along a side.
-    /// \param points the points
-    /// \param cell_m [m] > 0, side of a cell
+    /// Sorts points into buckets; these are enlarged if there were more than 2000 along a side.
+    /// \param points at least one, finite
+    /// \param cell_m [m] > 0, side of a bucket, ideally the distance between points
     PointGrid(std::vector<Vec2> points, double cell_m);
 
-    /// \param p [m] a position
-    /// \return the number of the point nearest to a place anywhere, the lowest among equals.
+    /// Finds the nearest point.
+    /// \param p [m] any position
+    /// \return its number, the lowest of several
     std::size_t nearest(Vec2 p) const;
 
 private:
@@ -33,8 +33,8 @@ private:
     double cell_m_ = 1.0;
     std::int64_t width_ = 1;
     std::int64_t height_ = 1;
-    Indexed<CellIndex, std::size_t> first_; ///< of each cell, in in_
-    std::vector<std::size_t> in_;           ///< numbers of points, cell by cell
+    Indexed<CellIndex, std::size_t> first_; ///< by bucket: position in in_
+    std::vector<std::size_t> in_;           ///< numbers of points, bucket by bucket
 };
 
 } // namespace thalweg::geometry

@@ -18,20 +18,19 @@ struct NearSegment {
     friend bool operator==(NearSegment const&, NearSegment const&) = default;
 };
 
-/// The point of the segment ab nearest to p, and its place [0,1] on it.
+/// The point of segment ab nearest to p, and its position [0, 1] on the segment.
 struct Foot {
     double along = 0.0;
     Vec2 at;
 };
 Foot foot_on(Vec2 a, Vec2 b, Vec2 p);
 
-/// For every point the segments within a distance of it.
-/// \pre points, polylines and a distance [m] >= 0.
-/// \param points the points
-/// \param lines the polylines
-/// \param distance_m [m] >= 0, distance
+/// Finds the segments within a distance of every point.
+/// \param points [m]
+/// \param lines [m]
+/// \param distance_m [m] >= 0
 /// \param run progress, log, stop token and number of threads
-/// \return by point, sorted by line and segment.
+/// \return by point, sorted by line and segment
 /// \throws Cancelled
 ///
 /// Source: CGAL, streamed segment trees.

@@ -12,26 +12,25 @@ namespace thalweg::geometry {
 
 /// Options of tin_of_dem().
 struct TinOfDemParams {
-    double error_m = 1.0; ///< [m] > 0: greatest vertical distance of a cell from the TIN
+    double error_m = 1.0; ///< [m] > 0, largest vertical distance of a cell from the TIN
 };
 
 /// A DEM as a TIN.
 struct SimplifiedDem {
     Tin tin;
-    double error_m = 0.0;      ///< the greatest there is
-    std::int64_t left_out = 0; ///< cells with data that lie in no triangle
+    double error_m = 0.0;      ///< [m] largest vertical distance reached
+    std::int64_t left_out = 0; ///< cells with data in no triangle
 };
 
-/// The DEM's land as few triangles as greedy insertion finds, within a vertical error.
-/// \param dem heights, NaN where there is no data; any size. The land is made of the squares between four neighbouring
-/// centres with data, and of the halves of those with three: triangles are only there, the outline of every hole is
-/// kept. A cell with no such square (a lone one, one in a line) lies in no triangle and is counted
+/// Approximates a DEM by a TIN with few triangles, by greedy insertion of the worst cell (ties: lowest index) from the
+/// corners of the outline on. The terrain is the squares between four neighbouring centres with data and the halves of
+/// those with three; the outline of every hole is kept.
+/// \param dem [m] by cell; NaN: no data
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return vertices are centres of cells with their heights, row by row; at every other cell's centre the triangle's
-/// plane, computed in double, lies within error_m of the cell. Always the worst cell goes in next (of equals that of
-/// the lowest index), beginning with the corners of the outline.
-/// \throws BadParameter when error_m is not > 0
+/// \return vertices are cell centres with their heights, in row order; at every other cell the TIN, computed in double,
+/// is within error_m. Isolated cells and rows one cell wide lie in no triangle and are counted.
+/// \throws BadParameter when error_m is not above 0
 /// \throws BadInput when a height is infinite, a side has more than 2^20 cells, or no three neighbouring cells have
 /// data
 /// \throws Cancelled

@@ -6,10 +6,9 @@
 
 namespace thalweg::geometry {
 
-/// Numbers the triangles of a TIN without a trace of how they were found: each begins with its lowest vertex, and they
-/// follow a Z-shaped curve through the places of these (Morton), so that neighbours lie close in memory and in files.
-/// \post the same triangles, each in its direction.
-/// \param tin a TIN whose triangles have vertices that are there, finite
+/// Puts the triangles of a TIN into a canonical order: each begins with its lowest vertex, and they follow the Morton
+/// curve of these vertices, so that neighbours are close in memory and in files. Orientations stay.
+/// \param tin finite vertices
 void put_in_order(Tin& tin);
 
 } // namespace thalweg::geometry

@@ -11,27 +11,26 @@
 
 namespace thalweg::geometry {
 
-/// A triangulation, and where what was handed in is found in it.
+/// A triangulation and the positions of its input in it.
 struct Triangulation {
     Tin tin;
     std::vector<std::uint32_t> vertex_of_point;     ///< by point
-    std::vector<std::vector<std::uint32_t>> chains; ///< by breakline: the vertices it runs through, joined by edges
-    std::int64_t merged = 0;                        ///< points and line vertices that lie where an earlier one does
-    double merged_dz_m = 0.0;                       ///< greatest difference of height between such two
+    std::vector<std::vector<std::uint32_t>> chains; ///< by breakline: its vertices, joined by edges
+    std::int64_t merged = 0;                        ///< points and line vertices at the position of an earlier one
+    double merged_dz_m = 0.0;                       ///< largest difference in height of two merged
     std::int64_t crossings = 0;                     ///< vertices added where breaklines cross
-    double crossings_dz_m = 0.0;                    ///< greatest difference of the lines' heights there
+    double crossings_dz_m = 0.0;                    ///< largest difference in height of the lines there
 };
 
-/// Delaunay triangulation of points, constrained by breaklines: each of their segments is an edge or a chain of edges.
-/// \pre points and breaklines in any order, finite, coordinates within 1e15 m. Where several lie at the same place in
-/// plan the first stands: points before breaklines, in their order. Where breaklines cross away from any vertex one is
-/// added, its height interpolated along the first of them; a line that runs through a vertex takes its height.
-/// \param points the points
-/// \param breaklines lines that triangles do not cross
+/// Triangulates points by constrained Delaunay triangulation: each segment of a breakline is an edge or a chain of
+/// edges. At one position in plan the first counts, points before breaklines. Where breaklines cross a vertex is added,
+/// its height interpolated along the first; a line through a vertex takes its height.
+/// \param points finite, coordinates within 1e15 m
+/// \param breaklines finite, coordinates within 1e15 m
 /// \param run progress, log, stop token and number of threads
-/// \return vertices in the order of the input, points, then line vertices, then added ones; triangles as put_in_order()
-/// has them. Four points on a circle take the same diagonal in any order of the input.
-/// \throws BadInput when something is not finite, fewer than three places are left, or all lie on one line
+/// \return vertices in input order: points, line vertices, added ones; triangles as put_in_order() leaves them. Of four
+/// points on a circle the diagonal does not depend on input order.
+/// \throws BadInput when a coordinate is not finite, fewer than three positions remain, or all are collinear
 /// \throws Cancelled
 ///
 /// Source: CGAL, exact predicates, spatial sorting, symbolic perturbation.

@@ -7,14 +7,12 @@
 
 namespace thalweg::geometry {
 
-/// Voronoi diagram of the vertices of lines: the edges that keep labels apart.
-/// \pre lines in any place, of one vertex or more; vertices at one place are one site with the labels of all its lines.
-/// \param lines the polylines
-/// \param bounds the box that bounds the diagram
+/// Computes the Voronoi diagram of the vertices of lines: the edges between labels.
+/// \param lines at least one vertex each; coincident vertices are one site with the labels of all their lines
+/// \param bounds clips the diagram
 /// \param run progress, log, stop token and number of threads
-/// \return edges whose points are as near to their two sites as to any; no edges where fewer than two labels are.
-/// Vertices nearer to one another than 1e-9 of everything's size are one. Edges that share a point share a vertex,
-/// unless they cross by less than that.
+/// \return points of edges are nearest to their two sites; no edges for fewer than two labels. Vertices closer than
+/// 1e-9 of the whole extent are merged; edges that share a point share a vertex, unless they cross by less than that.
 /// \throws BadInput naming the vertex when one is not finite
 /// \throws BadParameter when bounds have no area
 /// \throws Cancelled

@@ -6,7 +6,7 @@
 
 namespace thalweg::skeleton {
 
-/// What a random terrain is like in expectation; one realisation departs from it.
+/// The statistics of a random terrain in expectation; a realisation departs from them.
 struct FieldParams {
     double mean = 0.0;      ///< [m]
     double std = 1.0;       ///< [m] >= 0
@@ -15,9 +15,10 @@ struct FieldParams {
     std::uint64_t seed = 0;
 };
 
-/// \param params options, each with its default, unit and range
-/// \param stage the name of the stage that asks, for the message
-/// \throws BadParameter when a field is out of range or not finite
+/// Checks the statistics of a random terrain.
+/// \param params any values
+/// \param stage name of the stage, for messages
+/// \throws BadParameter when a field is outside its range or not finite
 void check(FieldParams const& params, char const* stage);
 
 } // namespace thalweg::skeleton

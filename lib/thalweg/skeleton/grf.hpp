@@ -20,7 +20,7 @@ struct GrfParams {
         4; ///< [1, 64] the torus is at least this factor times max(N, 5 L) wide; less memory, more negative_share
 };
 
-/// What grf() returns.
+/// What grf() returns: a stationary Gaussian random field.
 struct RandomField {
     Raster<float> dem;
     std::int64_t torus_width = 0;  ///< [cells]
@@ -29,14 +29,15 @@ struct RandomField {
         0.0; ///< of the torus' eigenvalues that were set to 0: how far the covariance is from the one asked for
 };
 
-/// A stationary Gaussian land with correlation lengths and fractal dimension.
-/// \param grid a grid; params
+/// Draws a stationary Gaussian random field with given correlation lengths and fractal dimension, by circulant
+/// embedding; if negative_share is above 1e-6 the torus is doubled once. Memory: about 8 bytes a cell of half the torus
+/// (embedding 4: 64 bytes a cell of a grid much wider than L).
+/// \param grid of the result
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return normal heights whose correlation at (dx, dy) cells is exp(-((dx/lx)^2 + (dy/ly)^2)^(3 - dimension)), exact
-/// but for negative_share; where that is above 1e-6 the torus is doubled once. The same bits for any number of threads.
-/// Holds about 8 bytes a cell of half the torus (embedding 4: 64 bytes a cell of a grid much wider than L).
-/// \throws BadParameter also for a torus of more than 2^32 cells
+/// \return heights whose correlation at (dx, dy) cells is exp(-((dx/lx)^2 + (dy/ly)^2)^(3 - dimension)), exact but for
+/// negative_share; the same bits for any number of threads
+/// \throws BadParameter when a parameter is outside its range or the torus has more than 2^32 cells
 /// \throws Cancelled
 ///
 /// Source: \cite zhang, section 2; circulant embedding by \cite dietrich1997.

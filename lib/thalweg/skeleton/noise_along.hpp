@@ -14,25 +14,23 @@ namespace thalweg::skeleton {
 struct NoiseAlongParams {
     std::uint64_t seed = 7;
     double amplitude_m = 0.0;     ///< [m] >= 0, bound of the noise
-    double wavelength_m = 1000.0; ///< [m] > 0, of its coarsest octave
+    double wavelength_m = 1000.0; ///< [m] > 0, of the coarsest octave
 };
 
-/// A place on a line.
+/// A position on a line.
 struct PlaceOnLine {
     Vec2 at;            ///< [m]
-    double share = 0.0; ///< [0, 1] of the line's length behind it
+    double share = 0.0; ///< [0, 1] share of the line's length up to it
 };
 
-/// Noise on a line that leaves its ends where they are: F(at) 4 share (1 - share), F fractal Perlin noise of four
-/// octaves (gain 0.5, lacunarity 2).
-/// \pre places, and an origin near them from which coordinates count.
-/// \param places the places
-/// \param origin [m] a place near the line
+/// Evaluates noise on a line that is 0 at its ends: F(at) 4 share (1 - share), F fractal Perlin noise of four octaves
+/// (gain 0.5, lacunarity 2). F is a field in the plane: lines close to each other get similar noise.
+/// \param places positions on lines
+/// \param origin [m] near the lines; noise is evaluated relative to it
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return [m] a value a place, within the amplitude, 0 in the ends; F is a field of the plane: lines that come near
-/// each other get alike noise.
-/// \throws BadParameter
+/// \return [m] one value per place, within the amplitude
+/// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput naming the place: a share outside [0, 1], or farther than 2^20 wavelengths from the origin
 ///
 /// Source: \cite nenu2015, equation 11; specification 3.5; \cite perlin1985 by libnoise.

@@ -14,27 +14,27 @@ namespace thalweg::skeleton {
 
 /// Options of ridges().
 struct RidgesParams {
-    /// What ridges lie midway between: points set along the rivers, or the rivers themselves.
+    /// The sites of the Voronoi diagram: points along rivers, or the rivers' segments.
     enum class Method : std::uint8_t { voronoi, segments };
     Method method = Method::voronoi;
-    double gain = 0.3;        ///< [m/m] >= 0, lambda: height of a ridge above its rivers by distance from them
-    double farthest_m = 0.0;  ///< [m] >= 0, no ridge rises more than one so far away; 0: no bound
-    double spacing_m = 0.0;   ///< [m] >= 0, of the points along rivers (voronoi); 0: a cell
-    double tolerance_m = 0.0; ///< [m] >= 0, how far chords may leave a ridge's curve (segments); 0: a tenth of a cell
-    double clear_m = 0.0;     ///< [m] >= 0, what comes nearer to its rivers is left out; 0: half a cell
+    double gain = 0.3;       ///< [m/m] >= 0, lambda: rise of a ridge above its rivers per distance
+    double farthest_m = 0.0; ///< [m] >= 0, distance beyond which ridges do not rise; 0: none
+    double spacing_m = 0.0;  ///< [m] >= 0, of points along rivers (voronoi); 0: one cell
+    /// [m] >= 0, largest distance of chords from a ridge's curve (segments); 0: a tenth of a cell
+    double tolerance_m = 0.0;
+    double clear_m = 0.0; ///< [m] >= 0, parts closer to their rivers are left out; 0: half a cell
 };
 
-/// Ridges midway between streams, as high as the rivers beside them and more with distance.
-/// \pre a label for every arc, the stream it belongs to; the grid whose ground bounds the ridges.
-/// \param network the network
-/// \param stream_of_arc by arc, the stream it belongs to
-/// \param grid the grid
+/// Builds ridges midway between streams, which rise with distance from them.
+/// \param network the rivers, with heights
+/// \param stream_of_arc by arc: label of its stream
+/// \param grid bounds the ridges
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return lines inside the grid between streams whose labels differ; none meets a river; they meet only in their ends,
-/// where three streams are equally far or the ground ends. Each vertex stands at max z + gain d over the places of
-/// rivers nearest to it, d away. left < right; sorted by left, right and place. None for fewer than two labels.
-/// \throws BadParameter
+/// \return lines inside the grid between streams of different labels. No ridge meets a river; ridges meet only at their
+/// ends, where three streams are equally far or the grid ends. A vertex has the height max z + gain d over the nearest
+/// river points, at distance d. left < right; sorted by left, right and position; empty for fewer than two labels.
+/// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput when labels or heights are not the network's, or (segments) arcs meet away from their vertices
 /// \throws Cancelled
 ///

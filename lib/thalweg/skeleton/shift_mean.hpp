@@ -6,11 +6,10 @@
 
 namespace thalweg::skeleton {
 
-/// Raises or lowers a land as a whole so that its mean is the one wanted.
-/// \pre a DEM, NaN where there is none; mean [m].
-/// \param dem [m] heights by cell; NaN: no data
-/// \param mean [m] mean height
-/// \return every height plus mean less the mean it had; extremes move along.
+/// Shifts a DEM vertically to a given mean.
+/// \param dem [m] by cell; NaN: no data
+/// \param mean [m] of the result
+/// \return each height plus the same difference
 /// \throws BadParameter when mean is not a number
 ///
 /// Source: \cite zhang, equation 5.

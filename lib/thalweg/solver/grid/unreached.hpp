@@ -11,18 +11,18 @@
 
 namespace thalweg::solver {
 
-/// Neighbouring cells of one row.
+/// Consecutive cells of one row.
 struct CellSpan {
     std::int64_t row = 0;
     std::int64_t begin = 0; ///< first column
-    std::int64_t end = 0;   ///< past the last column
+    std::int64_t end = 0;   ///< one past the last column
 };
 
-/// The free cells from which no path through 4-neighbours that are not outside leads to a fixed cell: where Laplace's
-/// equation has no one solution.
-/// \param kind a CellKind a cell
+/// Finds the free cells not connected (by 4-neighbours that are not outside) to a fixed cell: Laplace's equation has no
+/// unique solution there.
+/// \param kind CellKind by cell
 /// \param run progress, log, stop token and number of threads
-/// \return each such cell in one span, the spans from the north-west on.
+/// \return each such cell in one span; spans in row order
 std::vector<CellSpan> unreached(Raster<std::uint8_t> const& kind, Run const& run = {});
 
 } // namespace thalweg::solver

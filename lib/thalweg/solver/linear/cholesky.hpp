@@ -9,26 +9,26 @@
 
 namespace thalweg::solver {
 
-/// The lower triangle L of a symmetric, positive definite matrix L L', row by row.
+/// The lower triangle L of a symmetric, positive definite matrix L L', in row order.
 struct Cholesky {
     std::size_t size = 0;
     std::vector<double> lower;
 };
 
-/// \pre a symmetric matrix of size x size numbers, of which the lower triangle is read; ridge, which is added to the
-/// diagonal as a share of its largest number.
-/// \param matrix the matrix
-/// \param size number of rows and columns
-/// \param ridge share of the largest diagonal number that is added to the diagonal
+/// Factors a matrix by Cholesky in O(size^3).
+/// \param matrix symmetric, size x size numbers; only the lower triangle is read
+/// \param size number of rows
+/// \param ridge added to the diagonal, relative to its largest number
 /// \param run progress, log, stop token and number of threads
-/// \return its factor, the same bits for any number of threads; O(size^3).
+/// \return the same bits for any number of threads
 /// \throws NotConverged when the matrix is not positive definite
 /// \throws Cancelled
 Cholesky factor(std::vector<double> matrix, std::size_t size, double ridge, Run const& run = {});
 
-/// \param matrix the matrix
-/// \param b the right side b
-/// \return the x of L L' x = b.
+/// Solves a factored system.
+/// \param matrix the factor L
+/// \param b right-hand side
+/// \return x with L L' x = b
 std::vector<double> solve(Cholesky const& matrix, std::vector<double> b);
 
 } // namespace thalweg::solver

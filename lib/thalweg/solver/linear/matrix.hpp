@@ -7,7 +7,7 @@
 
 namespace thalweg::solver {
 
-/// A dense matrix, column by column.
+/// A dense matrix in column order.
 struct Matrix {
     Matrix() = default;
     Matrix(std::size_t row_count, std::size_t column_count)

@@ -9,19 +9,19 @@
 
 namespace thalweg::solver {
 
-/// A number of a sparse matrix.
+/// An entry of a sparse matrix.
 struct SparseEntry {
     std::uint32_t row = 0;
     std::uint32_t column = 0;
     double value = 0.0;
 };
 
-/// A sparse, symmetric, positive definite matrix, factored once for any number of right-hand sides.
+/// The factor of a sparse, symmetric, positive definite matrix, for any number of right-hand sides.
 class SparseFactor {
 public:
-    /// \pre size; the numbers on the diagonal and below it (column <= row); those of one place are added in order.
-    /// \param size number of rows and columns
-    /// \param entries numbers on and below the diagonal
+    /// Factors a matrix.
+    /// \param size number of rows
+    /// \param entries on and below the diagonal (column <= row); those of one position are added in order
     /// \throws BadInput naming an entry that is above the diagonal, outside or not finite
     /// \throws NotConverged when the matrix is not positive definite
     SparseFactor(std::size_t size, std::vector<SparseEntry> const& entries);
@@ -31,8 +31,9 @@ public:
     SparseFactor& operator=(SparseFactor&& other) noexcept;
     ~SparseFactor();
 
-    /// \param b the right side b
-    /// \return the x of A x = b.
+    /// Solves A x = b.
+    /// \param b `size` numbers
+    /// \return x
     /// \throws BadInput when b has another size than the matrix
     std::vector<double> solve(std::vector<double> const& b) const;
 

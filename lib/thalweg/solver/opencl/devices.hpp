@@ -7,15 +7,15 @@
 
 namespace thalweg::solver {
 
-/// The OpenCL devices of this machine.
-/// \return one line a device, "platform:device name (platform's name)"; the numbers are what THALWEG_OPENCL_DEVICE
-/// takes. Devices that cannot be used say why. Empty where there is none.
+/// Lists the OpenCL devices of this machine.
+/// \return one line a device, "platform:device name (platform's name)", with the numbers for THALWEG_OPENCL_DEVICE, and
+/// the reason if it cannot be used; empty: none
 std::vector<std::string> opencl_devices();
 
-/// \return the name of the device that Device::opencl stands for: the one that the environment's variable
-/// THALWEG_OPENCL_DEVICE names, else the first graphics card, else the first accelerator, else the first processor that
-/// can be used.
-/// \throws BadParameter when there is none, or the variable names none that can be used
+/// Finds the device that Device::opencl uses: the one in the environment variable THALWEG_OPENCL_DEVICE, else the first
+/// usable graphics card, else accelerator, else processor.
+/// \return its name
+/// \throws BadParameter when there is none, or the variable does not name a usable one
 std::string opencl_device_name();
 
 } // namespace thalweg::solver

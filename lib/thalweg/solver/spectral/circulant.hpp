@@ -13,60 +13,54 @@
 
 namespace thalweg::solver {
 
-/// Numbers at the distances (0..width/2, 0..height/2) on a torus, row by row; the rest of the torus mirrors them.
+/// Values at the distances (0..width/2, 0..height/2) on a torus, in row order; the rest of the torus mirrors them.
 using Quarter = std::vector<double, LargePages<double>>;
 
-/// A covariance on a torus by its eigenvalues, none of them negative.
+/// The eigenvalues, >= 0, of a covariance on a torus.
 struct Circulant {
     std::int64_t width = 0;  ///< [cells] even
     std::int64_t height = 0; ///< [cells] even
     Quarter eigenvalues;
-    double negative_share = 0.0; ///< sum of the eigenvalues that were negative and are now 0, to that of all
+    double negative_share = 0.0; ///< sum of the negative eigenvalues, set to 0, relative to the sum of all
 };
 
-/// The eigenvalues of a covariance on a torus.
-/// \pre width and height [cells], even and at least 2.
-/// \param covariance the covariance
-/// \param width [cells] number of columns
-/// \param height [cells] number of rows
+/// Embeds a covariance in a torus, where distances are the shorter way round. Memory: 2 bytes a cell of the torus.
+/// \param covariance by distance [cells]
+/// \param width [cells] even, at least 2
+/// \param height [cells] even, at least 2
 /// \param run progress, log, stop token and number of threads
-/// \return those of the covariance at the shorter way round; negative ones are set to 0. Holds 2 bytes a cell of the
-/// torus.
+/// \return its eigenvalues; negative ones are set to 0
 /// \throws Cancelled
 ///
 /// Source: \cite dietrich1997; \cite wood1994.
 Circulant circulant(StableCovariance const& covariance, std::int64_t width, std::int64_t height, Run const& run = {});
 
-/// The same for any covariance at the distances [cells] (0..width/2, 0..height/2) of the torus; several threads call
-/// it.
+/// Any covariance by the distances [cells] (0..width/2, 0..height/2) on the torus; called by several threads.
 using TorusCovariance = std::function<double(double dx_cells, double dy_cells)>;
 Circulant circulant(TorusCovariance const& covariance, std::int64_t width, std::int64_t height, Run const& run = {});
 
-/// \param torus the eigenvalues
+/// Computes covariances from eigenvalues.
+/// \param torus eigenvalues of a covariance
 /// \param run progress, log, stop token and number of threads
-/// \return the covariances that belong to the eigenvalues.
+/// \return by distance on the torus
 Quarter covariances(Circulant const& torus, Run const& run = {});
 
-/// A field of mean 0 with the torus' covariance on a corner of it.
-/// \pre a grid no larger than the torus; seed and stage, which name the random numbers.
-/// \param torus the embedding torus
-/// \param grid the grid
+/// Draws a Gaussian field of mean 0 with the torus' covariance. Memory: 16 bytes a cell of the grid's height times half
+/// the torus' width.
+/// \param torus eigenvalues of the covariance
+/// \param grid not larger than the torus
 /// \param seed random seed
-/// \param stage number of the stage that draws
+/// \param stage number of the stage that draws, part of the random numbers' place
 /// \param run progress, log, stop token and number of threads
-/// \return jointly normal numbers, the same bits for any number of threads. Holds 16 bytes a cell of the grid's height
-/// times half the torus' width.
+/// \return the same bits for any number of threads
 /// \throws Cancelled
 Raster<double> sample(Circulant const& torus, Grid const& grid, std::uint64_t seed, std::uint64_t stage,
                       Run const& run = {});
 
-/// The covariance matrix times two fields at once: what stands outside their grid counts as 0.
-/// \post each product in the place of its field; the same bits for any number of threads. Holds 16 bytes a cell of the
-/// grid's height times the torus' width.
-/// \pre fields of one size, no larger than the torus.
-/// \param torus the embedding torus
-/// \param first a field; receives its product
-/// \param second a field; receives its product
+/// Multiplies two fields at once by the covariance matrix, with 0 outside their grid. Memory: 16 bytes a cell of the
+/// grid's height times the torus' width. The same bits for any number of threads.
+/// \param torus eigenvalues of the covariance
+/// \param first,second fields of one size, not larger than the torus; replaced by the products
 /// \param run progress, log, stop token and number of threads
 /// \throws Cancelled
 void multiply(Circulant const& torus, Raster<double>& first, Raster<double>& second, Run const& run = {});

@@ -13,20 +13,20 @@ namespace thalweg::solver {
 
 using Complex = std::complex<double>;
 
-/// Sign of the exponent: forward is exp(-2 pi i u x / n). Neither is scaled: there and back multiplies by n.
+/// Sign of the exponent: forward is exp(-2 pi i u x / n). Neither is scaled: forward and inverse multiply by n.
 enum class Direction { forward, inverse };
 
-/// \param n least length
-/// \return least even length of at least n whose prime factors are 2, 3 and 5: transforms of such a length are quick.
+/// Finds a length for fast transforms.
+/// \param n minimum length
+/// \return the least even length >= n whose prime factors are 2, 3 and 5
 std::int64_t good_size(std::int64_t n);
 
-/// The discrete Fourier transform of rows of one length, prepared once. One object serves one thread; copies are cheap
-/// beside a few transforms.
+/// A prepared discrete Fourier transform of rows of one length. Use one object per thread; copies are cheap.
 class LineTransform {
 public:
-    /// \pre length [1, 2^30], quick when its prime factors are small.
+    /// Prepares a transform, fast if the length has small prime factors.
     /// \param length [1, 2^30] number of values
-    /// \param direction a direction
+    /// \param direction sign of the exponent
     LineTransform(std::int64_t length, Direction direction);
     LineTransform(LineTransform const& other);
     LineTransform(LineTransform&& other) noexcept;
@@ -34,9 +34,9 @@ public:
     LineTransform& operator=(LineTransform&&) = delete;
     ~LineTransform();
 
-    /// \pre in and out of the transform's length; they do not overlap.
-    /// \param in the values to transform
-    /// \param out receives the numbers
+    /// Transforms one row.
+    /// \param in `length` values
+    /// \param out receives `length` values; does not overlap `in`
     void operator()(Complex const* in, Complex* out);
 
 private:
@@ -44,13 +44,12 @@ private:
     std::unique_ptr<Plan> plan_;
 };
 
-/// The discrete Fourier transform of a field along both axes.
-/// \pre a field of any size.
-/// \param values the values
-/// \param direction a direction
+/// Computes the discrete Fourier transform of a field along both axes.
+/// \param values of any size
+/// \param direction sign of the exponent
 /// \param run progress, log, stop token and number of threads
-/// \return sum over x, y of values(x, y) exp(-+2 pi i (u x / width + v y / height)) in column u, row v; the same bits
-/// for any number of threads.
+/// \return in column u, row v: the sum over x, y of values(x, y) exp(-+2 pi i (u x / width + v y / height)); the same
+/// bits for any number of threads
 /// \throws Cancelled
 ///
 /// Source: kissfft (Borgerding 2003) as packaged with Eigen.

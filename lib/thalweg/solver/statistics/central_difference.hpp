@@ -6,12 +6,11 @@
 
 namespace thalweg::solver {
 
-/// Height difference [m] a cell along one axis: central, one-sided beside a hole (NaN), 0 between two.
-/// \pre a height, and those before and after it.
-/// \param before [m] height before it
+/// Differentiates heights along an axis: central, one-sided beside a hole (NaN), 0 between two holes.
+/// \param before [m] height of the previous cell
 /// \param here [m] height of the cell
-/// \param after [m] height after it
-/// \return the difference
+/// \param after [m] height of the next cell
+/// \return [m] per cell
 inline double central_difference(float before, float here, float after) {
     double const z = here;
     if (std::isnan(before)) {

@@ -12,40 +12,39 @@
 
 namespace thalweg::solver {
 
-/// The statistics a land can be made to have, with what their derivatives are computed from.
+/// The statistics that terrain can be matched to, with what their derivatives need.
 struct FieldStatistics {
     std::int64_t cells = 0; ///< cells with heights
     double mean = 0.0;      ///< [m]
-    double std = 0.0;       ///< [m] population
+    double std = 0.0;       ///< [m] population standard deviation
     CorrelationLength lx;   ///< along rows
     CorrelationLength ly;   ///< along columns
     double slope_rad = 0.0; ///< [rad] mean of arctan |grad z| with z in metres and a spacing of one cell
-    double dimension = 0.0; ///< fractal dimension from lags 1 to 5; NaN when the heights tell none
+    double dimension = 0.0; ///< fractal dimension from lags 1 to 5; NaN: undefined
 
     Correlogram along_row;
     Correlogram along_column;
     std::vector<Difference> differences;
 };
 
-/// \param dem a DEM, NaN where there is none; at least one height
+/// Computes the statistics by the definitions of measure::statistics.
+/// \param dem [m] by cell; NaN: no data; at least one height
 /// \param run progress, log, stop token and number of threads
-/// \return the statistics by the same definitions as measure::statistics.
+/// \return as measure::statistics
 /// \throws Cancelled
 ///
 /// Source: \cite zhang, table 4.
 FieldStatistics field_statistics(Raster<float> const& dem, Run const& run = {});
 
-/// Which statistic is derived: the lengths by their logarithms.
+/// A statistic to differentiate; correlation lengths by their logarithms.
 enum class Quantity { mean, std, ln_lx, ln_ly, slope_rad, dimension };
 
-/// How a statistic answers to every height.
-/// \pre a DEM and its field_statistics; the statistic is a number.
-/// \param dem [m] heights by cell; NaN: no data
-/// \param is the DEM's statistics
-/// \param quantity a statistic
+/// Differentiates a statistic by every height.
+/// \param dem [m] by cell; NaN: no data
+/// \param is field_statistics of the DEM
+/// \param quantity one that is a number there
 /// \param run progress, log, stop token and number of threads
-/// \return the derivative by the height of each cell, 0 in cells without; level places count as answering to none in
-/// the slope. The same bits for any number of threads.
+/// \return by cell; 0: no data, and for the slope also level cells. The same bits for any number of threads.
 /// \throws Cancelled
 Raster<double> derivative(Raster<float> const& dem, FieldStatistics const& is, Quantity quantity, Run const& run = {});
 
