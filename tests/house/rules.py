@@ -8,16 +8,16 @@ import re
 import subprocess
 import sys
 
-# Which rooms a room may include, besides itself. Stage rooms meet in pipeline only.
+# Which modules a module may include, besides itself. Stage modules meet in pipeline only.
 BELOW = ["core", "geometry", "solver", "flow"]
 STAGES = ["network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io"]
-ROOMS = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"], "pipeline": BELOW + STAGES}
-ROOMS.update({stage: BELOW for stage in STAGES})
+MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"], "pipeline": BELOW + STAGES}
+MODULES.update({stage: BELOW for stage in STAGES})
 
 # The families of pipeline, in their order: each may include those before it.
 FAMILIES = ["recipe", "plan", "make", "report", "commands"]
 
-# Which foreign headers (by how their names begin) a room's .cpp files may include.
+# Which foreign headers (by how their names begin) a module's .cpp files may include.
 FOREIGN = {
     "core": ["oneapi/tbb/", "Random123/"],
     "geometry": ["CGAL/", "boost/iterator/"],
@@ -95,7 +95,7 @@ def files_of(root):
 
 
 def place(name):
-    """The room of a source file: a folder of lib/thalweg, "tools", or None."""
+    """The module of a source file: a folder of lib/thalweg, "tools", or None."""
     parts = name.split("/")
     if parts[:2] == ["lib", "thalweg"] and len(parts) > 2:
         return parts[2].removesuffix(".hpp")
@@ -122,55 +122,55 @@ def includes_upwards(name, header):
     return other in FAMILIES and of in FAMILIES and FAMILIES.index(other) > FAMILIES.index(of)
 
 
-def check_include(name, room, quoted, header):
+def check_include(name, module, quoted, header):
     """What is wrong with one include of a file in lib or tools, or None."""
     if quoted:
-        return check_own_include(name, header) if room == "tools" else f'"{header}": write <thalweg/...>'
+        return check_own_include(name, header) if module == "tools" else f'"{header}": write <thalweg/...>'
     if header == GRAPH_HEADER and name.endswith(".hpp"):
         return f"<{header}> includes Boost: it belongs in a .cpp file"
     if header.startswith("thalweg/"):
         target = header.split("/")[1]
-        if "/internal/" in header and (room != target or (name.endswith(".hpp") and "/internal/" not in name)):
+        if "/internal/" in header and (module != target or (name.endswith(".hpp") and "/internal/" not in name)):
             return f"<{header}> is for the .cpp files of {target} alone"
-        if room == target == "pipeline" and len(pathlib.PurePath(name).parts) > 3 and includes_upwards(name, header):
+        if module == target == "pipeline" and len(pathlib.PurePath(name).parts) > 3 and includes_upwards(name, header):
             return f"<{header}> lies above this file: the order is {', '.join(FAMILIES)}"
-        if room == "tools" or target == room or target in ROOMS[room]:
+        if module == "tools" or target == module or target in MODULES[module]:
             return None
-        what = "stage rooms meet in pipeline only" if target in STAGES and room in STAGES else "dependencies point one way"
-        return f"{room} includes <{header}>: {what}"
+        what = "stage modules meet in pipeline only" if target in STAGES and module in STAGES else "dependencies point one way"
+        return f"{module} includes <{header}>: {what}"
     if SYSTEM.match(header):
         return None
     if name.endswith(".hpp"):
-        if room == "tools" or begins(header, FOREIGN_IN_HEADERS.get(name, [])):
+        if module == "tools" or begins(header, FOREIGN_IN_HEADERS.get(name, [])):
             return None
         return f"foreign <{header}> in a header: it belongs in a .cpp file"
-    if begins(header, FOREIGN_ANYWHERE) or begins(header, FOREIGN.get(room, [])):
+    if begins(header, FOREIGN_ANYWHERE) or begins(header, FOREIGN.get(module, [])):
         return None
-    return f"foreign <{header}> does not belong to {room}"
+    return f"foreign <{header}> does not belong to {module}"
 
 
 def check_source(name, lines):
     """Violations of one C++ file as (line number, text)."""
-    room = place(name)
+    module = place(name)
     in_lib = name.startswith("lib/")
-    if in_lib and room not in ROOMS:
-        yield 1, f"lib/thalweg/{room or '?'} is no room: add it to the table of tests/house/rules.py"
+    if in_lib and module not in MODULES:
+        yield 1, f"lib/thalweg/{module or '?'} is no module: add it to the table of tests/house/rules.py"
         return
     has_cmath = any(re.match(r"\s*#\s*include\s*<(cmath|math\.h)>", line) for line in lines)
     for number, line in enumerate(lines, 1):
         code = line.split("//")[0]
         include = INCLUDE.match(line)
-        if include and room:
-            fault = check_include(name, room, include[1] == '"', include[2])
+        if include and module:
+            fault = check_include(name, module, include[1] == '"', include[2])
             if fault:
                 yield number, fault
         if include and re.search(r"\.cpp$", include[2]):
             yield number, "a .cpp file is included"
-        if room in ("pipeline", "tools") and not name.startswith(READER) and (found := CHANGED_VALUE.search(code)):
+        if module in ("pipeline", "tools") and not name.startswith(READER) and (found := CHANGED_VALUE.search(code)):
             yield number, f"{found[1]}&: values of the pipeline are not changed; take it by value or const and return one"
         if found := DISTRIBUTION.search(code):
             yield number, f"{found[0]}: distributions differ between libraries; use core/random.hpp"
-        if room and (found := PREFIX.search(code)) and found[1] in ROOMS and found[1] != room:
+        if module and (found := PREFIX.search(code)) and found[1] in MODULES and found[1] != module:
             yield number, f"{found[0]}: an error names its own module first; write a key as key = value or [section]"
         if not in_lib:
             if UNASKED.search(code) and not lines[max(number - 2, 0)].endswith("("):
@@ -208,7 +208,7 @@ def check_types(sources):
 
 
 def check_umbrellas(sources):
-    """Headers lib/thalweg/ROOM.hpp that do not include just the public headers of their room."""
+    """Headers lib/thalweg/MODULE.hpp that do not include just the public headers of their module."""
     public = collections.defaultdict(set)
     included = {}
     for name, lines in sources:
@@ -217,9 +217,9 @@ def check_umbrellas(sources):
             included[place(name)] = {INCLUDE.match(line)[2] for line in lines if INCLUDE.match(line)}
         elif name.endswith(".hpp") and "internal" not in path.parts and name != "lib/" + GRAPH_HEADER:
             public[place(name)].add(name.removeprefix("lib/"))
-    for room, headers in sorted(included.items()):
-        for header in sorted(headers ^ public[room]):
-            yield f"lib/thalweg/{room}.hpp:1: {header}: this header includes the public headers of {room}, all and no others"
+    for module, headers in sorted(included.items()):
+        for header in sorted(headers ^ public[module]):
+            yield f"lib/thalweg/{module}.hpp:1: {header}: this header includes the public headers of {module}, all and no others"
 
 
 def check_text(name, lines):

@@ -11,7 +11,7 @@
 namespace thalweg::blend {
 
 /// The piece of a target that a stage changes: the smallest box that holds it, with a ring of one cell around it.
-/// Private to this room.
+/// Private to this module.
 struct Opening {
     Cell corner;                 ///< of the target: cell (0, 0) of the rasters below
     Raster<std::uint8_t> kind;   ///< solver::CellKind

@@ -8,7 +8,7 @@
 
 #include <thalweg/draw/internal/canvas.hpp>
 
-/// Scales, ticks and axes of the pictures. Private to this room.
+/// Scales, ticks and axes of the pictures. Private to this module.
 namespace thalweg::draw {
 
 /// Round numbers (1, 2 or 5 times a power of ten apart) on a stretch of a scale.

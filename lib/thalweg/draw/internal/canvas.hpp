@@ -13,7 +13,7 @@
 
 struct _cairo; // Cairo's own name: cairo.h stays in the .cpp files
 
-/// What every picture is drawn with: a sheet in memory, colours, lines and text. Private to this room.
+/// What every picture is drawn with: a sheet in memory, colours, lines and text. Private to this module.
 /// Lengths on a sheet are pixels, x to the right, y down.
 namespace thalweg::draw {
 

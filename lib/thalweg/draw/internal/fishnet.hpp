@@ -8,7 +8,7 @@
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 
-/// The net of a wireframe on the ground. Private to this room.
+/// The net of a wireframe on the ground. Private to this module.
 namespace thalweg::draw {
 
 /// Knots with heights. Knot (0, 0) is the north-western one.

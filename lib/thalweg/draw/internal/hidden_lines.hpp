@@ -9,7 +9,7 @@
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/vec.hpp>
 
-/// Which parts of a net over the land are seen. Private to this room.
+/// Which parts of a net over the land are seen. Private to this module.
 namespace thalweg::draw {
 
 using KnotId = std::int64_t; ///< place of a knot in a net, row by row

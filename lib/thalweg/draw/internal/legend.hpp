@@ -7,7 +7,7 @@
 
 #include <thalweg/draw/internal/canvas.hpp>
 
-/// What stands below a map. Private to this room.
+/// What stands below a map. Private to this module.
 namespace thalweg::draw {
 
 struct LegendFacts {

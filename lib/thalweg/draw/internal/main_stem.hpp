@@ -6,7 +6,7 @@
 
 #include <thalweg/core/stream_network.hpp>
 
-/// The longest stream of a network. Private to this room.
+/// The longest stream of a network. Private to this module.
 namespace thalweg::draw {
 
 struct MainStem {

@@ -6,7 +6,7 @@
 #include <thalweg/draw/internal/window.hpp>
 #include <thalweg/draw/map.hpp>
 
-/// The lines of a map. Private to this room. unit: [px] what 1 px is on a sheet 1400 px wide.
+/// The lines of a map. Private to this module. unit: [px] what 1 px is on a sheet 1400 px wide.
 namespace thalweg::draw {
 
 struct LineStyle {

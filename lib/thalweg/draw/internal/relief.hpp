@@ -8,7 +8,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 
-/// The ground of a map: hillshade under a hypsometric tint. Private to this room.
+/// The ground of a map: hillshade under a hypsometric tint. Private to this module.
 namespace thalweg::draw {
 
 /// Colour of a height. share: [0, 1] of the way from the lowest to the highest.

@@ -7,7 +7,7 @@
 
 namespace thalweg::draw {
 
-/// The part of the ground that a map shows, and where on the sheet. Private to this room.
+/// The part of the ground that a map shows, and where on the sheet. Private to this module.
 struct Window {
     Box frame;             ///< [px]
     double west = 0.0;     ///< [m] of the frame's left side

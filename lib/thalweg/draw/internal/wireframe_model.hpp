@@ -13,7 +13,7 @@
 #include <thalweg/draw/internal/hidden_lines.hpp>
 #include <thalweg/draw/wireframe.hpp>
 
-/// What a wireframe shows, projected. Private to this room.
+/// What a wireframe shows, projected. Private to this module.
 namespace thalweg::draw {
 
 inline constexpr double degree = 3.14159265358979323846 / 180.0;

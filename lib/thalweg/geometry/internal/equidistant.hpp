@@ -6,7 +6,7 @@
 
 #include <thalweg/geometry/diagram.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::geometry {
 
 /// The point equally far from three sites of a segment Voronoi diagram, a guess made better.

@@ -4,7 +4,7 @@
 
 #include <thalweg/core/vec.hpp>
 
-/// Two segments, exactly. Private to this room.
+/// Two segments, exactly. Private to this module.
 namespace thalweg::geometry {
 
 /// How two segments of some length meet.

@@ -8,7 +8,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/geometry/diagram.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::geometry {
 
 /// The places of lines, each once, with the labels of all lines through it: what a diagram is made of.

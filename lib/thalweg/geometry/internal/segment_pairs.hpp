@@ -9,7 +9,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
-/// Which segments of polylines can meet at all. Private to this room.
+/// Which segments of polylines can meet at all. Private to this module.
 namespace thalweg::geometry {
 
 /// A segment of a polyline: between vertices segment and segment + 1.

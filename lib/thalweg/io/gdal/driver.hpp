@@ -8,7 +8,7 @@
 namespace thalweg::io {
 
 /// Holds GDAL's drivers and, for the calling thread, its error handler for as long as it lives; every door of this
-/// room opens one as a local variable, before any dataset, and closes the datasets before the last check().
+/// module opens one as a local variable, before any dataset, and closes the datasets before the last check().
 /// Errors GDAL only logs (a flush that failed at close, a corrupt tile) are kept and thrown by check().
 class Driver {
 public:

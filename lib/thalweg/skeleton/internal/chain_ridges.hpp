@@ -6,7 +6,7 @@
 
 #include <thalweg/skeleton/internal/ridge_pieces.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::skeleton {
 
 /// Joins pieces into the longest lines that keep their labels and meet others only in their ends.

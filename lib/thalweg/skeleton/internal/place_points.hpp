@@ -9,7 +9,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
-/// Places at random, no two nearer than a given distance. Private to this room.
+/// Places at random, no two nearer than a given distance. Private to this module.
 namespace thalweg::skeleton {
 
 struct PlacePointsParams {

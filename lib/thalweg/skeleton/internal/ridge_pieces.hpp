@@ -8,7 +8,7 @@
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/geometry/diagram.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::skeleton {
 
 /// A stretch of a ridge between two nodes.

@@ -10,7 +10,7 @@
 
 namespace thalweg::io {
 
-/// The format of a name, or where it is "" of a path's ending, in any case of letters. Private to this room.
+/// The format of a name, or where it is "" of a path's ending, in any case of letters. Private to this module.
 /// Takes: the formats there are, each with name and ending ("" for none); who asks, for the message.
 /// Throws: BadParameter that lists the names.
 template <class Named>

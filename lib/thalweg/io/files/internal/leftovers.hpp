@@ -7,7 +7,7 @@
 
 namespace thalweg::io {
 
-/// What the name of every temporary file of this process holds: "thalweg-tmp-HOST-PID". Private to this room.
+/// What the name of every temporary file of this process holds: "thalweg-tmp-HOST-PID". Private to this module.
 std::string temporary_mark();
 
 /// Removes the temporary files and folders in a folder that processes of this host left when they were killed. Where

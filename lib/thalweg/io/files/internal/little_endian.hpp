@@ -11,7 +11,7 @@
 
 namespace thalweg::io {
 
-/// Appends a number to a file's bytes, lowest byte first on every machine. Private to this room.
+/// Appends a number to a file's bytes, lowest byte first on every machine. Private to this module.
 template <class T> void put_number(std::string& bytes, T value) {
     std::array<char, sizeof(T)> raw{};
     std::memcpy(raw.data(), &value, sizeof(T));

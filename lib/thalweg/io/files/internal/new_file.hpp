@@ -9,7 +9,7 @@
 
 namespace thalweg::io {
 
-/// A file that is not there yet, written piece by piece. Private to this room.
+/// A file that is not there yet, written piece by piece. Private to this module.
 class NewFile {
 public:
     /// Takes: the path; who writes ("io.write_text: PATH"), for messages. Throws: IoError with the system's reason,

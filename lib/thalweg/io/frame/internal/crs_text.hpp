@@ -4,7 +4,7 @@
 
 #include <string>
 
-/// A CRS as formats other than GDAL's hold it. Private to this room.
+/// A CRS as formats other than GDAL's hold it. Private to this module.
 namespace thalweg::io {
 
 /// The code of "EPSG:n", 0 for any other CRS.

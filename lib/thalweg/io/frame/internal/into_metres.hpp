@@ -11,7 +11,7 @@
 
 class OGRSpatialReference;
 
-/// What a file's coordinates are in, and the way from there to metres. Private to this room.
+/// What a file's coordinates are in, and the way from there to metres. Private to this module.
 namespace thalweg::io {
 
 /// Whether a layer has no CRS, or one that says so (a GeoPackage without CRS has one that is named "Undefined").

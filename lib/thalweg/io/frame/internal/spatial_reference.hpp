@@ -6,7 +6,7 @@
 
 class OGRSpatialReference;
 
-/// CRS as GDAL holds them. Private to this room.
+/// CRS as GDAL holds them. Private to this module.
 namespace thalweg::io {
 
 /// Reads "EPSG:n" or WKT (never a URL or file) in traditional axis order: x or longitude first.

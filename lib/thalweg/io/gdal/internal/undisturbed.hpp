@@ -14,7 +14,7 @@ namespace thalweg::io {
 /// mode even when it is opened to be read: it makes NAME-wal and NAME-shm, and on closing moves what stands in NAME-wal
 /// into the file; a NAME-wal beside one in another mode it deletes. One without changes in NAME-wal is therefore opened
 /// as immutable; of one with changes a copy is read, which goes with this object. Any other file is opened as it is.
-/// Private to this room.
+/// Private to this module.
 class Undisturbed {
 public:
     /// Throws: BadInput like refuse_pipe; IoError when a copy is needed and cannot be made, or the file is being

@@ -9,7 +9,7 @@
 
 #include <thalweg/core/vec.hpp>
 
-/// The parts of a LAS 1.2 file with points of format 0. Private to this room.
+/// The parts of a LAS 1.2 file with points of format 0. Private to this module.
 /// Source: ASPRS, LAS specification version 1.2.
 namespace thalweg::io {
 

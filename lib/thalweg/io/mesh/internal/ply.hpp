@@ -9,7 +9,7 @@
 #include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/vec.hpp>
 
-/// The parts of a binary PLY file that points and triangles share. Private to this room.
+/// The parts of a binary PLY file that points and triangles share. Private to this module.
 /// Source: Turk 1994, The PLY polygon file format.
 namespace thalweg::io {
 

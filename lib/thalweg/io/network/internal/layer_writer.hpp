@@ -12,7 +12,7 @@
 class GDALDataset;
 class OGRSpatialReference;
 
-/// How a table becomes a layer of what GDAL has opened. Private to this room.
+/// How a table becomes a layer of what GDAL has opened. Private to this module.
 namespace thalweg::io {
 
 enum class LayerFormat : std::uint8_t { geopackage, shapefile, flatgeobuf, geojson, postgresql };

@@ -17,7 +17,7 @@ namespace thalweg::io {
 void require_whole(NetworkTables const& tables, std::string const& what);
 
 /// The layers of a network in a schema, that of the arcs first; of a foreign one there is no other. Private to this
-/// room. Takes: short_names: at most ten characters. The arguments must outlive the tables.
+/// module. Takes: short_names: at most ten characters. The arguments must outlive the tables.
 /// Throws: BadInput like require_whole, and when more arcs meet than the schema can name.
 std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names,
                                   std::string const& what);

@@ -10,7 +10,7 @@
 #include <thalweg/io/network/internal/read_network_layers.hpp>
 #include <thalweg/io/network/internal/read_network_notes.hpp>
 
-/// The features of a network's layers. Private to this room.
+/// The features of a network's layers. Private to this module.
 namespace thalweg::io {
 
 /// Reads the arcs as they are drawn and linked in the file, and what the file says. Throws: like read_network.

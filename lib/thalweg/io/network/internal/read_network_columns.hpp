@@ -17,7 +17,7 @@
 class OGRFeature;
 class OGRLayer;
 
-/// Which column of a layer holds what. Private to this room.
+/// Which column of a layer holds what. Private to this module.
 namespace thalweg::io {
 
 /// What a file does not say.

@@ -14,7 +14,7 @@
 class OGRFeature;
 class OGRLayer;
 
-/// Which layers of a source are a network, and in whose words. Private to this room.
+/// Which layers of a source are a network, and in whose words. Private to this module.
 namespace thalweg::io {
 
 /// What a user asks for, understood: see ReadNetworkParams.

@@ -8,7 +8,7 @@
 
 class OGRGeometry;
 
-/// What is drawn as an arc. Private to this room.
+/// What is drawn as an arc. Private to this module.
 namespace thalweg::io {
 
 struct DrawnLine {

@@ -9,7 +9,7 @@
 #include <thalweg/core/network_file.hpp>
 #include <thalweg/io/network/internal/read_network_notes.hpp>
 
-/// How the arcs of a network file hang together. Private to this room.
+/// How the arcs of a network file hang together. Private to this module.
 namespace thalweg::io {
 
 /// Sets ds_arc by keys. Takes: by arc its key and that of the arc downstream, 0 for none. A key that no arc has stands

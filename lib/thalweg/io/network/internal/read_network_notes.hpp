@@ -10,7 +10,7 @@
 
 #include <thalweg/core/finding.hpp>
 
-/// What reading a network has to say. Private to this room.
+/// What reading a network has to say. Private to this module.
 namespace thalweg::io {
 
 class Notes {

@@ -10,7 +10,7 @@
 
 class OGRLayer;
 
-/// Where the layers of a network are. Private to this room.
+/// Where the layers of a network are. Private to this module.
 namespace thalweg::io {
 
 /// The files of a network: a GeoPackage is both; nodes is "" where there is no file for them.

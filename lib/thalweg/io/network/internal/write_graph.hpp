@@ -8,7 +8,7 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/network/table.hpp>
 
-/// Networks as graphs, for NetworkX and its like. Private to this room.
+/// Networks as graphs, for NetworkX and its like. Private to this module.
 namespace thalweg::io {
 
 /// A network as nodes and edges: an edge an arc, its attributes the arc's columns; a node's id is its number + 1.

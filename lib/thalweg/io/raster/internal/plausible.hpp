@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// What is believed of a raster. Private to this room.
+/// What is believed of a raster. Private to this module.
 namespace thalweg::io {
 
 /// No landscape is so high; a damaged DEFLATE tile reads without an error and gives such numbers.

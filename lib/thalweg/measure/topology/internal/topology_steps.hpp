@@ -15,7 +15,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
-/// The steps of check_topology, in their order. Private to this room.
+/// The steps of check_topology, in their order. Private to this module.
 namespace thalweg::measure::topology_steps {
 
 using FileArc = NetworkFile::FileArc;

@@ -8,7 +8,7 @@
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/raster.hpp>
 
-/// A step of flood_lakes. Private to this room.
+/// A step of flood_lakes. Private to this module.
 namespace thalweg::network {
 
 /// Calls visit(index) for the neighbours of a cell, by side or corner.

@@ -7,7 +7,7 @@
 
 #include <thalweg/core/stream_network.hpp>
 
-/// What the stages that set heights share: from the heights of nodes to those of vertices. Private to this room.
+/// What the stages that set heights share: from the heights of nodes to those of vertices. Private to this module.
 namespace thalweg::network {
 
 /// Makes sure that heights can be set. Takes: as require_trees. Throws: BadInput like it, and for an arc of no length.

@@ -13,7 +13,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 
-/// The steps of adopt, in their order. Private to this room.
+/// The steps of adopt, in their order. Private to this module.
 namespace thalweg::network::import_steps {
 
 /// [m] Points closer than this are the same point: the step to which coordinates are rounded when they are read.

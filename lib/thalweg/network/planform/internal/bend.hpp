@@ -8,7 +8,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/network/planform/internal/stems.hpp>
 
-/// Steps of meander. Private to this room.
+/// Steps of meander. Private to this module.
 namespace thalweg::network {
 
 /// By cell how far it is from what does not move, up to 24 [cells]: the sea, and the cells around outlets.

@@ -9,7 +9,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/network/planform/internal/stems.hpp>
 
-/// A step of meander. Private to this room.
+/// A step of meander. Private to this module.
 namespace thalweg::network {
 
 struct Gap {

@@ -6,7 +6,7 @@
 
 #include <thalweg/core/vec.hpp>
 
-/// One step of split_confluences. Private to this room.
+/// One step of split_confluences. Private to this module.
 namespace thalweg::network {
 
 using Line = std::vector<Vec3>;

@@ -8,7 +8,7 @@
 
 #include <thalweg/core/stream_network.hpp>
 
-/// One step of meander. Private to this room.
+/// One step of meander. Private to this module.
 namespace thalweg::network {
 
 /// A river from its source to where a larger one takes its name, or its outlet, as points along it.

@@ -9,7 +9,7 @@
 #include <thalweg/core/river_lines.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 
-/// The lines of mend_network, before adopt. Private to this room.
+/// The lines of mend_network, before adopt. Private to this module.
 namespace thalweg::pipeline {
 
 struct MendedLines {

@@ -9,7 +9,7 @@
 #include <thalweg/core/network_file.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::pipeline {
 
 /// What the arcs of a network file are to the land of a DEM.

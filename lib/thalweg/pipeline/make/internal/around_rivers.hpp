@@ -6,7 +6,7 @@
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/diary.hpp>
 
-/// The land around rivers. Private to this room.
+/// The land around rivers. Private to this module.
 namespace thalweg::pipeline {
 
 /// Draws the land that the plan asks for through the rivers' cells, which keep their heights, and through the points.

@@ -10,7 +10,7 @@
 #include <thalweg/flow/flow_field.hpp>
 #include <thalweg/io/raster/write_catchments.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::pipeline {
 
 /// What a file says of catchments. basins: by reach.

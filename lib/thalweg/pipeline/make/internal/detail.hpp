@@ -7,7 +7,7 @@
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 
-/// Fractal detail. Private to this room.
+/// Fractal detail. Private to this module.
 namespace thalweg::pipeline {
 
 /// Land with fractal detail, and how that was made.

@@ -7,7 +7,7 @@
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/diary.hpp>
 
-/// Land from numbers and from points (paper 001). Private to this room.
+/// Land from numbers and from points (paper 001). Private to this module.
 namespace thalweg::pipeline {
 
 /// The check points_missing: random points that found no room, with a warning.

@@ -5,7 +5,7 @@
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/diary.hpp>
 
-/// Land in equilibrium with its rivers. Private to this room.
+/// Land in equilibrium with its rivers. Private to this module.
 namespace thalweg::pipeline {
 
 /// Draws the land around the planned rivers, takes tips off these that would stand perched, and gives them and their

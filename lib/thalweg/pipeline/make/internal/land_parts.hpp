@@ -15,7 +15,7 @@
 #include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/solver/spectral/stable_covariance.hpp>
 
-/// The steps of land without rivers. Private to this room.
+/// The steps of land without rivers. Private to this module.
 namespace thalweg::pipeline {
 
 inline constexpr double default_length_cells = 20.0;

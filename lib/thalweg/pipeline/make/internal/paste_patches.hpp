@@ -5,7 +5,7 @@
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/diary.hpp>
 
-/// Real relief in the land. Private to this room.
+/// Real relief in the land. Private to this module.
 namespace thalweg::pipeline {
 
 /// Pastes the recipe's patches into the land, in their order; rivers keep their cells' heights unless a patch says so.

@@ -11,7 +11,7 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/valley.hpp>
 
-/// What rivers say of the DEM around them, alike in make and check. Private to this room.
+/// What rivers say of the DEM around them, alike in make and check. Private to this module.
 namespace thalweg::pipeline {
 
 /// Cells in which rivers stand: those under parts of arcs that are drawn level. Without cells where there are none.

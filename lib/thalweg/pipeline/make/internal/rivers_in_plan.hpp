@@ -13,7 +13,7 @@
 #include <thalweg/pipeline/plan/internal/diary.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 
-/// Where rivers run. Private to this room.
+/// Where rivers run. Private to this module.
 namespace thalweg::pipeline {
 
 /// A network in plan on its grid, with the file's heights where lines carry them.

@@ -6,7 +6,7 @@
 #include <thalweg/network/elevation/assign_types.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::pipeline {
 
 /// A network whose arcs say their types.

@@ -9,7 +9,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/plan/timings.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::pipeline {
 
 /// Times the stages and says a line for each.

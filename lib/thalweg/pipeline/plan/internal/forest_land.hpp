@@ -6,7 +6,7 @@
 #include <thalweg/pipeline/plan/internal/diary.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::pipeline {
 
 /// The recipe with the CRS of its grid, which a region may give.

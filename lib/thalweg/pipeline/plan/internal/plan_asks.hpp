@@ -5,7 +5,7 @@
 #include <thalweg/pipeline/plan/plan.hpp>
 
 /// Which stages a plan asks for: make runs them by these questions, and the forecast names them by the same. Private to
-/// this room.
+/// this module.
 namespace thalweg::pipeline {
 
 /// Whether coastlines of the rivers' file bound the land.

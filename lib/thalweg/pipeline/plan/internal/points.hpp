@@ -9,7 +9,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
-/// The points of [skeleton]. Private to this room.
+/// The points of [skeleton]. Private to this module.
 namespace thalweg::pipeline {
 
 /// The points of [skeleton]: of a file, or none. Their CRS is that of the grid, also where there are none.

@@ -8,7 +8,7 @@
 #include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/run/run.hpp>
 
-/// What files say of the cells of a grid. Private to this room.
+/// What files say of the cells of a grid. Private to this module.
 namespace thalweg::pipeline {
 
 /// Cells of a raster on the grid that are neither 0 nor no-data, or whose centres lie in polygons; empty for "".

@@ -8,7 +8,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
-/// The lines that a recipe names, and what follows from them. Private to this room.
+/// The lines that a recipe names, and what follows from them. Private to this module.
 namespace thalweg::pipeline {
 
 /// The lines of network.lines.path.

@@ -7,7 +7,7 @@
 #include <thalweg/pipeline/plan/internal/diary.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 
-/// Networks that branch by Tokunaga's law. Private to this room.
+/// Networks that branch by Tokunaga's law. Private to this module.
 namespace thalweg::pipeline {
 
 /// What helps where links find no room.

@@ -7,7 +7,7 @@
 
 #include <thalweg/pipeline/recipe/internal/key_use.hpp>
 
-/// Conditions that keys of several sections share: what the stages read, and when. Private to this room.
+/// Conditions that keys of several sections share: what the stages read, and when. Private to this module.
 namespace thalweg::pipeline {
 
 Use source_is(char const* word);

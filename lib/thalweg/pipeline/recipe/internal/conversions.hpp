@@ -9,7 +9,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::pipeline {
 
 /// Says what the files of a recipe are converted from, and how far the grid leaves its UTM zone.

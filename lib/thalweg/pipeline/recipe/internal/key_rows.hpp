@@ -13,7 +13,7 @@
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 /// What the tables of keys are written in: a row names a key, its field by a chain of member pointers, and all that is
-/// known of it. Private to this room.
+/// known of it. Private to this module.
 namespace thalweg::pipeline {
 
 inline constexpr bool left_open = true; ///< of a Range

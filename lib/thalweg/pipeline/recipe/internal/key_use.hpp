@@ -8,7 +8,7 @@
 
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
-/// Conditions under which a key of a recipe has an effect. Private to this room.
+/// Conditions under which a key of a recipe has an effect. Private to this module.
 namespace thalweg::pipeline {
 
 /// A condition on a recipe, for the program and in words.

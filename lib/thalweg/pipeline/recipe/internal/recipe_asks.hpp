@@ -7,7 +7,7 @@
 #include <thalweg/core/grid.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
-/// What several keys of a recipe ask for together. Private to this room.
+/// What several keys of a recipe ask for together. Private to this module.
 namespace thalweg::pipeline {
 
 /// Whether the recipe draws its land in equilibrium with rivers.

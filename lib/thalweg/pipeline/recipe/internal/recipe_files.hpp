@@ -10,7 +10,7 @@
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
-/// What a recipe names. Private to this room.
+/// What a recipe names. Private to this module.
 namespace thalweg::pipeline {
 
 /// A file the recipe names, found from the recipe's folder.

@@ -15,7 +15,7 @@
 #include <thalweg/pipeline/recipe/internal/key_use.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
-/// The table of a recipe's keys. Private to this room.
+/// The table of a recipe's keys. Private to this module.
 namespace thalweg::pipeline {
 
 using Pair = std::array<double, 2>;

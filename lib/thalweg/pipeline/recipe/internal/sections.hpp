@@ -4,7 +4,7 @@
 
 #include <thalweg/pipeline/recipe/internal/key_rows.hpp>
 
-/// The keys of each section and of its parts, in the order of recipe files. Private to this room.
+/// The keys of each section and of its parts, in the order of recipe files. Private to this module.
 namespace thalweg::pipeline {
 
 Rows<Recipe> seed_keys();

@@ -11,7 +11,7 @@
 
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
-/// Recipe files as TOML. Private to this room.
+/// Recipe files as TOML. Private to this module.
 namespace thalweg::pipeline {
 
 /// What stands at one place of a TOML text.

@@ -7,7 +7,7 @@
 
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
-/// Keys that are set and have no effect. Private to this room.
+/// Keys that are set and have no effect. Private to this module.
 namespace thalweg::pipeline {
 
 /// A key that has no effect in a recipe though it is set.

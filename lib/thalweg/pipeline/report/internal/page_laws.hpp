@@ -6,7 +6,7 @@
 
 #include <thalweg/pipeline/make/laws.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::pipeline {
 
 /// The laws of rivers as the page has them, JSON: a table of figures, and what its diagrams show (web/README.md).

@@ -8,7 +8,7 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
 
-/// Parts of report.json that other reports have too. Private to this room.
+/// Parts of report.json that other reports have too. Private to this module.
 namespace thalweg::pipeline {
 
 /// Findings as a JSON array.

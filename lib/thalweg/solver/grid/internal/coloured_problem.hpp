@@ -46,7 +46,7 @@ struct Contents {
     }
 };
 
-/// Takes: stage: "room.verb" for messages.
+/// Takes: stage: "module.verb" for messages.
 /// Throws: BadInput naming a cell: a part with free cells and no fixed one, a value or source that is not finite;
 /// rasters of different frames; Cancelled.
 Contents look_through(GridProblem const& problem, char const* stage, Run const& run);

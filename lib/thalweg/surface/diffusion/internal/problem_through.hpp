@@ -10,7 +10,7 @@ namespace thalweg::surface {
 
 /// Laplace's equation through the cells that have a height: those are fixed, other cells inside are free.
 /// Takes: z: heights [m], NaN for none. inside: of z's frame, or of no cells for all of it; cells with 0 are left out,
-/// and so is a height there. stage: "room.verb" for messages.
+/// and so is a height there. stage: "module.verb" for messages.
 /// Gives: values of 0 in free cells; parts inside that no cell with a height reaches are left out too.
 /// Throws: BadInput: no height (inside), an infinite one, another frame.
 solver::GridProblem problem_through(Raster<float> const& z, Mask const& inside, char const* stage, Run const& run);

@@ -6,7 +6,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/valley.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Share [0,1] of the cells of a DEM off the valley that have no lower 4-neighbour; 0 where there are none.

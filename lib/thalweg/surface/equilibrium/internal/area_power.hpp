@@ -10,7 +10,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// area ^ exponent from a table: exact for whole numbers below 512, beyond for areas rounded down to nine binary

@@ -10,7 +10,7 @@
 
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Height of the highest river cell beside an inner cell, minus infinity without one.

@@ -4,7 +4,7 @@
 
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Throws: BadParameter, BadInput as equilibrium().

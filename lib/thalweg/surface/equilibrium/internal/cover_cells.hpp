@@ -5,7 +5,7 @@
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Land of a level inside its frame, 1 where at least half of the cells it stands for are land; without cells: all.

@@ -8,7 +8,7 @@
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 #include <thalweg/surface/equilibrium/internal/nearest_river.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// The cells at which an open land ends: the frame, once round, and land beside what is masked out.

@@ -6,7 +6,7 @@
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/equilibrium/internal/area_power.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// U + D lap z = K A^theta S in the solver's units: lengths, heights and areas in cells of the finest level, U and K 1

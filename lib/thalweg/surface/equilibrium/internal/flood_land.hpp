@@ -4,7 +4,7 @@
 
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Finds every cell a receiver, raising it where it must: banks to the river cell beside them down the steepest slope,

@@ -7,7 +7,7 @@
 
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Shortens rivers by the cells that stand perched near their heads, and what lies upstream of these. What is given up

@@ -8,7 +8,7 @@
 #include <thalweg/surface/equilibrium/internal/equilibrium_law.hpp>
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Tangent of a graded river cell by the area that drains into it, not more than a share of the cap.

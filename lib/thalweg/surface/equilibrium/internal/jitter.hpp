@@ -9,7 +9,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Nodes lie up to a quarter of a cell from the centres of their cells, at one of eight places each way, so that ways

@@ -4,7 +4,7 @@
 
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Where rivers lie side by side, sets their heights so that the steepest descent of each cell leads to its receiver,

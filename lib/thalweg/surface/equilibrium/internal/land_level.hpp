@@ -11,7 +11,7 @@
 #include <thalweg/core/run/large_pages.hpp>
 #include <thalweg/surface/equilibrium/internal/river_cells.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 template <class T> using Cells = std::vector<T, LargePages<T>>;

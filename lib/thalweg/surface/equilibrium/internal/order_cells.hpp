@@ -4,7 +4,7 @@
 
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Orders the land cells so that each stands before its receiver, and counts the cells that drain through every cell.

@@ -8,7 +8,7 @@
 
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Whether water leaves the caller's grid from river cell number n of a level.

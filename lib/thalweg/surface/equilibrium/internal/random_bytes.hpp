@@ -8,7 +8,7 @@
 
 #include <thalweg/core/numbers/random.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Calls visit(column, byte) with a byte at random for each of `count` columns of a row of a level: thirty-two of them

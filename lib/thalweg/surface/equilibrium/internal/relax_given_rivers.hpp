@@ -6,7 +6,7 @@
 #include <thalweg/surface/equilibrium/internal/equilibrium_law.hpp>
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Sets rivers to the heights that are asked; between them they are graded, as steep as it takes; above the highest as

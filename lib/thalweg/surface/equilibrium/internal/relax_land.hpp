@@ -5,7 +5,7 @@
 #include <thalweg/surface/equilibrium/internal/equilibrium_law.hpp>
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// One sweep of Gauss and Seidel over the land, receivers first: each cell to the height at which what is lifted equals

@@ -5,7 +5,7 @@
 #include <thalweg/surface/equilibrium/internal/equilibrium_law.hpp>
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Sets rivers to their graded heights for the areas that drain into them: not steeper than a share of what hillslopes

@@ -5,7 +5,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 struct Rise {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Channels in the frame of a level, downstream first. The vectors are parallel.

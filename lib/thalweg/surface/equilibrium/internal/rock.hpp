@@ -5,7 +5,7 @@
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Fields inside the frame of the finest level, each divided by its mean over the land; without cells for none.

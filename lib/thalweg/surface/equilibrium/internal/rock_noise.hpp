@@ -7,7 +7,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 struct RockNoise {

@@ -7,7 +7,7 @@
 
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Calls visit(cell) for the sixteen cells two columns or rows away from one, unless it is too near the frame.

@@ -5,7 +5,7 @@
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Keeps the law in the very floats that will be written: raises heights by the least that makes every cell stand a

@@ -4,7 +4,7 @@
 
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Lowers land that stands far steeper above any of its neighbours than its cap allows: cliffs that a river leaves

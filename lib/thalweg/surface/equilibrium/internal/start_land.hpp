@@ -9,7 +9,7 @@
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 #include <thalweg/surface/equilibrium/internal/nearest_river.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// First heights of the coarsest level: a gentle rise away from where water leaves, and chance.

@@ -6,7 +6,7 @@
 #include <thalweg/surface/equilibrium/internal/jitter.hpp>
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Turns land cells to their steepest neighbour, by the distances of jittered nodes, banks to their steepest river

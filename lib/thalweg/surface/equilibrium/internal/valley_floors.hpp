@@ -6,7 +6,7 @@
 
 #include <thalweg/surface/equilibrium/internal/land_level.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Lowers the cap on slopes beside rivers, so that floors form that widen downstream: a flat core and concave foot

@@ -7,7 +7,7 @@
 
 #include <thalweg/core/cells/d8.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// The direction from a cell to its neighbour, as d8_steps, or -1 when it is none. Takes: cells inside a frame.

@@ -6,7 +6,7 @@
 #include <thalweg/surface/equilibrium/internal/river_cells.hpp>
 #include <thalweg/surface/equilibrium/internal/rock.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::surface {
 
 /// Whether the land goes on beyond the grid.

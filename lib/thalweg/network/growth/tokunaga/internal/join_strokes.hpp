@@ -10,7 +10,7 @@
 #include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/run/run.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::network {
 
 using StrokeId = std::int64_t; ///< place of a stroke in its file; -1 for none

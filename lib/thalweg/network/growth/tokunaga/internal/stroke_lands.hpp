@@ -8,7 +8,7 @@
 #include <thalweg/core/grid.hpp>
 #include <thalweg/network/growth/tokunaga/internal/join_strokes.hpp>
 
-/// Private to this room.
+/// Private to this module.
 namespace thalweg::network {
 
 /// The land of every stroke: what lies nearer to it than to others, measured by their lengths, and within its reach.

@@ -33,10 +33,10 @@ if(THALWEG_COVERAGE)
   target_link_options(thalweg_options INTERFACE --coverage)
 endif()
 
-# thalweg_room(NAME [foreign libraries its .cpp files may use]): one folder of lib/thalweg, compiled apart, without the
+# thalweg_module(NAME [foreign libraries its .cpp files may use]): one folder of lib/thalweg, compiled apart, without the
 # files that THALWEG_LEFT_OUT names (regular expression).
-function(thalweg_room NAME)
-  if(THALWEG_ROOMS AND NOT NAME IN_LIST THALWEG_ROOMS)
+function(thalweg_module NAME)
+  if(THALWEG_MODULES AND NOT NAME IN_LIST THALWEG_MODULES)
     return()
   endif()
   file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/thalweg/${NAME}/*.cpp)
@@ -70,7 +70,7 @@ function(thalweg_precompile TARGET)
   endif()
 endfunction()
 
-# thalweg_tests(ROOM): one executable test_ROOM of tests/ROOM/*.cpp, ctest label ROOM.
+# thalweg_tests(MODULE): one executable test_ROOM of tests/MODULE/*.cpp, ctest label MODULE.
 function(thalweg_tests NAME)
   file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp)
   list(FILTER SOURCES EXCLUDE REGEX "/spy/") # a library of its own
