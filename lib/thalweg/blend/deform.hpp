@@ -10,7 +10,7 @@
 
 namespace thalweg::blend {
 
-/// A cell that is pulled to a height.
+/// A cell and its new height.
 struct Handle {
     Cell cell;
     double z = 0.0; ///< [m]
@@ -18,34 +18,32 @@ struct Handle {
 
 /// Options of deform().
 struct DeformParams {
-    double scale = 1.0;       ///< [-] finite: how much steeper the region becomes; 0 levels it, below 0 inverts it
-    double tolerance = 1e-10; ///< (0,1) as solver::PoissonParams
+    double scale = 1.0;       ///< [-] factor of slopes; 0 flattens the region, below 0 inverts it
+    double tolerance = 1e-10; ///< (0, 1) as in solver::PoissonParams
 };
 
-/// A target with a region bent.
+/// A target with a deformed region.
 struct Deformed {
     Raster<float> dem;
-    std::int64_t cells = 0; ///< that were bent, handles included
+    std::int64_t cells = 0; ///< deformed, handles included
     int iterations = 0;     ///< of the solver
     double residual = 0.0;  ///< relative, of the solver
 };
 
-/// Bends a region of a land: its relief scaled, some of its cells pulled to new heights, its edge where it was.
-/// \pre a target, NaN where it has no data; a region on its grid; handles, all in the region's cells with data.
-/// \param target [m] the DEM that is changed; NaN: no data
-/// \param region 1 inside the region
-/// \param handles cells with their new heights
+/// Deforms a region of a DEM: scales its relief and moves some of its cells to new heights, without a seam at its edge.
+/// \param target [m] by cell; NaN: no data
+/// \param region by cell of the target; not 0: inside
+/// \param handles cells of the region with data, and their heights
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return handles at their heights, rounded to float; outside the region and in cells without data the target bit for
-/// bit; elsewhere the heights f with lap f = div (scale g), g the target's own differences, and f the target's in the
-/// region's 4-neighbours. Nothing flows across the target's edge and into cells without data. With scale 1 and handles
-/// at the heights their cells have, the target bit for bit. A region turned about z is the target laid on itself:
-/// place_patch, then paste.
-/// \throws BadParameter
-/// \throws BadInput naming a cell when the region is on another grid or holds no data, a handle is not in it, is not
-/// finite or is given two heights, or a part of the region has neither handle nor neighbour with a height
-/// \throws NotConverged
+/// \return handles at their heights, rounded to float; outside the region the target bit for bit; elsewhere f with lap
+/// f = div (scale g), g: the target's differences, and f the target's in the region's 4-neighbours. No flux across the
+/// target's edge and into cells without data. With scale 1 and handles at their present heights, the target bit for
+/// bit. To rotate a region, use place_patch and paste.
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput naming a cell when the region is on another grid or has no data, a handle is outside it, not finite
+/// or given twice with two heights, or a part of the region has neither handle nor neighbour with data
+/// \throws NotConverged when the solver does not reach the tolerance
 /// \throws Cancelled
 ///
 /// Source: \cite nenu2015, section 4.2 (deformation).

@@ -9,30 +9,27 @@
 
 namespace thalweg::blend {
 
-/// Two meshes become one.
+/// Two meshes fused into one.
 struct FusedTin {
     Tin tin;
     std::int64_t removed = 0; ///< vertices of the target inside the patch's outline
     std::int64_t inner = 0;   ///< vertices of the patch inside its outline
-    std::int64_t added = 0;   ///< vertices on the outline that the target does not have
-    double lift_max_m = 0.0;  ///< greatest distance by which an edge vertex of the patch is raised or lowered
-    double residual = 0.0;    ///< as PastedTin
+    std::int64_t added = 0;   ///< vertices on the outline that are not the target's
+    double lift_max_m = 0.0;  ///< [m] largest vertical shift of a vertex on the patch's edge
+    double residual = 0.0;    ///< as in PastedTin
 };
 
-/// Pastes a mesh into another without a seam: the region inside the patch's outline takes the patch's triangles and
-/// follows its gradients, its outline takes the target's heights.
-/// \pre both with one height at each place in plan, the target in any number of parts; a patch with one boundary, in
-/// the target's coordinates.
-/// \param target [m] the DEM that is changed; NaN: no data
-/// \param patch the patch
+/// Pastes a TIN into another without a seam: inside the patch's outline are the patch's triangles and gradients, on the
+/// outline the target's heights.
+/// \param target one height per position; any number of parts
+/// \param patch one height per position, one boundary; in the target's coordinates
 /// \param run progress, log, stop token and number of threads
-/// \return a TIN: the target's vertices outside with their bits; around the outline the target's triangles, cut along
-/// it; inside the patch's triangles, cut where target edges cross its outline, and its vertices in their order. Heights
-/// inside are those of paste_tin with the patch's gradients as guidance and the outline fixed. A patch cut out of the
-/// target, in its own place, gives the target's heights back, to rounding.
-/// \throws BadInput as facing_up, outline_of and cut_tin do, also where vertices of the two meshes lie too close to one
-/// another
-/// \throws NotConverged
+/// \return the target's vertices outside bit for bit; around the outline its triangles, cut along the outline; inside
+/// the patch's triangles, cut where target edges cross the outline, with vertices in their order. Heights inside are
+/// those of paste_tin with the patch's gradients as guidance and a fixed outline. A patch cut from the target gives the
+/// target's heights, to rounding.
+/// \throws BadInput as facing_up, outline_of and cut_tin, also when vertices of the two meshes are too close
+/// \throws NotConverged when the solver does not reach its tolerance
 /// \throws Cancelled
 ///
 /// Source: \cite nenu2015, algorithm 1 and equations 14 to 16; \cite yu2004 (merging).

@@ -9,19 +9,20 @@
 
 namespace thalweg::blend {
 
-/// By cell the polygon in which its centre lies, counted from 1; of several the last; 0 for none.
-/// \pre polygons in the grid's coordinates; they may overlap, leave the grid and cross themselves (even-odd).
-/// \param polygons the polygons
-/// \param grid the grid
-/// \return of two polygons that share an edge each centre on it to exactly one; nothing for a polygon between centres.
-/// \throws BadInput naming polygon and feature when a ring has fewer than three vertices or one that is not finite, and
-/// when no cell's centre lies in any: it names both places
+/// Assigns cells to the polygon that contains their centre (even-odd rule); polygons may overlap and leave the grid.
+/// \param polygons in the grid's coordinates
+/// \param grid of the result
+/// \return by cell: number of the polygon from 1, of several the last; 0: none. A centre on a common edge of two
+/// polygons belongs to exactly one.
+/// \throws BadInput naming polygon and feature when a ring has fewer than three vertices or one that is not finite;
+/// naming both extents when no centre lies in a polygon
 Raster<std::int32_t> number_polygons(Polygons const& polygons, Grid const& grid);
 
-/// \param polygons the polygons
-/// \param grid the grid
-/// \return the cells to which number_polygons gives a polygon.
-/// \throws Error likewise
+/// Marks the cells whose centre lies in a polygon.
+/// \param polygons in the grid's coordinates
+/// \param grid of the result
+/// \return 1: in a polygon
+/// \throws BadInput as number_polygons
 Mask mask_polygons(Polygons const& polygons, Grid const& grid);
 
 } // namespace thalweg::blend

@@ -10,55 +10,54 @@
 
 namespace thalweg::blend {
 
-/// Whose differences between neighbours the pasted land has.
+/// Whose differences between neighbours a pasted region has.
 enum class Relief : std::uint8_t {
     source, ///< the patch's
-    mixed   ///< the greater of the patch's and the target's (Perez et al. 2003)
+    mixed   ///< the larger of the patch's and the target's (Perez et al. 2003)
 };
 
-/// What becomes of cells of the mask in which the patch has no height.
+/// What happens in cells of the mask where the patch has no data.
 enum class Holes : std::uint8_t {
-    leave, ///< they keep the target's
-    fill   ///< they get the target's relief, bent to the land around them
+    leave, ///< they keep the target's heights
+    fill   ///< they take the target's relief, fitted to the cells around
 };
 
 /// Options of paste().
 struct PasteParams {
     Relief relief = Relief::source;
     Holes holes = Holes::leave;
-    double feather_cells = 0.0; ///< [cells] [0, 1e6] inside the edge over which the target's relief becomes the patch's
-    Mask keep = {};           ///< on the target's grid: cells that keep their height, rivers for one; none where empty
-    double tolerance = 1e-10; ///< (0,1) as solver::PoissonParams
+    /// [cells] [0, 1e6] width inside the edge over which the target's relief becomes the patch's
+    double feather_cells = 0.0;
+    Mask keep = {};           ///< on the target's grid: 1: the cell keeps its height, e.g. rivers; empty: none
+    double tolerance = 1e-10; ///< (0, 1) as in solver::PoissonParams
 };
 
-/// A target with a patch in it.
+/// A target with a pasted patch.
 struct Pasted {
     Raster<float> dem;
-    std::int64_t cells = 0;  ///< that the patch replaced
-    std::int64_t kept = 0;   ///< cells of the mask that keep lets be
-    std::int64_t holes = 0;  ///< cells of the mask in which the patch has no height
-    double seam_max_m = 0.0; ///< [m] greatest |difference| across the seam less the target's own, cell by cell
+    std::int64_t cells = 0;  ///< replaced by the patch
+    std::int64_t kept = 0;   ///< cells of the mask that keep protects
+    std::int64_t holes = 0;  ///< cells of the mask where the patch has no data
+    double seam_max_m = 0.0; ///< [m] largest change of a difference across the seam
     double seam_rms_m = 0.0; ///< [m] root of their mean square
     int iterations = 0;      ///< of the solver
     double residual = 0.0;   ///< relative, of the solver
 };
 
-/// Sets a patch into a target without a seam: the patch's relief, at the height of what is around it.
-/// \pre a target, NaN where it has no data; a patch on its grid, whose level does not matter.
-/// \param target [m] the DEM that is changed; NaN: no data
-/// \param patch the patch
+/// Pastes a patch into a DEM without a seam: its relief, at the level of its surroundings. With feather, differences
+/// are mixed by a smoothstep of the distance from cells that keep their height.
+/// \param target [m] by cell; NaN: no data
+/// \param patch on the target's grid, at any level
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return outside the mask, in kept cells and in holes left the target's heights bit for bit. Elsewhere the heights f
-/// with lap f = div g, g the differences of the patch (where it has none across the seam, the target's own), and f the
-/// target's in the mask's 4-neighbours: where the patch has heights there too, the patch and the harmonic extension of
-/// what the target differs from it by. Nothing flows across the target's edge and into cells without data. Of a patch
-/// equal to the target (or higher by a constant) the target. With feather the differences are mixed by a smoothstep of
-/// the distance from cells that keep their height. The same bits for any number of threads.
-/// \throws BadParameter
+/// \return outside the mask, in kept cells and in holes left the target bit for bit; elsewhere f with lap f = div g, g:
+/// the patch's differences (the target's, where it has none across the seam), and f the target's in the mask's
+/// 4-neighbours. No flux across the target's edge and into cells without data. A patch equal to the target, up to a
+/// constant, changes nothing. The same bytes for any number of threads.
+/// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput naming a cell when patch or keep are on another grid, a height is infinite, no cell would change,
-/// or a part of the patch touches no cell that keeps a height
-/// \throws NotConverged
+/// or a part of the patch touches no cell that keeps its height
+/// \throws NotConverged when the solver does not reach the tolerance
 /// \throws Cancelled
 ///
 /// Source: \cite nenu2015, algorithm 1 and eqs 14 to 16; \cite perez2003, Poisson image editing.

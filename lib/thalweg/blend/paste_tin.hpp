@@ -11,34 +11,32 @@
 
 namespace thalweg::blend {
 
-/// A vertex whose place is given.
+/// A vertex with a prescribed position.
 struct FixedVertex {
     std::uint32_t vertex = 0;
     Vec3 at; ///< [m]
 };
 
-/// A mesh put together again.
+/// A mesh reconstructed from gradients.
 struct PastedTin {
     Tin tin;
-    double residual = 0.0; ///< relative, the greatest of the systems solved
+    double residual = 0.0; ///< relative, the largest of the systems solved
 };
 
-/// Finds the mesh whose triangles follow guidance fields as nearly as fixed vertices let them.
-/// \pre a parameter mesh; for each of its triangles the wanted gradients of the coordinates; fixed vertices, at least
-/// one in every connected part.
-/// \param parameter the parameter mesh
-/// \param guidance by triangle, the gradients to follow
-/// \param fixed what keeps its place or height
+/// Reconstructs the mesh whose triangles follow guidance gradients as closely as fixed vertices allow: Div(grad x) =
+/// Div w at the other vertices, likewise for y and z, with one factorisation. Measured in plan, only z is solved for:
+/// terrain remains terrain.
+/// \param parameter parameter mesh
+/// \param guidance by triangle: gradients to follow
+/// \param fixed at least one in each connected part
 /// \param measured in plan or in space
 /// \param run progress, log, stop token and number of threads
-/// \return the parameter mesh's triangles over vertices x with Div(grad x) = Div w at those that are not fixed; the
-/// same for y and z by one factorisation. Measured in plan only z is sought and x and y stay: a land stays a land. With
-/// the gradients of the parameter mesh itself and vertices fixed where they are, that mesh bit for bit; with all
-/// gradients turned by one rotation and one vertex fixed, the mesh turned about that vertex. Vertices in no triangle
-/// stay.
+/// \return the parameter mesh's triangles over new vertices; vertices in no triangle stay. With the mesh's own
+/// gradients and unmoved vertices the mesh bit for bit; with all gradients rotated and one vertex fixed, the mesh
+/// rotated about it.
 /// \throws BadInput naming triangle or vertex when sizes do not match, a triangle has no area, a number is not finite,
-/// a vertex is fixed at two places or a part has no fixed vertex
-/// \throws NotConverged
+/// a vertex is fixed at two positions or a part has no fixed vertex
+/// \throws NotConverged when the solver does not reach its tolerance
 /// \throws Cancelled
 ///
 /// Source: \cite nenu2015, eqs 14 to 16; \cite yu2004, Mesh editing with Poisson-based gradient field manipulation.

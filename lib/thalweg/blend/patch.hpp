@@ -8,11 +8,11 @@
 
 namespace thalweg::blend {
 
-/// A piece of land laid on a target: both rasters on the target's grid.
+/// A piece of terrain placed on a target's grid.
 struct Patch {
     Mask mask;                ///< cells that the patch replaces
-    Raster<double> z;         ///< [m] its heights, beside the mask too; NaN where it has none
-    std::int64_t outside = 0; ///< cells that were asked for and lie off the source
+    Raster<double> z;         ///< [m] its heights, also outside the mask; NaN: no data
+    std::int64_t outside = 0; ///< requested cells that lie off the source
 };
 
 } // namespace thalweg::blend

@@ -11,7 +11,7 @@
 
 namespace thalweg::blend {
 
-/// Cells of a source, from its north-west.
+/// A window of a source, from its north-west.
 struct SourceWindow {
     std::int64_t col = 0;
     std::int64_t row = 0;
@@ -21,29 +21,25 @@ struct SourceWindow {
 
 /// Options of place_patch().
 struct PlacePatchParams {
-    std::optional<Vec2> at =
-        {};                  ///< [m] of the target, where the window's centre comes to lie; its own place without it
-    double rotate_deg = 0.0; ///< [deg] in [-360, 360], counterclockwise about the centre
-    double scale = 1.0;      ///< > 0, in plan
-    double gain = 1.0;       ///< finite, of heights
-    std::optional<SourceWindow> window = {}; ///< the part of the source that is laid; all of it without
-    Mask part = {};                          ///< on the target's grid: cells that may be replaced; all where empty
+    std::optional<Vec2> at = {};             ///< [m] new position of the window's centre; empty: its own
+    double rotate_deg = 0.0;                 ///< [deg] in [-360, 360], counterclockwise about the centre
+    double scale = 1.0;                      ///< > 0, in plan
+    double gain = 1.0;                       ///< finite, of heights
+    std::optional<SourceWindow> window = {}; ///< the part of the source to place; empty: all
+    Mask part = {};                          ///< on the target's grid: cells that may be replaced; empty: all
 };
 
-/// Lays a DEM on the grid of another: moved, turned about z, scaled.
-/// \pre a source, NaN where it has no data, whose coordinates are the target's; its cells may have another size. Its
-/// outline is that of its cells' centres, less those without data that reach the edge through others.
-/// \param source the file or DEM to take from
-/// \param target [m] the DEM that is changed; NaN: no data
+/// Resamples a DEM onto the grid of another: moved, rotated about the vertical, scaled.
+/// \param source [m] by cell, of any cell size; NaN: no data; in the target's coordinates
+/// \param target grid of the result
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
-/// \return heights bilinear between the centres of the source's cells, those of its own centres (to 1e-6 of a cell) as
-/// they stand; NaN beyond the outline and where one of the centres it lies between has no data. The mask holds the
-/// cells of part that lie in the window and, like all their neighbours, within the outline. The same bits for any
-/// number of threads.
-/// \throws BadParameter
-/// \throws BadInput when the window leaves the source, part is on another grid or empty, or the mask would be empty: it
-/// names both places
+/// \return heights bilinear between cell centres, bit for bit at these (to 1e-6 of a cell); NaN where one is missing or
+/// beyond the outline of centres with data. The mask holds the cells of `part` in the window that lie, with all
+/// neighbours, inside the outline. The same bits for any number of threads.
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput when the window leaves the source, part is on another grid or empty, or the mask would be empty:
+/// names both extents
 /// \throws Cancelled
 ///
 /// Source: \cite nenu2015, algorithm 1, step 1 and section 4.2 (rotation and scaling).
