@@ -237,19 +237,23 @@ private:
     Read read_;
 };
 
-/// A number, or an integer, with a range; that of an optional field may be left out.
+/// A row whose value is written as it is held; a field that is optional may be left out.
+template <class... Members> auto plain(char const* name, Members... members) {
+    return Row(name, field(members...)).shows([](auto const& x) { return shown(x); });
+}
+
+/// A number, or an integer, with a range.
 template <class... Members> auto number(char const* name, Members... members) {
-    Row row(name, field(members...));
-    return row.shows([](auto const& x) { return shown(x); });
+    return plain(name, members...);
 }
 
 /// A list of numbers that may be left out.
 template <class... Members> auto numbers(char const* name, Members... members) {
-    return number(name, members...);
+    return plain(name, members...);
 }
 
 template <class... Members> auto text(char const* name, Members... members) {
-    return number(name, members...).reads(as_short_text);
+    return plain(name, members...).reads(as_short_text);
 }
 
 /// A text that names a file.
@@ -258,7 +262,7 @@ template <class... Members> auto file(char const* name, Members... members) {
 }
 
 template <class... Members> auto yes_no(char const* name, Members... members) {
-    return number(name, members...).reads(as_yes_no).form("true | false").suggests({"true", "false"});
+    return plain(name, members...).reads(as_yes_no).form("true | false").suggests({"true", "false"});
 }
 
 /// One of several words.
