@@ -33,5 +33,6 @@ function(thalweg_embed TARGET FILE HEADER FUNCTION)
   add_custom_command(OUTPUT ${OUT}
     COMMAND ${CMAKE_COMMAND} -DFILE=${FILE} -DOUT=${OUT} -DHEADER=${HEADER} -DFUNCTION=${FUNCTION} -P ${THALWEG_EMBED}
     DEPENDS ${FILE} ${THALWEG_EMBED} COMMENT "Embedding ${FILE}" VERBATIM)
+  set_source_files_properties(${OUT} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON) # clang-tidy reads units before it is written
   target_sources(${TARGET} PRIVATE ${OUT})
 endfunction()

@@ -17,6 +17,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -268,12 +269,32 @@ static void end_of_abort(int /*number*/) {
 }
 }
 
+namespace {
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // they report faults themselves
+/// Handles faults on a stack of their own: Cairo, where memory is refused, jumps by a buffer that was never set and
+/// leaves no stack.
+void handle_faults() {
+    static char stack[1 << 16];
+    stack_t own{};
+    own.ss_sp = stack;
+    own.ss_size = sizeof stack;
+    sigaltstack(&own, nullptr);
+    struct sigaction action {};
+    action.sa_handler = end_of_fault;
+    action.sa_flags = SA_ONSTACK;
+    sigaction(SIGSEGV, &action, nullptr);
+}
+#else
+void handle_faults() {}
+#endif
+
+} // namespace
+
 int main(int argc, char** argv) {
     std::set_terminate(end_without_handler);
     std::signal(SIGABRT, end_of_abort);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // they report faults themselves
-    std::signal(SIGSEGV, end_of_fault);
-#endif
+    handle_faults();
     try {
         return end_of_results(run(argc, argv));
     } catch (...) {

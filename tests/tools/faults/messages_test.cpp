@@ -170,6 +170,20 @@ TEST(Messages, TmpdirThatDoesNotExistIsNamed) {
     EXPECT_NE(file_bytes(place / "e").find("set TMPDIR"), std::string::npos) << file_bytes(place / "e");
 }
 
+TEST(Messages, ADatabaseOfProjThatDoesNotOpenIsNamed) {
+    Workplace const place;
+    std::ofstream(place / "proj.db").close();
+    for (char const* const name : {"PROJ_DATA", "PROJ_LIB"}) {
+        setenv(name, place.path().c_str(), 1);
+    }
+    Outcome const o = thalweg_run(small("--set grid.crs=EPSG:32631"), place.path());
+    for (char const* const name : {"PROJ_DATA", "PROJ_LIB"}) {
+        unsetenv(name);
+    }
+    EXPECT_EQ(o.code, 1) << "nothing is wrong with the recipe: " << o.err;
+    EXPECT_NE(o.err.find("PROJ does not open its database"), std::string::npos) << o.err;
+}
+
 TEST(Messages, TextThatIsNotUtf8IsRefused) {
     Workplace const place;
     Outcome const o = thalweg_run(small("--set \"output.title=$(printf 'a\\377b')\""), place.path());

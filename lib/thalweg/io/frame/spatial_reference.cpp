@@ -22,6 +22,11 @@ bool is_mistyped_code(std::string const& text) {
     return EQUALN(text.c_str(), "EPSG:", 5) && text.find_first_not_of("0123456789+", 5) != std::string::npos;
 }
 
+/// Whether PROJ finds its tables: a code that each of them has is known.
+bool has_database() {
+    return OGRSpatialReference().importFromEPSG(4326) == OGRERR_NONE;
+}
+
 } // namespace
 
 OGRSpatialReference read_reference(std::string const& text) {
@@ -35,6 +40,12 @@ OGRSpatialReference read_reference(std::string const& text) {
         reference.SetFromUserInput(text.c_str(), options.List()) != OGRERR_NONE) {
         throw_refusal(take_refusal(), "io.read_reference: the CRS");
         auto const words = driver.take();
+        if (words.find("proj.db") != std::string::npos || !has_database()) {
+            throw IoError(
+                fmt::format("io.read_reference: the CRS {} cannot be looked up: PROJ does not open its database "
+                            "({}); memory is short, or proj-data is not installed",
+                            text.substr(0, 60), words));
+        }
         throw BadInput(
             fmt::format("io.read_reference: '{}' is not a coordinate system{}; give a code such as EPSG:32633, "
                         "or WKT",
