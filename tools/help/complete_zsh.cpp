@@ -53,7 +53,7 @@ std::string spec(OptionHelp const& option) {
     std::string out;
     for (std::string const& name : option.names) {
         std::string const joint = flag ? "" : name.rfind("--", 0) == 0 ? "=" : "+";
-        out += fmt::format(" \\\n        {}", quoted(others + name + joint + tail));
+        out += fmt::format(" \\\n        {}", quoted(fmt::format("{}{}{}{}", others, name, joint, tail)));
     }
     return out;
 }

@@ -26,7 +26,7 @@ Key key_of(NoisePlace const& place) {
         high = (high + 0xBB67AE85U) & 0xffffffffU;
     }
     auto const row = static_cast<std::uint64_t>(place.row);
-    key.counter = {row & 0xffffffffU, row >> 32, static_cast<std::uint64_t>(2 * place.level + place.odd)};
+    key.counter = {row & 0xffffffffU, row >> 32, static_cast<std::uint64_t>(2 * std::int64_t{place.level} + place.odd)};
     return key;
 }
 

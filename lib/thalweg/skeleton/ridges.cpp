@@ -110,7 +110,9 @@ std::vector<RidgePiece> without_meetings(std::vector<RidgePiece> pieces, Labelle
         if (c.line >= first) {
             auto const& line = drawn[c.line];
             bool const in_an_end = c.at == line.front() || c.at == line.back();
-            left_out[c.line - first] |= static_cast<char>(!in_an_end || on_rivers.contains({c.at.x, c.at.y}));
+            if (!in_an_end || on_rivers.contains({c.at.x, c.at.y})) {
+                left_out[c.line - first] = 1;
+            }
         }
     }
     std::vector<RidgePiece> kept;

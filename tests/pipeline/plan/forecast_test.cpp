@@ -53,7 +53,7 @@ TEST(Forecast, RefusesWhatMakeRefuses) {
     }
     recipe = default_recipe();
     set_key(recipe, "patch.1.source=nowhere.tif");
-    set_key(recipe, "patch.2.source=" + (folder / "detail_points/recipe.toml").string());
+    set_key(recipe, "patch.2.source=" + (old_recipes() / "detail_points/recipe.toml").string());
     try {
         forecast(recipe);
         FAIL() << "the file of the first patch is missing";

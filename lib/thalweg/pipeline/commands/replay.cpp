@@ -33,11 +33,11 @@ Replayed replay(std::string const& folder, Run const& run) {
         if (name.rfind("report.", 0) == 0) {
             continue; // times differ
         }
-        std::string const old = folder + "/" + name;
+        std::string const old = (fs::path(folder) / name).string();
         if (!fs::exists(old)) {
             out.missing.push_back(name);
         } else {
-            bool const same = io::read_text(old, largest_file) == io::read_text(again + "/" + name, largest_file);
+            bool const same = io::read_text(old, largest_file) == io::read_text((fs::path(again) / name).string(), largest_file);
             (same ? out.same : out.differ).push_back(name);
         }
     }

@@ -159,7 +159,7 @@ network::Pruned prune(StreamNetwork const& plan, NetworkRecipe const& rivers, do
         return pruned;
     }
     for (std::size_t before = 0, now = vertices_of(pruned.network); now != before;) {
-        StreamNetwork cut = network::cut_corners(std::move(pruned.network), cell_m, run);
+        StreamNetwork cut = network::cut_corners(pruned.network, cell_m, run);
         before = now;
         now = vertices_of(cut);
         pruned.network = network::prune(cut, {length_cells * cell_m, cell_m}, run).network;

@@ -30,7 +30,7 @@ std::vector<SecondaryLine> secondary_of(Made const& t) {
         }
     }
     for (SecondaryLine line : t.rivers.file.drawn) {
-        if (known.count(line.feature) == 0) {
+        if (!known.contains(line.feature)) {
             line.reason = "pruned or shortened";
             secondary.push_back(std::move(line));
         }

@@ -12,7 +12,7 @@ namespace {
 /// What follows a string that begins at a place: "basic", 'literal', or of several lines with three of either.
 std::size_t end_of_string(std::string_view text, std::size_t begin) {
     char const quote = text[begin];
-    bool const is_long = text.substr(begin, 3) == std::string_view(quote == '"' ? "\"\"\"" : "'''");
+    bool const is_long = text.substr(begin, 3) == std::string_view(quote == '"' ? R"(""")" : "'''");
     std::size_t const quotes = is_long ? 3 : 1;
     for (std::size_t at = begin + quotes; at < text.size(); ++at) {
         if (text[at] == '\\' && quote == '"') {

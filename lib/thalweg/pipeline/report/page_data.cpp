@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace thalweg::pipeline {
 
@@ -109,15 +110,13 @@ std::vector<ProfilePoint> main_stem(Made const& t) {
     NodeId const outlet = *std::max_element(
         t.terrain.network.plan.outlets().begin(), t.terrain.network.plan.outlets().end(),
         [&](NodeId a, NodeId b) { return t.assessment.areas.node_m2[a] < t.assessment.areas.node_m2[b]; });
-    auto const stem_above = [&](NodeId node) {
+    auto const stem_above = [&](NodeId node) -> std::optional<ArcId> {
         auto const& in = t.terrain.network.plan.in(node);
-        auto const at = std::find_if(in.begin(), in.end(), [&](std::int64_t a) {
-            return t.terrain.orders.hack[static_cast<std::size_t>(a)] == 1;
-        });
-        return at == in.end() ? std::int64_t{-1} : *at;
+        auto const at = std::find_if(in.begin(), in.end(), [&](ArcId a) { return t.terrain.orders.hack[a] == 1; });
+        return at == in.end() ? std::nullopt : std::optional<ArcId>(*at);
     };
-    for (std::int64_t arc = stem_above(outlet); arc >= 0;) {
-        auto const a = static_cast<std::size_t>(arc);
+    for (std::optional<ArcId> arc = stem_above(outlet); arc;) {
+        ArcId const a = *arc;
         std::vector<Vec2> const& line = t.terrain.network.plan.arc(a).line;
         double to_outlet = t.terrain.orders.node_dist_out_m[t.terrain.network.plan.to(a)];
         for (std::size_t i = line.size(); i-- > 0;) {

@@ -144,9 +144,8 @@ void set_guess(GridProblem const& problem, Contents const& contents, ColouredPro
 }
 
 void collect(ColouredProblem const& coloured, Contents const& contents, GridProblem& problem, Run const& run) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    double const least = coloured.b == nullptr ? contents.least : -infinity;
-    double const greatest = coloured.b == nullptr ? contents.greatest : infinity;
+    double const least = coloured.b == nullptr ? contents.least : std::numeric_limits<double>::lowest();
+    double const greatest = coloured.b == nullptr ? contents.greatest : std::numeric_limits<double>::max();
     parallel_ranges(run, problem.kind.height(), 32, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t y = begin; y < end; ++y) {
             auto const kind = problem.kind.row(y);

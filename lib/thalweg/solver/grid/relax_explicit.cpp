@@ -18,7 +18,7 @@ namespace {
 
 // Even numbers, so that a block's rows have the colours of the grid's.
 constexpr std::int64_t block_rows = 32;
-constexpr int sweeps_a_pass = 4; // what a block loses by the rows around it, it gains by staying in the cache
+constexpr std::int64_t sweeps_a_pass = 4; // what a block loses by the rows around it, it gains by staying in the cache
 
 void demand(GridProblem const& problem, ExplicitParams const& params) {
     if (!(params.alpha > 0.0 && params.alpha <= 0.25)) {

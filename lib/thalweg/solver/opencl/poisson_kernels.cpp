@@ -4,8 +4,9 @@
 
 namespace thalweg::solver {
 
-std::string_view poisson_kernels() {
-    return R"(
+namespace {
+
+constexpr std::string_view text = R"(
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -265,6 +266,11 @@ kernel void collect(global const uchar* kind, global const double* u, double tim
     }
 }
 )";
+
+} // namespace
+
+std::string_view poisson_kernels() {
+    return text;
 }
 
 } // namespace thalweg::solver

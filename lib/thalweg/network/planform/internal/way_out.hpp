@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
@@ -15,7 +16,7 @@ namespace thalweg::network {
 /// Where rivers may end: on the grid's border and beside the sea.
 class RiverEnds {
 public:
-    explicit RiverEnds(Grid const& grid) : grid_(grid) {}
+    explicit RiverEnds(Grid grid) : grid_(std::move(grid)) {}
     explicit RiverEnds(Mask const& land);
 
     /// King's moves to the nearest end.

@@ -121,8 +121,8 @@ public:
         return *this;
     }
     /// When it has an effect; without this in every recipe that has the section.
-    Row& used(Use use) {
-        key_.use = std::move(use);
+    Row& used(Use const& use) {
+        key_.use = use;
         return *this;
     }
     /// The default in words, where the value alone does not say it.
@@ -142,8 +142,8 @@ public:
         return reads([range](Value const& v) { return number_in<T>(range, v); });
     }
     /// What a text is like, in words.
-    Row& form(std::string words) {
-        key_.help.range = std::move(words);
+    Row& form(std::string const& words) {
+        key_.help.range = words;
         return *this;
     }
     /// What a list of numbers is like, in words, and whether one is.
@@ -184,12 +184,12 @@ public:
         });
     }
     /// Words that completion offers.
-    Row& suggests(std::vector<std::string> words) {
-        key_.help.choices = std::move(words);
+    Row& suggests(std::vector<std::string> const& words) {
+        key_.help.choices = words;
         return *this;
     }
     /// Refuses more than its kind does, and does so first: throws BadParameter.
-    Row& checked(std::function<void(Value const&)> check) {
+    Row& checked(std::function<void(Value const&)> const& check) {
         return reads([check, read = read_](Value const& v) {
             check(v);
             return read(v);

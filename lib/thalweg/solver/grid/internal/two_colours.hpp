@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -57,7 +58,7 @@ private:
 template <class T> struct TwoColours {
     TwoColours() = default;
     explicit TwoColours(Board const& board) : of{Plane<T>(board), Plane<T>(board)} {}
-    Plane<T> of[2]; ///< red, black
+    std::array<Plane<T>, 2> of; ///< red, black
 };
 
 /// Rows of the other colour so that [k] is the neighbour of the k-th cell of a row.
