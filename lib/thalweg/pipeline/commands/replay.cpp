@@ -37,7 +37,8 @@ Replayed replay(std::string const& folder, Run const& run) {
         if (!fs::exists(old)) {
             out.missing.push_back(name);
         } else {
-            bool const same = io::read_text(old, largest_file) == io::read_text((fs::path(again) / name).string(), largest_file);
+            bool const same =
+                io::read_text(old, largest_file) == io::read_text((fs::path(again) / name).string(), largest_file);
             (same ? out.same : out.differ).push_back(name);
         }
     }

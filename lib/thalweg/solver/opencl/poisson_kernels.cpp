@@ -6,7 +6,7 @@ namespace thalweg::solver {
 
 namespace {
 
-constexpr std::string_view text = R"(
+constexpr std::string_view source_of_poisson = R"(
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -270,7 +270,7 @@ kernel void collect(global const uchar* kind, global const double* u, double tim
 } // namespace
 
 std::string_view poisson_kernels() {
-    return text;
+    return source_of_poisson;
 }
 
 } // namespace thalweg::solver
