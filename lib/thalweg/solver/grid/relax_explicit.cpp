@@ -18,7 +18,7 @@ namespace {
 
 // Even numbers, so that a block's rows have the colours of the grid's.
 constexpr std::int64_t block_rows = 32;
-constexpr std::int64_t sweeps_a_pass = 4; // what a block loses by the rows around it, it gains by staying in the cache
+constexpr int sweeps_a_pass = 4; // what a block loses by the rows around it, it gains by staying in the cache
 
 void demand(GridProblem const& problem, ExplicitParams const& params) {
     if (!(params.alpha > 0.0 && params.alpha <= 0.25)) {
@@ -34,7 +34,8 @@ void demand(GridProblem const& problem, ExplicitParams const& params) {
 
 /// A block of rows and those around it, before and after a sweep.
 struct Block {
-    explicit Block(std::int64_t width) : board{width, block_rows + 2 * sweeps_a_pass}, before(board), after(board) {}
+    explicit Block(std::int64_t width)
+        : board{width, block_rows + 2 * std::int64_t{sweeps_a_pass}}, before(board), after(board) {}
     Board board;
     TwoColours<double> before, after;
 };
