@@ -20,8 +20,6 @@ namespace thalweg::skeleton {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 constexpr std::uint64_t height_stage = 0x7363617474657233; // "scatter3"
 
 bool inside(Grid const& grid, Vec2 p) {
@@ -97,8 +95,8 @@ void demand(Grid const& grid, ScatterParams const& p, double spacing_m) {
             refuse(fmt::format("highest and lowest are {} m apart, the spacing is {} m", apart, spacing_m));
         }
     }
-    double const top = p.highest ? p.highest->z : infinity;
-    double const bottom = p.lowest ? p.lowest->z : -infinity;
+    double const top = p.highest ? p.highest->z : std::numeric_limits<double>::max();
+    double const bottom = p.lowest ? p.lowest->z : std::numeric_limits<double>::lowest();
     if (!(bottom < p.mean_m && p.mean_m < top)) {
         refuse(fmt::format("the mean {} m does not lie between the lowest {} m and the highest {} m", p.mean_m, bottom,
                            top));
@@ -138,8 +136,8 @@ Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run)
 
     std::vector<double> const z = heights(places.size(), params);
     result.points.points = extremes;
-    double const top = params.highest ? params.highest->z : infinity;
-    double const bottom = params.lowest ? params.lowest->z : -infinity;
+    double const top = params.highest ? params.highest->z : std::numeric_limits<double>::max();
+    double const bottom = params.lowest ? params.lowest->z : std::numeric_limits<double>::lowest();
     double const hair = params.highest && params.lowest ? 1e-6 * (top - bottom) : 1e-6;
     for (std::size_t i = 0; i < places.size(); ++i) {
         Vec3 point{places[i].x, places[i].y, z[i]};

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -58,7 +57,7 @@ private:
 template <class T> struct TwoColours {
     TwoColours() = default;
     explicit TwoColours(Board const& board) : of{Plane<T>(board), Plane<T>(board)} {}
-    std::array<Plane<T>, 2> of; ///< red, black
+    Plane<T> of[2]; ///< red, black
 };
 
 /// Rows of the other colour so that [k] is the neighbour of the k-th cell of a row.
