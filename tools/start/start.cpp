@@ -48,8 +48,8 @@ using Path = std::array<char, 4096>;
 void find_this_file(Path& path) {
     ssize_t const length = readlink("/proc/self/exe", path.data(), path.size() - 1);
     path[length > 0 ? static_cast<std::size_t>(length) : 0] = '\0';
-    auto const* const called = reinterpret_cast<char const*>(
-        getauxval(AT_EXECFN)); // NOLINT(performance-no-int-to-ptr): as the C library gives it
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the C library gives the address as a number
+    auto const* const called = reinterpret_cast<char const*>(getauxval(AT_EXECFN));
     if (length > 0 || called == nullptr) {
         return;
     }

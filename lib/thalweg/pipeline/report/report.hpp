@@ -31,7 +31,7 @@ std::string statistics_json(measure::Statistics const& statistics, DemLaws const
 /// \return Checks as one JSON array, as they stand under "checks" in report.json.
 std::string checks_json(std::vector<Check> const& checks);
 
-/// \return the version of thalweg, "0.1.0".
+/// \return the version of thalweg, e.g. "0.2.0".
 std::string version();
 
 } // namespace thalweg::pipeline
