@@ -40,7 +40,8 @@ std::string text_of(std::filesystem::path const& file) {
 // A key that docs name is one that a recipe may have.
 TEST(DocumentedKeys, Exist) {
     std::set<std::string> const known = keys_and_sections();
-    std::regex const named("`((?:grid|network|skeleton|surface|statistics|detail|patch|output)(?:\\.[a-z_]+)+)");
+    std::regex const named(
+        "`((?:grid|network|skeleton|surface|statistics|detail|patch|output)(?:\\.(?!hpp)[a-z_]+)+)"); // and no header
     std::filesystem::path const root(THALWEG_SOURCE_DIR);
     int found = 0;
     for (auto const& entry : std::filesystem::recursive_directory_iterator(root / "docs")) {

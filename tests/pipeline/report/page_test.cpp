@@ -196,7 +196,8 @@ TEST(Page, LongListsAreCut) {
     Made terrain = small_terrain(Land::with);
     terrain.terrain.surface->increments.assign(5000, 2.0);
     terrain.assessment.findings.assign(61, {"uphill", 1, {}, 0.0, "arc 1 runs uphill"});
-    repairs_of(terrain).clear();
+    terrain.rivers.story.repairs.clear();
+    terrain.terrain.notes.clear();
     json const data = data_of(page(terrain));
     json const& points = data["curve"]["points"];
     EXPECT_EQ(points.size(), 600U);
