@@ -50,8 +50,9 @@ std::string surface(std::string const& method, std::string const& more = "") {
     return "[surface]\nmethod = \"" + method + "\"\n" + more;
 }
 
-Words const diffusion = {"surface.diffusion", "surface.tolerance", "surface.sweeps", "surface.start",
-                         "surface.alpha",     "surface.smoothing", "surface.noise",  "surface.mask"};
+Words const diffusion = {"surface.diffusion", "surface.tolerance", "surface.sweeps",
+                         "surface.start",     "surface.alpha",     "surface.smoothing",
+                         "surface.noise",     "surface.mask",      "surface.smoothing_passes"};
 
 std::vector<BaseRecipe> const bases = {
     {"EquilibriumDla", dla + equilibrium, {"seed", "grid.", "network.", "-network.source", "surface.", "output."}},
