@@ -50,9 +50,8 @@ std::string surface(std::string const& method, std::string const& more = "") {
     return "[surface]\nmethod = \"" + method + "\"\n" + more;
 }
 
-Words const diffusion = {"surface.diffusion", "surface.tolerance", "surface.sweeps",
-                         "surface.start",     "surface.alpha",     "surface.smoothing",
-                         "surface.noise",     "surface.mask",      "surface.smoothing_passes"};
+Words const diffusion = {"surface.diffusion", "surface.tolerance", "surface.sweeps", "surface.start",
+                         "surface.alpha",     "surface.smoothing", "surface.noise",  "surface.mask"};
 
 std::vector<BaseRecipe> const bases = {
     {"EquilibriumDla", dla + equilibrium, {"seed", "grid.", "network.", "-network.source", "surface.", "output."}},

@@ -29,10 +29,6 @@ Rows<surface::DiffuseParams> diffusion_keys() {
             .range({0, 100})
             .used(by_diffusion())
             .means("sigma of Gaussian smoothing away from rivers, ridges and points; 0: none"),
-        number("smoothing_passes", &DiffuseParams::passes)
-            .range({0, 100})
-            .used(by_diffusion() && above("surface.smoothing", 0.0))
-            .means("how often that smoothing is repeated"),
         number("noise", &DiffuseParams::noise_m)
             .unit("m")
             .range({0, 1e5})
