@@ -5,7 +5,8 @@
 
 Measured anew, without thalweg: geomorphons by GRASS (r.geomorphon search=15 skip=0 flat=1, 15 cells of border left out) of
 dem.tif and of the two real DEMs in samples/; slopes and aspects by gdaldem; slope against area along the D8 directions of
-GRASS (r.watershed -s); pits, peaks and perched river cells (of network.tif) by numpy. Each is held against report.json. --bars
+GRASS (r.watershed -s), and how straight they run; pits, peaks and perched river cells (of network.tif), the correlation and the
+anisotropy of gradients by numpy. Each is held against report.json. --bars
 asks that the land is like land: concavity within 0.05 of theta, mean slope within 10 % of slope [degrees], valley over ridge cells
 0.8 to 1.25, geomorphons within forms (total variation) of the mean of the real DEMs, aspects along the grid's eight directions
 within 15 % of even, no perched river cell.
@@ -19,7 +20,7 @@ import numpy as np
 from check_grass import Grass, ModuleFailed, session
 from osgeo import gdal
 from report import Report, run
-from scipy.ndimage import generic_filter, maximum_filter, minimum_filter
+from scipy.ndimage import gaussian_filter, generic_filter, label, maximum_filter, minimum_filter
 
 gdal.UseExceptions()
 SAMPLES = pathlib.Path(__file__).resolve().parents[2] / "samples"
@@ -49,8 +50,7 @@ def forms_of(grass, path, name, folder):
 def gdaldem(verb, dem, folder):
     out = folder / f"{verb}.tif"
     subprocess.run(["gdaldem", verb, str(dem), str(out), "-q"], check=True)
-    values, _ = heights(out)
-    return values[np.isfinite(values)]
+    return heights(out)[0]
 
 
 def along_grid(aspects, half):
@@ -59,11 +59,11 @@ def along_grid(aspects, half):
     return float((off <= half).mean() / (half / 22.5)) if aspects.size else None
 
 
-def concavity(grass, folder, z, cell):
-    """Drop over way in bins of a fifth of a decade of area; a line through the bins by the roots of their cells."""
+def drainage_of(grass, folder, z, cell):
+    """Contributing area, drop and length of the step, and receiver (-1: none) of every cell, in one line."""
     grass("r.watershed", flags="sa", elevation="dem", accumulation="area", drainage="towards", memory=1000)
-    area, towards = grass.raster("area", folder), np.abs(np.nan_to_num(grass.raster("towards", folder)))
-    drop, way = np.zeros(z.shape), np.zeros(z.shape)
+    area, towards = grass.raster("area", folder), np.abs(np.nan_to_num(grass.raster("towards", folder))).astype(int)
+    drop, way, below = np.full(z.shape, np.nan), np.zeros(z.shape), np.full(z.shape, -1)
     for code, (row, column) in STEPS.items():
         at = np.argwhere(towards == code)
         there = at + (row, column)
@@ -71,6 +71,13 @@ def concavity(grass, folder, z, cell):
         at, there = at[inside].T, there[inside].T
         drop[tuple(at)] = z[tuple(at)] - z[tuple(there)]
         way[tuple(at)] = cell * np.hypot(row, column)
+        below[tuple(at)] = there[0] * z.shape[1] + there[1]
+    return area.ravel(), drop.ravel(), way.ravel(), below.ravel(), towards.ravel()
+
+
+def concavity(flow, cell):
+    """Drop over way in bins of a fifth of a decade of area; a line through the bins by the roots of their cells."""
+    area, drop, way, *_ = flow
     river = (area >= SUPPORT) & (way > 0) & np.isfinite(drop)
     logs = np.log10(area[river] * cell * cell)
     number = np.floor(logs * 5).astype(int)
@@ -84,6 +91,75 @@ def concavity(grass, folder, z, cell):
         return None
     x, y, w = np.array(line).T
     return float(-np.polyfit(x, y, 1, w=w)[0])
+
+
+def slope_area_ratio(flow, slopes):
+    """Mean tangent where 3000 to 10 000 cells drain over that where 3 to 10 do."""
+    area, tangent = flow[0], np.tan(np.radians(slopes)).ravel()
+    means = []
+    for low, high in ((3000, 10000), (3, 10)):
+        here = tangent[(area >= low) & (area < high) & np.isfinite(tangent)]
+        means.append(here.mean() if here.size else np.nan)
+    return float(means[0] / means[1]) if np.isfinite(means[0] / means[1]) else None
+
+
+def straightness(flow, columns, support=2000, steps=60, tolerance=1.5):
+    """Longest run of channels in one direction, and the share of reaches that keep to their chord."""
+    area, _, _, below, towards = flow
+    cells = np.flatnonzero((area >= support) & (below >= 0))
+    run = np.ones(area.size, int)
+    for at in cells[np.argsort(area[cells], kind="stable")]:
+        if towards[below[at]] == towards[at]:
+            run[below[at]] = max(run[below[at]], run[at] + 1)
+    reach = [cells]
+    for _ in range(steps):
+        reach.append(np.where(reach[-1] >= 0, below[reach[-1]], -1))
+    reach = np.stack(reach)[:, reach[-1] >= 0] if cells.size else np.zeros((steps + 1, 0), int)
+    row, column = reach // columns, reach % columns
+    down, across = (row[-1] - row[0]).astype(float), (column[-1] - column[0]).astype(float)
+    chord = np.hypot(down, across)
+    area_beside = np.abs((row - row[0]) * across - (column - column[0]) * down).max(axis=0) if reach.size else np.zeros(0)
+    share = float(((area_beside <= tolerance * chord) & (chord >= 1)).mean()) if reach.shape[1] else None
+    return int(run[cells].max()) if cells.size else 0, share
+
+
+def units(z):
+    down, across = np.gradient(z)
+    length = np.hypot(across, down)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(length > 0, (across + 1j * down) / length, np.where(np.isnan(length), np.nan, 0))
+
+
+def correlation(unit, lag):
+    if lag < 1 or lag >= min(unit.shape):
+        return None
+    products = []
+    for a, b in ((unit[:, lag:], unit[:, :-lag]), (unit[lag:], unit[:-lag])):
+        both = (np.abs(a) > 0.5) & (np.abs(b) > 0.5)
+        products.append((a * np.conj(b)).real[both].mean())
+    return float(np.mean(products))
+
+
+def anisotropy(unit, window):
+    border = int(np.ceil(2 * window))
+    if 4 * window >= min(unit.shape):
+        return None
+    known = np.isfinite(unit)
+    unit = np.where(known, unit, 0)
+    weight, xx, yy, xy = (gaussian_filter(part.astype(float), window)[border:-border, border:-border]
+                          for part in (known, unit.real**2, unit.imag**2, unit.real * unit.imag))
+    good = (weight > 0.98) & (xx + yy > 0)
+    return float((np.sqrt((xx - yy) ** 2 + 4 * xy**2) / np.where(good, xx + yy, 1))[good].mean()) if good.any() else None
+
+
+def level_patch(z, slope):
+    """Share of the largest patch below 3 degrees, in percent; level water left out."""
+    lake = maximum_filter(z, size=3) == minimum_filter(z, size=3)
+    land = np.isfinite(slope) & ~lake
+    land[0] = land[-1] = land[:, 0] = land[:, -1] = False
+    with np.errstate(invalid="ignore"):
+        patches, count = label(land & (slope < 3), structure=np.ones((3, 3)))
+    return float(100 * np.bincount(patches.ravel())[1:].max() / land.sum()) if count else 0.0
 
 
 def perched(z, mask, rise):
@@ -114,8 +190,16 @@ def measured(folder, dem, report):
         found["forms"] = forms_of(grass, dem, "dem", place)
         found["form_distance"] = float(np.abs(found["forms"] - np.mean(real, axis=0)).sum() / 2)
         found["valleys_over_ridges"] = float(found["forms"][8] / found["forms"][2]) if found["forms"][2] > 0 else None
-        found["theta"] = concavity(grass, place, z, cell)
-        slope, aspect = gdaldem("slope", dem, place), gdaldem("aspect", dem, place)
+        flow = drainage_of(grass, place, z, cell)
+        slopes, aspects = gdaldem("slope", dem, place), gdaldem("aspect", dem, place)
+    found["theta"], found["slope_area_ratio"] = concavity(flow, cell), slope_area_ratio(flow, slopes)
+    found["straight_run"], found["straight_share"] = straightness(flow, z.shape[1])
+    unit = units(z)
+    for lag in (360, 720, 1440):
+        found[f"gradient_correlation_{lag}"] = correlation(unit, round(lag / cell))
+    found["gradient_anisotropy"] = anisotropy(unit, 960 / cell)
+    found["level_patch"] = level_patch(z, slopes)
+    slope, aspect = slopes[np.isfinite(slopes)], aspects[np.isfinite(aspects)]
     found["slope_mean"] = float(slope.mean())
     for percent in (5, 50, 95):
         found[f"slope_p{percent}"] = float(np.percentile(slope, percent))
@@ -129,13 +213,16 @@ def measured(folder, dem, report):
 
 # How far a figure of ours may be from that of others, who round and break ties their way.
 WITHIN = {"slope_mean": 0.01, "slope_p5": 0.03, "slope_p50": 0.03, "slope_p95": 0.03, "slope_cv": 0.002, "form_distance": 0.005,
-          "valleys_over_ridges": 0.02, "aspects_along_grid": 0.01, "aspects_on_grid": 0.03, "theta": 0.03}
+          "valleys_over_ridges": 0.02, "aspects_along_grid": 0.01, "aspects_on_grid": 0.03, "theta": 0.03,
+          "slope_area_ratio": 0.02, "gradient_correlation_360": 1e-4, "gradient_correlation_720": 1e-4,
+          "gradient_correlation_1440": 1e-4, "gradient_anisotropy": 2e-3, "level_patch": 0.05, "straight_run": 6, "straight_share": 0.02}
+BY_DRAINAGE = ("theta", "slope_area_ratio", "straight_run", "straight_share")
 
 
 def held_against_report(found, relief, recipe, z, cell, drained, report):
     for key, tolerance in WITHIN.items():
         ours, theirs = relief["figures"][key]["value"], found[key]
-        if key == "theta" and not drained:
+        if key in BY_DRAINAGE and not drained:
             continue  # through depressions every program leads water its own way
         if ours is None or theirs is None:
             report.unless(ours is None and theirs is None, key, f"{ours}, not {theirs}")

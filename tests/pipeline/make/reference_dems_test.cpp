@@ -132,10 +132,15 @@ TEST(ReferenceDems, FormsAsGrassHasThem) {
 TEST(ReferenceDems, LieInTheirOwnRange) {
     for (measure::ReferenceDem const& land : measure::reference_dems()) {
         for (std::size_t f = 0; f < measure::relief_metric_count; ++f) {
+            if (measure::relief_metrics()[f].judges == measure::Judges::no) {
+                continue;
+            }
             measure::ReliefRange const range = measure::relief_range(f);
             EXPECT_GE(land.figures[f], range.low);
             EXPECT_LE(land.figures[f], range.high);
-            EXPECT_GT(range.low, 0.0);
+            if (measure::relief_metrics()[f].judges != measure::Judges::large_values) {
+                EXPECT_GT(range.low, 0.0);
+            }
         }
     }
 }

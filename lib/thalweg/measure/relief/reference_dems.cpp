@@ -31,7 +31,9 @@ ReliefRange relief_range(std::size_t figure) {
         std::minmax_element(lands.begin(), lands.end(), [&](ReferenceDem const& a, ReferenceDem const& b) {
             return a.figures[figure] < b.figures[figure];
         });
-    return {least->figures[figure] / land_tolerance, greatest->figures[figure] * land_tolerance};
+    ReliefMetric const& metric = relief_metrics()[figure];
+    return {metric.judges == Judges::large_values ? 0.0 : least->figures[figure] / metric.tolerance,
+            greatest->figures[figure] * metric.tolerance};
 }
 
 } // namespace thalweg::measure

@@ -38,11 +38,10 @@ struct ReliefRange {
     double high = 0.0;
 };
 
-inline constexpr double land_tolerance = 1.25; ///< margin, because two DEMs are not all terrain
-
 /// Computes the plausible range of a metric.
 /// \param figure index in relief_metrics()
-/// \return from the smaller reference value / land_tolerance to the larger * land_tolerance
+/// \return from the smaller reference value / tolerance to the larger * tolerance; from 0 where large values alone
+/// judge
 ReliefRange relief_range(std::size_t figure);
 
 } // namespace thalweg::measure

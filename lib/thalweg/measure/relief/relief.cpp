@@ -58,6 +58,11 @@ Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statist
     found.drainage_density = density(drainage, statistics.cells, params.support_cells);
     found.scaled_density =
         found.drainage_density * std::sqrt(static_cast<double>(params.support_cells)) * dem.grid().cell_m;
+    found.slope_area_ratio = slope_area_ratio(dem, drainage, params.slope_area_ratio, run);
+    found.texture = gradient_texture(dem, params.texture, run);
+    found.straight = straight_channels(drainage, params.straight, run);
+    found.level_patch = level_patch(dem, params.level_patch, run);
+    found.orometry = orometry(dem, params.orometry, run);
     return found;
 }
 

@@ -10,12 +10,17 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/flow_field.hpp>
+#include <thalweg/measure/peaks/orometry.hpp>
 #include <thalweg/measure/relief/chi.hpp>
 #include <thalweg/measure/relief/geomorphons.hpp>
+#include <thalweg/measure/relief/level_patch.hpp>
 #include <thalweg/measure/relief/local_extremes.hpp>
 #include <thalweg/measure/relief/slope_area.hpp>
+#include <thalweg/measure/relief/slope_area_ratio.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/measure/texture/gradient_texture.hpp>
+#include <thalweg/measure/texture/straight_channels.hpp>
 
 namespace thalweg::measure {
 
@@ -36,6 +41,11 @@ struct Relief {
     double drainage_density = std::numeric_limits<double>::quiet_NaN(); ///< [m/m2] of these streams
     /// [-] times the square root of the support's area
     double scaled_density = std::numeric_limits<double>::quiet_NaN();
+    double slope_area_ratio = std::numeric_limits<double>::quiet_NaN(); ///< [-] slope of channels / of hillslopes
+    GradientTexture texture;
+    StraightChannels straight;
+    LevelPatch level_patch;
+    Orometry orometry;
 };
 
 /// Options of relief().
@@ -44,6 +54,11 @@ struct ReliefParams {
     SlopeAreaParams slope_area = {};
     ChiParams chi = {};
     std::int64_t support_cells = 200; ///< [1, ...] for the drainage density
+    SlopeAreaRatioParams slope_area_ratio = {};
+    GradientTextureParams texture = {};
+    StraightChannelsParams straight = {};
+    LevelPatchParams level_patch = {};
+    OrometryParams orometry = {};
 };
 
 /// Computes the morphometric indices of a DEM. Valley forms: hollow, footslope, valley, pit; ridge forms: peak, ridge,

@@ -8,6 +8,8 @@ namespace thalweg::measure {
 
 namespace {
 
+constexpr double wide = 1.5;   // regions differ more than the two reference DEMs do
+constexpr double widest = 5.0; // one plain makes the difference
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double over(std::int64_t a, std::int64_t b) {
@@ -48,6 +50,28 @@ constexpr std::array<ReliefMetric, relief_metric_count> figures = {{
     {"length_y", "correlation length over extent, columns", "", Judges::yes,
      [](Relief const& r) { return r.length_y; }},
     {"density", "drainage density × √support", "", Judges::yes, [](Relief const& r) { return r.scaled_density; }},
+    {"slope_area_ratio", "slope of channels over that of hillslopes", "", Judges::yes,
+     [](Relief const& r) { return r.slope_area_ratio; }, wide},
+    {"gradient_correlation_360", "correlation of unit gradients, 360 m apart", "", Judges::yes,
+     [](Relief const& r) { return r.texture.correlation[0]; }},
+    {"gradient_correlation_720", "correlation of unit gradients, 720 m apart", "", Judges::yes,
+     [](Relief const& r) { return r.texture.correlation[1]; }},
+    {"gradient_correlation_1440", "correlation of unit gradients, 1440 m apart", "", Judges::no,
+     [](Relief const& r) { return r.texture.correlation[2]; }},
+    {"gradient_anisotropy", "anisotropy of gradients within 1 km", "", Judges::yes,
+     [](Relief const& r) { return r.texture.anisotropy; }, wide},
+    {"straight_run", "longest straight run of a channel", "cells", Judges::large_values,
+     [](Relief const& r) { return static_cast<double>(r.straight.longest_run); }},
+    {"straight_share", "share of straight channel reaches", "", Judges::no,
+     [](Relief const& r) { return r.straight.straight_share; }},
+    {"level_patch", "largest patch below 3°", "%", Judges::yes,
+     [](Relief const& r) { return 100.0 * over(r.level_patch.cells, r.level_patch.land); }, widest},
+    {"prominent_peaks", "peaks of 30 m prominence", "per km²", Judges::yes,
+     [](Relief const& r) { return r.orometry.peaks_per_km2; }},
+    {"prominence", "prominence of these, median", "m", Judges::yes,
+     [](Relief const& r) { return r.orometry.median_prominence_m; }},
+    {"isolation", "isolation of these, median", "m", Judges::yes,
+     [](Relief const& r) { return r.orometry.median_isolation_m; }},
 }};
 
 } // namespace

@@ -55,7 +55,7 @@ std::vector<ReliefRow> relief_rows(TerrainRelief const& relief) {
         for (measure::ReferenceDem const& land : lands) {
             row.beside.push_back(land.figures[f]);
         }
-        if (figures[f].judges == measure::Judges::yes) {
+        if (figures[f].judges != measure::Judges::no) {
             row.range = measure::relief_range(f);
         }
         rows.push_back(std::move(row));
@@ -68,7 +68,8 @@ std::vector<ReliefRow> relief_rows(TerrainRelief const& relief) {
     for (measure::ReferenceDem const& land : lands) {
         forms.beside.push_back(measure::total_variation(land.forms, mean));
     }
-    forms.range = {0.0, measure::land_tolerance * *std::max_element(forms.beside.begin(), forms.beside.end())};
+    forms.range = {0.0,
+                   measure::ReliefMetric{}.tolerance * *std::max_element(forms.beside.begin(), forms.beside.end())};
     rows.push_back(std::move(forms));
     if (relief.perched) {
         rows.push_back({"perched",

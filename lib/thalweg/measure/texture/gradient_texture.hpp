@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+
+namespace thalweg::measure {
+
+inline constexpr std::array<double, 3> texture_lags_m = {360.0, 720.0, 1440.0};
+
+/// Whether the slopes of a DEM are organised into faces, ridges and spurs; NaN: the DEM is too small.
+struct GradientTexture {
+    /// [-1, 1] autocorrelation of the unit gradient at texture_lags_m, mean of rows and columns
+    std::array<double, texture_lags_m.size()> correlation{};
+    /// [0, 1] anisotropy of the structure tensor: 0 as many slopes in every direction, 1 parallel ridges
+    double anisotropy = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Options of gradient_texture().
+struct GradientTextureParams {
+    double window_m = 960.0; ///< [m] > 0, standard deviation of the Gaussian window of the structure tensor
+};
+
+/// Measures the autocorrelation of unit gradients (central differences; level cells left out) and the mean of
+/// |l1 - l2| / (l1 + l2) of the structure tensor's eigenvalues, where the window lies on the DEM. The tensor is
+/// averaged over blocks of an eighth of the window first.
+/// \param dem [m] by cell; NaN: no data
+/// \param params options, each with its default, unit and range
+/// \param run progress, log, stop token and number of threads
+/// \return NaN where a lag or the window is shorter than a cell, or longer than the DEM; the same bits for any number
+/// of threads
+/// \throws BadParameter when window_m is not positive
+/// \throws BadInput when the cell size is not positive
+/// \throws Cancelled
+///
+/// Source: \cite bigun1987 (structure tensor).
+GradientTexture gradient_texture(Raster<float> const& dem, GradientTextureParams const& params = {},
+                                 Run const& run = {});
+
+} // namespace thalweg::measure
