@@ -18,6 +18,7 @@ MODULES = ["core", "geometry", "solver", "flow", "network", "skeleton", "surface
 def environment():
     return {**os.environ,
             "ASAN_OPTIONS": "detect_stack_use_after_return=1:strict_string_checks=1",
+            "LSAN_OPTIONS": f"suppressions={ROOT / 'tests' / 'house' / 'leaks.txt'}:print_suppressions=0",
             "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1",
             "TSAN_OPTIONS": f"suppressions={ROOT / 'tests' / 'house' / 'races.txt'}:ignore_noninstrumented_modules=1:halt_on_error=1"}
 
