@@ -17,9 +17,11 @@ namespace {
 
 constexpr std::uint64_t stage_plain = 0x6265'6e64;                // "bend"
 constexpr std::uint64_t stage_river = 0x7761'6e64;                // "wand"
+constexpr std::uint64_t stage_reach = 0x7265'6163;                // "reac"
 constexpr double floor_cells = 0.08;                              // width of a valley floor over area ^ 0.4 (cells)
 constexpr double wave_widths = 12.0;                              // a wave over the width
 constexpr double shortest_wave = 10.0;                            // [cells]
+constexpr double longest_reach = 20.0;                            // [cells]
 constexpr double amplitude = 0.16;                                // of a wave
 constexpr std::array<double, 3> long_waves = {160.0, 72.0, 32.0}; // [cells]
 constexpr std::uint64_t waves_each = 4;
@@ -126,12 +128,12 @@ void mean_near(Stem const& stem, std::vector<double> const& way_m, std::vector<d
     }
 }
 
-/// Half waves along a river: extremes of chance size that mostly take turns, joined smoothly.
-double noise(double half_waves, std::uint64_t seed, std::uint64_t river) {
+/// Half waves along a river: extremes of chance size, at least so large, that mostly take turns, joined smoothly.
+double noise(double half_waves, double least, std::uint64_t seed, std::uint64_t stage, std::uint64_t river) {
     constexpr double takes_turns = 0.8;
     auto const extreme = [&](std::uint64_t k) {
-        auto const words = random_block(seed, stage_river, river, k);
-        double const size = 0.35 + 0.65 * unit(words[0]);
+        auto const words = random_block(seed, stage, river, k);
+        double const size = least + (1.0 - least) * unit(words[0]);
         bool const odd = (k % 2 == 1) != (unit(words[1]) > takes_turns);
         return odd ? -size : size;
     };
@@ -253,18 +255,24 @@ std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, dou
     return out;
 }
 
-std::vector<Vec2> wander(Stems const& stems, std::vector<Vec2> const& at, double cell_m, double gain,
+std::vector<Vec2> wander(Stems const& stems, std::vector<Vec2> const& at, double cell_m, double gain, Wandering which,
                          std::uint64_t seed) {
-    std::vector<double> const wave_m = wavelengths(stems, weights(stems), cell_m);
+    bool const bends = which == Wandering::bends;
+    std::uint64_t const stage = bends ? stage_river : stage_reach;
+    double const least = bends ? 0.35 : 0.7;
+    std::vector<double> wave_m = wavelengths(stems, weights(stems), cell_m);
+    for (double& wave : wave_m) {
+        wave = bends ? wave : std::clamp(wave / 4.0, shortest_wave * cell_m, longest_reach * cell_m);
+    }
     std::vector<Vec2> out(at.size());
     for (Stem const& stem : stems.stems) {
-        double half_waves = unit(random_word(seed, stage_river, stem.source, ~0ULL));
+        double half_waves = unit(random_word(seed, stage, stem.source, ~0ULL));
         double const end_m = stems.way_m[stem.end - 1];
         for (std::size_t i = stem.begin; i < stem.end; ++i) {
             double const step = i == stem.begin ? 0.0 : stems.way_m[i] - stems.way_m[i - 1];
             half_waves += 2.0 * step / wave_m[i];
             double const fades = smooth_step((end_m - stems.way_m[i]) / (0.5 * wave_m[i]));
-            double const by = fades * gain * amplitude * wave_m[i] * noise(half_waves, seed, stem.source);
+            double const by = fades * gain * amplitude * wave_m[i] * noise(half_waves, least, seed, stage, stem.source);
             Vec2 const left = across(stem, stems.way_m, at, i, 0.25 * wave_m[i]);
             out[i] = {by * left.x, by * left.y};
         }

@@ -134,7 +134,9 @@ private:
         double const cell = grid_.cell_m;
         move(smoothing(stems_, base_, cell, wanders ? Rounding::river : Rounding::half_a_cell), smoothed_near * cell);
         if (wanders) {
-            move(wander(stems_, base_, cell, params_.gain, params_.seed), 0.0);
+            for (Wandering const which : {Wandering::bends, Wandering::reaches}) {
+                move(wander(stems_, base_, cell, params_.gain, which, params_.seed), 0.0);
+            }
         }
         finish(base_);
         return true;

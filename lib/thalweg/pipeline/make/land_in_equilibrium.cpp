@@ -71,10 +71,13 @@ surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface:
     } else if (recipe.network->source == Source::lines) { // given heights have a slope of their own
         params.mean_slope_deg = usual_slope_deg(recipe.grid.cell_m);
     }
-    params.hillslope_cells =
-        wanted.hillslope_m > 0.0 ? wanted.hillslope_m / recipe.grid.cell_m : params.hillslope_cells;
-    params.floor_width = wanted.floor_width;
+    params.hillslope_m = wanted.hillslope_m > 0.0 ? wanted.hillslope_m : recipe.grid.cell_m;
+    params.debris_area_m2 = wanted.debris_area_km2 * 1e6;
+    params.floor_width_km = wanted.floor_width_km;
     params.roughness = wanted.roughness;
+    params.longest_wave_m = wanted.longest_wave_m;
+    params.grain = wanted.grain;
+    params.strike_deg = wanted.strike_deg;
     params.edge = edge;
     params.seed = recipe.seed;
     return params;

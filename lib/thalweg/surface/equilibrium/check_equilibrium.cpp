@@ -26,10 +26,15 @@ std::string place(Grid const& grid, std::int64_t cell) {
 void check_params(EquilibriumParams const& params) {
     constexpr char const* self = "surface.equilibrium";
     require_in(self, "theta", params.theta, Range::between(0.1, 0.9));
-    require_in(self, "hillslope_cells", params.hillslope_cells, Range::between(0.5, 100.0));
-    require_in(self, "floor_width", params.floor_width, Range::between(0.0, 1.0));
+    require_in(self, "hillslope_m", params.hillslope_m, Range::at_least(0.0), "m");
+    require_in(self, "debris_area_m2", params.debris_area_m2, Range::at_least(0.0), "m²");
+    require_in(self, "floor_width_km", params.floor_width_km, Range::between(0.0, 1.0), "km");
     require_in(self, "roughness", params.roughness, Range::between(0.0, 1.0));
-    require_in(self, "longest_wave_cells", params.longest_wave_cells, Range::at_least(4.0));
+    require_in(self, "longest_wave_m", params.longest_wave_m, Range::above(0.0), "m");
+    require_in(self, "grain", params.grain, Range::between(1.0, 20.0));
+    if (params.strike_deg) {
+        require_in(self, "strike_deg", *params.strike_deg, Range::between(-360.0, 360.0), "degrees");
+    }
     if (params.relief_m) {
         require_in(self, "relief_m", *params.relief_m, Range::above(0.0), "m");
     } else {

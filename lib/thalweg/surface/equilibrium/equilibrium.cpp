@@ -3,6 +3,7 @@
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/surface/equilibrium/internal/check_equilibrium.hpp>
 #include <thalweg/surface/equilibrium/internal/cover_cells.hpp>
@@ -72,14 +73,14 @@ std::vector<Plan> plans(WidenedLand& land) {
 
 /// Everything that a level's rounds need, before the first.
 LandLevel prepared(Plan&& plan, std::size_t number, LandLevel const& coarser, RockFields const& fields,
-                   EquilibriumParams const& params, Run const& run) {
+                   RockParams const& rock, EquilibriumParams const& params, Run const& run) {
     LandLevel level;
     level.width = plan.width + 2;
     level.height = plan.height + 2;
     level.side = static_cast<float>(std::int64_t{1} << number);
     level.rivers = std::move(plan.rivers);
     cover_cells(level, plan.land, params.edge, number == 0 ? RiverBanks::kept : RiverBanks::none);
-    set_rock(level, fields, params, run);
+    set_rock(level, fields, rock, run);
     jitter(level, params.seed, run);
     if (coarser.z.empty()) {
         start_from_nothing(level, nearest_river(level), params.seed, run);
@@ -116,7 +117,7 @@ void drop_what_is_done(LandLevel& level) {
 class Solver {
 public:
     Solver(EquilibriumParams const& params, Channels const& rivers, Window const& window, Run const& run)
-        : params_(params), rivers_(rivers), window_(window), run_(run), law_(params),
+        : params_(params), rivers_(rivers), window_(window), run_(run), law_(params, window.grid.cell_m),
           per_length_(jittered_per_length()) {}
 
     void solve(LandLevel& level, std::size_t number, std::size_t levels) {
@@ -134,8 +135,8 @@ public:
                 }
                 steepest_ways(level, per_length_, run_);
             }
-            if (number == 0 && round == floors_after && params_.floor_width > 0.0) {
-                valley_floors(level, params_.floor_width, params_.seed);
+            if (number == 0 && round == floors_after && params_.floor_width_km > 0.0) {
+                valley_floors(level, {params_.floor_width_km, window_.grid.cell_m, params_.seed});
             }
             order_cells(level);
             if (given) {
@@ -149,6 +150,7 @@ public:
         }
     }
 
+    EquilibriumLaw const& law() const { return law_; }
     std::vector<std::int64_t> const& shortened() const { return shortened_; }
 
 private:
@@ -204,6 +206,19 @@ struct Solved {
     std::int64_t margin = 0;
 };
 
+RockParams rock_of(EquilibriumParams const& params, float steepest, Window const& window) {
+    constexpr std::uint64_t strike_stage = 0x737472696b65; // "strike"
+    double const by_chance = unit(random_word(params.seed, strike_stage)) * portable::pi;
+    constexpr double radians = portable::pi / 180.0;
+    RockNoise noise;
+    noise.longest_wave = params.longest_wave_m / window.grid.cell_m;
+    noise.stretch = params.grain;
+    noise.strike = params.strike_deg ? (90.0 - *params.strike_deg) * radians : by_chance;
+    noise.margin = static_cast<double>(window.margin);
+    noise.seed = params.seed;
+    return {params.roughness, steepest, noise};
+}
+
 /// The finest level, with heights of rivers in its own units or none.
 Solved solved(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
               Run const& run) {
@@ -211,9 +226,10 @@ Solved solved(Channels const& rivers, EquilibriumFields const& fields, Equilibri
     std::vector<Plan> levels = plans(land);
     Window const window{rivers.grid, fields.land, land.margin};
     Solver solver(params, rivers, window, run);
+    RockParams const rock = rock_of(params, solver.law().steepest, window);
     LandLevel level;
     for (std::size_t number = levels.size(); number-- > 0;) {
-        level = prepared(std::move(levels[number]), number, level, land.fields, params, run);
+        level = prepared(std::move(levels[number]), number, level, land.fields, rock, params, run);
         solver.solve(level, number, levels.size());
         drop_what_is_done(level);
     }

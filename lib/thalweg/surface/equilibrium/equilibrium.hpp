@@ -37,13 +37,16 @@ struct EquilibriumFields {
 
 /// Options of equilibrium().
 struct EquilibriumParams {
-    double theta = 0.38;               ///< [0.1, 0.9] concavity index: slope ~ area^-theta
-    double mean_slope_deg = 25.0;      ///< (0, 60] mean over cells (Horn's slope), unless relief_m is set
-    std::optional<double> relief_m;    ///< [m] > 0, highest minus lowest cell; replaces the mean slope
-    double hillslope_cells = 1.0;      ///< [0.5, 100] length below which soil creep dominates (Perron 2009)
-    double floor_width = 0.04;         ///< [0, 1] half width of a valley floor [cells] / area [cells] ^ 0.4
-    double roughness = 0.25;           ///< [0, 1] standard deviation of log erodibility, as noise
-    double longest_wave_cells = 360.0; ///< [4, ...] longest wavelength of that noise
+    double theta = 0.38;              ///< [0.1, 0.9] concavity index: slope ~ area^-theta
+    double mean_slope_deg = 25.0;     ///< (0, 60] mean over cells (Horn's slope), unless relief_m is set
+    std::optional<double> relief_m;   ///< [m] > 0, highest minus lowest cell; replaces the mean slope
+    double hillslope_m = 15.0;        ///< [m] >= 0 length below which soil creep dominates (Perron 2009)
+    double debris_area_m2 = 50'000.0; ///< [m²] >= 0 drainage area below which debris flows cut (Stock 2003)
+    double floor_width_km = 0.0085; ///< [km] [0, 1] half width of a valley floor where 1 km² drains; grows as area^0.45
+    double roughness = 0.22;        ///< [0, 1] standard deviation of log erodibility, as noise
+    double longest_wave_m = 10'800.0; ///< [m] > 0 longest wavelength of that noise
+    double grain = 5.0;               ///< [1, 20] how many times as far rock reaches along its strike as across
+    std::optional<double> strike_deg; ///< [degrees] of rock, clockwise from north; none: by the seed
     Edge edge = Edge::open;
     RiverHeights heights = RiverHeights::graded;
     /// with prescribed heights: solve again until the terrain has the target slope or relief; false: it is as high as

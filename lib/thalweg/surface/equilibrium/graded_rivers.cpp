@@ -11,7 +11,6 @@ namespace thalweg::surface {
 
 namespace {
 
-constexpr float source_area = 100.0F; // [finest cells]: a drawn source drains something already
 constexpr float creep_brings = 1.15F; // what rivers carry besides what is lifted under them, as other valleys do
 // Of the cap: two steps by corners must rise by less than land of the mean slope does in one by a side.
 constexpr float share_of_cap = 0.3F;
@@ -33,10 +32,10 @@ float height_by_ring(LandLevel const& level, std::uint32_t cell) {
 } // namespace
 
 float graded_tangent(LandLevel const& level, EquilibriumLaw const& law, std::uint32_t i) {
-    float const area = static_cast<float>(level.area[i]) * level.side * level.side + source_area;
+    float const area = static_cast<float>(level.area[i]) * level.side * level.side + law.source_area;
     float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
     float const graded = creep_brings * uplift / (level.erodibility[i] * law.power(area));
-    return std::min(graded, share_of_cap * std::min(level.cap[i], steepest_tangent));
+    return std::min(graded, share_of_cap * std::min(level.cap[i], law.steepest));
 }
 
 std::vector<float> greatest_heights(LandLevel const& level, EquilibriumLaw const& law) {

@@ -12,7 +12,7 @@ namespace thalweg::surface {
 
 namespace {
 constexpr std::uint64_t jitter_stage = 0x6a6974746572; // "jitter"
-constexpr double reach = 0.25;                         // [cells]
+constexpr double reach = 0.35;                         // [cells]
 } // namespace
 
 JitteredPerLength jittered_per_length() {

@@ -4,7 +4,6 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/parallel.hpp>
-#include <thalweg/surface/equilibrium/internal/rock_noise.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -41,9 +40,8 @@ Cells<float> level_of(Raster<float> const& field, LandLevel const& level) {
 
 } // namespace
 
-void set_rock(LandLevel& level, RockFields const& fields, EquilibriumParams const& params, Run const& run) {
-    level.erodibility =
-        rock_noise(level, {params.longest_wave_cells, static_cast<double>(fields.margin), params.seed}, run);
+void set_rock(LandLevel& level, RockFields const& fields, RockParams const& params, Run const& run) {
+    level.erodibility = rock_noise(level, params.noise, run);
     level.cap.resize(level.erodibility.size());
     bool const rocks = fields.erodibility.cells() > 0;
     Cells<float> const rock = rocks ? level_of(fields.erodibility, level) : Cells<float>{};
@@ -59,7 +57,7 @@ void set_rock(LandLevel& level, RockFields const& fields, EquilibriumParams cons
             }
             double const fourth = fifth_root * fifth_root * fifth_root * fifth_root;
             level.erodibility[i] = static_cast<float>(fourth * fifth_root);
-            level.cap[i] = static_cast<float>(static_cast<double>(steepest_tangent) / fourth);
+            level.cap[i] = static_cast<float>(static_cast<double>(params.steepest) / fourth);
         }
     });
 }

@@ -18,26 +18,24 @@ constexpr std::uint64_t rock_stage = 0x726f636b; // "rock"
 constexpr double shortest_wave = 2.0;
 // Eased between four uniform numbers, the variance is about that of one, a twelfth, times a half.
 constexpr double to_unit_variance = 5.0;
+constexpr double stronger = 1.1; // from octave to octave: gullies want more than the long waves leave them
+constexpr int counted_octaves = 8;
 
 /// One octave: its lattice turned and moved against the grid, and the numbers at the nodes that the grid needs.
 class Octave {
 public:
     Octave(LandLevel const& level, RockNoise const& params, std::uint64_t number, double wave, Run const& run)
-        : per_col_(portable::cos(angle(number)) * level.side / wave),
-          per_row_(portable::sin(angle(number)) * level.side / wave) {
-        double const first = (0.5 * level.side - level.side - params.margin) / wave; // centre of the frame's corner
-        double const cos = portable::cos(angle(number));
-        double const sin = portable::sin(angle(number));
-        x0_ = cos * first - sin * first + 17.3 * static_cast<double>(number);
-        y0_ = sin * first + cos * first + 91.7 * static_cast<double>(number);
+        : Octave(params.strike + turn(number, params.stretch), std::sqrt(params.stretch), level.side / wave) {
+        double const first =
+            (0.5 * level.side - level.side - params.margin) / level.side; // centre of the frame's corner
+        x0_ = (x_per_col_ - x_per_row_) * first + 17.3 * static_cast<double>(number);
+        y0_ = (y_per_row_ + y_per_col_) * first + 91.7 * static_cast<double>(number);
         auto const across = static_cast<double>(level.width);
         auto const down = static_cast<double>(level.height);
-        double const left =
-            std::floor(x0_ + std::min({0.0, per_col_ * across, -per_row_ * down, per_col_ * across - per_row_ * down}));
-        double const top =
-            std::floor(y0_ + std::min({0.0, per_row_ * across, per_col_ * down, per_row_ * across + per_col_ * down}));
-        double const reach_x = std::fabs(per_col_) * across + std::fabs(per_row_) * down;
-        double const reach_y = std::fabs(per_row_) * across + std::fabs(per_col_) * down;
+        double const left = std::floor(x0_ + std::min(0.0, x_per_col_ * across) + std::min(0.0, -x_per_row_ * down));
+        double const top = std::floor(y0_ + std::min(0.0, y_per_col_ * across) + std::min(0.0, y_per_row_ * down));
+        double const reach_x = std::fabs(x_per_col_) * across + std::fabs(x_per_row_) * down;
+        double const reach_y = std::fabs(y_per_col_) * across + std::fabs(y_per_row_) * down;
         width_ = static_cast<std::int64_t>(reach_x) + 4;
         auto const rows = static_cast<std::int64_t>(reach_y) + 4;
         nodes_.resize(static_cast<std::size_t>(width_ * rows));
@@ -47,12 +45,12 @@ public:
     }
 
     void add_to_row(std::int64_t row, double weight, float* out, std::int64_t count) const {
-        double const x = x0_ - per_row_ * static_cast<double>(row);
-        double const y = y0_ + per_col_ * static_cast<double>(row);
+        double const x = x0_ - x_per_row_ * static_cast<double>(row);
+        double const y = y0_ + y_per_row_ * static_cast<double>(row);
         auto const w = static_cast<float>(weight);
         for (std::int64_t col = 0; col < count; ++col) {
-            double const at_x = x + per_col_ * static_cast<double>(col);
-            double const at_y = y + per_row_ * static_cast<double>(col);
+            double const at_x = x + x_per_col_ * static_cast<double>(col);
+            double const at_y = y + y_per_col_ * static_cast<double>(col);
             auto const ix = static_cast<std::int32_t>(at_x);
             auto const iy = static_cast<std::int32_t>(at_y);
             float const u = eased(static_cast<float>(at_x - ix));
@@ -65,7 +63,17 @@ public:
     }
 
 private:
-    static double angle(std::uint64_t number) { return 0.7 * static_cast<double>(number) + 0.3; }
+    /// lattice: cells of the level in a cell's width
+    Octave(double angle, double stretch, double per_cell)
+        : x_per_col_(portable::cos(angle) * per_cell / stretch), x_per_row_(portable::sin(angle) * per_cell / stretch),
+          y_per_col_(portable::sin(angle) * per_cell * stretch), y_per_row_(portable::cos(angle) * per_cell * stretch) {
+    }
+
+    /// All ways where rock has no grain; else up to 17 degrees to either side of the strike.
+    static double turn(std::uint64_t number, double stretch) {
+        return stretch > 1.0 ? 0.15 * (static_cast<double>(number * 7919 % 5) - 2.0)
+                             : 0.7 * static_cast<double>(number);
+    }
     static float eased(float t) { return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F); }
 
     void draw(std::uint64_t seed, std::uint64_t number, std::int64_t left, std::int64_t top, std::int64_t rows,
@@ -92,8 +100,10 @@ private:
         });
     }
 
-    double per_col_;
-    double per_row_;
+    double x_per_col_; ///< along the strike, in widths of the lattice
+    double x_per_row_;
+    double y_per_col_; ///< across
+    double y_per_row_;
     double x0_ = 0.0;
     double y0_ = 0.0;
     std::int64_t width_ = 0;
@@ -104,13 +114,15 @@ private:
 
 Cells<float> rock_noise(LandLevel const& level, RockNoise const& params, Run const& run) {
     Cells<float> noise(static_cast<std::size_t>(level.cells()));
-    std::uint64_t octaves = 0;
-    for (double wave = params.longest_wave; wave >= shortest_wave; wave /= 2.0) {
-        ++octaves;
+    double variance = 0.0;
+    double part = 1.0;
+    for (int octave = 0; octave < counted_octaves; ++octave, part *= stronger * stronger) {
+        variance += part;
     }
-    double const weight = to_unit_variance / std::sqrt(static_cast<double>(octaves));
+    double weight = to_unit_variance / std::sqrt(variance);
     double wave = params.longest_wave;
-    for (std::uint64_t number = 0; number < octaves && wave >= 1.5 * level.side; ++number, wave /= 2.0) {
+    double const shortest = std::max(shortest_wave, 1.5 * static_cast<double>(level.side));
+    for (std::uint64_t number = 0; wave >= shortest; ++number, wave /= 2.0, weight *= stronger) {
         Octave const octave(level, params, number, wave, run);
         parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t row = begin; row < end; ++row) {

@@ -11,6 +11,17 @@ Use no_relief() {
     return when("surface.relief = 0", [](Recipe const& r) { return r.surface && r.surface->dilate.relief_m <= 0.0; });
 }
 
+Use by_rough_rock() {
+    return by_equilibrium() && when("surface.roughness > 0", [](Recipe const& r) {
+               return r.surface && r.surface->equilibrium.roughness > 0.0;
+           });
+}
+
+Use by_grained_rock() {
+    return by_rough_rock() &&
+           when("surface.grain > 1", [](Recipe const& r) { return r.surface && r.surface->equilibrium.grain > 1.0; });
+}
+
 Rows<EquilibriumRecipe> slope_keys() {
     return {
         number("mean_slope", &EquilibriumRecipe::mean_slope_deg)
@@ -22,17 +33,45 @@ Rows<EquilibriumRecipe> slope_keys() {
         number("hillslope", &EquilibriumRecipe::hillslope_m)
             .unit("m")
             .range({0, 1e5})
+            .earlier(0.0)
             .used(by_equilibrium())
-            .means("length below which soil creep rounds the slopes, at least half a cell; 0: one cell"),
-        number("floor_width", &EquilibriumRecipe::floor_width)
+            .means("length below which soil creep rounds the slopes; 0: one cell"),
+        number("debris_area", &EquilibriumRecipe::debris_area_km2)
+            .unit("km2")
+            .range({0, 1e6})
+            .used(by_equilibrium())
+            .means("drainage area below which debris flows cut hillsides, whose slopes hardly depend on area"),
+        number("floor_width", &EquilibriumRecipe::floor_width_km)
+            .unit("km")
             .range({0, 1})
+            .earlier(0.04)
             .used(by_equilibrium())
-            .means("half the width of a valley floor in cells, divided by (drainage area in cells) ^ 0.4"),
+            .means("half the width of a valley floor where 1 km2 drains; it grows with drainage area ^ 0.45"),
+    };
+}
+
+Rows<EquilibriumRecipe> rock_keys() {
+    return {
         number("roughness", &EquilibriumRecipe::roughness)
             .range({0, 1})
             .earlier(0.4)
+            .earlier(0.25)
             .used(by_equilibrium())
             .means("standard deviation of the logarithm of erodibility"),
+        number("longest_wave", &EquilibriumRecipe::longest_wave_m)
+            .unit("m")
+            .range({0, 1e7, left_open})
+            .used(by_rough_rock())
+            .means("longest wavelength of that variation"),
+        number("grain", &EquilibriumRecipe::grain)
+            .range({1, 20})
+            .used(by_rough_rock())
+            .means("how many times as far rock of one kind reaches along its strike as across it; 1: no grain"),
+        number("strike", &EquilibriumRecipe::strike_deg)
+            .unit("degrees")
+            .range({-360, 360})
+            .used(by_grained_rock())
+            .means("direction of the grain, clockwise from north; left out: by the seed"),
     };
 }
 
@@ -67,7 +106,7 @@ Rows<EquilibriumRecipe> ground_keys() {
 } // namespace
 
 Rows<EquilibriumRecipe> equilibrium_keys() {
-    return joined<EquilibriumRecipe>({slope_keys(), ground_keys()});
+    return joined<EquilibriumRecipe>({slope_keys(), rock_keys(), ground_keys()});
 }
 
 } // namespace thalweg::pipeline

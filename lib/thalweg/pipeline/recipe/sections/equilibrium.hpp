@@ -12,9 +12,13 @@ namespace thalweg::pipeline {
 /// What a land in equilibrium is like, beside surface.relief and network.concavity.
 struct EquilibriumRecipe {
     std::optional<double> mean_slope_deg; ///< none: 25, where no relief is asked
-    double hillslope_m = 0.0;             ///< [m] 0: one cell
-    double floor_width = 0.04;            ///< as surface::EquilibriumParams
-    double roughness = 0.25;
+    double hillslope_m = 15.0;            ///< [m] this and what follows as surface::EquilibriumParams
+    double debris_area_km2 = 0.05;
+    double floor_width_km = 0.0085;
+    double roughness = 0.22;
+    double longest_wave_m = 10'800.0;
+    double grain = 5.0;
+    std::optional<double> strike_deg;
     std::optional<surface::Edge> edge; ///< none: mainland by coastlines, coast by other sea, else open
     std::string uplift;                ///< raster on the grid; "" for none
     std::string erodibility;           ///< raster on the grid, or polygons with a field of that name; "" for none

@@ -32,7 +32,7 @@ public:
     float operator()(float area) const { return table_[(std::bit_cast<std::uint32_t>(area) >> dropped) - first]; }
 
 private:
-    static constexpr double sharpness = 3.0; // of the bend
+    static constexpr double sharpness = 2.0; // of the bend
     static constexpr std::uint32_t dropped = 15;
     static constexpr std::size_t first = std::size_t{127} << 8;
     std::vector<float> table_ = std::vector<float>(std::size_t{64} << 8);

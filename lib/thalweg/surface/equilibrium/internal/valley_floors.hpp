@@ -9,9 +9,14 @@
 /// Private to this module.
 namespace thalweg::surface {
 
-/// Lowers the cap on slopes beside rivers, so that floors form that widen downstream: a flat core and concave foot
-/// slopes, half as steep as other land at about floor_width times area ^ 0.4 from the river, both in cells. The order
-/// of cells is lost: its memory is wanted.
-void valley_floors(LandLevel& level, double floor_width, std::uint64_t seed);
+struct FloorParams {
+    double width_km = 0.0; ///< half width of a floor where 1 km² drains
+    double cell_m = 1.0;
+    std::uint64_t seed = 0;
+};
+
+/// Lowers the cap on slopes beside rivers, so that floors form that widen downstream: flat, with a concave foot as wide
+/// again. The order of cells is lost: its memory is wanted.
+void valley_floors(LandLevel& level, FloorParams const& params);
 
 } // namespace thalweg::surface
