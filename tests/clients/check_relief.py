@@ -20,7 +20,7 @@ import numpy as np
 from check_grass import Grass, ModuleFailed, session
 from osgeo import gdal
 from report import Report, run
-from scipy.ndimage import gaussian_filter, generic_filter, label, maximum_filter, minimum_filter
+from scipy.ndimage import distance_transform_edt, gaussian_filter, generic_filter, label, maximum_filter, minimum_filter
 
 gdal.UseExceptions()
 SAMPLES = pathlib.Path(__file__).resolve().parents[2] / "samples"
@@ -208,6 +208,8 @@ def measured(folder, dem, report):
     found["aspects_along_grid"], found["aspects_on_grid"] = along_grid(aspect, 11.25), along_grid(aspect, 2.5)
     found["pits"], found["peaks"] = extremes(z)
     found["rivers"] = gdal.Open(str(mask)).ReadAsArray() == 1 if mask.exists() else None
+    if found["rivers"] is not None and found["rivers"].any():
+        found["river_distance"] = float(np.median(distance_transform_edt(~found["rivers"])[np.isfinite(z)])) * cell
     return found, z, cell
 
 

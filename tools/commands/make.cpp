@@ -19,6 +19,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -42,8 +43,18 @@ struct MakeOptions {
     bool dry_run = false;
 };
 
+/// Without a recipe: where keys of a cluster are set, one is wanted.
+pipeline::Recipe recipe_without_file(MakeOptions const& options) {
+    bool const of_cluster = std::ranges::any_of(options.set, [](std::string const& assignment) {
+        return assignment.starts_with("network.dla.") || assignment.starts_with("network.source=dla") ||
+               assignment.starts_with("network.source=\"dla");
+    });
+    return of_cluster ? pipeline::cluster_recipe() : pipeline::default_recipe();
+}
+
 pipeline::Recipe recipe_of(MakeOptions const& options) {
-    pipeline::Recipe recipe = options.input.empty() ? pipeline::default_recipe() : pipeline::recipe_from(options.input);
+    pipeline::Recipe recipe =
+        options.input.empty() ? recipe_without_file(options) : pipeline::recipe_from(options.input);
     for (std::string const& assignment : options.set) {
         pipeline::set_key(recipe, assignment);
     }

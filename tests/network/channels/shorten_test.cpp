@@ -72,6 +72,21 @@ TEST(Shorten, ATipBeginsFartherDown) {
     EXPECT_EQ(out.drawn.of_arc[1].size(), 4U);
 }
 
+TEST(Shorten, CellsBesideTheirLineStay) {
+    ChannelsOfArcs drawn = channels(fork(), test::grid_of(11, 11));
+    Grid const& grid = drawn.channels.grid;
+    std::vector<std::int64_t> const& arm = drawn.of_arc[1];
+    for (std::size_t k = 0; k + 1 < arm.size(); ++k) { // the line touches their corners
+        auto const i = static_cast<std::size_t>(arm[k]);
+        Cell const c = grid.at(drawn.channels.cell[i]);
+        drawn.channels.cell[i] = grid.index({c.col + 1, c.row});
+    }
+    Shortened const out = shorten(fork(), drawn, {arm.begin(), arm.begin() + 2});
+    ASSERT_EQ(out.network.arc_count(), 3U);
+    EXPECT_EQ(out.network.arc(1).line, (std::vector<Vec2>{{3.0, 7.0}, {5.5, 4.5}}));
+    EXPECT_EQ(out.drawn.of_arc[1].size(), 4U);
+}
+
 TEST(Shorten, AnArmThatGoesLeavesOneRiver) {
     ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
     std::vector<std::int64_t> const left(drawn.of_arc[1].begin(), drawn.of_arc[1].end() - 1);

@@ -5,7 +5,11 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/routing/route.hpp>
+#include <thalweg/measure/relief/relief.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/pipeline/plan/make_input.hpp>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <io/scratch_folder.hpp>
@@ -17,6 +21,7 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
+#include <vector>
 
 using namespace thalweg;
 using namespace thalweg::pipeline;
@@ -353,6 +358,35 @@ TEST(LandInEquilibrium, HeightsThatRiseAreLowered) {
     Made const t = made(lines + "heights = \"straight\"\nslope = 0.08\n" + path + equilibrium, files);
     for (std::vector<double> const& z : t.terrain.network.arc_z) {
         EXPECT_TRUE(std::is_sorted(z.rbegin(), z.rend()));
+    }
+}
+
+// Scales are in metres: smaller cells show the same land in more detail.
+TEST(LandInEquilibrium, OtherCellsAreTheSameLand) {
+    Recipe recipe = recipe_from(THALWEG_SOURCE_DIR "/samples/relief_lines.toml");
+    struct Figures {
+        double theta;
+        double density_per_m;
+        double mean_slope_deg;
+    };
+    std::vector<Figures> of_cells;
+    for (double const cell_m : {60.0, 30.0, 15.0}) {
+        constexpr double support_m2 = 180'000.0;
+        recipe.grid.cell_m = cell_m;
+        Made const land = make(recipe);
+        Raster<float> const& dem = land.terrain.surface->dem;
+        measure::Relief const relief =
+            measure::relief(dem, *land.terrain.drainage, measure::statistics(dem),
+                            {.support_cells = static_cast<std::int64_t>(support_m2 / (cell_m * cell_m))});
+        of_cells.push_back({-relief.slope_area->exponent, relief.drainage_density, relief.slopes.mean_deg});
+        RecordProperty(fmt::format("theta_{}", cell_m), fmt::format("{:.3f}", of_cells.back().theta));
+        RecordProperty(fmt::format("density_{}", cell_m), fmt::format("{:.6f}", of_cells.back().density_per_m));
+    }
+    Figures const& middle = of_cells[1];
+    for (Figures const& at : of_cells) {
+        EXPECT_NEAR(at.theta, middle.theta, 0.1 * middle.theta);
+        EXPECT_NEAR(at.density_per_m, middle.density_per_m, 0.1 * middle.density_per_m);
+        EXPECT_NEAR(at.mean_slope_deg, middle.mean_slope_deg, 0.1 * middle.mean_slope_deg);
     }
 }
 

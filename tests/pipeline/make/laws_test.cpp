@@ -104,7 +104,7 @@ TEST(Laws, OfRealLandsLieInOrNearNature) {
 }
 
 TEST(Laws, TheDemsRiversAreAsLongAsTheNetwork) {
-    Recipe recipe = default_recipe();
+    Recipe recipe = cluster_recipe();
     recipe.grid.width = 160;
     recipe.grid.height = 120;
     recipe.network->dla.particles = 3000;

@@ -40,10 +40,10 @@ void expect_as_foretold(Recipe const& recipe, std::string const& name) {
 
 TEST(Forecast, RefusesWhatMakeRefuses) {
     EXPECT_THROW(forecast(Recipe{}), BadParameter); // no terrain
-    Recipe recipe = default_recipe();
+    Recipe recipe = cluster_recipe();
     set_key(recipe, "network.source=lines");
     EXPECT_THROW(forecast(recipe), BadParameter); // no file
-    recipe = default_recipe();
+    recipe = cluster_recipe();
     set_key(recipe, "surface.erodibility=nowhere.tif");
     try {
         forecast(recipe);
@@ -51,7 +51,7 @@ TEST(Forecast, RefusesWhatMakeRefuses) {
     } catch (BadInput const& e) {
         EXPECT_STREQ(e.what(), "surface.erodibility = \"nowhere.tif\": there is no such file");
     }
-    recipe = default_recipe();
+    recipe = cluster_recipe();
     set_key(recipe, "patch.1.source=nowhere.tif");
     set_key(recipe, "patch.2.source=" + (old_recipes() / "detail_points/recipe.toml").string());
     try {
@@ -60,7 +60,7 @@ TEST(Forecast, RefusesWhatMakeRefuses) {
     } catch (BadInput const& e) {
         EXPECT_STREQ(e.what(), "patch.1.source = \"nowhere.tif\": there is no such file");
     }
-    recipe = default_recipe();
+    recipe = cluster_recipe();
     set_key(recipe, "grid.width=1000000");
     set_key(recipe, "grid.height=1000000");
     EXPECT_THROW(forecast(recipe), BadInput); // more memory than any machine has
@@ -97,7 +97,7 @@ TEST(Forecast, OfSettingsThatAddStages) {
 
 // A cluster's grid is known where it is given, and guessed within a factor of three elsewhere.
 TEST(Forecast, OfAGridThatIsStillUnknown) {
-    Recipe recipe = default_recipe();
+    Recipe recipe = cluster_recipe();
     recipe.grid.width = 0;
     recipe.grid.height = 0;
     set_key(recipe, "network.dla.particles=20000");

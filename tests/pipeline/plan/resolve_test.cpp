@@ -34,7 +34,7 @@ void expect_same_lines(RiverLines const& a, RiverLines const& b) {
 
 TEST(Resolve, RefusesAnEmptyRecipeAndAMissingFile) {
     EXPECT_THROW(resolve(Recipe{}), BadParameter);
-    Recipe recipe = default_recipe();
+    Recipe recipe = cluster_recipe();
     set_key(recipe, "surface.mask=nowhere.tif");
     EXPECT_THROW(resolve(recipe), BadInput);
 }
@@ -80,7 +80,7 @@ TEST(Resolve, APlansRecipeResolvesToItself) {
 }
 
 TEST(Resolve, SettlesWhatTheRecipeLeavesOpen) {
-    Recipe recipe = default_recipe();
+    Recipe recipe = cluster_recipe();
     recipe.grid.width = 0;
     recipe.grid.height = 0;
     Plan const grown = resolve(recipe);

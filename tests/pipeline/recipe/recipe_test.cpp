@@ -58,7 +58,8 @@ TEST(Recipe, WrittenRecipeReadsBack) {
 }
 
 TEST(Recipe, DefaultIsTheSample) {
-    EXPECT_EQ(write_recipe(read_recipe(sample("relief_dla.toml"), "relief_dla.toml")), write_recipe(default_recipe()));
+    EXPECT_EQ(write_recipe(read_recipe(sample("relief.toml"), "relief.toml")), write_recipe(default_recipe()));
+    EXPECT_EQ(write_recipe(read_recipe(sample("relief_dla.toml"), "relief_dla.toml")), write_recipe(cluster_recipe()));
 }
 
 TEST(Recipe, UnknownKeysAreNamedWithTheNearestOne) {
@@ -127,7 +128,7 @@ TEST(Recipe, HostileSizesAreRefusedBeforeParsing) {
 }
 
 TEST(Recipe, SetTakesBareWordsAndNumbers) {
-    Recipe recipe = default_recipe();
+    Recipe recipe = cluster_recipe();
     set_key(recipe, "surface.increment=3-0.01*x");
     set_key(recipe, "network.dla.branch=west");
     set_key(recipe, "network.prune=35");
@@ -158,7 +159,7 @@ TEST(Recipe, PatchesAreReadInTheirOrderAndWrittenBack) {
 }
 
 TEST(Recipe, PatchesAreSetByNumber) {
-    Recipe recipe = default_recipe();
+    Recipe recipe = cluster_recipe();
     set_key(recipe, "patch.source=a.tif");
     recipe.patches.push_back({.source = "b.tif"});
     set_key(recipe, "patch.1.rotate=45");
@@ -177,7 +178,7 @@ TEST(Recipe, PatchesAreSetByNumber) {
 }
 
 TEST(Recipe, HoldsNoFunction) {
-    Recipe recipe = default_recipe();
+    Recipe recipe = cluster_recipe();
     EXPECT_NO_THROW(check_recipe(recipe));
     ASSERT_TRUE(recipe.surface);
     recipe.surface->dilate.increment.function = [](double x) { return x; };

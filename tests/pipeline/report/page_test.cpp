@@ -24,7 +24,7 @@ namespace {
 enum class Land { with, without };
 
 Made small_terrain(Land land) {
-    Recipe recipe = default_recipe();
+    Recipe recipe = cluster_recipe();
     recipe.grid.width = 90;
     recipe.grid.height = 70;
     recipe.network->dla.particles = 900;

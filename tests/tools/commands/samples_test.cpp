@@ -158,7 +158,7 @@ TEST(Samples, Lines) {
 TEST(Samples, NoArgumentsMakeTheSampleValley) {
     Workplace const place;
     ASSERT_EQ(thalweg_run("make -q", place.path()).code, 0);
-    ASSERT_EQ(thalweg_run("make " THALWEG_SOURCE_DIR "/samples/relief_dla.toml -o sample -q", place.path()).code, 0);
+    ASSERT_EQ(thalweg_run("make " THALWEG_SOURCE_DIR "/samples/relief.toml -o sample -q", place.path()).code, 0);
     same_bytes(place / "valley", place / "sample");
 }
 

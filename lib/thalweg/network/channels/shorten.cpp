@@ -101,6 +101,29 @@ std::vector<Vec2> rest_of(std::vector<Vec2> const& line, Grid const& grid, Mask 
     return {};
 }
 
+/// A line from its place nearest to another; empty where that is its end.
+std::vector<Vec2> rest_from_nearest(std::vector<Vec2> const& line, Vec2 place) {
+    std::size_t segment = 0;
+    Vec2 nearest = line.front();
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        Vec2 const way = line[i + 1] - line[i];
+        Vec2 const to = place - line[i];
+        double const square = way.x * way.x + way.y * way.y;
+        double const along = square > 0.0 ? std::clamp((way.x * to.x + way.y * to.y) / square, 0.0, 1.0) : 0.0;
+        Vec2 const at{line[i].x + along * way.x, line[i].y + along * way.y};
+        if (distance(at, place) < distance(nearest, place)) {
+            nearest = at;
+            segment = i;
+        }
+    }
+    std::vector<Vec2> rest{nearest};
+    rest.insert(rest.end(), line.begin() + static_cast<std::ptrdiff_t>(segment) + 1, line.end());
+    if (rest[0] == rest[1]) {
+        rest.erase(rest.begin());
+    }
+    return rest.size() > 1 ? rest : std::vector<Vec2>{};
+}
+
 /// Marks some of an arc's channel cells in a mask, or clears them.
 void mark(Mask& mask, Channels const& channels, std::vector<std::int64_t> const& numbers, ChannelFlags const& is_gone,
           std::uint8_t which, std::uint8_t value) {
@@ -195,6 +218,12 @@ private:
         mark(goes_, drawn_.channels, cells, is_gone_, 1, 1);
         mark(stays_, drawn_.channels, cells, is_gone_, 0, 1);
         std::vector<Vec2> rest = rest_of(line, drawn_.channels.grid, goes_, stays_);
+        auto const own_end = cells.end() - (network_.out(network_.to(a)) != no_arc ? 1 : 0);
+        auto const stays = std::find_if(cells.begin(), own_end, [&](std::int64_t i) { return is_gone_[i] == 0; });
+        if (rest.empty() && stays != own_end) { // its cells lie beside the line
+            Grid const& grid = drawn_.channels.grid;
+            rest = rest_from_nearest(line, grid.centre(grid.at(drawn_.channels.cell[*stays])));
+        }
         mark(goes_, drawn_.channels, cells, is_gone_, 1, 0);
         mark(stays_, drawn_.channels, cells, is_gone_, 0, 0);
         Finding note{"shortened", network_.arc(a).feature, source, before_m, ""};

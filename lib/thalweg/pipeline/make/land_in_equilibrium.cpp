@@ -59,6 +59,7 @@ surface::Edge edge_of(Plan const& plan, Terrain const& terrain, Mask const& land
 surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface::Edge edge) {
     Recipe const& recipe = plan.recipe;
     EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
+    constexpr double half_width_km = 0.2125; // of floors where 1 km² drains, for a floor_width of 1
     double const relief_m = recipe.surface->dilate.relief_m;
     surface::EquilibriumParams params;
     params.theta = recipe.network->concavity;
@@ -73,7 +74,7 @@ surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface:
     }
     params.hillslope_m = wanted.hillslope_m > 0.0 ? wanted.hillslope_m : recipe.grid.cell_m;
     params.debris_area_m2 = wanted.debris_area_km2 * 1e6;
-    params.floor_width_km = wanted.floor_width_km;
+    params.floor_width_km = half_width_km * wanted.floor_width;
     params.roughness = wanted.roughness;
     params.longest_wave_m = wanted.longest_wave_m;
     params.grain = wanted.grain;

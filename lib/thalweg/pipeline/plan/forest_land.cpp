@@ -55,9 +55,10 @@ std::vector<Cell> near_to(Mask const& marked, std::vector<Cell> const& cells, st
 
 std::vector<Cell> spread(Recipe const& recipe, Mask const& land, std::vector<Cell> const& coast, Run const& run) {
     ForestRecipe const& wanted = recipe.network->forest;
-    constexpr double spacings = 6.0;
-    return network::spread_outlets(
-        land, coast, {wanted.seeds, spacings * static_cast<double>(wanted.spacing_cells), recipe.seed}, run);
+    constexpr std::int64_t spacings = 6;
+    std::int64_t const every =
+        wanted.outlet_spacing_cells > 0 ? wanted.outlet_spacing_cells : spacings * wanted.spacing_cells;
+    return network::spread_outlets(land, coast, {wanted.seeds, static_cast<double>(every), recipe.seed}, run);
 }
 
 /// The cells of the coast nearest to the points of a file.
@@ -68,6 +69,11 @@ std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, std::vector<
         throw BadInput(
             fmt::format("network.forest.outlets = \"{}\" holds points, each an outlet; leave network.forest.seeds out",
                         wanted.outlets));
+    }
+    if (wanted.outlet_spacing_cells > 0 && recipe.set_at.contains("network.forest.outlet_spacing")) {
+        throw BadInput(fmt::format("network.forest.outlets = \"{}\" holds points, each an outlet; leave "
+                                   "network.forest.outlet_spacing out",
+                                   wanted.outlets));
     }
     io::ReadPointsParams params;
     params.path = file_in(recipe, wanted.outlets);

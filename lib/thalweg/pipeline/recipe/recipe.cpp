@@ -8,17 +8,35 @@
 
 namespace thalweg::pipeline {
 
-Recipe default_recipe() {
+namespace {
+
+/// Terrain of 1024 x 1024 cells, around rivers that are still to be named.
+Recipe recipe_around(Source source, double prune_cells) {
     Recipe recipe;
     recipe.grid.width = 1024;
     recipe.grid.height = 1024;
-    NetworkRecipe& network = recipe.network.emplace();
-    network.prune_cells = 30.0;
+    recipe.network.emplace().source = source;
+    recipe.network->prune_cells = prune_cells;
+    recipe.surface.emplace().equilibrium.mean_slope_deg = 25.0;
+    return recipe;
+}
+
+} // namespace
+
+Recipe default_recipe() {
+    Recipe recipe = recipe_around(Source::forest, 100.0);
+    recipe.network->forest.spacing_cells = 50;
+    recipe.network->forest.outlet_spacing_cells = 600;
+    return recipe;
+}
+
+Recipe cluster_recipe() {
+    Recipe recipe = recipe_around(Source::dla, 30.0);
+    NetworkRecipe& network = *recipe.network;
     network.dla.particles = 100000;
     network.dla.sticking = 1.0;
     network.dla.visits = 1;
     network.branch = network::BranchChoice::south;
-    recipe.surface.emplace().equilibrium.mean_slope_deg = 25.0;
     return recipe;
 }
 

@@ -34,8 +34,11 @@ struct Recipe {
     std::map<std::string, std::string> set_at = {}; ///< where keys were set, for messages: "r.toml, line 3" or "--set"
 };
 
-/// \return what `thalweg make` makes without a recipe; the same as samples/relief_dla.toml.
+/// \return what `thalweg make` makes without a recipe; the same as samples/relief.toml.
 Recipe default_recipe();
+
+/// \return what it makes where keys of a cluster are set; the same as samples/relief_dla.toml.
+Recipe cluster_recipe();
 
 /// What a key of a recipe file means.
 struct KeyHelp {

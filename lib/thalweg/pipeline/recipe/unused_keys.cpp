@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 
 namespace thalweg::pipeline {
 
@@ -16,9 +17,10 @@ namespace {
 
 bool is_default(Key const& key, Value const& value, bool set_by_someone) {
     static Recipe const standard = with_all_sections();
-    static Recipe const built_in = default_recipe();
+    static std::array<Recipe, 2> const built_in = {default_recipe(), cluster_recipe()};
     return key.take(standard) == value || std::count(key.earlier.begin(), key.earlier.end(), value) > 0 ||
-           (!set_by_someone && key.take(built_in) == value);
+           (!set_by_someone && std::any_of(built_in.begin(), built_in.end(),
+                                           [&](Recipe const& recipe) { return key.take(recipe) == value; }));
 }
 
 std::string words_of(std::string const& path, Value const& value, std::string const& place, std::string const& lacks) {

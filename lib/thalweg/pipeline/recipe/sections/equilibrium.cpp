@@ -12,14 +12,7 @@ Use no_relief() {
 }
 
 Use by_rough_rock() {
-    return by_equilibrium() && when("surface.roughness > 0", [](Recipe const& r) {
-               return r.surface && r.surface->equilibrium.roughness > 0.0;
-           });
-}
-
-Use by_grained_rock() {
-    return by_rough_rock() &&
-           when("surface.grain > 1", [](Recipe const& r) { return r.surface && r.surface->equilibrium.grain > 1.0; });
+    return by_equilibrium() && above("surface.roughness", 0.0);
 }
 
 Rows<EquilibriumRecipe> slope_keys() {
@@ -41,12 +34,12 @@ Rows<EquilibriumRecipe> slope_keys() {
             .range({0, 1e6})
             .used(by_equilibrium())
             .means("drainage area below which debris flows cut hillsides, whose slopes hardly depend on area"),
-        number("floor_width", &EquilibriumRecipe::floor_width_km)
-            .unit("km")
+        number("floor_width", &EquilibriumRecipe::floor_width)
             .range({0, 1})
-            .earlier(0.04)
             .used(by_equilibrium())
-            .means("half the width of a valley floor where 1 km2 drains; it grows with drainage area ^ 0.45"),
+            .means(
+                "width of valley floors: 0.04 is 17 m where 1 km2 drains, in proportion; it grows with drainage area "
+                "^ 0.45"),
     };
 }
 
@@ -70,7 +63,7 @@ Rows<EquilibriumRecipe> rock_keys() {
         number("strike", &EquilibriumRecipe::strike_deg)
             .unit("degrees")
             .range({-360, 360})
-            .used(by_grained_rock())
+            .used(by_rough_rock() && above("surface.grain", 1.0))
             .means("direction of the grain, clockwise from north; left out: by the seed"),
     };
 }

@@ -28,7 +28,12 @@ Rows<ForestRecipe> forest_keys() {
         number("seeds", &ForestRecipe::seeds)
             .range({0, 1e6})
             .used(grown)
-            .means("number of outlets at random places on the coast; 0: one for every six spacings of coast"),
+            .means("number of outlets at random places on the coast; 0: see outlet_spacing"),
+        number("outlet_spacing", &ForestRecipe::outlet_spacing_cells)
+            .unit("cells")
+            .range({0, 1e6})
+            .used(grown && is("network.forest.seeds", {"0"}))
+            .means("coast, or border of the grid, for each outlet; 0: six spacings of rivers"),
         number("spacing", &ForestRecipe::spacing_cells)
             .unit("cells")
             .range({8, 200})
