@@ -43,13 +43,20 @@ struct MakeOptions {
     bool dry_run = false;
 };
 
-/// Without a recipe: where keys of a cluster are set, one is wanted.
+/// Without a recipe: where keys of a cluster are set, one is wanted; else rivers that suit the grid.
 pipeline::Recipe recipe_without_file(MakeOptions const& options) {
     bool const of_cluster = std::ranges::any_of(options.set, [](std::string const& assignment) {
         return assignment.starts_with("network.dla.") || assignment.starts_with("network.source=dla") ||
                assignment.starts_with("network.source=\"dla");
     });
-    return of_cluster ? pipeline::cluster_recipe() : pipeline::default_recipe();
+    if (of_cluster) {
+        return pipeline::cluster_recipe();
+    }
+    pipeline::Recipe asked = pipeline::default_recipe();
+    for (std::string const& assignment : options.set) {
+        pipeline::set_key(asked, assignment);
+    }
+    return pipeline::default_recipe_on(asked.grid.width, asked.grid.height);
 }
 
 pipeline::Recipe recipe_of(MakeOptions const& options) {

@@ -210,7 +210,7 @@ std::map<std::string, std::vector<Words>> const beside = {
      {{"skeleton.ridges=segments", "skeleton.ridge_noise=15"}, {"skeleton.ridges=voronoi"}}},
     {"skeleton.falloff", {{"statistics.reach=20"}}},
     {"surface.mean_slope", {{"surface.relief=300"}}},
-    {"surface.drain", {{"detail.sigma=20", "detail.levels=3"}}},
+    {"surface.drain", {{"detail.sigma=40", "detail.levels=3"}}},
     {"surface.allow_negative", {{"surface.increment=3-x"}}},
     {"surface.sweeps", {{"surface.diffusion=explicit", "surface.sweeps=30"}}},
     {"surface.start", {{"surface.diffusion=explicit", "surface.sweeps=30"}}},

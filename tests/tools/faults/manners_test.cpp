@@ -53,7 +53,7 @@ TEST(Manners, RecipeListsKeysAndItsDumpCanBeMade) {
     EXPECT_NE(keys.out.find("sticking"), std::string::npos);
     Outcome const dump = thalweg_run("recipe --dump", place.path());
     place.write("r.toml", dump.out);
-    Outcome const made = thalweg_run("make r.toml --set grid.width=64 --set grid.height=48 -o out -q", place.path());
+    Outcome const made = thalweg_run("make r.toml --set grid.width=256 --set grid.height=256 -o out -q", place.path());
     EXPECT_EQ(made.code, 0) << made.err;
     EXPECT_EQ(made.err, "");
 }

@@ -6,33 +6,44 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace thalweg::pipeline {
 
 namespace {
 
-/// Terrain of 1024 x 1024 cells, around rivers that are still to be named.
-Recipe recipe_around(Source source, double prune_cells) {
+/// Terrain around rivers that are still to be named.
+Recipe recipe_around(Source source, std::int64_t width, std::int64_t height) {
     Recipe recipe;
-    recipe.grid.width = 1024;
-    recipe.grid.height = 1024;
+    recipe.grid.width = width;
+    recipe.grid.height = height;
     recipe.network.emplace().source = source;
-    recipe.network->prune_cells = prune_cells;
     recipe.surface.emplace().equilibrium.mean_slope_deg = 25.0;
     return recipe;
 }
 
+constexpr std::int64_t usual_side = 1024; // [cells]
+
 } // namespace
 
 Recipe default_recipe() {
-    Recipe recipe = recipe_around(Source::forest, 100.0);
-    recipe.network->forest.spacing_cells = 50;
-    recipe.network->forest.outlet_spacing_cells = 600;
+    return default_recipe_on(usual_side, usual_side);
+}
+
+Recipe default_recipe_on(std::int64_t width, std::int64_t height) {
+    constexpr std::int64_t in_a_side = 10;
+    std::int64_t const spacing = std::clamp<std::int64_t>(std::min(width, height) / in_a_side, 8, 50);
+    Recipe recipe = recipe_around(Source::forest, width, height);
+    recipe.network->prune_cells = static_cast<double>(2 * spacing);
+    recipe.network->forest.spacing_cells = spacing;
+    recipe.network->forest.outlet_spacing_cells = 12 * spacing;
     return recipe;
 }
 
 Recipe cluster_recipe() {
-    Recipe recipe = recipe_around(Source::dla, 30.0);
+    Recipe recipe = recipe_around(Source::dla, usual_side, usual_side);
     NetworkRecipe& network = *recipe.network;
+    network.prune_cells = 30.0;
     network.dla.particles = 100000;
     network.dla.sticking = 1.0;
     network.dla.visits = 1;

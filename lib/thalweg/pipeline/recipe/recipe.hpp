@@ -37,6 +37,10 @@ struct Recipe {
 /// \return what `thalweg make` makes without a recipe; the same as samples/relief.toml.
 Recipe default_recipe();
 
+/// \param width,height [cells] of the grid
+/// \return the same on another grid: on small ones rivers lie closer.
+Recipe default_recipe_on(std::int64_t width, std::int64_t height);
+
 /// \return what it makes where keys of a cluster are set; the same as samples/relief_dla.toml.
 Recipe cluster_recipe();
 

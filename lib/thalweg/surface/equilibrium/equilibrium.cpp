@@ -150,7 +150,6 @@ public:
         }
     }
 
-    EquilibriumLaw const& law() const { return law_; }
     std::vector<std::int64_t> const& shortened() const { return shortened_; }
 
 private:
@@ -206,7 +205,7 @@ struct Solved {
     std::int64_t margin = 0;
 };
 
-RockParams rock_of(EquilibriumParams const& params, float steepest, Window const& window) {
+RockParams rock_of(EquilibriumParams const& params, Window const& window) {
     constexpr std::uint64_t strike_stage = 0x737472696b65; // "strike"
     double const by_chance = unit(random_word(params.seed, strike_stage)) * portable::pi;
     constexpr double radians = portable::pi / 180.0;
@@ -216,7 +215,7 @@ RockParams rock_of(EquilibriumParams const& params, float steepest, Window const
     noise.strike = params.strike_deg ? (90.0 - *params.strike_deg) * radians : by_chance;
     noise.margin = static_cast<double>(window.margin);
     noise.seed = params.seed;
-    return {params.roughness, steepest, noise};
+    return {params.roughness, noise};
 }
 
 /// The finest level, with heights of rivers in its own units or none.
@@ -226,7 +225,7 @@ Solved solved(Channels const& rivers, EquilibriumFields const& fields, Equilibri
     std::vector<Plan> levels = plans(land);
     Window const window{rivers.grid, fields.land, land.margin};
     Solver solver(params, rivers, window, run);
-    RockParams const rock = rock_of(params, solver.law().steepest, window);
+    RockParams const rock = rock_of(params, window);
     LandLevel level;
     for (std::size_t number = levels.size(); number-- > 0;) {
         level = prepared(std::move(levels[number]), number, level, land.fields, rock, params, run);

@@ -59,6 +59,14 @@ private:
 
 constexpr std::int8_t unreached = -2;
 
+/// [least tangents] from a cell up to one that a flood reaches: by its node's place, so that ways across level floods
+/// wind as floods on rough land do.
+float rise_to(LandLevel const& level, std::size_t i) {
+    constexpr unsigned steps = 16;
+    constexpr float most = 4.0F;
+    return level.shift.empty() ? 1.0F : 1.0F + most / steps * static_cast<float>(5U * level.shift[i] % steps);
+}
+
 /// Sends a bank to the river beside it and raises it above all of it.
 void settle_bank(LandLevel& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
     float highest = -std::numeric_limits<float>::infinity();
@@ -115,7 +123,8 @@ void flood_land(LandLevel& level) {
             std::size_t const n = moved(i, offsets[k]);
             if (level.way[n] == unreached) {
                 level.way[n] = static_cast<std::int8_t>((k + 4) % 8);
-                level.z[n] = std::max(level.z[n], level.z[i] + least_tangent * level.side * step_lengths[k]);
+                float const rise = rise_to(level, n) * least_tangent * level.side;
+                level.z[n] = std::max(level.z[n], level.z[i] + rise * step_lengths[k]);
                 queue.push(n, level.z[n]);
             }
         }

@@ -35,7 +35,7 @@ float graded_tangent(LandLevel const& level, EquilibriumLaw const& law, std::uin
     float const area = static_cast<float>(level.area[i]) * level.side * level.side + law.source_area;
     float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
     float const graded = creep_brings * uplift / (level.erodibility[i] * law.power(area));
-    return std::min(graded, share_of_cap * std::min(level.cap[i], law.steepest));
+    return std::min(graded, share_of_cap * std::min(level.cap[i], steepest_tangent));
 }
 
 std::vector<float> greatest_heights(LandLevel const& level, EquilibriumLaw const& law) {

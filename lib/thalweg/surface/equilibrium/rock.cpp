@@ -57,7 +57,7 @@ void set_rock(LandLevel& level, RockFields const& fields, RockParams const& para
             }
             double const fourth = fifth_root * fifth_root * fifth_root * fifth_root;
             level.erodibility[i] = static_cast<float>(fourth * fifth_root);
-            level.cap[i] = static_cast<float>(static_cast<double>(params.steepest) / fourth);
+            level.cap[i] = static_cast<float>(static_cast<double>(steepest_tangent) / fourth);
         }
     });
 }

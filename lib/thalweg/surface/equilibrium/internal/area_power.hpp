@@ -13,18 +13,19 @@
 /// Private to this module.
 namespace thalweg::surface {
 
-/// area ^ exponent from a table: exact for whole numbers below 512, beyond for areas rounded down to nine binary
+/// factor area ^ exponent from a table: exact for whole numbers below 512, beyond for areas rounded down to nine binary
 /// digits. bend_area: area below which the power hardly falls any more, to that of the bend; 0: none.
 class AreaPower {
 public:
-    explicit AreaPower(double exponent, double bend_area = 0.0) {
+    explicit AreaPower(double exponent, double bend_area = 0.0, double factor = 1.0) {
         double const least = bend_area > 0.0 ? portable::pow(bend_area, sharpness * exponent) : 0.0;
         for (std::size_t i = 0; i < table_.size(); ++i) {
             auto const bits = static_cast<std::uint32_t>((i + first) << dropped);
             auto const area = static_cast<double>(std::bit_cast<float>(bits));
             table_[i] = static_cast<float>(
-                least > 0.0 ? portable::pow(portable::pow(area, sharpness * exponent) + least, 1.0 / sharpness)
-                            : portable::pow(area, exponent));
+                factor * (least > 0.0
+                              ? portable::pow(portable::pow(area, sharpness * exponent) + least, 1.0 / sharpness)
+                              : portable::pow(area, exponent)));
         }
     }
 

@@ -43,6 +43,8 @@ inline constexpr std::array<float, 8> step_lengths = {1.0F, 1.41421356F, 1.0F, 1
 
 /// The least tangent of a cell towards its receiver: far above what a float can lose, far below what is seen.
 inline constexpr float least_tangent = 0.002F;
+/// The steepest slope that uplift keeps up in rock of the common erodibility.
+inline constexpr float steepest_tangent = 0.3F;
 inline constexpr float bank_step = least_tangent;
 
 /// One level of the grid, in a frame one cell wide, so that every inner cell has eight neighbours. Lengths and heights

@@ -17,7 +17,6 @@ struct RockFields {
 
 struct RockParams {
     double roughness = 0.0; ///< standard deviation of log erodibility
-    float steepest = 1.0F;  ///< greatest tangent in rock of the common erodibility
     RockNoise noise;        ///< in finest cells
 };
 
