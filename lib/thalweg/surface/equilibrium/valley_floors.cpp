@@ -32,7 +32,7 @@ float widening(LandLevel const& level, std::size_t i, FloorParams const& params)
 /// By how much floors of river cells are wider near the sea, which has drowned and filled their mouths.
 std::vector<float> filled_mouths(LandLevel const& level, double cell_m) {
     constexpr double reach_m = 3000.0;
-    constexpr float at_mouth = 1.8F;
+    constexpr float at_mouth = 2.4F;
     RiverCells const& rivers = level.rivers;
     auto const offsets = level.offsets();
     std::vector<float> more(rivers.cell.size());
@@ -51,7 +51,7 @@ std::vector<float> filled_mouths(LandLevel const& level, double cell_m) {
 
 /// [cells] half widths of the floors of river cells.
 std::vector<float> half_widths(LandLevel const& level, FloorParams const& params) {
-    constexpr double growth = 0.45;
+    constexpr double growth = 0.42;
     double const per_cell_km2 = params.cell_m * params.cell_m * 1e-6;
     double const per_km = 1000.0 / params.cell_m * params.width_km;
     std::vector<float> widths = filled_mouths(level, params.cell_m);

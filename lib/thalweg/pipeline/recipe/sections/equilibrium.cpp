@@ -39,7 +39,7 @@ Rows<EquilibriumRecipe> slope_keys() {
             .used(by_equilibrium())
             .means(
                 "width of valley floors: 0.04 is 17 m where 1 km2 drains, in proportion; it grows with drainage area "
-                "^ 0.45"),
+                "^ 0.42"),
     };
 }
 
