@@ -11,3 +11,4 @@
 #include <thalweg/surface/dilation/separable.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
+#include <thalweg/surface/uplift/uplift_pattern.hpp>

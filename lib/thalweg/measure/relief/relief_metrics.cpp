@@ -9,6 +9,7 @@ namespace thalweg::measure {
 namespace {
 
 constexpr double wide = 1.5;   // regions differ more than the two reference DEMs do
+constexpr double wider = 2.0;  // of land with finer texture there is more
 constexpr double widest = 5.0; // one plain makes the difference
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -53,9 +54,9 @@ constexpr std::array<ReliefMetric, relief_metric_count> figures = {{
     {"slope_area_ratio", "slope of channels over that of hillslopes", "", Judges::yes,
      [](Relief const& r) { return r.slope_area_ratio; }, wide},
     {"gradient_correlation_360", "correlation of unit gradients, 360 m apart", "", Judges::yes,
-     [](Relief const& r) { return r.texture.correlation[0]; }},
+     [](Relief const& r) { return r.texture.correlation[0]; }, wider},
     {"gradient_correlation_720", "correlation of unit gradients, 720 m apart", "", Judges::yes,
-     [](Relief const& r) { return r.texture.correlation[1]; }},
+     [](Relief const& r) { return r.texture.correlation[1]; }, wider},
     {"gradient_correlation_1440", "correlation of unit gradients, 1440 m apart", "", Judges::no,
      [](Relief const& r) { return r.texture.correlation[2]; }},
     {"gradient_anisotropy", "anisotropy of gradients within 1 km", "", Judges::yes,

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace thalweg::pipeline {
@@ -83,6 +84,19 @@ std::vector<Check> drainage_checks(Assessment const& found, flow::FlowField cons
                : std::vector<Check>{none_of("depressions", static_cast<std::int64_t>(drainage.depressions.size()))};
 }
 
+/// Says what a reader of the hillshade would see: terrain in equilibrium whose texture is not that of land.
+void warn_of_texture(Plan const& plan, Terrain const& terrain, TerrainRelief const& relief, Run const& run) {
+    constexpr std::int64_t least_cells = 250'000; // of fewer, chance decides
+    if (!terrain.equilibrium || terrain.grid.cells() < least_cells) {
+        return;
+    }
+    std::string const outside = unlike_land(relief_rows(relief), plan.recipe.network->source == Source::lines);
+    if (!outside.empty()) {
+        run.say("warning: measures of the relief lie outside those of the reference DEMs: " + outside +
+                ". docs/relief_measures.md says what they mean.");
+    }
+}
+
 /// What is measured of a surface, with the rivers on it.
 Assessment of_surface(Plan const& plan, Terrain const& terrain, Diary& diary, Run const& run) {
     flow::FlowField const& drainage = *terrain.drainage;
@@ -113,6 +127,7 @@ Assessment of_surface(Plan const& plan, Terrain const& terrain, Diary& diary, Ru
     found.laws =
         diary.stage("laws", [&] { return laws_of_terrain(terrain, found.areas, found.statistics->cells, run); });
     found.relief = diary.stage("relief", [&] { return relief_of_terrain(plan, terrain, *found.statistics, run); });
+    warn_of_texture(plan, terrain, *found.relief, run);
     return found;
 }
 

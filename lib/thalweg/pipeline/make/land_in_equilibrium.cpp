@@ -16,6 +16,7 @@
 #include <thalweg/network/elevation/elevate_from_dem.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
+#include <thalweg/pipeline/make/internal/equilibrium_fields.hpp>
 #include <thalweg/pipeline/make/internal/type_rivers.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
 #include <thalweg/pipeline/plan/internal/plan_asks.hpp>
@@ -99,35 +100,6 @@ std::vector<float> asked_heights(ElevatedNetwork const& rivers, Channels const& 
         }
     }
     return z;
-}
-
-/// Cells that are land by both masks, of which either may be empty; and those of rivers.
-Mask land_of(Mask one, Mask const& other, Channels const& channels) {
-    if (one.values().empty()) {
-        one = other;
-    } else if (!other.values().empty()) {
-        for (std::int64_t i = 0; i < one.cells(); ++i) {
-            one[i] = one[i] != 0 && other[i] != 0 ? 1 : 0;
-        }
-    }
-    if (!one.values().empty()) {
-        for (std::int64_t const cell : channels.cell) {
-            one[cell] = 1;
-        }
-    }
-    return one;
-}
-
-surface::EquilibriumFields fields_of(Plan const& plan, Terrain const& terrain, Channels const& channels,
-                                     Run const& run) {
-    Recipe const& recipe = plan.recipe;
-    Grid const& grid = terrain.grid;
-    SurfaceRecipe const& wanted = *recipe.surface;
-    surface::EquilibriumFields fields;
-    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid), terrain.land, channels);
-    fields.uplift = read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run);
-    fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
-    return fields;
 }
 
 /// What was asked of the land, and what came out.
@@ -230,7 +202,7 @@ struct Solved {
 
 /// Solves for the land. Heights that were taken because the lines have them give way where they would need walls.
 Solved solve(Plan const& plan, Terrain const& terrain, Channels const& channels, Diary& diary, Run const& run) {
-    surface::EquilibriumFields const fields = fields_of(plan, terrain, channels, run);
+    surface::EquilibriumFields const fields = equilibrium_fields(plan, terrain, channels, run);
     run.at(0.0, fmt::format("fill {} cells", terrain.grid.cells()).c_str());
     surface::Edge const edge = edge_of(plan, terrain, fields.land);
     auto const solved_with = [&](Heights heights) {

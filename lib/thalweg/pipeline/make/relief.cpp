@@ -9,7 +9,11 @@
 #include <thalweg/measure/relief/perched.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace thalweg::pipeline {
@@ -80,6 +84,23 @@ std::vector<ReliefRow> relief_rows(TerrainRelief const& relief) {
                         measure::ReliefRange{0.0, 0.0}});
     }
     return rows;
+}
+
+std::string unlike_land(std::vector<ReliefRow> const& rows, bool rivers_of_file) {
+    constexpr std::array<std::string_view, 8> of_texture = {"gradient_anisotropy",      "gradient_correlation_360",
+                                                            "gradient_correlation_720", "straight_run",
+                                                            "slope_area_ratio",         "level_patch",
+                                                            "valleys_over_ridges",      "form_distance"};
+    std::vector<std::string> words;
+    for (ReliefRow const& row : rows) {
+        bool const told = std::find(of_texture.begin(), of_texture.end(), row.key) != of_texture.end() &&
+                          !(rivers_of_file && row.key == "straight_run");
+        if (told && !row.ok()) {
+            words.push_back(
+                fmt::format("{} {:.3g} ({:.3g} to {:.3g})", row.key, *row.value, row.range->low, row.range->high));
+        }
+    }
+    return fmt::format("{}", fmt::join(words, ", "));
 }
 
 } // namespace thalweg::pipeline

@@ -58,6 +58,11 @@ struct ReliefRow {
 /// the reference DEMs, and perched cells where there are rivers.
 std::vector<ReliefRow> relief_rows(TerrainRelief const& relief);
 
+/// \param rows figures
+/// \param rivers_of_file whether rivers are drawn as a file has them: their straight runs say nothing of the land
+/// \return in words what of texture and forms leaves the range of the reference DEMs; "" for nothing.
+std::string unlike_land(std::vector<ReliefRow> const& rows, bool rivers_of_file);
+
 /// \param relief relief metrics
 /// \return all of it beside the reference DEMs, as one JSON object: dem.relief in report.json, and what the page draws.
 std::string relief_json(TerrainRelief const& relief);

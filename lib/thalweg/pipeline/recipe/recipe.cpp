@@ -36,7 +36,7 @@ Recipe default_recipe_on(std::int64_t width, std::int64_t height) {
     Recipe recipe = recipe_around(Source::forest, width, height);
     recipe.network->prune_cells = static_cast<double>(2 * spacing);
     recipe.network->forest.spacing_cells = spacing;
-    recipe.network->forest.outlet_spacing_cells = 12 * spacing;
+    recipe.network->forest.outlet_spacing_cells = 16 * spacing;
     return recipe;
 }
 

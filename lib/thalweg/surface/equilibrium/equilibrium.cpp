@@ -3,7 +3,6 @@
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/surface/equilibrium/internal/check_equilibrium.hpp>
 #include <thalweg/surface/equilibrium/internal/cover_cells.hpp>
@@ -27,6 +26,7 @@
 #include <thalweg/surface/equilibrium/internal/valley_floors.hpp>
 #include <thalweg/surface/equilibrium/internal/widen.hpp>
 #include <thalweg/surface/equilibrium/internal/written_land.hpp>
+#include <thalweg/surface/uplift/uplift_pattern.hpp>
 
 #include <fmt/format.h>
 
@@ -206,13 +206,11 @@ struct Solved {
 };
 
 RockParams rock_of(EquilibriumParams const& params, Window const& window) {
-    constexpr std::uint64_t strike_stage = 0x737472696b65; // "strike"
-    double const by_chance = unit(random_word(params.seed, strike_stage)) * portable::pi;
     constexpr double radians = portable::pi / 180.0;
     RockNoise noise;
     noise.longest_wave = params.longest_wave_m / window.grid.cell_m;
     noise.stretch = params.grain;
-    noise.strike = params.strike_deg ? (90.0 - *params.strike_deg) * radians : by_chance;
+    noise.strike = (90.0 - params.strike_deg.value_or(random_strike_deg(params.seed))) * radians;
     noise.margin = static_cast<double>(window.margin);
     noise.seed = params.seed;
     return {params.roughness, noise};

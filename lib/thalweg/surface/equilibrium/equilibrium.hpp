@@ -41,7 +41,7 @@ struct EquilibriumParams {
     double mean_slope_deg = 25.0;     ///< (0, 60] mean over cells (Horn's slope), unless relief_m is set
     std::optional<double> relief_m;   ///< [m] > 0, highest minus lowest cell; replaces the mean slope
     double hillslope_m = 15.0;        ///< [m] >= 0 length below which soil creep dominates (Perron 2009)
-    double debris_area_m2 = 50'000.0; ///< [m²] >= 0 drainage area below which debris flows cut (Stock 2003)
+    double debris_area_m2 = 45'000.0; ///< [m²] >= 0 drainage area below which debris flows cut (Stock 2003)
     double floor_width_km = 0.0085; ///< [km] [0, 1] half width of a valley floor where 1 km² drains; grows as area^0.42
     double roughness = 0.22;        ///< [0, 1] standard deviation of log erodibility, as noise
     double longest_wave_m = 10'800.0; ///< [m] > 0 longest wavelength of that noise

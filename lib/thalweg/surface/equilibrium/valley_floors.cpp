@@ -32,7 +32,7 @@ float widening(LandLevel const& level, std::size_t i, FloorParams const& params)
 /// By how much floors of river cells are wider near the sea, which has drowned and filled their mouths.
 std::vector<float> filled_mouths(LandLevel const& level, double cell_m) {
     constexpr double reach_m = 3000.0;
-    constexpr float at_mouth = 2.4F;
+    constexpr float at_mouth = 2.1F;
     RiverCells const& rivers = level.rivers;
     auto const offsets = level.offsets();
     std::vector<float> more(rivers.cell.size());

@@ -63,13 +63,15 @@ Rows<EquilibriumRecipe> rock_keys() {
         number("strike", &EquilibriumRecipe::strike_deg)
             .unit("degrees")
             .range({-360, 360})
-            .used(by_rough_rock() && above("surface.grain", 1.0))
-            .means("direction of the grain, clockwise from north; left out: by the seed"),
+            .used((by_rough_rock() && above("surface.grain", 1.0)) ||
+                  (by_equilibrium() && is("surface.uplift_pattern", {"tilt", "blocks", "folds"})))
+            .means("direction of the rock's grain, of faults and folds, clockwise from north; left out: by the seed"),
     };
 }
 
 Rows<EquilibriumRecipe> ground_keys() {
     using surface::Edge;
+    using surface::UpliftPattern;
     return {
         choice("edge", &EquilibriumRecipe::edge)
             .one_of({{"auto", std::nullopt},
@@ -84,6 +86,24 @@ Rows<EquilibriumRecipe> ground_keys() {
         file("uplift", &EquilibriumRecipe::uplift)
             .used(by_equilibrium())
             .means("raster over the grid, values above 0; only ratios count"),
+        choice("uplift_pattern", &EquilibriumRecipe::uplift_pattern)
+            .one_of({{"none", std::nullopt},
+                     {"tilt", UpliftPattern::tilt},
+                     {"domes", UpliftPattern::domes},
+                     {"blocks", UpliftPattern::blocks},
+                     {"folds", UpliftPattern::folds}})
+            .used(by_equilibrium())
+            .means("how uplift varies over long distances, beside the raster: it grows across the strike (tilt), in "
+                   "domes, in blocks between faults or in folds along the strike"),
+        number("uplift_contrast", &EquilibriumRecipe::uplift_contrast)
+            .range({1, 100})
+            .used(by_equilibrium() && is("surface.uplift_pattern", {"tilt", "domes", "blocks", "folds"}))
+            .means("greatest uplift of the pattern over the least"),
+        number("uplift_wave", &EquilibriumRecipe::uplift_wave_m)
+            .unit("m")
+            .range({0, 1e7, left_open})
+            .used(by_equilibrium() && is("surface.uplift_pattern", {"domes", "blocks", "folds"}))
+            .means("distance of domes, width of blocks, wavelength of folds"),
         file("erodibility", &EquilibriumRecipe::erodibility)
             .used(by_equilibrium())
             .means("raster over the grid, values above 0, or polygons with a field erodibility (1 elsewhere); only "
