@@ -223,14 +223,14 @@ TEST(Units, WhatIsInFeetIsReadAsSuch) {
     ASSERT_EQ(thalweg_run("draw ft -o ft.svg --what profile", place.path()).code, 0);
     ASSERT_EQ(thalweg_run("draw m -o m.svg --what profile", place.path()).code, 0);
 
-    // The rivers of a folder in feet keep their heights.
+    // The rivers of a folder in feet keep their heights, but for what is lowered where they would stand on walls.
     json const again = made(place, "ft --set grid.cell=60", "again");
     EXPECT_TRUE(tells(again, "network.gpkg: heights in feet are converted into metres"));
     auto const highest = [&](std::string const& folder) {
         auto const z = column(place / folder / "network.gpkg", "arcs", "z_up");
         return *std::max_element(z.begin(), z.end());
     };
-    EXPECT_NEAR(highest("again"), highest("m"), 0.02 * highest("m"));
+    EXPECT_NEAR(highest("again"), highest("m"), 0.05 * highest("m"));
 }
 
 TEST(Units, RiversInSurveyFeetWithHeightsInSurveyFeet) {
