@@ -383,6 +383,28 @@ TEST(GrowStrokes, IsTheSameForTheSameSeedOnly) {
     EXPECT_FALSE(same(seven.network, grow_strokes(strokes, grid, params).network));
 }
 
+TEST(GrowStrokes, WhatIsDrawnStaysWhereItIsAlongTheEdgeToo) {
+    RiverLines const strokes =
+        drawn({stroke(10, {{153.0, 275.0}, {116.0, 266.0}}), stroke(11, {{132.8, 266.6}, {0.0, 167.6}, {0.0, 0.0}}),
+               stroke(12, {{136.2, 270.4}, {0.0, 272.4}}), stroke(14, {{36.9, 267.8}, {0.0, 174.8}})});
+    for (int depth = 1; depth < 6; ++depth) {
+        StrokesParams params = shallow();
+        params.max_depth = depth;
+        GrownStrokes const grown = grow_strokes(strokes, grid, params);
+        EXPECT_EQ(broken(strokes, grown), "");
+        for (std::size_t k = 1; k < strokes.lines.size(); ++k) {
+            EXPECT_TRUE(joins(strokes, k, grown, grid.cell_m)) << strokes.lines[k].feature << " at depth " << depth;
+        }
+    }
+}
+
+TEST(GrowStrokes, RefusesOneWhoseRiverFindsNoRoom) { // it runs through the other limb of a hairpin
+    refused<BadInput>(
+        drawn({stroke(10, {{150.0, 250.0}, {175.0, 160.0}, {112.0, 307.0}}),
+               stroke(11, {{157.0, 212.0}, {74.0, 113.0}, {0.0, 0.0}}), stroke(14, {{144.7, 198.1}, {0.0, 28.1}})}),
+        "stroke 14 of hand.geojson at (144.700, 198.100) begins on stroke 11");
+}
+
 TEST(GrowStrokes, ListensToAStop) {
     std::stop_source stop;
     stop.request_stop();

@@ -4,6 +4,7 @@
 
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/growth/tokunaga/internal/balance_banks.hpp>
@@ -132,6 +133,9 @@ public:
         return std::move(links_);
     }
 
+    /// The link into which each stroke flows, -1 for its own mouth.
+    Indexed<StrokeId, LinkId> const& joints() const { return joints_; }
+
 private:
     int depth_of(std::size_t stroke) const {
         double const depth = std::floor(strokes_[stroke].way.back() / width_m_ * params_.max_depth + 0.5);
@@ -159,9 +163,24 @@ private:
     double width_m_; ///< [m] of the grid
     StrokesParams const& params_;
     Indexed<LinkId, ForestLink> links_;
-    Indexed<StrokeId, LinkId> joints_; ///< the link into which it flows, -1 for its own mouth
+    Indexed<StrokeId, LinkId> joints_;
     Indexed<StrokeId, std::vector<Junction>> junctions_;
 };
+
+/// Throws where a stroke would flow into another further than a cell from where it was drawn to.
+void require_in_place(Strokes const& strokes, RiverLines const& drawn, Indexed<StrokeId, LinkId> const& joints,
+                      SettledLinks const& settled, double cell_m) {
+    for (std::size_t k = 0; k < strokes.size(); ++k) {
+        Vec3 const start = drawn.lines[k].vertices.front();
+        LinkId const joint = joints[k];
+        if (joint >= 0 && settled.stays[joint] != 0 && distance(settled.at[joint], {start.x, start.y}) > cell_m) {
+            throw BadInput(fmt::format("network.grow_strokes: stroke {} of {} at ({:.3f}, {:.3f}) begins on stroke {}, "
+                                       "which others leave no room there; draw the strokes further apart",
+                                       strokes[k].feature, drawn.name, start.x, start.y,
+                                       strokes[strokes[k].onto].feature));
+        }
+    }
+}
 
 } // namespace
 
@@ -193,6 +212,7 @@ GrownStrokes grow_strokes(RiverLines const& drawn, Grid const& grid, StrokesPara
     forest.min_spacing_m = params.min_spacing_m;
 
     SettledLinks const settled = settle_links(forest, spread_forest(forest, run));
+    require_in_place(strokes, drawn, planting.joints(), settled, grid.cell_m);
     grown.placed = std::count(settled.stays.begin(), settled.stays.end(), std::uint8_t{1});
     grown.dropped = static_cast<std::int64_t>(forest.links.size()) - grown.placed;
     KeptNetwork kept = join_links(forest, settled.at, settled.stays);

@@ -39,7 +39,7 @@ struct GrownStrokes {
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput naming the stroke and position: fewer than two different vertices, at most half a cell long, a
 /// vertex outside the grid, an unknown type, strokes that cross themselves or one another, or end, begin or join at the
-/// same place
+/// same place, or leave one another no room where one begins on another
 /// \throws Cancelled
 ///
 /// Source: \cite nenu2015, equation 9.

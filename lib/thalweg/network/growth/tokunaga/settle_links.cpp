@@ -54,8 +54,10 @@ public:
     SettledLinks settle() {
         std::vector<std::size_t> turn(links_);
         std::iota(turn.begin(), turn.end(), std::size_t{0});
-        std::stable_sort(turn.begin(), turn.end(),
-                         [&](std::size_t i, std::size_t k) { return forest_.links[i].order > forest_.links[k].order; });
+        auto const rank = [&](std::size_t i) { // what was drawn gives way to nothing that grew
+            return std::pair{forest_.links[i].pinned.has_value(), forest_.links[i].order};
+        };
+        std::stable_sort(turn.begin(), turn.end(), [&](std::size_t i, std::size_t k) { return rank(i) > rank(k); });
         for (std::size_t const i : turn) {
             LinkId const down = forest_.links[i].down;
             if ((down < 0 || stays_[down] != 0) && (fits(i) || fits_elsewhere(i))) {
@@ -82,7 +84,7 @@ private:
         return std::cmp_equal(down, k) || (down >= 0 && down == other) || std::cmp_equal(other, i);
     }
 
-    /// Whether somebody else chose the link's place, which then counts more than what is near it.
+    /// Whether somebody else chose the link's place, which then counts more than what is near it, the edge too.
     bool drawn(std::size_t i) const { return forest_.links[i].pinned && rounded(*forest_.links[i].pinned) == at_[i]; }
 
     bool fits(std::size_t i) const { return clear(i) && bends_gently(i); }
@@ -133,7 +135,7 @@ private:
         return grid_->near(s, margin, [&](std::size_t k) {
             Segment const& t = (*grid_)[k];
             if (k >= links_) {
-                return squared_distance(s, t) > 0.0 || begins_on(i, t);
+                return drawn(i) || squared_distance(s, t) > 0.0 || begins_on(i, t);
             }
             if (k == i || neighbours(i, k)) {
                 return true;

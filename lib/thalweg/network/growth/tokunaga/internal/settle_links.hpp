@@ -17,14 +17,13 @@ struct SettledLinks {
     Indexed<LinkId, std::uint8_t> stays; ///< by link: 1 where there was room for it
 };
 
-/// Lets links stay that keep clear of one another, streams of the highest order first, and finds other places for the
-/// nodes of those that do not.
-/// Takes: a forest and the place wanted for each link's node. A link that has no room there tries 24 headings and
-/// lengths down to a twentieth, the nearest to its wanted place first.
+/// Lets links stay that keep clear of one another, pinned ones first, then streams of the highest order, and finds
+/// other places for the nodes of those that do not. Takes: a forest and the place wanted for each link's node. A link
+/// that has no room there tries 24 headings and lengths down to a twentieth, the nearest to its wanted place first.
 /// Gives: a link that stays is clear of every other that stays and shares no node with it by clearance * the shorter
-/// one's length and by min_spacing_m, meets its neighbours at 20 degrees at least and touches no wall; of two whose
-/// places are pinned it is asked only that they do not meet, and an angle of 1 degree. The link it flows into stays.
-/// Source: specification 3.2.
+/// one's length and by min_spacing_m, meets its neighbours at 20 degrees at least and touches no wall; one whose
+/// place is pinned may touch a wall, and of two such it is asked only that they do not meet, and an angle of 1 degree.
+/// The link it flows into stays. Source: specification 3.2.
 SettledLinks settle_links(Forest const& forest, std::vector<Vec2> wanted);
 
 } // namespace thalweg::network
