@@ -154,6 +154,7 @@ std::map<std::string, Words> const values = {
     {"surface.longest_wave", {"500"}},
     {"surface.grain", {"2"}},
     {"surface.strike", {"70"}},
+    {"surface.region", {"1"}},
     {"surface.uplift_contrast", {"9"}},
     {"surface.uplift_wave", {"700"}},
     {"surface.uplift", {"uplift.asc"}},

@@ -80,6 +80,7 @@ surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface:
     params.longest_wave_m = wanted.longest_wave_m;
     params.grain = wanted.grain;
     params.strike_deg = wanted.strike_deg;
+    params.region = wanted.region;
     params.edge = edge;
     params.seed = recipe.seed;
     return params;
@@ -231,7 +232,19 @@ EquilibriumStory story_of(Solved const& solved, Channels const& channels) {
     story.max_lowered_m = land.max_lowered_m;
     story.p95_lowered_m = land.p95_lowered_m;
     story.rise = land.rise;
+    story.in_region = land.in_region;
+    story.inflows = land.inflows;
     return story;
+}
+
+/// A region that was asked for and cannot be.
+void warn_of_region(surface::EquilibriumTerrain const& land, double asked, Run const& run) {
+    if (!land.in_region && asked > 1.0 && asked != EquilibriumRecipe{}.region) {
+        run.say(
+            fmt::format("warning: surface.region = {:.6g} is not used: it needs an open edge, rivers that leave the "
+                        "grid with heights of thalweg's own, and 64 cells a side",
+                        asked));
+    }
 }
 
 void warn_of_heights(Raster<float> const& dem, Run const& run) {
@@ -306,6 +319,7 @@ Terrain draw_in_equilibrium(Plan const& plan, Terrain terrain, Diary& diary, Run
     if (solved.params.heights != surface::RiverHeights::graded) {
         terrain = with_walls_checked(std::move(terrain), land, rivers.channels, run);
     }
+    warn_of_region(land, plan.recipe.surface->equilibrium.region, run);
     warn_of_heights(land.dem, run);
     if (!land.shortened.empty()) {
         network::Shortened shortened = network::shorten(terrain.network.plan, rivers, land.shortened);

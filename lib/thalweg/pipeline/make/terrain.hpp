@@ -57,7 +57,9 @@ struct EquilibriumStory {
     std::int64_t walled_cells = 0;    ///< of rivers whose given heights only walls hold up
     double max_lowered_m = 0.0;       ///< soft: below the given heights
     double p95_lowered_m = 0.0;
-    double rise = 0.0;             ///< as surface::EquilibriumTerrain
+    double rise = 0.0; ///< as surface::EquilibriumTerrain, and what follows
+    bool in_region = false;
+    std::vector<surface::RegionInflow> inflows;
     std::int64_t side_valleys = 0; ///< arcs that the land has grown, where they are asked for
     std::int64_t side_valleys_left_out = 0;
 };

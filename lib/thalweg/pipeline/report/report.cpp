@@ -317,7 +317,9 @@ void add_story(Made const& t, ordered_json& report) {
                                  {"lowered", {{"max_m", e.max_lowered_m}, {"p95_m", e.p95_lowered_m}}},
                                  {"rise", e.rise},
                                  {"side_valleys", e.side_valleys},
-                                 {"side_valleys_left_out", e.side_valleys_left_out}};
+                                 {"side_valleys_left_out", e.side_valleys_left_out},
+                                 {"in_region", e.in_region},
+                                 {"inflows", ordered_json::parse(inflows_json(t.terrain.grid, e.inflows))}};
     }
     if (t.terrain.diffusion) {
         report["diffusion"] = {{"iterations", t.terrain.diffusion->iterations},

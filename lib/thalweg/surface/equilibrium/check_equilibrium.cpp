@@ -31,6 +31,7 @@ void check_params(EquilibriumParams const& params) {
     require_in(self, "floor_width_km", params.floor_width_km, Range::between(0.0, 1.0), "km");
     require_in(self, "roughness", params.roughness, Range::between(0.0, 1.0));
     require_in(self, "longest_wave_m", params.longest_wave_m, Range::above(0.0), "m");
+    require_in(self, "region", params.region, Range::between(1.0, 5.0));
     require_in(self, "grain", params.grain, Range::between(1.0, 20.0));
     if (params.strike_deg) {
         require_in(self, "strike_deg", *params.strike_deg, Range::between(-360.0, 360.0), "degrees");

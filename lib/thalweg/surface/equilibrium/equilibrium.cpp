@@ -15,6 +15,8 @@
 #include <thalweg/surface/equilibrium/internal/nearest_river.hpp>
 #include <thalweg/surface/equilibrium/internal/order_cells.hpp>
 #include <thalweg/surface/equilibrium/internal/perched_rivers.hpp>
+#include <thalweg/surface/equilibrium/internal/region.hpp>
+#include <thalweg/surface/equilibrium/internal/region_frame.hpp>
 #include <thalweg/surface/equilibrium/internal/relax_given_rivers.hpp>
 #include <thalweg/surface/equilibrium/internal/relax_land.hpp>
 #include <thalweg/surface/equilibrium/internal/relax_rivers.hpp>
@@ -47,36 +49,47 @@ constexpr int floors_after = 2;    // rounds: areas are near enough by then
 
 /// What lies in the frame of a level, before it is solved.
 struct Plan {
-    std::int64_t width;  ///< without the frame
-    std::int64_t height; ///< without the frame
+    LevelExtent extent;
     RiverCells rivers;
     Mask land;
 };
 
-/// Levels from the finest to one of about forty cells a side.
-std::vector<Plan> plans(WidenedLand& land) {
+Plan coarser(Plan const& fine) {
+    LevelExtent const extent{(fine.extent.width + 1) / 2, (fine.extent.height + 1) / 2, fine.extent.corner};
+    return {extent, coarsened(fine.rivers, fine.extent.width + 2, extent.width + 2, extent.height + 2),
+            fine.land.cells() == 0 ? Mask{} : coarsened(fine.land)};
+}
+
+/// Levels from the finest to one of about forty cells a side, the coarse ones of the region.
+std::vector<Plan> plans(WidenedLand& land, Region const& region, Grid const& grid, std::uint64_t seed) {
     constexpr std::int64_t short_side = 8;
     constexpr std::int64_t long_side = 40;
     std::vector<Plan> levels;
-    levels.push_back({land.grid.width, land.grid.height, std::move(land.rivers), std::move(land.land)});
+    levels.push_back({{land.grid.width, land.grid.height, {-land.margin, -land.margin}},
+                      std::move(land.rivers),
+                      std::move(land.land)});
     for (;;) {
-        Plan const& fine = levels.back();
-        Plan coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}, {}};
-        if (std::min(coarse.width, coarse.height) < short_side || std::max(coarse.width, coarse.height) < long_side) {
+        Plan coarse = coarser(levels.back());
+        if (region.level > 0 && levels.size() == region.level) {
+            LevelExtent const wide = extent_of(region, grid);
+            coarse.rivers = rivers_of_region(coarse.rivers, coarse.extent, wide, std::int64_t{1} << region.level, seed);
+            coarse.extent = wide;
+        }
+        LevelExtent const& extent = coarse.extent;
+        if (std::min(extent.width, extent.height) < short_side || std::max(extent.width, extent.height) < long_side) {
             return levels;
         }
-        coarse.rivers = coarsened(fine.rivers, fine.width + 2, coarse.width + 2, coarse.height + 2);
-        coarse.land = fine.land.cells() == 0 ? Mask{} : coarsened(fine.land);
         levels.push_back(std::move(coarse));
     }
 }
 
 /// Everything that a level's rounds need, before the first.
-LandLevel prepared(Plan&& plan, std::size_t number, LandLevel const& coarser, RockFields const& fields,
-                   RockParams const& rock, EquilibriumParams const& params, Run const& run) {
+LandLevel prepared(Plan&& plan, std::size_t number, LandLevel const& coarser, LandLevel const& region,
+                   RockFields const& fields, RockParams const& rock, EquilibriumParams const& params, Run const& run) {
     LandLevel level;
-    level.width = plan.width + 2;
-    level.height = plan.height + 2;
+    level.width = plan.extent.width + 2;
+    level.height = plan.extent.height + 2;
+    level.corner = plan.extent.corner;
     level.side = static_cast<float>(std::int64_t{1} << number);
     level.rivers = std::move(plan.rivers);
     cover_cells(level, plan.land, params.edge, number == 0 ? RiverBanks::kept : RiverBanks::none);
@@ -87,7 +100,7 @@ LandLevel prepared(Plan&& plan, std::size_t number, LandLevel const& coarser, Ro
     } else {
         start_from(level, coarser, params.seed, run);
     }
-    start_rivers(level);
+    start_rivers(level, region.z.empty() ? std::vector<float>{} : end_heights(level, region));
     return level;
 }
 
@@ -120,8 +133,10 @@ public:
         : params_(params), rivers_(rivers), window_(window), run_(run), law_(params, window.grid.cell_m),
           per_length_(jittered_per_length()) {}
 
-    void solve(LandLevel& level, std::size_t number, std::size_t levels) {
-        EdgeCells const edge = goes_on(params_.edge) ? edge_cells(level, nearest_river(level)) : EdgeCells{};
+    /// The frame is as its nearest rivers where the region says nothing of it.
+    void solve(LandLevel& level, std::size_t number, std::size_t levels, RegionFrame const& frame) {
+        bool const by_rivers = goes_on(params_.edge) && frame.cells.empty();
+        EdgeCells const edge = by_rivers ? edge_cells(level, nearest_river(level)) : EdgeCells{};
         set_edge_heights(level, edge);
         flood_land(level);
         int const rounds = rounds_of(number, levels);
@@ -130,6 +145,7 @@ public:
             run_.at(share_done(number, round, rounds), "fill");
             if (round > 0) {
                 set_edge_heights(level, edge);
+                lift_frame(level, frame);
                 if (!shortened_.empty()) {
                     slide_land(level);
                 }
@@ -203,6 +219,8 @@ struct Solved {
     LandLevel level;
     std::vector<std::int64_t> shortened;
     std::int64_t margin = 0;
+    bool in_region = false;
+    std::vector<RegionInflow> inflows;
 };
 
 RockParams rock_of(EquilibriumParams const& params, Window const& window) {
@@ -211,7 +229,6 @@ RockParams rock_of(EquilibriumParams const& params, Window const& window) {
     noise.longest_wave = params.longest_wave_m / window.grid.cell_m;
     noise.stretch = params.grain;
     noise.strike = (90.0 - params.strike_deg.value_or(random_strike_deg(params.seed))) * radians;
-    noise.margin = static_cast<double>(window.margin);
     noise.seed = params.seed;
     return {params.roughness, noise};
 }
@@ -220,18 +237,28 @@ RockParams rock_of(EquilibriumParams const& params, Window const& window) {
 Solved solved(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
               Run const& run) {
     WidenedLand land = widened(rivers, fields, params);
-    std::vector<Plan> levels = plans(land);
+    Region const region = region_around(rivers, fields, params);
+    std::vector<Plan> levels = plans(land, region, rivers.grid, params.seed);
     Window const window{rivers.grid, fields.land, land.margin};
     Solver solver(params, rivers, window, run);
     RockParams const rock = rock_of(params, window);
     LandLevel level;
+    LandLevel around; // the finest level of the region
+    std::vector<RegionInflow> inflows;
     for (std::size_t number = levels.size(); number-- > 0;) {
-        level = prepared(std::move(levels[number]), number, level, land.fields, rock, params, run);
-        solver.solve(level, number, levels.size());
+        level = prepared(std::move(levels[number]), number, level, around, land.fields, rock, params, run);
+        RegionFrame const frame = around.z.empty() ? RegionFrame{} : frame_by_region(level, around, params.seed);
+        solver.solve(level, number, levels.size(), frame);
+        if (region.level > 0 && number == region.level) {
+            around = level;
+        }
+        if (number == 0 && region.level > 0) {
+            inflows = inflows_of(level, window.grid, window.margin);
+        }
         drop_what_is_done(level);
     }
     check_drained(level, fields.land, land.margin, rivers.grid);
-    return {std::move(level), solver.shortened(), land.margin};
+    return {std::move(level), solver.shortened(), land.margin, region.level > 0, std::move(inflows)};
 }
 
 bool asks_heights(Channels const& rivers, EquilibriumParams const& params) {
@@ -308,12 +335,16 @@ EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& 
     run.check();
     Channels drawn = rivers;
     drawn.z.clear();
-    Solved graded = solved(drawn, fields, params, run);
+    EquilibriumParams wanted = params;
+    wanted.region = asks_heights(rivers, params) ? 1.0 : params.region; // given heights know nothing of it
+    Solved graded = solved(drawn, fields, wanted, run);
     Window const window{rivers.grid, fields.land, graded.margin};
     Raise const raise = raise_for(graded.level, rivers, window, params);
     if (!asks_heights(rivers, params)) {
         EquilibriumTerrain land =
             written_land(std::move(graded.level), rivers, window, raise, std::move(graded.shortened), run);
+        land.inflows = std::move(graded.inflows);
+        land.in_region = graded.in_region;
         land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
         return land;
     }

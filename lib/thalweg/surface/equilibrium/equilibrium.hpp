@@ -47,12 +47,20 @@ struct EquilibriumParams {
     double longest_wave_m = 10'800.0; ///< [m] > 0 longest wavelength of that noise
     double grain = 5.0;               ///< [1, 20] how many times as far rock reaches along its strike as across
     std::optional<double> strike_deg; ///< [degrees] of rock, clockwise from north; none: by the seed
+    /// [1, 5] with an open edge: coarse levels are solved on land so many times as wide; 1: on the grid alone
+    double region = 3.0;
     Edge edge = Edge::open;
     RiverHeights heights = RiverHeights::graded;
     /// with prescribed heights: solve again until the terrain has the target slope or relief; false: it is as high as
     /// around graded rivers
     bool bring_to_target = true;
     std::uint64_t seed = 7;
+};
+
+/// Water that enters the grid from the region.
+struct RegionInflow {
+    std::int64_t cell = 0;       ///< on the border of the grid
+    std::int64_t area_cells = 0; ///< that it drains beyond the grid
 };
 
 /// What equilibrium() returns.
@@ -63,6 +71,8 @@ struct EquilibriumTerrain {
     std::vector<std::int64_t> walled;    ///< numbers of channel cells on walls (fixed, soft)
     double max_lowered_m = 0.0;          ///< soft: largest lowering below prescribed heights
     double p95_lowered_m = 0.0;          ///< soft: its 95th percentile over channel cells with heights
+    bool in_region = false;              ///< whether coarse levels were solved on a region
+    std::vector<RegionInflow> inflows;   ///< of 1000 cells or more, by cell
     double target_share = 1.0;           ///< mean slope or relief reached / target
     double rise = 0.0;                   ///< height [m] of one unit of the solver / cell size
 };

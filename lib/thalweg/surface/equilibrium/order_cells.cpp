@@ -14,6 +14,9 @@ void order_cells(LandLevel& level) {
         }
     }
     level.area.assign(level.way.size(), 1);
+    for (Inflow const& in : level.inflow) {
+        level.area[in.cell] += in.area;
+    }
     level.order.resize(level.way.size());
     std::size_t count = 0;
     for (std::size_t i = 0; i < awaited.size(); ++i) {

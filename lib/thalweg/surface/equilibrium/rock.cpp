@@ -12,13 +12,15 @@ namespace thalweg::surface {
 
 namespace {
 
-/// Mean of a field over the finest cells of a level's cell, without those that have none.
-float mean_over(Raster<float> const& field, std::int64_t col, std::int64_t row, std::int64_t side) {
+/// Mean of a field over some finest cells, without those that have none.
+float mean_over(Raster<float> const& field, Cell from, std::int64_t side) {
     double sum = 0.0;
     double count = 0.0;
-    for (std::int64_t r = row * side; r < std::min((row + 1) * side, field.height()); ++r) {
-        for (std::int64_t c = col * side; c < std::min((col + 1) * side, field.width()); ++c) {
-            if (float const value = field[Cell{c, r}]; !std::isnan(value)) {
+    for (std::int64_t r = from.row; r < from.row + side; ++r) {
+        for (std::int64_t c = from.col; c < from.col + side; ++c) {
+            Cell const at{std::clamp<std::int64_t>(c, 0, field.width() - 1),
+                          std::clamp<std::int64_t>(r, 0, field.height() - 1)};
+            if (float const value = field[at]; !std::isnan(value)) {
                 sum += static_cast<double>(value);
                 count += 1.0;
             }
@@ -32,7 +34,8 @@ Cells<float> level_of(Raster<float> const& field, LandLevel const& level) {
     Cells<float> out(static_cast<std::size_t>(level.cells()), 1.0F);
     for (std::int64_t row = 1; row + 1 < level.height; ++row) {
         for (std::int64_t col = 1; col + 1 < level.width; ++col) {
-            out[static_cast<std::size_t>(row * level.width + col)] = mean_over(field, col - 1, row - 1, side);
+            Cell const from{level.corner.col + (col - 1) * side, level.corner.row + (row - 1) * side};
+            out[static_cast<std::size_t>(row * level.width + col)] = mean_over(field, from, side);
         }
     }
     return out;

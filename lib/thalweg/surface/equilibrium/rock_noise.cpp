@@ -26,10 +26,10 @@ class Octave {
 public:
     Octave(LandLevel const& level, RockNoise const& params, std::uint64_t number, double wave, Run const& run)
         : Octave(params.strike + turn(number, params.stretch), std::sqrt(params.stretch), level.side / wave) {
-        double const first =
-            (0.5 * level.side - level.side - params.margin) / level.side; // centre of the frame's corner
-        x0_ = (x_per_col_ - x_per_row_) * first + 17.3 * static_cast<double>(number);
-        y0_ = (y_per_row_ + y_per_col_) * first + 91.7 * static_cast<double>(number);
+        double const col = static_cast<double>(level.corner.col) / level.side - 0.5; // centre of the frame's corner
+        double const row = static_cast<double>(level.corner.row) / level.side - 0.5;
+        x0_ = x_per_col_ * col - x_per_row_ * row + 17.3 * static_cast<double>(number);
+        y0_ = y_per_col_ * col + y_per_row_ * row + 91.7 * static_cast<double>(number);
         auto const across = static_cast<double>(level.width);
         auto const down = static_cast<double>(level.height);
         double const left = std::floor(x0_ + std::min(0.0, x_per_col_ * across) + std::min(0.0, -x_per_row_ * down));

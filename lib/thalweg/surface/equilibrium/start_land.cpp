@@ -96,11 +96,13 @@ void start_from(LandLevel& level, LandLevel const& coarse, std::uint64_t seed, R
         return std::isinf(z) ? 0.0F : z;
     };
     Bends const bends(level, seed);
+    // Columns 1 and 2 (the frame is column 0) are the halves of coarse column 1 where both begin at one place.
+    float const first_x = 0.25F + static_cast<float>(level.corner.col - coarse.corner.col) / coarse.side;
+    float const first_y = 0.25F + static_cast<float>(level.corner.row - coarse.corner.row) / coarse.side;
     set_heights(level, seed, 0.15F, run, [&](std::int64_t col, std::int64_t row) {
         auto const [east, south] = bends.at(col, row);
-        // Columns 1 and 2 (the frame is column 0) are the halves of coarse column 1.
-        float const x = 0.5F * static_cast<float>(col) + 0.25F + east;
-        float const y = 0.5F * static_cast<float>(row) + 0.25F + south;
+        float const x = 0.5F * static_cast<float>(col) + first_x + east;
+        float const y = 0.5F * static_cast<float>(row) + first_y + south;
         float const left = std::floor(x);
         float const top = std::floor(y);
         auto const c = static_cast<std::int64_t>(left);
@@ -111,7 +113,7 @@ void start_from(LandLevel& level, LandLevel const& coarse, std::uint64_t seed, R
     });
 }
 
-void start_rivers(LandLevel& level) {
+void start_rivers(LandLevel& level, std::vector<float> const& end_z) {
     for (std::size_t i = 0; i < level.cover.size(); ++i) {
         if (level.cover[i] == Cover::sea) {
             level.z[i] = 0.0F;
@@ -124,7 +126,7 @@ void start_rivers(LandLevel& level) {
         float& z = level.z[rivers.cell[n]];
         float const asked = rivers.asked.empty() ? std::nanf("") : rivers.asked[n];
         if (rivers.receiver[n] < 0) {
-            z = std::isnan(asked) ? 0.0F : asked;
+            z = !std::isnan(asked) ? asked : end_z.empty() ? 0.0F : end_z[n];
             continue;
         }
         float const below = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]];

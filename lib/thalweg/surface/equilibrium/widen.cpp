@@ -12,8 +12,8 @@ namespace thalweg::surface {
 
 namespace {
 
-// A straight rim of an open land reaches about so far.
-constexpr std::int64_t open_margin = 31;
+// A straight rim of an open land reaches about so far; a whole number of cells of every level that has it.
+constexpr std::int64_t open_margin = 32;
 
 Grid grown(Grid grid, std::int64_t margin) {
     grid.width += 2 * margin;
@@ -134,8 +134,7 @@ WidenedLand widened(Channels const& rivers, EquilibriumFields const& fields, Equ
             margin,
             Carried(rivers, margin).all(),
             grown(fields.land, margin),
-            {grown(relative(fields.uplift, fields.land), margin),
-             grown(relative(fields.erodibility, fields.land), margin), margin}};
+            {relative(fields.uplift, fields.land), relative(fields.erodibility, fields.land)}};
 }
 
 } // namespace thalweg::surface

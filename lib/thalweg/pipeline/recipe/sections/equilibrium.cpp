@@ -83,6 +83,12 @@ Rows<EquilibriumRecipe> ground_keys() {
             .means("boundary condition: the terrain continues (open), all water goes to the rivers (closed), sea "
                    "(coast), or sea where the mask or coastlines say so and beyond the grid the terrain continues "
                    "(mainland); auto: mainland with coastlines of a river file, coast with other sea, else open"),
+        number("region", &EquilibriumRecipe::region)
+            .range({1, 5})
+            .used(by_equilibrium() && is("surface.edge", {"auto", "open"}))
+            .means(
+                "with an open edge the large valleys are found on land so many times as wide as the grid, and rivers "
+                "may enter it; 1: on the grid alone"),
         file("uplift", &EquilibriumRecipe::uplift)
             .used(by_equilibrium())
             .means("raster over the grid, values above 0; only ratios count"),

@@ -47,12 +47,19 @@ inline constexpr float least_tangent = 0.002F;
 inline constexpr float steepest_tangent = 0.3F;
 inline constexpr float bank_step = least_tangent;
 
+/// Water that enters a level.
+struct Inflow {
+    std::uint32_t cell;
+    std::uint32_t area; ///< [cells of the level] that it drains
+};
+
 /// One level of the grid, in a frame one cell wide, so that every inner cell has eight neighbours. Lengths and heights
 /// are in cells of the finest level.
 struct LandLevel {
     std::int64_t width = 0;  ///< with the frame
     std::int64_t height = 0; ///< with the frame
     float side = 1.0F;       ///< of a cell
+    Cell corner;             ///< [finest cells] where the first inner cell begins, from the caller's grid
     RiverCells rivers;
     Cells<Cover> cover;
     Cells<float> z;
@@ -63,8 +70,12 @@ struct LandLevel {
     Cells<std::uint8_t> shift;  ///< where in its cell a node lies: code of jitter.hpp
     Cells<std::uint32_t> area;  ///< [cells of this level]
     Cells<std::uint32_t> order; ///< land cells, receivers last
+    std::vector<Inflow> inflow; ///< water from beyond the frame
 
     std::int64_t cells() const { return width * height; }
+    Cell at(std::size_t i) const {
+        return {static_cast<std::int64_t>(i) % width, static_cast<std::int64_t>(i) / width};
+    }
     std::array<std::int64_t, 8> offsets() const {
         std::array<std::int64_t, 8> out{};
         for (std::size_t k = 0; k < out.size(); ++k) {

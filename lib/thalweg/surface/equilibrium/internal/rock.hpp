@@ -8,11 +8,11 @@
 /// Private to this module.
 namespace thalweg::surface {
 
-/// Fields inside the frame of the finest level, each divided by its mean over the land; without cells for none.
+/// Fields on the caller's grid, each divided by its mean over the land; without cells for none. Beyond the grid they
+/// are as at its border.
 struct RockFields {
     Raster<float> uplift;
     Raster<float> erodibility;
-    std::int64_t margin = 0; ///< [cells] by which they go beyond the caller's grid on each side
 };
 
 struct RockParams {

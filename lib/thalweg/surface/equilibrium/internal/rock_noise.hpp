@@ -14,7 +14,6 @@ struct RockNoise {
     double longest_wave = 360.0; ///< [finest cells]
     double stretch = 1.0;        ///< along the strike over across it
     double strike = 0.0;         ///< [radians] anticlockwise from east
-    double margin = 0.0;         ///< [finest cells] from the frame's inner side to the caller's grid
     std::uint64_t seed = 0;
 };
 
