@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -204,6 +205,21 @@ private:
         }
     }
 
+    Vec2 centre_of(std::int64_t channel) const {
+        Grid const& grid = drawn_.channels.grid;
+        return grid.centre(grid.at(drawn_.channels.cell[channel]));
+    }
+
+    /// The line of an arc by its cells, where it lies too far beside them.
+    template <class Iterator> std::vector<Vec2> through_cells(Iterator first, Iterator last, Vec2 end) const {
+        std::vector<Vec2> line;
+        std::transform(first, last, std::back_inserter(line), [&](std::int64_t i) { return centre_of(i); });
+        if (!(line.back() == end)) {
+            line.push_back(end);
+        }
+        return line.size() > 1 ? line : std::vector<Vec2>{};
+    }
+
     void visit(std::size_t a) {
         auto const& cells = drawn_.of_arc[a];
         bool const goes_on = has_water_above(a);
@@ -221,8 +237,10 @@ private:
         auto const own_end = cells.end() - (network_.out(network_.to(a)) != no_arc ? 1 : 0);
         auto const stays = std::find_if(cells.begin(), own_end, [&](std::int64_t i) { return is_gone_[i] == 0; });
         if (rest.empty() && stays != own_end) { // its cells lie beside the line
-            Grid const& grid = drawn_.channels.grid;
-            rest = rest_from_nearest(line, grid.centre(grid.at(drawn_.channels.cell[*stays])));
+            rest = rest_from_nearest(line, centre_of(*stays));
+            if (rest.empty() || distance(rest.front(), centre_of(*stays)) > 1.5 * drawn_.channels.grid.cell_m) {
+                rest = through_cells(stays, own_end, line.back());
+            }
         }
         mark(goes_, drawn_.channels, cells, is_gone_, 1, 0);
         mark(stays_, drawn_.channels, cells, is_gone_, 0, 0);

@@ -80,7 +80,8 @@ surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface:
     params.longest_wave_m = wanted.longest_wave_m;
     params.grain = wanted.grain;
     params.strike_deg = wanted.strike_deg;
-    params.region = wanted.region;
+    bool const by_file = recipe.network->source == Source::lines; // which has all rivers that enter
+    params.region = wanted.region.value_or(by_file ? 1.0 : params.region);
     params.edge = edge;
     params.seed = recipe.seed;
     return params;
@@ -238,12 +239,12 @@ EquilibriumStory story_of(Solved const& solved, Channels const& channels) {
 }
 
 /// A region that was asked for and cannot be.
-void warn_of_region(surface::EquilibriumTerrain const& land, double asked, Run const& run) {
-    if (!land.in_region && asked > 1.0 && asked != EquilibriumRecipe{}.region) {
+void warn_of_region(surface::EquilibriumTerrain const& land, std::optional<double> asked, Run const& run) {
+    if (!land.in_region && asked.value_or(1.0) > 1.0) {
         run.say(
             fmt::format("warning: surface.region = {:.6g} is not used: it needs an open edge, rivers that leave the "
                         "grid with heights of thalweg's own, and 64 cells a side",
-                        asked));
+                        *asked));
     }
 }
 

@@ -164,6 +164,9 @@ public:
             }
             relax_land(level, law_);
         }
+        if (number == 0) {
+            come_to_rest(level, given);
+        }
     }
 
     std::vector<std::int64_t> const& shortened() const { return shortened_; }
@@ -196,6 +199,17 @@ private:
             lower_perched(level, perched_, least_tangent);
         }
         keep_to_receivers(level);
+    }
+
+    /// Where divides have moved in the last round land slides, and with it what tips of rivers stood on.
+    void come_to_rest(LandLevel& level, bool given) {
+        slide_land(level);
+        if (!given) {
+            give_up(level);
+            slide_land(level);
+        }
+        steepest_ways(level, per_length_, run_);
+        order_cells(level);
     }
 
     void give_up(LandLevel& level) {

@@ -47,7 +47,8 @@ struct EquilibriumParams {
     double longest_wave_m = 10'800.0; ///< [m] > 0 longest wavelength of that noise
     double grain = 5.0;               ///< [1, 20] how many times as far rock reaches along its strike as across
     std::optional<double> strike_deg; ///< [degrees] of rock, clockwise from north; none: by the seed
-    /// [1, 5] with an open edge: coarse levels are solved on land so many times as wide; 1: on the grid alone
+    /// [1, 5] with an open edge: coarse levels are solved on land wider than the grid by this factor; 1: on the grid
+    /// alone
     double region = 3.0;
     Edge edge = Edge::open;
     RiverHeights heights = RiverHeights::graded;

@@ -93,6 +93,10 @@ std::size_t beside_frame(LandLevel const& level, std::int64_t col, std::int64_t 
                                     std::clamp<std::int64_t>(col, 1, level.width - 2));
 }
 
+Vec2 middle_of(Cell c) {
+    return {static_cast<double>(c.col), static_cast<double>(c.row)};
+}
+
 /// Shares of the frame's cells by how far they are from a valley that leaves the window.
 void share_out(RegionFrame& frame, LandLevel const& level, LandLevel const& region, Within const& within,
                std::uint64_t seed) {
@@ -122,8 +126,7 @@ void share_out(RegionFrame& frame, LandLevel const& level, LandLevel const& regi
         Cell const at = level.at(c.cell);
         double nearest = static_cast<double>(level.width + level.height);
         for (Cell const v : valleys) {
-            nearest =
-                std::min(nearest, std::hypot(static_cast<double>(v.col - at.col), static_cast<double>(v.row - at.row)));
+            nearest = std::min(nearest, distance(middle_of(v), middle_of(at)));
         }
         far.push_back(nearest);
         sum += nearest;

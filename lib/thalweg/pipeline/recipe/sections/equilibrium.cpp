@@ -87,8 +87,8 @@ Rows<EquilibriumRecipe> ground_keys() {
             .range({1, 5})
             .used(by_equilibrium() && is("surface.edge", {"auto", "open"}))
             .means(
-                "with an open edge the large valleys are found on land so many times as wide as the grid, and rivers "
-                "may enter it; 1: on the grid alone"),
+                "with an open edge the large valleys are found on land wider than the grid by this factor, and rivers "
+                "may enter it; 1: on the grid alone; left out: 3 for grown rivers, 1 for those of a file"),
         file("uplift", &EquilibriumRecipe::uplift)
             .used(by_equilibrium())
             .means("raster over the grid, values above 0; only ratios count"),

@@ -21,8 +21,8 @@ struct EquilibriumRecipe {
     double grain = 5.0;
     std::optional<double> strike_deg;
     std::optional<surface::Edge> edge; ///< none: mainland by coastlines, coast by other sea, else open
-    double region = 3.0;
-    std::string uplift;                                   ///< raster on the grid; "" for none
+    std::optional<double> region;      ///< none: 3 for grown rivers, 1 for those of a file
+    std::string uplift;                ///< raster on the grid; "" for none
     std::optional<surface::UpliftPattern> uplift_pattern; ///< none: uplift is the same everywhere, but for the raster
     double uplift_contrast = 4.0;
     double uplift_wave_m = 12'000.0;
