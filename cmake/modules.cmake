@@ -89,7 +89,7 @@ function(thalweg_tests NAME)
     thalweg_precompile(test_${NAME})
   endif()
   gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. TEST_FILTER -Long*
-    PROPERTIES LABELS ${NAME} TIMEOUT 600 DISCOVERY_TIMEOUT 60 ENVIRONMENT "RC_PARAMS=seed=16") # house.properties takes others
+    PROPERTIES LABELS ${NAME} TIMEOUT 600 ENVIRONMENT "RC_PARAMS=seed=16" DISCOVERY_TIMEOUT 60) # house.properties takes others
   gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. TEST_FILTER Long* TEST_LIST test_${NAME}_long
     PROPERTIES LABELS long TIMEOUT 3600 PROCESSORS 2 DISCOVERY_TIMEOUT 60)
 endfunction()

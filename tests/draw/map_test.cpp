@@ -80,6 +80,26 @@ TEST(Map, HasItsWidthItsRiversAndItsRelief) {
     EXPECT_GT(test::river_pixels(pixels), test::river_pixels(without) + 2000);
 }
 
+TEST(Map, RiversAreAsWideAsTheRootOfWhatTheyDrain) {
+    test::SmallLand const land = test::small_land();
+    auto const drawn_by = [&land](std::vector<double> areas_m2) {
+        return draw::map({land.dem, land.hillshade, &land.network, &land.orders, {}, nullptr, std::move(areas_m2)})
+            .bytes;
+    };
+    std::size_t const arcs = land.network.plan.arc_count();
+    std::vector<double> small(arcs, 1e4);
+    small.back() = 1e8;
+    auto const thin = test::river_pixels(test::decode(drawn_by(small)));
+    auto const wide = test::river_pixels(test::decode(drawn_by(std::vector<double>(arcs, 1e8))));
+    EXPECT_GT(wide, thin);
+    EXPECT_EQ(drawn_by(std::vector<double>(arcs, -1.0)), drawn_by({})); // not known: by Strahler order
+    EXPECT_NE(drawn_by(small), drawn_by({}));
+    std::vector<double> forged(arcs, std::nan(""));
+    forged.front() = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(drawn_by(forged), drawn_by({}));
+    EXPECT_THROW(drawn_by({1.0}), BadInput);
+}
+
 TEST(Map, RidgesAreBrownLinesAndNoneLeaveNoTrace) {
     test::SmallLand const land = test::small_land();
     MapSheet sheet{land.dem, land.hillshade, &land.network, &land.orders, {}};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <cairo.h>
 #include <fmt/format.h>
@@ -124,14 +125,40 @@ Block height_ramp(LegendFacts const& facts, double unit) {
             }};
 }
 
-Block river_samples(LegendFacts const& facts, double unit) {
-    double const step = std::min(44.0, 330.0 / facts.highest_order);
-    return {std::max(130.0, step * facts.highest_order), [=, highest = facts.highest_order](Cairo* sheet, Vec2 at) {
+/// Rivers of a style each, with what they stand for.
+using RiverSamples = std::vector<std::pair<LineStyle, std::string>>;
+
+RiverSamples rivers_by_order(RiverScale const& scale, double unit) {
+    RiverSamples rivers;
+    for (int order = 1; order <= scale.highest_order; ++order) {
+        rivers.emplace_back(style_of_order(order, scale, unit), fmt::format("{}", order));
+    }
+    return rivers;
+}
+
+/// A round area near the largest, and a few powers of ten below it.
+RiverSamples rivers_by_area(RiverScale const& scale, double unit) {
+    constexpr std::size_t most = 4;
+    double const largest_km2 = round_down(scale.largest_area_m2 / 1e6);
+    RiverSamples rivers{{style_of_area(largest_km2 * 1e6, scale, unit), fmt::format("{:.6g}", largest_km2)}};
+    double const below = std::pow(10.0, std::ceil(std::log10(largest_km2) - 1e-9) - 1.0);
+    for (double km2 = below; rivers.size() < most; km2 /= 10.0) {
+        rivers.emplace_back(style_of_area(km2 * 1e6, scale, unit), fmt::format("{:.6g}", km2));
+    }
+    std::reverse(rivers.begin(), rivers.end());
+    return rivers;
+}
+
+Block river_samples(RiverScale const& scale, double unit) {
+    bool const areas = scale.largest_area_m2 > 0.0;
+    RiverSamples const rivers = areas ? rivers_by_area(scale, unit) : rivers_by_order(scale, unit);
+    double const step = std::min(areas ? 52.0 : 44.0, 330.0 / static_cast<double>(rivers.size()));
+    return {std::max(130.0, step * static_cast<double>(rivers.size())), [=](Cairo* sheet, Vec2 at) {
                 Styles const style(unit);
-                draw_text(sheet, {at.x, at.y + 13.0 * unit}, "Strahler order", style.heading);
-                for (int order = 1; order <= highest; ++order) {
-                    LineStyle const river = river_style(order, highest, unit);
-                    double const x = at.x + (order - 1) * step * unit;
+                draw_text(sheet, {at.x, at.y + 13.0 * unit}, areas ? "Area drained [km²]" : "Strahler order",
+                          style.heading);
+                double x = at.x;
+                for (auto const& [river, words] : rivers) {
                     double const run = 0.75 * step * unit;
                     double const y = at.y + 31.0 * unit;
                     cairo_set_line_cap(sheet, CAIRO_LINE_CAP_ROUND);
@@ -142,8 +169,8 @@ Block river_samples(LegendFacts const& facts, double unit) {
                     cairo_set_line_width(sheet, river.width_px);
                     cairo_stroke(sheet);
                     cairo_set_line_cap(sheet, CAIRO_LINE_CAP_BUTT);
-                    draw_text(sheet, {x + 0.5 * run, at.y + 55.0 * unit}, fmt::format("{}", order), style.small,
-                              Anchor::middle);
+                    draw_text(sheet, {x + 0.5 * run, at.y + 55.0 * unit}, words, style.small, Anchor::middle);
+                    x += step * unit;
                 }
             }};
 }
@@ -186,8 +213,8 @@ Block no_data_sample(double unit) {
 /// The blocks by rows.
 std::vector<std::vector<Block>> rows_of(LegendFacts const& facts, double width, double unit) {
     std::vector<Block> blocks{north_arrow(unit), scale_bar(facts, unit), height_ramp(facts, unit)};
-    if (facts.highest_order > 0) {
-        blocks.push_back(river_samples(facts, unit));
+    if (facts.rivers.highest_order > 0) {
+        blocks.push_back(river_samples(facts.rivers, unit));
     }
     if (facts.contour_interval_m > 0.0) {
         blocks.push_back(contour_samples(facts, unit));

@@ -62,6 +62,11 @@ void demand_sheet(MapSheet const& sheet, MapParams const& params) {
         throw BadInput(fmt::format("draw.map: a network of {} arcs comes with {} orders; order this network", arcs,
                                    sheet.orders == nullptr ? 0 : sheet.orders->strahler.size()));
     }
+    if (!sheet.areas_m2.empty() && sheet.areas_m2.size() != arcs) {
+        throw BadInput(
+            fmt::format("draw.map: a network of {} arcs comes with {} areas; measure the areas of this network", arcs,
+                        sheet.areas_m2.size()));
+    }
     for (ArcId a = 0; a < arcs; ++a) {
         demand_finite(sheet.network->plan.arc(a).line, "arc", a + 1);
     }
@@ -120,7 +125,7 @@ Layout lay_out(MapSheet const& sheet, MapParams const& params) {
     if (!grid.crs.empty()) {
         out.legend.frame_text.push_back(name_of_crs(grid.crs));
     }
-    out.legend.highest_order = highest_order(sheet);
+    out.legend.rivers = river_scale(sheet);
     out.legend.contour_interval_m = params.contour_interval_m;
     out.legend.ridges = has_ridges(sheet);
     return out;

@@ -30,15 +30,18 @@ struct MapSheet {
     NetworkOrders const* orders = nullptr;                      ///< of the network; needed where there is one
     std::vector<std::pair<double, std::vector<Vec2>>> contours; ///< height [m] and line
     RidgeLines const* ridges = nullptr;                         ///< null or empty: none
+    /// [m²] drained by each arc at its downstream end; not a number above 0: not known; empty: of none
+    std::vector<double> areas_m2 = {};
 };
 
 /// \param sheet a DEM of one cell or more; cells without a height are light grey, cells without a shade lie level
 /// \param params options, each with its default, unit and range
 /// \return a map: hillshade under a hypsometric tint, contours, ridges as thin brown lines, rivers whose width and
-/// colour follow Strahler order, scale bar, legend, title, frame with coordinates.
+/// colour follow the area they drain, or Strahler order where no area is known, scale bar, legend, title, frame with
+/// coordinates
 /// \throws BadParameter
-/// \throws BadInput when hillshade or orders are of another grid or network, or a line has a coordinate that is not
-/// finite
+/// \throws BadInput when hillshade, orders or areas are of another grid or network, or a line has a coordinate that is
+/// not finite
 Picture map(MapSheet const& sheet, MapParams const& params = {});
 
 } // namespace thalweg::draw

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <cairo.h>
 
@@ -62,6 +63,21 @@ std::vector<Seat> seats_on(std::vector<Vec2> const& line, double room, double ap
     return seats;
 }
 
+/// Channels are as wide as the square root of the discharge (Leopold and Maddock 1953), which grows with the area.
+constexpr double width_exponent = 0.5;
+
+/// An area, 0 where it is not known.
+double known(double area_m2) {
+    return std::isfinite(area_m2) && area_m2 > 0.0 ? area_m2 : 0.0;
+}
+
+/// share: [0, 1] of the largest.
+LineStyle river_style(double share, RiverScale const& scale, double unit) {
+    double const widest = std::min(0.9 * (scale.highest_order - 1), 4.2);
+    auto const blend = [share](double small, double large) { return small + (large - small) * share; };
+    return {std::max(1.0, (1.2 + widest * share) * unit), {blend(0.25, 0.07), blend(0.50, 0.31), blend(0.80, 0.64)}};
+}
+
 } // namespace
 
 LineStyle contour_style(ContourKind kind, double unit) {
@@ -69,12 +85,23 @@ LineStyle contour_style(ContourKind kind, double unit) {
                                       : LineStyle{0.65 * unit, {0.50, 0.33, 0.19, 0.55}};
 }
 
-LineStyle river_style(int order, int highest, double unit) {
-    double const share = highest > 1 ? static_cast<double>(order - 1) / (highest - 1) : 0.0;
-    double const step = std::min(0.9, 4.2 / std::max(1, highest - 1));
-    auto const blend = [share](double small, double large) { return small + (large - small) * share; };
-    return {std::max(1.0, (1.2 + step * (order - 1)) * unit),
-            {blend(0.25, 0.07), blend(0.50, 0.31), blend(0.80, 0.64)}};
+RiverScale river_scale(MapSheet const& sheet) {
+    RiverScale scale;
+    if (sheet.orders != nullptr && !sheet.orders->strahler.empty()) {
+        scale.highest_order = *std::max_element(sheet.orders->strahler.begin(), sheet.orders->strahler.end());
+    }
+    for (double const area : sheet.areas_m2) {
+        scale.largest_area_m2 = std::max(scale.largest_area_m2, known(area));
+    }
+    return scale;
+}
+
+LineStyle style_of_area(double area_m2, RiverScale const& scale, double unit) {
+    return river_style(std::pow(known(area_m2) / scale.largest_area_m2, width_exponent), scale, unit);
+}
+
+LineStyle style_of_order(int order, RiverScale const& scale, double unit) {
+    return river_style(static_cast<double>(order - 1) / std::max(1, scale.highest_order - 1), scale, unit);
 }
 
 LineStyle ridge_style(double unit) {
@@ -89,13 +116,6 @@ std::vector<Vec2> in_plan(std::vector<Vec3> const& line) {
 
 bool has_ridges(MapSheet const& sheet) {
     return sheet.ridges != nullptr && !sheet.ridges->lines.empty();
-}
-
-int highest_order(MapSheet const& sheet) {
-    if (sheet.orders == nullptr || sheet.orders->strahler.empty()) {
-        return 0;
-    }
-    return *std::max_element(sheet.orders->strahler.begin(), sheet.orders->strahler.end());
 }
 
 void draw_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, double interval_m, double unit) {
@@ -126,22 +146,24 @@ void draw_ridges(Cairo* canvas, MapSheet const& sheet, Window const& window, dou
 }
 
 void draw_rivers(Cairo* canvas, MapSheet const& sheet, Window const& window, double unit) {
-    int const highest = highest_order(sheet);
-    if (highest == 0) {
+    RiverScale const scale = river_scale(sheet);
+    if (scale.highest_order == 0) {
         return;
     }
+    std::vector<std::pair<double, ArcId>> arcs; // wide ones lie above
+    for (ArcId a = 0; a < sheet.network->plan.arc_count(); ++a) {
+        arcs.emplace_back(scale.largest_area_m2 > 0.0 ? known(sheet.areas_m2[a]) : sheet.orders->strahler[a], a);
+    }
+    std::stable_sort(arcs.begin(), arcs.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
     double const corner_px = 0.75 * sheet.dem.grid().cell_m * window.px_per_m;
     cairo_set_line_cap(canvas, CAIRO_LINE_CAP_ROUND);
-    for (int order = 1; order <= highest; ++order) {
-        LineStyle const style = river_style(order, highest, unit);
-        for (ArcId a = 0; a < sheet.network->plan.arc_count(); ++a) {
-            if (sheet.orders->strahler[a] == order) {
-                trace_line(canvas, on_sheet(sheet.network->plan.arc(a).line, window), corner_px);
-                set_colour(canvas, style.colour);
-                cairo_set_line_width(canvas, style.width_px);
-                cairo_stroke(canvas);
-            }
-        }
+    for (auto const& [size, a] : arcs) {
+        LineStyle const style = scale.largest_area_m2 > 0.0 ? style_of_area(size, scale, unit)
+                                                            : style_of_order(static_cast<int>(size), scale, unit);
+        trace_line(canvas, on_sheet(sheet.network->plan.arc(a).line, window), corner_px);
+        set_colour(canvas, style.colour);
+        cairo_set_line_width(canvas, style.width_px);
+        cairo_stroke(canvas);
     }
     cairo_set_line_cap(canvas, CAIRO_LINE_CAP_BUTT);
 }

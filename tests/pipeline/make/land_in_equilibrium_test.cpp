@@ -5,6 +5,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/routing/route.hpp>
+#include <thalweg/measure/laws/junction_angles.hpp>
 #include <thalweg/measure/relief/relief.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/plan/make_input.hpp>
@@ -388,6 +389,14 @@ TEST(LandInEquilibrium, OtherCellsAreTheSameLand) {
         EXPECT_NEAR(at.density_per_m, middle.density_per_m, 0.1 * middle.density_per_m);
         EXPECT_NEAR(at.mean_slope_deg, middle.mean_slope_deg, 0.1 * middle.mean_slope_deg);
     }
+}
+
+TEST(LandInEquilibrium, RiversOfAnIslandMeetAtAcuteAngles) {
+    Made const land = make(recipe_from(THALWEG_SOURCE_DIR "/samples/island.toml"));
+    measure::JunctionAngles const angles = measure::junction_angles(land.terrain.network.plan, 300.0);
+    EXPECT_GT(angles.junctions, 20);
+    EXPECT_GT(angles.mean_deg, 45.0);
+    EXPECT_LT(angles.mean_deg, 90.0);
 }
 
 /// Law: with closed edges a forest's basins tile the map: water leaves it at the outlets alone, from every cell.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <thalweg/draw/internal/canvas.hpp>
+#include <thalweg/draw/internal/map_lines.hpp>
 
 /// What stands below a map. Private to this module.
 namespace thalweg::draw {
@@ -17,7 +18,7 @@ struct LegendFacts {
     double low_m = 0.0;                  ///< heights at the ends of the tint; low > high where there are none
     double high_m = 0.0;
     bool holes = false; ///< some cells have no height
-    int highest_order = 0;
+    RiverScale rivers;
     double contour_interval_m = 0.0; ///< 0 for none
     bool ridges = false;             ///< some are drawn
 };

@@ -20,8 +20,14 @@ enum class ContourKind : std::uint8_t { ordinary, index };
 inline constexpr int index_every = 5;
 LineStyle contour_style(ContourKind kind, double unit);
 
-/// Order [1, highest]: the higher, the wider and the deeper blue.
-LineStyle river_style(int order, int highest, double unit);
+/// Rivers are the wider and the deeper blue, the more land they drain; without areas, the higher their order.
+struct RiverScale {
+    int highest_order = 0;        ///< 0 when the sheet has no rivers
+    double largest_area_m2 = 0.0; ///< 0 when no area is known
+};
+RiverScale river_scale(MapSheet const& sheet);
+LineStyle style_of_area(double area_m2, RiverScale const& scale, double unit);
+LineStyle style_of_order(int order, RiverScale const& scale, double unit);
 
 LineStyle ridge_style(double unit);
 
@@ -30,9 +36,6 @@ std::vector<Vec2> in_plan(std::vector<Vec3> const& line);
 
 /// Whether the sheet has at least one ridge.
 bool has_ridges(MapSheet const& sheet);
-
-/// The highest Strahler order; 0 when the sheet has no rivers.
-int highest_order(MapSheet const& sheet);
 
 void draw_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, double interval_m, double unit);
 void draw_ridges(Cairo* canvas, MapSheet const& sheet, Window const& window, double unit);

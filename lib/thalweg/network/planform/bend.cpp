@@ -10,6 +10,7 @@
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
+#include <thalweg/network/planform/internal/smooth_step.hpp>
 
 namespace thalweg::network {
 
@@ -18,20 +19,17 @@ namespace {
 constexpr std::uint64_t stage_plain = 0x6265'6e64;                // "bend"
 constexpr std::uint64_t stage_river = 0x7761'6e64;                // "wand"
 constexpr std::uint64_t stage_reach = 0x7265'6163;                // "reac"
+constexpr std::uint64_t stage_straight = 0x7374'7261;             // "stra"
 constexpr double floor_cells = 0.08;                              // width of a valley floor over area ^ 0.4 (cells)
 constexpr double wave_widths = 12.0;                              // a wave over the width
 constexpr double shortest_wave = 10.0;                            // [cells]
 constexpr double longest_reach = 20.0;                            // [cells]
+constexpr double straight_reach = 11.0;                           // [cells] on either side
 constexpr double amplitude = 0.16;                                // of a wave
 constexpr std::array<double, 3> long_waves = {160.0, 72.0, 32.0}; // [cells]
 constexpr std::uint64_t waves_each = 4;
 constexpr double shear = 0.22;  // slope of one wave
 constexpr double margin = 24.0; // [cells] in which the plain's waves fade
-
-double smooth_step(double t) {
-    double const u = std::clamp(t, 0.0, 1.0);
-    return u * u * (3.0 - 2.0 * u);
-}
 
 /// A wave that moves places along its crests: it shears, and leaves areas as they are.
 struct Wave {
@@ -129,8 +127,8 @@ void mean_near(Stem const& stem, std::vector<double> const& way_m, std::vector<d
 }
 
 /// Half waves along a river: extremes of chance size, at least so large, that mostly take turns, joined smoothly.
-double noise(double half_waves, double least, std::uint64_t seed, std::uint64_t stage, std::uint64_t river) {
-    constexpr double takes_turns = 0.8;
+double noise(double half_waves, double least, double takes_turns, std::uint64_t seed, std::uint64_t stage,
+             std::uint64_t river) {
     auto const extreme = [&](std::uint64_t k) {
         auto const words = random_block(seed, stage, river, k);
         double const size = least + (1.0 - least) * unit(words[0]);
@@ -170,6 +168,55 @@ Vec2 across(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2
         return {};
     }
     return {-(at[down].y - at[up].y) / length, (at[down].x - at[up].x) / length};
+}
+
+/// [0, 1] how straight a river runs on both sides of a point: 1 within half a cell of its chord, 0 beyond one and a
+/// half.
+double straightness(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2> const& at, std::size_t i,
+                    double cell_m) {
+    double const reach = straight_reach * cell_m;
+    if (way_m[i] - way_m[stem.begin] < reach || way_m[stem.end - 1] - way_m[i] < reach) {
+        return 0.0;
+    }
+    River const river{stem.begin, stem.end, way_m};
+    std::size_t const up = river.first(way_m[i] - reach);
+    std::size_t const down = river.first(way_m[i] + reach);
+    double const length = distance(at[up], at[down]);
+    if (!(length > reach)) {
+        return 0.0;
+    }
+    double off = 0.0;
+    for (std::size_t j = up; j <= down; ++j) {
+        off = std::max(off, std::fabs(cross(at[up], at[down], at[j])) / length);
+    }
+    return smooth_step(1.5 - off / cell_m);
+}
+
+/// [m] by point from its river's beginning, where points are now: bends have stretched their rivers.
+std::vector<double> stretched_ways(Stems const& stems, std::vector<Vec2> const& at) {
+    std::vector<double> way_m(at.size(), 0.0);
+    for (Stem const& stem : stems.stems) {
+        for (std::size_t i = stem.begin + 1; i < stem.end; ++i) {
+            way_m[i] = way_m[i - 1] + distance(at[i - 1], at[i]);
+        }
+    }
+    return way_m;
+}
+
+/// What a kind of wandering is made of.
+struct Kind {
+    std::uint64_t stage;
+    double least;       ///< share of the largest extreme that each has
+    double takes_turns; ///< how often extremes lie on different sides
+};
+
+Kind kind_of(Wandering which) {
+    switch (which) {
+    case Wandering::bends: return {stage_river, 0.35, 0.8};
+    case Wandering::reaches: return {stage_reach, 0.7, 0.8};
+    case Wandering::straights: break;
+    }
+    return {stage_straight, 0.7, 1.0};
 }
 
 } // namespace
@@ -258,22 +305,24 @@ std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, dou
 std::vector<Vec2> wander(Stems const& stems, std::vector<Vec2> const& at, double cell_m, double gain, Wandering which,
                          std::uint64_t seed) {
     bool const bends = which == Wandering::bends;
-    std::uint64_t const stage = bends ? stage_river : stage_reach;
-    double const least = bends ? 0.35 : 0.7;
+    auto const [stage, least, takes_turns] = kind_of(which);
     std::vector<double> wave_m = wavelengths(stems, weights(stems), cell_m);
     for (double& wave : wave_m) {
         wave = bends ? wave : std::clamp(wave / 4.0, shortest_wave * cell_m, longest_reach * cell_m);
     }
+    std::vector<double> const way_m = which == Wandering::straights ? stretched_ways(stems, at) : stems.way_m;
     std::vector<Vec2> out(at.size());
     for (Stem const& stem : stems.stems) {
         double half_waves = unit(random_word(seed, stage, stem.source, ~0ULL));
-        double const end_m = stems.way_m[stem.end - 1];
+        double const end_m = way_m[stem.end - 1];
         for (std::size_t i = stem.begin; i < stem.end; ++i) {
-            double const step = i == stem.begin ? 0.0 : stems.way_m[i] - stems.way_m[i - 1];
+            double const step = i == stem.begin ? 0.0 : way_m[i] - way_m[i - 1];
             half_waves += 2.0 * step / wave_m[i];
-            double const fades = smooth_step((end_m - stems.way_m[i]) / (0.5 * wave_m[i]));
-            double const by = fades * gain * amplitude * wave_m[i] * noise(half_waves, least, seed, stage, stem.source);
-            Vec2 const left = across(stem, stems.way_m, at, i, 0.25 * wave_m[i]);
+            double const fades = smooth_step((end_m - way_m[i]) / (0.5 * wave_m[i]));
+            double const where = which == Wandering::straights ? straightness(stem, way_m, at, i, cell_m) : 1.0;
+            double const by = where * fades * gain * amplitude * wave_m[i] *
+                              noise(half_waves, least, takes_turns, seed, stage, stem.source);
+            Vec2 const left = across(stem, way_m, at, i, 0.25 * wave_m[i]);
             out[i] = {by * left.x, by * left.y};
         }
     }

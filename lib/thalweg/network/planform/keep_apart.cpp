@@ -40,6 +40,25 @@ bool is_sea(Vec2 p, Mask const& land) {
 
 } // namespace
 
+bool leaves_land(Stems const& stems, std::vector<Vec2> const& at, std::size_t i, Mask const& land) {
+    if (land.cells() == 0) {
+        return false;
+    }
+    if (is_sea(at[i], land)) {
+        return true;
+    }
+    if (i + 1 == at.size() || stems.stem_of[i] != stems.stem_of[i + 1]) {
+        return false;
+    }
+    auto const [count, step] = steps_between(at[i], at[i + 1], land.grid().cell_m);
+    for (double k = 1.0; k < count; k += 1.0) {
+        if (is_sea({at[i].x + k * step.x, at[i].y + k * step.y}, land)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 std::vector<std::size_t> too_near(Stems const& stems, std::vector<Vec2> const& was, std::vector<Vec2> const& is,
                                   Grid const& grid, Mask const& land, Gap const& gap) {
     double const gap_m = gap.gap_m;
@@ -51,9 +70,11 @@ std::vector<std::size_t> too_near(Stems const& stems, std::vector<Vec2> const& w
         }
     }
     for (std::size_t i = 0; i < is.size(); ++i) {
-        if (inside(is[i], grid) < std::min(grid.cell_m, inside(was[i], grid)) ||
-            (is_sea(is[i], land) && !is_sea(was[i], land))) {
+        if (inside(is[i], grid) < std::min(grid.cell_m, inside(was[i], grid))) {
             found.push_back(i);
+        }
+        if (leaves_land(stems, is, i, land) && !leaves_land(stems, was, i, land)) {
+            found.insert(found.end(), {i, std::min(i + 1, is.size() - 1)});
         }
         segments.near({is[i], is[i]}, gap_m, [&](std::size_t j) {
             bool const same = stems.stem_of[i] == stems.stem_of[j];

@@ -17,6 +17,7 @@
 #include <thalweg/network/order/internal/require_trees.hpp>
 #include <thalweg/network/planform/internal/bend.hpp>
 #include <thalweg/network/planform/internal/keep_apart.hpp>
+#include <thalweg/network/planform/internal/lean_in.hpp>
 
 namespace thalweg::network {
 
@@ -109,22 +110,26 @@ class Meandering {
 public:
     Meandering(StreamNetwork const& network, Grid const& grid, Mask const& land, std::vector<double> const& area_m2,
                MeanderParams const& params, Run const& run)
-        : network_(network), grid_(grid), land_(land), params_(params), run_(run),
+        : network_(network), area_m2_(area_m2), grid_(grid), land_(land), params_(params), run_(run),
           to_fixed_(distance_to_fixed(network, grid, land)), stems_(stems_of(network, area_m2, grid.cell_m)) {}
 
     Meandered made() {
-        out_.vertices = static_cast<std::int64_t>(stems_.at.size());
         // Less and less of the plain's waves, then none.
         for (double const bend : {1.0, 0.5, 0.25, 0.0}) {
             if (try_with(bend * params_.gain)) {
-                return std::move(out_);
+                return with_vertices();
             }
         }
         out_.network = network_; // rivers that touch but for a rounding
-        return std::move(out_);
+        return with_vertices();
     }
 
 private:
+    Meandered with_vertices() {
+        out_.vertices = static_cast<std::int64_t>(stems_.at.size());
+        return std::move(out_);
+    }
+
     bool try_with(double bend) {
         base_ = settled(bend_plain(stems_.at, to_fixed_, bend, params_.seed));
         if (!is_proven(base_) || went_to_sea()) {
@@ -134,11 +139,15 @@ private:
         double const cell = grid_.cell_m;
         move(smoothing(stems_, base_, cell, wanders ? Rounding::river : Rounding::half_a_cell), smoothed_near * cell);
         if (wanders) {
-            for (Wandering const which : {Wandering::bends, Wandering::reaches}) {
+            move(wander(stems_, base_, cell, params_.gain, Wandering::bends, params_.seed), 0.0);
+            refine();
+            move(lean_in(stems_, base_, cell, params_.seed), 0.0);
+            for (Wandering const which : {Wandering::reaches, Wandering::straights}) {
                 move(wander(stems_, base_, cell, params_.gain, which, params_.seed), 0.0);
             }
         }
-        finish(base_);
+        out_.network = through(base_);
+        measure_shift();
         return true;
     }
 
@@ -178,21 +187,33 @@ private:
         return meeting_points(lines_through(stems_, network_, at), network_, run_).empty();
     }
 
-    /// Whether some point on land came to lie in the sea.
+    /// Whether a river that kept to the land came to lie in the sea.
     bool went_to_sea() const {
-        auto const is_sea = [&](Vec2 p) {
-            Cell const c = grid_.cell_of(p);
-            return grid_.contains(c) && land_[c] == 0;
-        };
-        for (std::size_t i = 0; land_.cells() > 0 && i < base_.size(); ++i) {
-            if (is_sea(base_[i]) && !is_sea(stems_.at[i])) {
+        for (std::size_t i = 0; i < base_.size(); ++i) {
+            if (leaves_land(stems_, base_, i, land_) && !leaves_land(stems_, stems_.at, i, land_)) {
                 return true;
             }
         }
         return false;
     }
 
-    void finish(std::vector<Vec2> const& at) {
+    /// Bends have stretched rivers: points lie a cell apart again.
+    void refine() {
+        network_ = through(base_);
+        measure_shift();
+        stems_ = stems_of(network_, area_m2_, grid_.cell_m);
+        base_ = stems_.at;
+    }
+
+    void measure_shift() {
+        double most = 0.0;
+        for (std::size_t i = 0; i < base_.size(); ++i) {
+            most = std::max(most, distance(base_[i], stems_.at[i]));
+        }
+        out_.max_shift_m += most;
+    }
+
+    StreamNetwork through(std::vector<Vec2> const& at) const {
         Lines lines = lines_through(stems_, network_, at);
         NetworkDraft bent;
         for (NodeId n = 0; n < network_.node_count(); ++n) {
@@ -204,13 +225,11 @@ private:
             arc.line = std::move(lines.line[a]);
             bent.add_arc(network_.from(a), network_.to(a), std::move(arc));
         }
-        out_.network = std::move(bent);
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            out_.max_shift_m = std::max(out_.max_shift_m, distance(at[i], stems_.at[i]));
-        }
+        return StreamNetwork(std::move(bent));
     }
 
-    StreamNetwork const& network_;
+    StreamNetwork network_; ///< given, then bent
+    std::vector<double> const& area_m2_;
     Grid const& grid_;
     Mask const& land_;
     MeanderParams const& params_;

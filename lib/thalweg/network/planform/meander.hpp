@@ -15,7 +15,7 @@ namespace thalweg::network {
 struct MeanderParams {
     /// [0, 2] strength of meandering; 0: only rounds corners and lattice steps, within half a cell; nodes stay
     double gain = 1.0;
-    double gap_cells = 1.5; ///< [0.5, 4] rivers farther apart than this stay so
+    double gap_cells = 3.0; ///< [0.5, 4] rivers farther apart than this stay so
     std::uint64_t seed = 7;
 };
 
@@ -25,12 +25,12 @@ struct Meandered {
     std::int64_t rounds = 0;   ///< of reducing bends where rivers came too close
     std::int64_t eased = 0;    ///< vertices with reduced shift
     std::int64_t vertices = 0; ///< of the network
-    double max_shift_m = 0.0;
+    double max_shift_m = 0.0;  ///< at most so far
 };
 
 /// Makes rivers meander: rounds corners and lattice steps, bends the plain by long waves and each river by noise along
 /// it, whose wavelength and amplitude grow with drainage area. Wavelength: 12 valley-floor widths, 0.08 * area [cells]
-/// ^ 0.4, at least 10 cells.
+/// ^ 0.4, at least 10 cells. Tributaries that would meet at a wide angle turn to come down beside the larger river.
 /// \param network a forest inside the grid; arcs meet only at nodes
 /// \param grid keeps the rivers inside
 /// \param area_m2 [m2] by arc: drainage area at its lower end

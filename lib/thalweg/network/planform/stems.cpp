@@ -39,19 +39,21 @@ void add_arc_points(Stems& out, std::vector<Vec2> const& line, double area_m2, d
         if (line[i] == line[i - 1]) {
             continue;
         }
-        // A lattice's diagonal steps stay whole.
-        double const steps = std::ceil(distance(line[i - 1], line[i]) / (1.5 * step_m));
-        for (double k = 1.0; k < steps; k += 1.0) {
-            double const t = k / steps;
-            add_point(
-                out, {line[i - 1].x + (line[i].x - line[i - 1].x) * t, line[i - 1].y + (line[i].y - line[i - 1].y) * t},
-                area_m2);
+        auto const [count, step] = steps_between(line[i - 1], line[i], step_m);
+        for (double k = 1.0; k < count; k += 1.0) {
+            add_point(out, {line[i - 1].x + k * step.x, line[i - 1].y + k * step.y}, area_m2);
         }
         add_point(out, line[i], area_m2);
     }
 }
 
 } // namespace
+
+EvenSteps steps_between(Vec2 from, Vec2 to, double step_m) {
+    // A lattice's diagonal steps stay whole.
+    double const count = std::ceil(distance(from, to) / (1.5 * step_m));
+    return {count, {(to.x - from.x) / count, (to.y - from.y) / count}};
+}
 
 Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2, double step_m) {
     Stems out;

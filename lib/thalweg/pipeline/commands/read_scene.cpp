@@ -174,7 +174,11 @@ SceneRead read_folder(fs::path const& folder, std::string const& network, Run co
         out.notes = std::move(read.notes);
     }
     if (network.empty() && fs::exists(rivers)) {
-        scene.network = network_of(io::read_network(rivers, run), rivers);
+        NetworkFile const file = io::read_network(rivers, run);
+        scene.network = network_of(file, rivers);
+        for (NetworkFile::FileArc const& arc : file.arcs) {
+            scene.ds_area_m2.push_back(arc.ds_area_m2);
+        }
     }
     if (fs::exists(recipe)) {
         Recipe const made = read_recipe(io::read_text(recipe, 2 << 20), recipe);

@@ -57,14 +57,10 @@ Elevated raise(Plan const& plan, RiversInPlan const& planned, network::RiverType
     return {std::move(raised.network), raised.report};
 }
 
-/// Bends rivers, where the plan wants it. Those that end on a coast stay as they grew, in all directions alike: bent
-/// ones would leave the land.
+/// Bends rivers, where the plan wants it; where there is a sea, none leaves the land.
 RiversInPlan let_wander(Plan const& plan, RiversInPlan planned, Diary& diary, Run const& run) {
     if (!bends_rivers(plan)) {
         return planned;
-    }
-    if (planned.land.cells() > 0) {
-        throw BadParameter("network.meander cannot bend rivers that end on a coast; leave it out");
     }
     if (planned.file_heights) {
         throw BadParameter("network.meander cannot bend rivers whose heights come from their file; set "
@@ -72,8 +68,11 @@ RiversInPlan let_wander(Plan const& plan, RiversInPlan planned, Diary& diary, Ru
     }
     flow::ContributingAreas const areas = flow::areas_nearest(planned.network, planned.grid, run);
     network::MeanderParams const params{.gain = *plan.recipe.network->meander, .seed = plan.recipe.seed};
-    network::Meandered bent = diary.stage(
-        "meander", [&] { return network::meander(planned.network, planned.grid, areas.ds_area_m2, params, run); });
+    network::Meandered bent = diary.stage("meander", [&] {
+        return planned.land.cells() > 0
+                   ? network::meander(planned.network, planned.land, areas.ds_area_m2, params, run)
+                   : network::meander(planned.network, planned.grid, areas.ds_area_m2, params, run);
+    });
     diary.say(fmt::format("{} vertices, at most {:.0f} m aside", bent.vertices, bent.max_shift_m));
     planned.file.sources = planned.file.sources.bent(planned.network, bent.network);
     planned.network = std::move(bent.network);

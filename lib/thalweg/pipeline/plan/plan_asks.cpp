@@ -16,8 +16,7 @@ bool has_coastlines(Plan const& plan) {
 }
 
 bool grown_for_land(Plan const& plan) {
-    bool const has_coast = plan.forest && plan.forest->has_sea;
-    return plan.recipe.network->source != Source::lines && in_equilibrium(plan.recipe) && !has_coast;
+    return plan.recipe.network->source != Source::lines && in_equilibrium(plan.recipe);
 }
 
 bool bends_rivers(Plan const& plan) {

@@ -115,6 +115,12 @@ Plan by_source(Recipe const& recipe, Diary& diary, Run const& run) {
     return recipe.network->tokunaga.strokes.empty() ? plan_tree(recipe, diary, run) : plan_strokes(recipe, diary, run);
 }
 
+/// How far rivers bend that a recipe says nothing of: on a coast short ones fall to the sea, which bend less.
+double meander_of(Plan const& plan) {
+    bool const has_sea = plan.forest && plan.forest->has_sea;
+    return !grown_for_land(plan) ? 0.0 : has_sea ? 0.3 : 1.0;
+}
+
 /// With what a recipe leaves to the source of its rivers, and the points beside them.
 Plan with_rivers_settled(Plan plan, Run const& run) {
     if (!plan.recipe.network) {
@@ -126,7 +132,7 @@ Plan with_rivers_settled(Plan plan, Run const& run) {
     }
     bool const all_over = rivers.source == Source::dla || rivers.source == Source::forest;
     rivers.prune_cells = rivers.prune_cells.value_or(all_over ? 20.0 : 0.0);
-    rivers.meander = rivers.meander.value_or(grown_for_land(plan) ? 1.0 : 0.0);
+    rivers.meander = rivers.meander.value_or(meander_of(plan));
     refuse_unused_keys(plan.recipe); // now that the rivers' heights are known
     plan.points = plan.recipe.skeleton ? given_points(plan.recipe, run) : FeaturePoints{};
     return plan;

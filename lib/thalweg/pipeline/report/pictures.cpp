@@ -45,7 +45,7 @@ double relief_of(Raster<float> const& dem) {
 draw::Picture draw_map(Scene const& scene, Look const& look, Run const& run) {
     Raster<float> const& dem = *scene.dem;
     double const interval = scene.contour_interval_m > 0.0 ? scene.contour_interval_m : round_interval(relief_of(dem));
-    draw::MapSheet sheet{dem, io::hillshade(dem), network_of(scene), orders_of(scene), {}};
+    draw::MapSheet sheet{dem, io::hillshade(dem), network_of(scene), orders_of(scene), {}, nullptr, scene.ds_area_m2};
     for (io::ContourLine& contour : io::contours(dem, interval, run)) {
         sheet.contours.emplace_back(contour.z, std::move(contour.line));
     }

@@ -25,6 +25,7 @@ struct Scene {
     std::optional<Raster<float>> dem;
     std::optional<ElevatedNetwork> network;
     NetworkOrders orders;           ///< of the network
+    std::vector<double> ds_area_m2; ///< drained by each arc, not above 0: not known; empty: of none
     std::vector<double> increments; ///< [m] of the surface, as used
     std::string increment;          ///< its name or expression
     std::string title;

@@ -188,7 +188,8 @@ void write_surface(Made const& t, std::string const& title, io::OutputFolder con
     bool const rivers = t.recipe.network.has_value();
     ElevatedNetwork const* const network = rivers ? &t.terrain.network : nullptr;
     NetworkOrders const* const orders = rivers ? &t.terrain.orders : nullptr;
-    draw::MapSheet sheet{dem, io::hillshade(dem), network, orders, {}, &t.terrain.ridges};
+    draw::MapSheet sheet{
+        dem, io::hillshade(dem), network, orders, {}, &t.terrain.ridges, t.assessment.areas.ds_area_m2};
     for (auto const& [z, line] : contours) {
         sheet.contours.emplace_back(z, line);
     }

@@ -42,8 +42,9 @@ struct EquilibriumParams {
     std::optional<double> relief_m;   ///< [m] > 0, highest minus lowest cell; replaces the mean slope
     double hillslope_m = 15.0;        ///< [m] >= 0 length below which soil creep dominates (Perron 2009)
     double debris_area_m2 = 45'000.0; ///< [m²] >= 0 drainage area below which debris flows cut (Stock 2003)
-    double floor_width_km = 0.0085; ///< [km] [0, 1] half width of a valley floor where 1 km² drains; grows as area^0.42
-    double roughness = 0.22;        ///< [0, 1] standard deviation of log erodibility, as noise
+    double floor_width_km = 0.009; ///< [km] [0, 1] half width of a valley floor where 1 km² drains; grows as area^0.42
+                                   ///< up to 200 km²
+    double roughness = 0.22;       ///< [0, 1] standard deviation of log erodibility, as noise
     double longest_wave_m = 10'800.0; ///< [m] > 0 longest wavelength of that noise
     double grain = 5.0;               ///< [1, 20] how many times as far rock reaches along its strike as across
     std::optional<double> strike_deg; ///< [degrees] of rock, clockwise from north; none: by the seed

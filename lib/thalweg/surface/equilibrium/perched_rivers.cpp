@@ -23,7 +23,7 @@ float highest_lawful(LandLevel const& level, std::uint32_t cell, float tangent) 
 /// Lowers a river cell to a height, and what lies downstream of it as far as needed; not at all where that would go on
 /// for long, or into a lake or an end.
 void dig(LandLevel& level, std::size_t from, float z, float step) {
-    constexpr int longest = 32;
+    constexpr int longest = 256; // [cells] on a floor that hardly falls
     RiverCells const& rivers = level.rivers;
     std::size_t n = from;
     float wanted = z;

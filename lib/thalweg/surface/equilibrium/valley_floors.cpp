@@ -49,15 +49,20 @@ std::vector<float> filled_mouths(LandLevel const& level, double cell_m) {
     return more;
 }
 
+/// Width of a floor over that where 1 km² drains. Beyond, rivers of a range run between its flanks.
+double growth(double area_km2) {
+    constexpr double confined_km2 = 200.0;
+    return portable::pow(std::min(area_km2, confined_km2), 0.42);
+}
+
 /// [cells] half widths of the floors of river cells.
 std::vector<float> half_widths(LandLevel const& level, FloorParams const& params) {
-    constexpr double growth = 0.42;
     double const per_cell_km2 = params.cell_m * params.cell_m * 1e-6;
     double const per_km = 1000.0 / params.cell_m * params.width_km;
     std::vector<float> widths = filled_mouths(level, params.cell_m);
     for (std::size_t n = 0; n < widths.size(); ++n) {
         double const area_km2 = static_cast<double>(level.area[level.rivers.cell[n]]) * per_cell_km2;
-        widths[n] = (1.0F + widths[n]) * static_cast<float>(per_km * portable::pow(area_km2, growth));
+        widths[n] = (1.0F + widths[n]) * static_cast<float>(per_km * growth(area_km2));
     }
     return widths;
 }

@@ -28,8 +28,9 @@ enum class Rounding : std::uint8_t { river, half_a_cell };
 /// How far each point shall move [m] to a smoothed line. Gives: by point; 0 at the ends of rivers.
 std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, double cell_m, Rounding rounding);
 
-/// A river's bends, or smaller ones within them, without which long bends run straight along the grid.
-enum class Wandering : std::uint8_t { bends, reaches };
+/// A river's bends; smaller ones within them, without which long bends run straight along the grid; and those of what
+/// is straight for over 20 cells nevertheless.
+enum class Wandering : std::uint8_t { bends, reaches, straights };
 
 /// How far each point shall move [m] across its river, by noise whose wave and amplitude grow with drainage area.
 /// Gives: by point; 0 at an outlet and where a river joins another.

@@ -12,6 +12,10 @@
 /// A step of meander. Private to this module.
 namespace thalweg::network {
 
+/// Whether a point, or one that stems_of would set between it and the next of its river, lies in the sea. Takes: land
+/// as too_near does.
+bool leaves_land(Stems const& stems, std::vector<Vec2> const& at, std::size_t i, Mask const& land);
+
 struct Gap {
     double gap_m = 0.0;
     double along_m = 0.0; ///< places of one river that are nearer to one another along it may come as near as they like
@@ -20,7 +24,7 @@ struct Gap {
 /// Points that came too near to a river's segment, and the upper points of these segments: both ascending.
 /// Takes: land (1; sea 0), without cells where all is land; points as they were and as they are; a point is too near to
 /// a segment of any river, its own included, when their distance is less than the gap and less than 0.6 of what it was;
-/// or when it has left the grid, or come nearer than a cell to its edge.
+/// or when it has left the grid or the land, or come nearer than a cell to the grid's edge.
 std::vector<std::size_t> too_near(Stems const& stems, std::vector<Vec2> const& was, std::vector<Vec2> const& is,
                                   Grid const& grid, Mask const& land, Gap const& gap);
 

@@ -32,6 +32,14 @@ struct Stems {
     std::vector<std::size_t> node_point;  ///< by node with arcs: its point on the largest river through it
 };
 
+/// Equal steps between two vertices, of one cell and a half at most: how many, and one of them.
+struct EvenSteps {
+    double count;
+    Vec2 step;
+};
+
+EvenSteps steps_between(Vec2 from, Vec2 to, double step_m);
+
 /// Takes: a forest, its index, by arc its area [m2], and the step [m]. At a node the river of the largest area goes on
 /// (ties: the lower arc number).
 Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2, double step_m);

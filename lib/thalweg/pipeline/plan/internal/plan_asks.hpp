@@ -11,7 +11,7 @@ namespace thalweg::pipeline {
 /// Whether coastlines of the rivers' file bound the land.
 bool has_coastlines(Plan const& plan);
 
-/// Whether rivers are grown for a land in equilibrium that has no coast: these run as in nature, which bends them.
+/// Whether rivers are grown for a land in equilibrium: these run as in nature, which bends them.
 bool grown_for_land(Plan const& plan);
 
 /// Whether rivers go through the stage that bends them.

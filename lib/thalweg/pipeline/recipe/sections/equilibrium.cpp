@@ -36,10 +36,11 @@ Rows<EquilibriumRecipe> slope_keys() {
             .means("drainage area below which debris flows cut hillsides, whose slopes hardly depend on area"),
         number("floor_width", &EquilibriumRecipe::floor_width)
             .range({0, 1})
+            .earlier(0.04)
             .used(by_equilibrium())
             .means(
-                "width of valley floors: 0.04 is 17 m where 1 km2 drains, in proportion; it grows with drainage area "
-                "^ 0.42"),
+                "width of valley floors: 0.0425 is 18 m where 1 km2 drains, in proportion; it grows with drainage area "
+                "^ 0.42, up to 200 km2"),
     };
 }
 

@@ -95,7 +95,8 @@ Rows<NetworkRecipe> course_keys() {
             .means("rotation of the cluster, counterclockwise; left out: random with equilibrium, else 0"),
         number("meander", &NetworkRecipe::meander)
             .range({0, 2})
-            .means("meander amplitude, 1 as in nature; left out: 1 for grown rivers with equilibrium, else 0"),
+            .means("meander amplitude, 1 as in nature; left out: 1 for grown rivers with equilibrium, 0.3 where they "
+                   "end on a coast, else 0"),
         choice("inland", &NetworkRecipe::inland)
             .one_of({{"carry", InlandEnds::carry}, {"sink", InlandEnds::sink}, {"coast", InlandEnds::coast}})
             .used(by_equilibrium() && is("network.source", {"dla", "tokunaga", "lines"}))
