@@ -14,6 +14,7 @@
 #include <cairo.h>
 #include <fmt/format.h>
 #include <fontconfig/fontconfig.h>
+#include <malloc.h>
 
 #include <thalweg/core/run/error.hpp>
 
@@ -61,6 +62,24 @@ void load_fonts() {
         return true;
     }();
 }
+
+/// While one lives, the C library hands out large blocks zeroed. Cairo (1.16), where memory is refused, jumps by a
+/// buffer that it never set: of arbitrary bytes it may block the very signal by which the program tells of such a
+/// fault.
+class ZeroedBlocks {
+public:
+    ZeroedBlocks() { fill_with(0xFF); } // the complement of what is handed out
+    ~ZeroedBlocks() { fill_with(0); }   // off
+    ZeroedBlocks(ZeroedBlocks const&) = delete;
+    ZeroedBlocks& operator=(ZeroedBlocks const&) = delete;
+
+private:
+    static void fill_with([[maybe_unused]] int byte) {
+#ifdef M_PERTURB
+        mallopt(M_PERTURB, byte);
+#endif
+    }
+};
 
 /// Cairo numbers surfaces and images by a counter of the process: they are renumbered by their place in the text.
 std::string renumber_ids(std::string const& svg) {
@@ -210,6 +229,7 @@ Vec2 towards(Vec2 from, Vec2 to, double by) {
 
 Picture paint(double width, double height, Format format, std::function<void(Cairo*)> const& fill) {
     load_fonts();
+    ZeroedBlocks const zeroed;
     Picture picture{{}, format};
     std::unique_ptr<cairo_surface_t, EndSurface> surface;
     switch (format) {

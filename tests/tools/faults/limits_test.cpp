@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 #include <string>
@@ -129,7 +130,8 @@ void walk_memory(fs::path const& base, rlim_t step_kb, int steps) {
     EXPECT_EQ(names_in(place.path()), std::vector<std::string>{"out"}) << "what was left is swept";
 }
 
-void exhaust_memory(fs::path const& base, int trials) {
+/// Refuses every allocation from one of the run's on, in places spread evenly from this share of them.
+void exhaust_memory(fs::path const& base, int trials, double share = 0.0) {
     if (has_sanitizer()) {
         GTEST_SKIP() << "a sanitizer has allocations of its own";
     }
@@ -142,8 +144,9 @@ void exhaust_memory(fs::path const& base, int trials) {
     ASSERT_GT(all, 10000);
     fs::remove(place / "count");
     fs::remove_all(place / "out");
+    long const first = std::lround(share * static_cast<double>(all));
     for (int i = 0; i < trials; ++i) {
-        std::string const from = std::to_string(all * i / trials + i);
+        std::string const from = std::to_string(first + (all - first) * i / trials + i);
         Ended const ended = spawn(small_make(), place.path(), [&] {
             setenv("SPY_MEMORY", from.c_str(), 1);
             setenv("LD_PRELOAD", SPY, 1);
@@ -223,4 +226,8 @@ TEST_F(LongLimits, AddressSpaceInHundredSteps) {
 
 TEST_F(LongLimits, MemoryExhaustedForGoodInManyPlaces) {
     exhaust_memory(place() / "base", 115);
+}
+
+TEST_F(LongLimits, MemoryExhaustedWhilePicturesAreDrawn) {
+    exhaust_memory(place() / "base", 150, 0.8);
 }
