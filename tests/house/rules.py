@@ -35,7 +35,7 @@ GRAPH_HEADER = "thalweg/core/stream_network_graph.hpp"
 FOREIGN_IN_HEADERS = {"lib/" + GRAPH_HEADER: ["boost/graph/", "boost/iterator/", "boost/property_map/"]}
 # The folders of tools, with those each may include; main.cpp includes any.
 TOOLS = {"commands": ["help", "terminal"], "help": [], "terminal": []}
-SYSTEM = re.compile(r"[a-z_0-9]+$|(sys/[a-z]+|unistd|fcntl|signal|dlfcn)\.h$")  # C++ headers have no suffix
+SYSTEM = re.compile(r"[a-z_0-9]+$|(sys/[a-z]+|unistd|fcntl|signal|dlfcn|malloc)\.h$")  # C++ headers have no suffix
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SPDX = ("SPDX-FileCopyrightText: the thalweg authors", "SPDX-License-Identifier: GPL-3.0-or-later")
