@@ -225,7 +225,7 @@ private:
             arc.line = std::move(lines.line[a]);
             bent.add_arc(network_.from(a), network_.to(a), std::move(arc));
         }
-        return StreamNetwork(std::move(bent));
+        return bent;
     }
 
     StreamNetwork network_; ///< given, then bent
