@@ -10,6 +10,7 @@
 #include <toml++/toml.h>
 
 #include <sstream>
+#include <stdexcept>
 #include <string_view>
 
 namespace thalweg::pipeline {
@@ -45,6 +46,32 @@ template <std::size_t N> std::string text_of(std::array<double, N> const& list) 
 }
 
 } // namespace
+
+PartKey::PartKey() = default;
+PartKey::PartKey(PartKey const& other) = default;
+PartKey::PartKey(PartKey&& other) noexcept = default;
+PartKey& PartKey::operator=(PartKey const& other) = default;
+PartKey& PartKey::operator=(PartKey&& other) noexcept = default;
+PartKey::~PartKey() = default;
+
+PartKey const& PartKey::of(std::type_info const& type) const {
+    if (holder == nullptr || *holder != type) {
+        throw std::logic_error("recipe: the key " + help.path + " is in the table of another type");
+    }
+    return *this;
+}
+
+PartKey inside(std::string const& prefix, std::type_info const& whole, ToField const& to_part, PartKey const& row) {
+    PartKey key = row;
+    key.help.path = prefix + row.help.path;
+    key.holder = &whole;
+    key.store = [to_part, store = row.store](void* s, Value const& v) { store(to_part(s), v); };
+    key.show = [to_part, show = row.show](void const* s) { return show(to_part(const_cast<void*>(s))); };
+    if (row.layer) {
+        key.layer = [to_part, layer = row.layer](void const* s) { return layer(to_part(const_cast<void*>(s))); };
+    }
+    return key;
+}
 
 std::string toml_text(Value const& value) {
     return std::visit([](auto const& v) { return text_of(v); }, value);

@@ -76,11 +76,11 @@ template <class S> Chapter chapter(char const* name, Holder<S> const& holder, Ro
         key.range = row.range;
         key.check = row.check;
         key.store = [in = holder.in, store = row.store](Recipe& r, std::size_t item, Value const& v) {
-            store(in(r, item), v);
+            store(&in(r, item), v);
         };
-        key.show = [of = holder.of, show = row.show](Recipe const& r, std::size_t item) { return show(of(r, item)); };
+        key.show = [of = holder.of, show = row.show](Recipe const& r, std::size_t item) { return show(&of(r, item)); };
         key.layer = [of = holder.of, layer = row.layer](Recipe const& r, std::size_t item) {
-            return layer ? layer(of(r, item)) : std::string();
+            return layer ? layer(&of(r, item)) : std::string();
         };
     }
     return made;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -34,35 +35,39 @@ std::string alternatives(std::vector<std::string> const& words);
 
 void remember(std::vector<Value>& values, double value);
 
-/// A key of a section or part of one that fills an S; its path is its name in there.
-template <class S> struct KeyOf {
+/// A key of a section or of a part of one; its path is its name in there. Its functions take the address of a struct of
+/// the type `holder`, which has the field.
+struct PartKey {
     KeyHelp help;
     Use use = always();
     std::vector<Value> earlier;
     std::string folder;
     std::optional<Range> range;
+    std::type_info const* holder = nullptr;
     std::function<void(Value const&)> check;
-    std::function<void(S&, Value const&)> store;
-    std::function<std::optional<Value>(S const&)> show;
-    std::function<std::string(S const&)> layer;
+    std::function<void(void*, Value const&)> store;
+    std::function<std::optional<Value>(void const*)> show;
+    std::function<std::string(void const*)> layer;
+
+    // Not inline: 130 rows copy them.
+    PartKey();
+    PartKey(PartKey const& other);
+    PartKey(PartKey&& other) noexcept;
+    PartKey& operator=(PartKey const& other);
+    PartKey& operator=(PartKey&& other) noexcept;
+    ~PartKey();
+
+    /// Throws std::logic_error where the key's field lies in another type: the table is wrong.
+    PartKey const& of(std::type_info const& type) const;
 };
+
+/// The same, of an S.
+template <class S> struct KeyOf : PartKey {};
 
 template <class S> using Rows = std::vector<KeyOf<S>>;
 
-/// Where a T lies in an S.
-template <class S, class T> struct Field {
-    std::function<T&(S&)> in;
-    std::function<T const&(S const&)> of;
-};
-
-template <class S, class T> Field<S, T> field(T S::*member) {
-    return {[member](S& s) -> T& { return s.*member; }, [member](S const& s) -> T const& { return s.*member; }};
-}
-
-template <class S, class Part, class T> Field<S, T> field(Part S::*part, T Part::*member) {
-    return {[part, member](S& s) -> T& { return s.*part.*member; },
-            [part, member](S const& s) -> T const& { return s.*part.*member; }};
-}
+/// From the address of a struct to that of a field in it.
+using ToField = std::function<void*(void*)>;
 
 template <class T> struct IsOptional : std::false_type {};
 template <class T> struct IsOptional<std::optional<T>> : std::true_type {};
@@ -101,15 +106,17 @@ template <class T> T number_in(Range const& range, Value const& v) {
 
 template <class T> using Choices = std::vector<std::pair<std::string, T>>;
 
-/// A row of a table: a key that fills a T of an S.
-template <class S, class T> class Row {
+/// A row of a table: a key that fills a T.
+template <class T> class Row {
 public:
     using Read = std::function<T(Value const&)>;
     using Show = std::function<std::optional<Value>(T const&)>;
 
-    Row(char const* name, Field<S, T> field) : field_(std::move(field)) {
-        key_.help.path = name;
-        key_.help.type = type_of<T>();
+    template <class S> Row(char const* name, T S::*member) : Row(name, typeid(S)) {
+        to_field_ = [member](void* s) -> void* { return &(static_cast<S*>(s)->*member); };
+    }
+    template <class S, class Part> Row(char const* name, Part S::*part, T Part::*member) : Row(name, typeid(S)) {
+        to_field_ = [part, member](void* s) -> void* { return &(static_cast<S*>(s)->*part.*member); };
     }
 
     Row& means(char const* meaning) {
@@ -200,8 +207,9 @@ public:
         return shows([](T const& x) { return x == T{} ? std::nullopt : shown(x); });
     }
     /// Of a file: the key of its layer.
-    Row& layer(std::string S::*member) {
-        key_.layer = [member](S const& s) { return s.*member; };
+    template <class S> Row& layer(std::string S::*member) {
+        key_.of(typeid(S));
+        key_.layer = [member](void const* s) { return static_cast<S const*>(s)->*member; };
         return *this;
     }
     /// Of a file: where below inputs/ a copy of it lies, in place of a folder of the key's name.
@@ -221,25 +229,36 @@ public:
     Row& reads(Read read) {
         read_ = std::move(read);
         key_.check = [r = read_](Value const& v) { r(v); };
-        key_.store = [r = read_, in = field_.in](S& s, Value const& v) { in(s) = r(v); };
+        key_.store = [r = read_, to = to_field_](void* s, Value const& v) { *static_cast<T*>(to(s)) = r(v); };
         return *this;
     }
     Row& shows(Show show) {
-        key_.show = [show = std::move(show), of = field_.of](S const& s) { return show(of(s)); };
+        key_.show = [show = std::move(show), to = to_field_](void const* s) {
+            return show(*static_cast<T const*>(to(const_cast<void*>(s))));
+        };
         return *this;
     }
 
-    operator KeyOf<S>() const { return key_; }
+    template <class S> operator KeyOf<S>() const { return {key_.of(typeid(S))}; }
 
 private:
-    KeyOf<S> key_;
-    Field<S, T> field_;
+    Row(char const* name, std::type_info const& holder) {
+        key_.holder = &holder;
+        key_.help.path = name;
+        key_.help.type = type_of<T>();
+    }
+
+    PartKey key_;
+    ToField to_field_;
     Read read_;
 };
 
+template <class S, class T> Row(char const*, T S::*) -> Row<T>;
+template <class S, class Part, class T> Row(char const*, Part S::*, T Part::*) -> Row<T>;
+
 /// A row whose value is written as it is held; a field that is optional may be left out.
 template <class... Members> auto plain(char const* name, Members... members) {
-    return Row(name, field(members...)).shows([](auto const& x) { return shown(x); });
+    return Row(name, members...).shows([](auto const& x) { return shown(x); });
 }
 
 /// A number, or an integer, with a range.
@@ -267,26 +286,17 @@ template <class... Members> auto yes_no(char const* name, Members... members) {
 
 /// One of several words.
 template <class... Members> auto choice(char const* name, Members... members) {
-    return Row(name, field(members...));
+    return Row(name, members...);
 }
 
-/// The keys of a part as keys of the whole. prefix: of their names, "dla."
+/// A key of a part as a key of the whole. prefix: of its name, "dla."
+PartKey inside(std::string const& prefix, std::type_info const& whole, ToField const& to_part, PartKey const& row);
+
 template <class S, class Part> Rows<S> inside(std::string const& prefix, Part S::*part, Rows<Part> const& rows) {
+    ToField const to_part = [part](void* s) -> void* { return &(static_cast<S*>(s)->*part); };
     Rows<S> keys;
     for (KeyOf<Part> const& row : rows) {
-        KeyOf<S>& key = keys.emplace_back();
-        key.help = row.help;
-        key.help.path = prefix + row.help.path;
-        key.use = row.use;
-        key.earlier = row.earlier;
-        key.folder = row.folder;
-        key.range = row.range;
-        key.check = row.check;
-        key.store = [part, store = row.store](S& s, Value const& v) { store(s.*part, v); };
-        key.show = [part, show = row.show](S const& s) { return show(s.*part); };
-        if (row.layer) {
-            key.layer = [part, layer = row.layer](S const& s) { return layer(s.*part); };
-        }
+        keys.push_back({inside(prefix, typeid(S), to_part, row)});
     }
     return keys;
 }
