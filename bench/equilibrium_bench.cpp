@@ -11,6 +11,7 @@
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
+#include "../tests/support.hpp"
 #include "../tests/surface/channel_trees.hpp"
 
 namespace {
@@ -19,7 +20,7 @@ using namespace thalweg;
 
 /// A tree at random from the middle of the southern border, a hundredth of the cells.
 Channels rivers(std::int64_t side) {
-    Grid const grid = channel_trees::frame(side, side, 30.0);
+    Grid const grid = test::frame(side, side, 30.0);
     return channel_trees::grown(grid, {grid.index({side / 2, side - 1})}, {}, grid.cells() / 100,
                                 channel_trees::Room::apart, 1);
 }

@@ -82,7 +82,7 @@ void BM_set_heights(benchmark::State& state) {
     after_tracing(state, [](StreamNetwork const& network) { return network::set_heights(network); });
 }
 void BM_rasterise(benchmark::State& state) {
-    Grid const grid = test::grid_of(state.range(0), state.range(0));
+    Grid const grid = test::frame(state.range(0), state.range(0));
     auto const raised = network::set_heights(network::trace(skeleton_of_burrs(state.range(0)), {Vec2{}})).network;
     for (auto _ : state) {
         benchmark::DoNotOptimize(network::rasterise(raised, grid));

@@ -6,6 +6,7 @@
 
 #include <thalweg/geometry/meetings.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
+#include <thalweg/measure/topology/internal/topology_steps.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 
 // The whole check of a network's topology (goal: 100 000 arcs in a second), the part of it that is geometry, and beside
@@ -34,6 +35,22 @@ void BM_check_topology(benchmark::State& state) {
         benchmark::DoNotOptimize(measure::check_topology(file));
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(file.arcs.size()));
+}
+
+/// Columns of arcs that end in one node: linear in their number.
+void BM_check_columns_star(benchmark::State& state) {
+    using namespace measure::topology_steps;
+    NetworkFile const file = faults::star_of(static_cast<int>(state.range(0)));
+    Findings findings;
+    auto const ambiguous = check_ids(file, findings);
+    Plans const plans = check_shapes(file, findings);
+    std::vector<char> const left_out(file.arcs.size(), 0);
+    Joints const joints = check_ends(file, plans, left_out, ambiguous, findings);
+    Graph const graph(joints.meant, left_out, joints.junctions.ids.size());
+    for (auto _ : state) {
+        check_columns(file, joints, graph, findings);
+    }
+    state.SetComplexityN(state.range(0));
 }
 
 void BM_meetings(benchmark::State& state) {
@@ -70,6 +87,7 @@ void BM_meetings_all_pairs(benchmark::State& state) {
 }
 
 BENCHMARK(BM_check_topology)->Arg(1000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(BM_check_columns_star)->RangeMultiplier(10)->Range(1000, 100000)->Complexity(benchmark::oN);
 BENCHMARK(BM_meetings)->Arg(1000)->Arg(100000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_meetings_all_pairs)->Arg(1000)->Unit(benchmark::kMillisecond)->UseRealTime();
 

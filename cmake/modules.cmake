@@ -33,6 +33,24 @@ if(THALWEG_COVERAGE)
   target_link_options(thalweg_options INTERFACE --coverage)
 endif()
 
+# thalweg_precompile(TARGET KIND HEADER...): what most files of a kind include is read once for all of its targets, which are
+# compiled with the same flags. g++ alone: with clang++ a difference in -D or -O forbids it.
+function(thalweg_precompile TARGET KIND)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    return()
+  endif()
+  target_compile_options(${TARGET} PRIVATE -fpch-preprocess) # for ccache
+  get_property(FIRST GLOBAL PROPERTY THALWEG_PRECOMPILED_${KIND})
+  if(FIRST)
+    target_precompile_headers(${TARGET} REUSE_FROM ${FIRST})
+  else()
+    set_property(GLOBAL PROPERTY THALWEG_PRECOMPILED_${KIND} ${TARGET})
+    target_precompile_headers(${TARGET} PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <limits>
+      <map> <memory> <numeric> <optional> <set> <sstream> <string> <vector> <fmt/format.h> <thalweg/core/stream_network.hpp>
+      ${ARGN})
+  endif()
+endfunction()
+
 # thalweg_module(NAME [foreign libraries its .cpp files may use]): one folder of lib/thalweg, compiled apart, without the
 # files that THALWEG_LEFT_OUT names (regular expression).
 function(thalweg_module NAME)
@@ -50,30 +68,22 @@ function(thalweg_module NAME)
   set_target_properties(thalweg_${NAME} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_include_directories(thalweg_${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/lib ${PROJECT_BINARY_DIR}/generated)
   target_link_libraries(thalweg_${NAME} PRIVATE thalweg_options Boost::headers fmt::fmt ${ARGN})
+  if(THALWEG_UNITY)
+    thalweg_precompile(thalweg_${NAME} library)
+  endif()
   target_sources(thalweg PRIVATE $<TARGET_OBJECTS:thalweg_${NAME}>)
   target_link_libraries(thalweg PRIVATE ${ARGN})
 endfunction()
 
-# thalweg_precompile(TARGET): what every test includes is read once for all of them. They are compiled with the same flags.
-function(thalweg_precompile TARGET)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(${TARGET} PRIVATE -fpch-preprocess) # for ccache
-  endif()
-  get_property(FIRST GLOBAL PROPERTY THALWEG_PRECOMPILED)
-  if(FIRST)
-    target_precompile_headers(${TARGET} REUSE_FROM ${FIRST})
-  else()
-    set_property(GLOBAL PROPERTY THALWEG_PRECOMPILED ${TARGET})
-    target_precompile_headers(${TARGET} PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <limits>
-      <map> <numeric> <set> <sstream> <string> <vector> <fmt/format.h> <gtest/gtest.h> <rapidcheck.h>
-      <thalweg/core/stream_network.hpp>)
-  endif()
-endfunction()
-
-# thalweg_tests(MODULE): one executable test_ROOM of tests/MODULE/*.cpp, ctest label MODULE.
+# thalweg_tests(MODULE [NOT_IN_GATE FILTER=LABEL ...]): one executable test_MODULE of tests/MODULE/*.cpp with ctest label MODULE;
+# tests that a filter of GoogleTest names have the label of a part of `scripts/test --full` instead.
 function(thalweg_tests NAME)
+  cmake_parse_arguments(ARG "" "" "NOT_IN_GATE" ${ARGN})
   file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp)
   list(FILTER SOURCES EXCLUDE REGEX "/spy/") # a library of its own
+  if(THALWEG_TESTS_LEFT_OUT)
+    list(FILTER SOURCES EXCLUDE REGEX "${THALWEG_TESTS_LEFT_OUT}")
+  endif()
   if(NOT SOURCES)
     return()
   endif()
@@ -81,15 +91,31 @@ function(thalweg_tests NAME)
   target_include_directories(test_${NAME} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${NAME})
   target_compile_definitions(test_${NAME} PRIVATE
     THALWEG_SOURCE_DIR="${PROJECT_SOURCE_DIR}" THALWEG_EXE="$<TARGET_FILE:thalweg_cli>" THALWEG_VERSION="${PROJECT_VERSION}")
-  target_compile_options(test_${NAME} PRIVATE -O1) # what is tested keeps its own level; -O3 doubles the wait here
+  target_compile_options(test_${NAME} PRIVATE -O1) # the library keeps its own level
   target_link_libraries(test_${NAME} PRIVATE thalweg thalweg_options GTest::gtest GTest::gtest_main rapidcheck
     fmt::fmt nlohmann_json::nlohmann_json GDAL::GDAL)
-  set_target_properties(test_${NAME} PROPERTIES UNITY_BUILD OFF) # tests may have the same names
   if(THALWEG_UNITY)
-    thalweg_precompile(test_${NAME})
+    set_target_properties(test_${NAME} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    thalweg_precompile(test_${NAME} tests <gtest/gtest.h> <rapidcheck.h>)
   endif()
-  gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. TEST_FILTER -Long*
-    PROPERTIES LABELS ${NAME} TIMEOUT 600 ENVIRONMENT "RC_PARAMS=seed=16" DISCOVERY_TIMEOUT 60) # house.properties takes others
-  gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. TEST_FILTER Long* TEST_LIST test_${NAME}_long
-    PROPERTIES LABELS long TIMEOUT 3600 PROCESSORS 2 DISCOVERY_TIMEOUT 60)
+  set(GATE -Soak*)
+  foreach(OUT IN LISTS ARG_NOT_IN_GATE)
+    string(REGEX MATCH "(.*)=(.*)" OUT "${OUT}")
+    set(FILTER ${CMAKE_MATCH_1})
+    string(APPEND GATE ":${FILTER}")
+    gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. TEST_FILTER ${FILTER} TEST_LIST test_${NAME}_${CMAKE_MATCH_2} NO_PRETTY_VALUES
+      PROPERTIES LABELS ${CMAKE_MATCH_2} TIMEOUT 3600 ENVIRONMENT "RC_PARAMS=seed=16" DISCOVERY_TIMEOUT 60)
+  endforeach()
+  # The same inputs every time: `scripts/test --soak` takes others, and what it finds stands in seeds.txt.
+  gtest_discover_tests(test_${NAME} TEST_PREFIX ${NAME}. TEST_FILTER ${GATE}
+    NO_PRETTY_VALUES PROPERTIES LABELS ${NAME} TIMEOUT 1800 ENVIRONMENT "RC_PARAMS=seed=16" DISCOVERY_TIMEOUT 60)
+  file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/seeds.txt SEEDS REGEX "^${NAME} ")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/seeds.txt)
+  foreach(LINE IN LISTS SEEDS)
+    string(REGEX MATCH "^[^ ]+ ([^ ]+) (.+)$" LINE "${LINE}")
+    string(MAKE_C_IDENTIFIER "${CMAKE_MATCH_2}" PARAMS)
+    add_test(NAME ${NAME}.${CMAKE_MATCH_1}.${PARAMS} COMMAND test_${NAME} --gtest_filter=${CMAKE_MATCH_1})
+    set_tests_properties(${NAME}.${CMAKE_MATCH_1}.${PARAMS} PROPERTIES LABELS ${NAME} TIMEOUT 1800
+      ENVIRONMENT "RC_PARAMS=${CMAKE_MATCH_2}")
+  endforeach()
 endfunction()

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Target `reference`: the library's documentation by Doxygen in build/docs/html, where a warning is an error. The test
-# house.reference builds it. Without Doxygen there is neither.
+# Target `reference`: the library's documentation by Doxygen in build/docs/html, where a warning is an error
+# (scripts/test --full docs).
 find_program(DOXYGEN doxygen)
 find_program(BIBTEX bibtex) # Doxygen's \cite runs it
 if(NOT DOXYGEN OR NOT BIBTEX)
@@ -14,9 +14,3 @@ configure_file(${PROJECT_SOURCE_DIR}/docs/Doxyfile.in ${REFERENCE_DIR}/Doxyfile 
 set(WRITE_REFERENCE ${CMAKE_COMMAND} -E env BIBINPUTS=. BSTINPUTS=. ${DOXYGEN} ${REFERENCE_DIR}/Doxyfile)
 add_custom_target(reference COMMAND ${WRITE_REFERENCE} COMMENT "Writing ${REFERENCE_DIR}/html/index.html"
   USES_TERMINAL VERBATIM)
-if(THALWEG_TESTS)
-  find_package(Python3 COMPONENTS Interpreter REQUIRED)
-  add_test(NAME house.reference COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/house/reference_test.py
-    ${DOXYGEN} ${REFERENCE_DIR}/Doxyfile)
-  set_tests_properties(house.reference PROPERTIES LABELS house TIMEOUT 300)
-endif()

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/blend/paste.hpp>
 #include <thalweg/blend/place_patch.hpp>
 #include <thalweg/core/run/error.hpp>
@@ -15,44 +16,45 @@
 #include "lands.hpp"
 #include "oracle.hpp"
 
+namespace deform_test {
+
 using namespace thalweg;
 using namespace thalweg::blend;
 
 namespace {
 
-std::string refused(Raster<float> const& target, Mask const& region, std::vector<Handle> const& handles) {
-    return lands::message<BadInput>([&] { deform(target, region, handles); });
-}
+using test::full_message_of;
+using test::has;
 
-bool contains(std::string const& text, std::string const& words) {
-    return text.find(words) != std::string::npos;
+std::string refused(Raster<float> const& target, Mask const& region, std::vector<Handle> const& handles) {
+    return full_message_of<BadInput>([&] { deform(target, region, handles); });
 }
 
 } // namespace
 
 TEST(Deform, RefusesWhatCannotBeBent) {
-    Grid const grid = lands::frame(6, 5);
+    Grid const grid = test::frame(6, 5);
     Raster<float> target = lands::by_chance(grid, 1);
     target[{2, 2}] = lands::nan;
     Mask const region = lands::block(grid, {1, 1}, {3, 3});
     EXPECT_THROW(deform(target, region, {}, {.scale = std::nan("")}), BadParameter);
-    EXPECT_TRUE(contains(refused(target, Mask(lands::frame(5, 6)), {}), "they share a grid"));
-    EXPECT_TRUE(contains(refused(target, Mask(grid), {}), "no cell of the target would change"));
-    EXPECT_TRUE(contains(refused(Raster<float>(grid, lands::nan), region, {}), "no cell of the target would change"));
-    EXPECT_TRUE(contains(refused(target, Mask(grid, 1), {}), "has no neighbour with a height to join"));
-    EXPECT_TRUE(contains(refused(target, region, {{{6, 0}, 1.0}}), "column 6, row 0 to 1 m lies outside"));
-    EXPECT_TRUE(contains(refused(target, region, {{{0, 0}, 1.0}}), "lies in no cell of the region"));
-    EXPECT_TRUE(contains(refused(target, region, {{{2, 2}, 1.0}}), "lies in no cell of the region"));
-    EXPECT_TRUE(contains(refused(target, region, {{{1, 1}, std::nan("")}}), "is not a height"));
-    EXPECT_TRUE(contains(refused(target, region, {{{1, 1}, 5.0}, {{1, 1}, 6.0}}), "is there already, to 5 m"));
+    EXPECT_TRUE(has(refused(target, Mask(test::frame(5, 6)), {}), "they share a grid"));
+    EXPECT_TRUE(has(refused(target, Mask(grid), {}), "no cell of the target would change"));
+    EXPECT_TRUE(has(refused(Raster<float>(grid, lands::nan), region, {}), "no cell of the target would change"));
+    EXPECT_TRUE(has(refused(target, Mask(grid, 1), {}), "has no neighbour with a height to join"));
+    EXPECT_TRUE(has(refused(target, region, {{{6, 0}, 1.0}}), "column 6, row 0 to 1 m lies outside"));
+    EXPECT_TRUE(has(refused(target, region, {{{0, 0}, 1.0}}), "lies in no cell of the region"));
+    EXPECT_TRUE(has(refused(target, region, {{{2, 2}, 1.0}}), "lies in no cell of the region"));
+    EXPECT_TRUE(has(refused(target, region, {{{1, 1}, std::nan("")}}), "is not a height"));
+    EXPECT_TRUE(has(refused(target, region, {{{1, 1}, 5.0}, {{1, 1}, 6.0}}), "is there already, to 5 m"));
     EXPECT_EQ(deform(target, region, {{{1, 1}, 5.0}, {{1, 1}, 5.0}}).cells, 8);
     target[{3, 3}] = std::numeric_limits<float>::infinity();
-    EXPECT_TRUE(contains(refused(target, region, {}), "column 3, row 3 is infinite"));
+    EXPECT_TRUE(has(refused(target, region, {}), "column 3, row 3 is infinite"));
 }
 
 TEST(Deform, ScaleOneAndHandlesWhereTheyAreChangeNothing) {
     ASSERT_TRUE(rc::check("bit for bit", [] {
-        Grid const grid = lands::frame(9, 8);
+        Grid const grid = test::frame(9, 8);
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 100000).as("seed");
         Raster<float> const target = lands::by_chance(grid, seed, 0.1);
         Mask const region = lands::mask_by_chance(grid, seed, 0.6);
@@ -78,7 +80,7 @@ TEST(Deform, ScaleOneAndHandlesWhereTheyAreChangeNothing) {
 TEST(Deform, EqualsThePasteOfTheScaledTarget) {
     // Handles are cells of another target that keep their height: the dense oracle knows those.
     ASSERT_TRUE(rc::check("heights of the oracle", [] {
-        Grid const grid = lands::frame(7, 8);
+        Grid const grid = test::frame(7, 8);
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 100000).as("seed");
         double const scale = *rc::gen::element(0.0, 1.0, 2.5, -1.0).as("scale");
         Raster<float> const target = lands::by_chance(grid, seed, 0.1);
@@ -120,7 +122,7 @@ TEST(Deform, EqualsThePasteOfTheScaledTarget) {
 }
 
 TEST(Deform, AHandleAloneLiftsATent) {
-    Grid const grid = lands::frame(5, 5);
+    Grid const grid = test::frame(5, 5);
     Raster<float> const target(grid, 10.0F);
     Deformed const deformed = deform(target, lands::block(grid, {1, 1}, {3, 3}), {{{2, 2}, 22.0}});
     EXPECT_EQ((deformed.dem[{2, 2}]), 22.0F);
@@ -140,16 +142,15 @@ TEST(Deform, AHandleAloneLiftsATent) {
 
 TEST(Deform, ARegionTurnsAsAPatchOfTheTargetItself) {
     // A cone off the middle turns round it; its height stays.
-    Grid const grid = lands::frame(41, 41);
+    Grid const grid = test::frame(41, 41);
     Raster<float> target(grid);
     Vec2 const peak{26.5, 20.5};
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         target[i] = static_cast<float>(std::max(0.0, 30.0 - 10.0 * distance(grid.centre(grid.at(i)), peak)));
     }
-    Mask part(grid);
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        part[i] = distance(grid.centre(grid.at(i)), {20.5, 20.5}) < 14.0 ? 1 : 0;
-    }
+    Mask part = test::raster_of<std::uint8_t>(grid, [&](Cell c) {
+        return distance(grid.centre(c), {20.5, 20.5}) < 14.0 ? 1 : 0;
+    });
     Patch const patch = place_patch(target, grid, {.at = Vec2{20.5, 20.5}, .rotate_deg = 90.0, .part = part});
     Pasted const turned = paste(target, patch);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
@@ -157,3 +158,5 @@ TEST(Deform, ARegionTurnsAsAPatchOfTheTargetItself) {
         EXPECT_NEAR(turned.dem[i], (target[{40 - c.row, c.col}]), 1e-4);
     }
 }
+
+} // namespace deform_test

@@ -11,19 +11,21 @@
 
 #include "lands.hpp"
 
+namespace distance_within_test {
+
 using namespace thalweg;
 using blend::distance_within;
 
 TEST(DistanceWithin, OfNothingAndOfEverything) {
     EXPECT_EQ(distance_within(Mask{}).cells(), 0);
-    EXPECT_EQ(distance_within(Mask(lands::frame(1, 1)))[0], 0.0F);
-    EXPECT_EQ(distance_within(Mask(lands::frame(3, 2), 1))[4], std::numeric_limits<float>::infinity());
+    EXPECT_EQ(distance_within(Mask(test::frame(1, 1)))[0], 0.0F);
+    EXPECT_EQ(distance_within(Mask(test::frame(3, 2), 1))[4], std::numeric_limits<float>::infinity());
 }
 
 TEST(DistanceWithin, EqualsComparingAllCells) {
     ASSERT_TRUE(rc::check("to a float's rounding", [] {
-        Grid const grid = lands::frame(*rc::gen::inRange<std::int64_t>(1, 20).as("columns"),
-                                       *rc::gen::inRange<std::int64_t>(1, 20).as("rows"));
+        Grid const grid = test::frame(*rc::gen::inRange<std::int64_t>(1, 20).as("columns"),
+                                      *rc::gen::inRange<std::int64_t>(1, 20).as("rows"));
         Mask const mask = lands::mask_by_chance(grid, *rc::gen::inRange<std::uint64_t>(0, 100000).as("seed"),
                                                 *rc::gen::element(0.3, 0.9, 0.99).as("share"));
         Raster<float> const depth = distance_within(mask);
@@ -38,3 +40,5 @@ TEST(DistanceWithin, EqualsComparingAllCells) {
         }
     }));
 }
+
+} // namespace distance_within_test

@@ -10,6 +10,8 @@
 
 #include "lands.hpp"
 
+namespace follow_test {
+
 using namespace thalweg;
 using namespace thalweg::blend;
 using solver::fixed_cell;
@@ -64,7 +66,7 @@ double farthest(Raster<double> const& a, Raster<double> const& b) {
 } // namespace
 
 TEST(Follow, CellsWithoutFreeOnesStay) {
-    Grid const grid = lands::frame(3, 2);
+    Grid const grid = test::frame(3, 2);
     Raster<double> const fixed = doubles(lands::by_chance(grid, 1));
     auto const solution = follow(Raster<std::uint8_t>(grid, fixed_cell), fixed, Raster<double>(grid), {});
     EXPECT_EQ(farthest(solution.value, fixed), 0.0);
@@ -72,8 +74,8 @@ TEST(Follow, CellsWithoutFreeOnesStay) {
 
 TEST(Follow, CarrierWithHarmonicExtensionEqualsTheGradientForm) {
     ASSERT_TRUE(rc::check("to 1e-8", [] {
-        Grid const grid = lands::frame(*rc::gen::inRange<std::int64_t>(3, 40).as("columns"),
-                                       *rc::gen::inRange<std::int64_t>(3, 40).as("rows"));
+        Grid const grid = test::frame(*rc::gen::inRange<std::int64_t>(3, 40).as("columns"),
+                                      *rc::gen::inRange<std::int64_t>(3, 40).as("rows"));
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 100000).as("seed");
         auto const kind = framed(grid, seed);
         Raster<double> const target = doubles(lands::by_chance(grid, seed + 1));
@@ -89,7 +91,7 @@ TEST(Follow, CarrierWithHarmonicExtensionEqualsTheGradientForm) {
 
 TEST(Follow, IsLinearAndBlindToTheLevel) {
     ASSERT_TRUE(rc::check("to 1e-10 of the heights", [] {
-        Grid const grid = lands::frame(23, 17);
+        Grid const grid = test::frame(23, 17);
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 100000).as("seed");
         auto const kind = framed(grid, seed);
         double const level = *rc::gen::element(1.0, -1000.0, 8848.86).as("level");
@@ -119,3 +121,5 @@ TEST(Follow, IsLinearAndBlindToTheLevel) {
         }
     }));
 }
+
+} // namespace follow_test

@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/blend/internal/cut_tin.hpp>
 #include <thalweg/blend/internal/mesh_outline.hpp>
 #include <thalweg/core/numbers/random.hpp>
@@ -23,12 +24,15 @@
 
 #include "lands.hpp"
 
+namespace fuse_tin_test {
+
 using namespace thalweg;
 using namespace thalweg::blend;
 
 namespace {
 
 using Height = std::function<double(Vec2)>;
+using test::full_message_of;
 
 /// A mesh of squares halved along either diagonal, from a corner on.
 Tin squares(int cols, int rows, double side_m, Vec2 from, std::uint64_t seed, Height const& height) {
@@ -147,7 +151,7 @@ double height_at(Tin const& tin, Vec2 p) {
 }
 
 std::string refusal(Tin const& target, Tin const& patch) {
-    return lands::message<BadInput>([&] { fuse_tin(target, patch); });
+    return full_message_of<BadInput>([&] { fuse_tin(target, patch); });
 }
 
 void expect_refused(Tin const& target, Tin const& patch, std::string const& words) {
@@ -381,3 +385,5 @@ TEST(FuseTin, InsideGradientsDifferFromThePatchsByAHarmonicPart) {
     }
     EXPECT_EQ(met, own.size());
 }
+
+} // namespace fuse_tin_test

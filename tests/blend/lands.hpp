@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include <support.hpp>
 #include <thalweg/blend/patch.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
@@ -16,10 +17,6 @@ namespace lands {
 using namespace thalweg;
 
 inline constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-
-inline Grid frame(std::int64_t width, std::int64_t height, double cell_m = 1.0) {
-    return {width, height, cell_m, 0.0, static_cast<double>(height) * cell_m, ""};
-}
 
 /// Heights between 0 and 100 m, without data in a share of the cells.
 inline Raster<float> by_chance(Grid const& grid, std::uint64_t seed, double holes = 0.0) {
@@ -41,12 +38,9 @@ inline Mask mask_by_chance(Grid const& grid, std::uint64_t seed, double share) {
 }
 
 inline Mask block(Grid const& grid, Cell first, Cell last) {
-    Mask mask(grid);
-    for (std::int64_t i = 0; i < mask.cells(); ++i) {
-        Cell const c = grid.at(i);
-        mask[i] = c.col >= first.col && c.row >= first.row && c.col <= last.col && c.row <= last.row ? 1 : 0;
-    }
-    return mask;
+    return test::raster_of<std::uint8_t>(grid, [&](Cell c) {
+        return c.col >= first.col && c.row >= first.row && c.col <= last.col && c.row <= last.row ? 1 : 0;
+    });
 }
 
 inline blend::Patch patch_of(Raster<float> const& land, Mask const& mask, double lift = 0.0) {
@@ -60,15 +54,6 @@ inline blend::Patch patch_of(Raster<float> const& land, Mask const& mask, double
 /// The same bits, any NaN like any other.
 inline bool same(float a, float b) {
     return (std::isnan(a) && std::isnan(b)) || (a == b && std::signbit(a) == std::signbit(b));
-}
-
-template <class Error, class Act> std::string message(Act const& act) {
-    try {
-        act();
-    } catch (Error const& e) {
-        return std::string(e.where()) + ": " + e.what();
-    }
-    return "nothing was thrown";
 }
 
 } // namespace lands

@@ -8,15 +8,20 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "lands.hpp"
+
+namespace mask_polygons_test {
 
 using namespace thalweg;
 using blend::mask_polygons;
 using blend::number_polygons;
 
 namespace {
+
+using test::full_message_of;
 
 Polygons of(std::vector<Polygon> polygons) {
     return {std::move(polygons), "", "shapes.gpkg"};
@@ -46,9 +51,9 @@ bool is_inside(std::vector<Vec2> const& ring, Vec2 p) {
 } // namespace
 
 TEST(MaskPolygons, RefusesWhatHoldsNoCell) {
-    Grid const grid = lands::frame(4, 3, 10.0);
+    Grid const grid = test::frame(4, 3, 10.0);
     auto const refused = [&](Polygons const& polygons) {
-        return lands::message<BadInput>([&] { mask_polygons(polygons, grid); });
+        return full_message_of<BadInput>([&] { mask_polygons(polygons, grid); });
     };
     EXPECT_NE(refused(of({})).find("the 0 polygons of shapes.gpkg"), std::string::npos);
     EXPECT_EQ(refused(of({{7, {{{0, 0}, {1, 1}}}}})),
@@ -63,7 +68,7 @@ TEST(MaskPolygons, RefusesWhatHoldsNoCell) {
 
 TEST(MaskPolygons, EqualsAPointInPolygonTest) {
     ASSERT_TRUE(rc::check("even-odd within a polygon, of several the last", [] {
-        Grid const grid = lands::frame(17, 13, 2.0);
+        Grid const grid = test::frame(17, 13, 2.0);
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1000000).as("seed");
         auto const vertices = *rc::gen::inRange<std::uint64_t>(3, 9).as("vertices");
         Polygons const polygons = of({{1, {ring_by_chance(seed, vertices, 30.0), ring_by_chance(seed + 1, 4, 30.0)}},
@@ -91,7 +96,7 @@ TEST(MaskPolygons, EqualsAPointInPolygonTest) {
 }
 
 TEST(MaskPolygons, CentresOnASharedEdgeBelongToOne) {
-    Grid const grid = lands::frame(6, 6);
+    Grid const grid = test::frame(6, 6);
     // Edges through centres, level, upright and aslant.
     Polygon const west{1, {{{0, 0}, {2.5, 0}, {2.5, 2.5}, {4.5, 4.5}, {0, 4.5}}}};
     Polygon const east{2, {{{2.5, 0}, {6, 0}, {6, 4.5}, {4.5, 4.5}, {2.5, 2.5}}}};
@@ -105,10 +110,12 @@ TEST(MaskPolygons, CentresOnASharedEdgeBelongToOne) {
 }
 
 TEST(MaskPolygons, FarCoordinatesAreClipped) {
-    Grid const grid = lands::frame(5, 5);
+    Grid const grid = test::frame(5, 5);
     Mask const mask =
         mask_polygons(of({{1, {{{-1e300, -1e300}, {1e300, -1e300}, {1e300, 1e300}, {-1e300, 1e300}}}}}), grid);
     for (std::uint8_t const m : mask.values()) {
         EXPECT_EQ(m, 1);
     }
 }
+
+} // namespace mask_polygons_test

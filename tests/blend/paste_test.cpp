@@ -8,15 +8,21 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "lands.hpp"
 #include "oracle.hpp"
 
+namespace paste_test {
+
 using namespace thalweg;
 using namespace thalweg::blend;
 
 namespace {
+
+using test::full_message_of;
+using test::on_threads;
 
 constexpr std::uint64_t any_seed = 1000000;
 
@@ -24,12 +30,6 @@ PasteParams tight() {
     PasteParams params;
     params.tolerance = 1e-12;
     return params;
-}
-
-Run on(int threads) {
-    Run run;
-    run.threads = threads;
-    return run;
 }
 
 /// Everything a patch can be: many parts and holes, cells to keep, land without data.
@@ -40,8 +40,8 @@ struct Drawn {
 };
 
 Drawn drawn() {
-    Grid const grid = lands::frame(*rc::gen::inRange<std::int64_t>(1, 9).as("columns"),
-                                   *rc::gen::inRange<std::int64_t>(1, 9).as("rows"));
+    Grid const grid = test::frame(*rc::gen::inRange<std::int64_t>(1, 9).as("columns"),
+                                  *rc::gen::inRange<std::int64_t>(1, 9).as("rows"));
     auto const seed = *rc::gen::inRange<std::uint64_t>(0, any_seed).as("seed");
     double const share = *rc::gen::element(0.1, 0.5, 0.8, 0.95, 1.0).as("share of the mask");
     Drawn d{lands::by_chance(grid, seed, *rc::gen::element(0.0, 0.1, 0.4).as("target without data")),
@@ -60,24 +60,24 @@ Drawn drawn() {
 } // namespace
 
 TEST(Paste, RefusesWhatCannotBePasted) {
-    Grid const grid = lands::frame(5, 4, 30.0);
+    Grid const grid = test::frame(5, 4, 30.0);
     Raster<float> const target = lands::by_chance(grid, 1);
     Raster<float> const land = lands::by_chance(grid, 2);
     Mask const middle = lands::block(grid, {1, 1}, {3, 2});
     EXPECT_THROW(paste(Raster<float>{}, Patch{}), BadInput);
     EXPECT_THROW(paste(target, Patch{}), BadInput);
-    EXPECT_THROW(paste(target, lands::patch_of(lands::by_chance(lands::frame(5, 4, 10.0), 2), middle)), BadInput);
+    EXPECT_THROW(paste(target, lands::patch_of(lands::by_chance(test::frame(5, 4, 10.0), 2), middle)), BadInput);
     for (double const feather : {-1.0, std::nan(""), 1e7}) {
         PasteParams params;
         params.feather_cells = feather;
         EXPECT_THROW(paste(target, lands::patch_of(land, middle), params), BadParameter);
     }
     PasteParams params;
-    params.keep = Mask(lands::frame(4, 5));
+    params.keep = Mask(test::frame(4, 5));
     EXPECT_THROW(paste(target, lands::patch_of(land, middle), params), BadInput);
 
     auto const refused = [&](Raster<float> const& onto, Patch const& patch, PasteParams const& how = {}) {
-        return lands::message<BadInput>([&] { paste(onto, patch, how); });
+        return full_message_of<BadInput>([&] { paste(onto, patch, how); });
     };
     EXPECT_EQ(refused(target, lands::patch_of(land, Mask(grid))),
               "blend.paste: no cell of the target would change: take a mask that holds cells with heights");
@@ -96,7 +96,7 @@ TEST(Paste, RefusesWhatCannotBePasted) {
     EXPECT_NE(refused(endless, lands::patch_of(land, middle)).find("column 0, row 1 is infinite"), std::string::npos);
     EXPECT_NE(refused(target, lands::patch_of(endless, Mask(grid, 1))).find("column 0, row 1 is infinite"),
               std::string::npos);
-    Grid const one = lands::frame(1, 1);
+    Grid const one = test::frame(1, 1);
     EXPECT_NE(refused(Raster<float>(one), lands::patch_of(Raster<float>(one), Mask(one, 1))).find("all 1 x 1 cells"),
               std::string::npos);
 }
@@ -179,7 +179,7 @@ TEST(Paste, ThePatchThatIsTheTargetGivesTheTarget) {
 
 TEST(Paste, EdgesOfTheTargetLetNothingThrough) {
     // One row: the patch hangs on its west end only and keeps its own steps.
-    Grid const grid = lands::frame(5, 1);
+    Grid const grid = test::frame(5, 1);
     Raster<float> target(grid, 7.0F);
     Raster<float> land(grid);
     for (std::int64_t i = 0; i < 5; ++i) {
@@ -195,7 +195,7 @@ TEST(Paste, EdgesOfTheTargetLetNothingThrough) {
 }
 
 TEST(Paste, TheSeamIsWhatTheDefinitionSays) {
-    Grid const grid = lands::frame(12, 9);
+    Grid const grid = test::frame(12, 9);
     Raster<float> const target = lands::by_chance(grid, 3);
     Patch const patch = lands::patch_of(lands::by_chance(grid, 4), lands::block(grid, {3, 0}, {8, 5}));
     auto const truth = *oracle::paste({target, patch, tight()});
@@ -219,7 +219,7 @@ TEST(Paste, TheSeamIsWhatTheDefinitionSays) {
 }
 
 TEST(Paste, FeatherGivesTheEdgeTheTargetsRelief) {
-    Grid const grid = lands::frame(40, 40);
+    Grid const grid = test::frame(40, 40);
     Raster<float> const target(grid, 50.0F);
     Patch const patch = lands::patch_of(lands::by_chance(grid, 6), lands::block(grid, {5, 5}, {34, 34}));
     double before = std::numeric_limits<double>::infinity();
@@ -233,21 +233,21 @@ TEST(Paste, FeatherGivesTheEdgeTheTargetsRelief) {
 }
 
 TEST(Paste, TheSameBitsOnAnyNumberOfThreads) {
-    Grid const grid = lands::frame(70, 50);
+    Grid const grid = test::frame(70, 50);
     Raster<float> const target = lands::by_chance(grid, 8, 0.02);
     Patch const patch = lands::patch_of(lands::by_chance(grid, 9, 0.02), lands::block(grid, {4, 6}, {60, 49}));
     PasteParams params;
     params.relief = Relief::mixed;
     params.feather_cells = 3.0;
-    Raster<float> const a = paste(target, patch, params, on(1)).dem;
-    Raster<float> const b = paste(target, patch, params, on(4)).dem;
+    Raster<float> const a = paste(target, patch, params, on_threads(1)).dem;
+    Raster<float> const b = paste(target, patch, params, on_threads(4)).dem;
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         ASSERT_TRUE(lands::same(a[i], b[i]));
     }
 }
 
 TEST(Paste, Golden) {
-    Grid const grid = lands::frame(4, 3);
+    Grid const grid = test::frame(4, 3);
     Raster<float> target(grid, 0.0F);
     Raster<float> land(grid, 0.0F);
     land[{1, 1}] = 15.0F;
@@ -261,3 +261,5 @@ TEST(Paste, Golden) {
     EXPECT_FLOAT_EQ((lifted.dem[{1, 1}]), 19.0F);
     EXPECT_FLOAT_EQ((lifted.dem[{2, 1}]), 31.0F);
 }
+
+} // namespace paste_test

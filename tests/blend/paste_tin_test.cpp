@@ -9,16 +9,21 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/blend/internal/follow.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "lands.hpp"
+
+namespace paste_tin_test {
 
 using namespace thalweg;
 using namespace thalweg::blend;
 using geometry::Measured;
 
 namespace {
+
+using test::full_message_of;
 
 /// The centres of a land's cells as a TIN, each square halved along either diagonal.
 Tin tin_of(Raster<float> const& land, std::uint64_t seed) {
@@ -54,39 +59,39 @@ std::vector<Vec3> with_heights(Tin const& tin, Raster<float> const& land) {
     return places;
 }
 
-template <class Act> std::string refused(Act const& act) {
-    return lands::message<BadInput>(act);
-}
-
 } // namespace
 
 TEST(PasteTin, RefusesWhatCannotBePutTogether) {
     Tin const tin{{{0, 0, 1}, {1, 0, 2}, {0, 1, 3}, {5, 5, 0}, {6, 5, 0}, {5, 6, 0}, {9, 9, 9}},
                   {{0, 1, 2}, {3, 4, 5}}};
     auto const own = gradients_of(tin, tin.vertices);
-    EXPECT_NE(refused([&] {
+    EXPECT_NE(full_message_of<BadInput>([&] {
                   paste_tin(tin, {}, {{0, {0, 0, 1}}});
               }).find("guidance for 0 triangles"),
               std::string::npos);
-    EXPECT_EQ(refused([&] {
+    EXPECT_EQ(full_message_of<BadInput>([&] {
                   paste_tin(tin, own, {{0, {0, 0, 1}}});
               }),
               "blend.paste_tin: the part of the mesh with vertex 4 at (5, 5, 0) has no fixed vertex: fix one");
-    EXPECT_NE(refused([&] { paste_tin(tin, own, {{7, {}}}); }).find("vertex 8 of 7"), std::string::npos);
-    EXPECT_NE(refused([&] {
+    EXPECT_NE(full_message_of<BadInput>([&] {
+                  paste_tin(tin, own, {{7, {}}});
+              }).find("vertex 8 of 7"),
+              std::string::npos);
+    EXPECT_NE(full_message_of<BadInput>([&] {
                   paste_tin(tin, own, {{0, {0, 0, 1}}, {0, {0, 0, 2}}});
               }).find("give one of them"),
               std::string::npos);
     auto wrong = own;
     wrong[1].z.x = std::nan("");
-    EXPECT_NE(refused([&] {
+    EXPECT_NE(full_message_of<BadInput>([&] {
                   paste_tin(tin, wrong, {{0, {0, 0, 1}}});
               }).find("triangle 2 is not finite"),
               std::string::npos);
     Tin flat = tin;
     flat.vertices[2] = {2, 0, 9};
-    EXPECT_NE(refused([&] { gradients_of(flat, flat.vertices); }).find("has no area in plan"), std::string::npos);
-    EXPECT_NE(refused([&] { gradients_of(tin, {}); }).find("0 places"), std::string::npos);
+    EXPECT_NE(full_message_of<BadInput>([&] { gradients_of(flat, flat.vertices); }).find("has no area in plan"),
+              std::string::npos);
+    EXPECT_NE(full_message_of<BadInput>([&] { gradients_of(tin, {}); }).find("0 places"), std::string::npos);
     EXPECT_THROW(rotation({0, 0, 0}, 10.0), BadParameter);
     EXPECT_THROW(rotation({0, 0, 1}, std::nan("")), BadParameter);
     EXPECT_EQ(paste_tin({}, {}, {}).tin.vertices.size(), 0U);
@@ -98,8 +103,8 @@ TEST(PasteTin, RefusesWhatCannotBePutTogether) {
 
 TEST(PasteTin, OnAGridItIsTheFivePointForm) {
     ASSERT_TRUE(rc::check("to 1e-8, whichever way the squares are halved", [] {
-        Grid const grid = lands::frame(*rc::gen::inRange<std::int64_t>(3, 20).as("columns"),
-                                       *rc::gen::inRange<std::int64_t>(3, 20).as("rows"), 30.0);
+        Grid const grid = test::frame(*rc::gen::inRange<std::int64_t>(3, 20).as("columns"),
+                                      *rc::gen::inRange<std::int64_t>(3, 20).as("rows"), 30.0);
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 100000).as("seed");
         Raster<float> const target = lands::by_chance(grid, seed);
         Raster<float> const source = lands::by_chance(grid, seed + 1);
@@ -127,7 +132,7 @@ TEST(PasteTin, OnAGridItIsTheFivePointForm) {
 }
 
 TEST(PasteTin, ItsOwnGradientsGiveTheMeshBitForBit) {
-    Grid const grid = lands::frame(9, 7, 0.3);
+    Grid const grid = test::frame(9, 7, 0.3);
     Tin const tin = tin_of(lands::by_chance(grid, 5), 6);
     for (Measured const measured : {Measured::in_plan, Measured::on_surface}) {
         auto const own = gradients_of(tin, tin.vertices, measured);
@@ -141,7 +146,7 @@ TEST(PasteTin, ItsOwnGradientsGiveTheMeshBitForBit) {
 TEST(PasteTin, GuidanceThatIsTurnedAndScaledTurnsAndScalesTheMesh) {
     ASSERT_TRUE(rc::check("about the fixed vertex, to 1e-9", [] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 100000).as("seed");
-        Tin const tin = tin_of(lands::by_chance(lands::frame(11, 9, 10.0), seed), seed);
+        Tin const tin = tin_of(lands::by_chance(test::frame(11, 9, 10.0), seed), seed);
         double const angle = *rc::gen::inRange(-180, 181).as("degrees");
         double const scale = *rc::gen::element(1.0, 0.5, 3.0).as("scale");
         bool const upright = *rc::gen::arbitrary<bool>().as("about z");
@@ -178,7 +183,7 @@ TEST(PasteTin, StiffnessIsTheDivergenceOfHatGradients) {
     // (14): the share of corners i, j in a triangle is grad B_i . grad B_j |T|, whose off-diagonals are -cot/2.
     ASSERT_TRUE(rc::check("in plan and on the surface", [] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 100000).as("seed");
-        Tin const tin = tin_of(lands::by_chance(lands::frame(2, 2, 50.0), seed), seed);
+        Tin const tin = tin_of(lands::by_chance(test::frame(2, 2, 50.0), seed), seed);
         for (Measured const measured : {Measured::in_plan, Measured::on_surface}) {
             auto const cotangents = geometry::half_cotangents(tin, measured);
             for (std::size_t i = 0; i < tin.triangles.size(); ++i) {
@@ -194,3 +199,5 @@ TEST(PasteTin, StiffnessIsTheDivergenceOfHatGradients) {
         }
     }));
 }
+
+} // namespace paste_tin_test

@@ -8,18 +8,24 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "lands.hpp"
 #include "oracle.hpp"
+
+namespace place_patch_test {
 
 using namespace thalweg;
 using namespace thalweg::blend;
 
 namespace {
 
+using test::full_message_of;
+using test::on_threads;
+
 std::string refused(Raster<float> const& source, Grid const& target, PlacePatchParams const& params) {
-    return lands::message<BadInput>([&] { place_patch(source, target, params); });
+    return full_message_of<BadInput>([&] { place_patch(source, target, params); });
 }
 
 /// Cells without data at the edge, and those without data beside such, until there are no more.
@@ -52,7 +58,7 @@ std::int64_t count(Mask const& mask) {
 } // namespace
 
 TEST(PlacePatch, RefusesWhatCannotBePlaced) {
-    Grid const grid = lands::frame(6, 5, 10.0);
+    Grid const grid = test::frame(6, 5, 10.0);
     Raster<float> const source = lands::by_chance(grid, 1);
     double const inf = std::numeric_limits<double>::infinity();
     EXPECT_THROW(place_patch(source, grid, {.rotate_deg = std::nan("")}), BadParameter);
@@ -67,7 +73,7 @@ TEST(PlacePatch, RefusesWhatCannotBePlaced) {
         EXPECT_NE(refused(source, grid, {.window = w}).find("of a source of 6 x 5 cells"), std::string::npos);
     }
     EXPECT_NE(refused(Raster<float>{}, grid, {}).find("a window of 0 x 0"), std::string::npos);
-    EXPECT_NE(refused(source, grid, {.part = Mask(lands::frame(5, 6, 10.0), 1)}).find("they share a grid"),
+    EXPECT_NE(refused(source, grid, {.part = Mask(test::frame(5, 6, 10.0), 1)}).find("they share a grid"),
               std::string::npos);
     EXPECT_EQ(refused(source, grid, {.part = Mask(grid)}), "blend.place_patch: the mask holds no cell of the target");
     EXPECT_EQ(refused(source, grid, {.at = Vec2{500.0, 25.0}}),
@@ -77,9 +83,9 @@ TEST(PlacePatch, RefusesWhatCannotBePlaced) {
     EXPECT_NE(refused(source, grid, {.at = Vec2{1e300, -1e300}}).find("covers no cell"), std::string::npos);
     EXPECT_NE(refused(source, Grid{}, {}).find("covers no cell"), std::string::npos);
     // A source of one cell has no neighbours.
-    EXPECT_NE(refused(lands::by_chance(lands::frame(1, 1, 10.0), 1), grid, {.at = Vec2{35.0, 25.0}}).find("1 x 1"),
+    EXPECT_NE(refused(lands::by_chance(test::frame(1, 1, 10.0), 1), grid, {.at = Vec2{35.0, 25.0}}).find("1 x 1"),
               std::string::npos);
-    Grid const one = lands::frame(1, 1, 10.0);
+    Grid const one = test::frame(1, 1, 10.0);
     Patch const alone = place_patch(lands::by_chance(one, 1), one);
     EXPECT_EQ(alone.mask[0], 1); // all its neighbours there are
 }
@@ -87,7 +93,7 @@ TEST(PlacePatch, RefusesWhatCannotBePlaced) {
 TEST(PlacePatch, WholeStepsTakeHeightsAsTheyStand) {
     ASSERT_TRUE(rc::check("shifted by cells, in coordinates of millions", [] {
         double const cell_m = *rc::gen::element(1.0, 30.0, 0.1, 29.7).as("cell");
-        Grid target = lands::frame(14, 11, cell_m);
+        Grid target = test::frame(14, 11, cell_m);
         target.west = *rc::gen::element(0.0, 500000.3).as("west");
         target.north = *rc::gen::element(0.0, 4649776.22).as("north");
         auto const dx = *rc::gen::inRange<std::int64_t>(-8, 12).as("columns");
@@ -128,7 +134,7 @@ TEST(PlacePatch, WholeStepsTakeHeightsAsTheyStand) {
 }
 
 TEST(PlacePatch, QuarterTurnsMoveCells) {
-    Grid const grid = lands::frame(9, 9, 30.0);
+    Grid const grid = test::frame(9, 9, 30.0);
     Raster<float> const source = lands::by_chance(grid, 3);
     Patch const quarter = place_patch(source, grid, {.rotate_deg = 90.0});
     Patch const half = place_patch(source, grid, {.rotate_deg = -180.0});
@@ -174,7 +180,7 @@ TEST(PlacePatch, APlaneStaysAPlane) {
 }
 
 TEST(PlacePatch, BetweenCentresNextToNoDataNothingIsKnown) {
-    Grid const frame = lands::frame(4, 3);
+    Grid const frame = test::frame(4, 3);
     Raster<float> source = lands::by_chance(frame, 2);
     source[{2, 1}] = lands::nan;
     Grid target = frame;
@@ -193,7 +199,7 @@ TEST(PlacePatch, BetweenCentresNextToNoDataNothingIsKnown) {
 }
 
 TEST(PlacePatch, WindowAndPartSayWhatIsCovered) {
-    Grid const grid = lands::frame(20, 16, 30.0);
+    Grid const grid = test::frame(20, 16, 30.0);
     Raster<float> const source = lands::by_chance(grid, 4);
     Patch const patch = place_patch(source, grid, {.window = SourceWindow{3, 2, 5, 4}});
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
@@ -217,12 +223,10 @@ TEST(PlacePatch, WindowAndPartSayWhatIsCovered) {
 }
 
 TEST(PlacePatch, TheSameBitsOnAnyNumberOfThreads) {
-    Raster<float> const source = lands::by_chance(lands::frame(60, 50, 3.0), 4);
-    Grid const target = lands::frame(90, 80, 2.0);
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run four;
-    four.threads = 4;
+    Raster<float> const source = lands::by_chance(test::frame(60, 50, 3.0), 4);
+    Grid const target = test::frame(90, 80, 2.0);
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const four = on_threads(4);
     PlacePatchParams const params{.rotate_deg = 33.0};
     Patch const a = place_patch(source, target, params, one);
     Patch const b = place_patch(source, target, params, four);
@@ -231,3 +235,5 @@ TEST(PlacePatch, TheSameBitsOnAnyNumberOfThreads) {
         ASSERT_EQ(a.mask[i], b.mask[i]);
     }
 }
+
+} // namespace place_patch_test

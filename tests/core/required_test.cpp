@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+namespace required_test {
+
 using namespace thalweg;
 
 namespace {
@@ -38,3 +40,5 @@ TEST(Required, ReadsAsItsValue) {
     std::string const& held = name;
     EXPECT_EQ(held, "by hand");
 }
+
+} // namespace required_test

@@ -26,6 +26,8 @@
 
 #include <thalweg/core/numbers/random.hpp>
 
+namespace stream_network_graph_test {
+
 namespace {
 
 using namespace thalweg;
@@ -225,3 +227,5 @@ TEST(StreamNetworkGraphEmpty, HasNothing) {
     boost::topological_sort(none, std::back_inserter(order));
     EXPECT_TRUE(order.empty());
 }
+
+} // namespace stream_network_graph_test

@@ -6,11 +6,15 @@
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
+
+namespace stream_network_test {
 
 namespace {
 
 using namespace thalweg;
+using test::message_of;
 
 NetworkDraft nodes(std::vector<Vec2> const& at) {
     NetworkDraft net;
@@ -122,12 +126,8 @@ TEST(StreamNetwork, RefusesArcsOfNodesThatAreNotThere) {
     NetworkDraft draft = nodes({{0, 0}, {1, 0}});
     draft.add_arc(0, 1);
     draft.add_arc(1, 2);
-    try {
-        StreamNetwork const net(draft);
-        FAIL() << "an arc without a node passed";
-    } catch (BadInput const& e) {
-        EXPECT_STREQ(e.what(), "arc 2 ends at node 3 of 2; add the node first");
-    }
+    EXPECT_EQ(message_of<BadInput>([&] { StreamNetwork const net(draft); }),
+              "arc 2 ends at node 3 of 2; add the node first");
 }
 
 TEST(StreamNetwork, ItsDraftMakesItAgain) {
@@ -143,3 +143,5 @@ TEST(StreamNetwork, ItsDraftMakesItAgain) {
     EXPECT_EQ(moved.arc(1).line, (std::vector<Vec2>{{1, 0}, {0, 7}})); // ends follow their nodes
     EXPECT_EQ(net.arc(1).line, (std::vector<Vec2>{{1, 0}, {0, 0}}));
 }
+
+} // namespace stream_network_test

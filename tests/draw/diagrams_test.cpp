@@ -12,6 +12,8 @@
 #include "pictures.hpp"
 #include "small_land.hpp"
 
+namespace diagrams_test {
+
 using namespace thalweg;
 using draw::CurveParams;
 using draw::Format;
@@ -73,3 +75,5 @@ TEST(Curve, TitleIsEscapedAndSizeIsAsAsked) {
     EXPECT_EQ(pixels.width, 300U);
     EXPECT_EQ(pixels.height, 200U);
 }
+
+} // namespace diagrams_test

@@ -10,6 +10,8 @@
 #include <limits>
 #include <random>
 
+namespace hidden_lines_test {
+
 using namespace thalweg;
 using draw::hidden_lines;
 using draw::Net;
@@ -236,3 +238,5 @@ TEST(HiddenLines, GoldenFold) {
     EXPECT_LT(distance(seen.net[1][0], {1.0, 4.0}), 1e-6) << "where it comes up";
     EXPECT_EQ(seen.net[1][1], (Vec2{4.0, 10.0}));
 }
+
+} // namespace hidden_lines_test

@@ -16,6 +16,8 @@
 #include "pictures.hpp"
 #include "small_land.hpp"
 
+namespace map_test {
+
 using namespace thalweg;
 using draw::Format;
 using draw::MapParams;
@@ -165,7 +167,7 @@ TEST(Map, LongTitlesStayOnTheSheet) {
 }
 
 // Where no font has a letter all letters are the same box.
-TEST(Map, ChineseTitlesAreLetters) {
+TEST(Map, CjkTitlesAreLetters) {
     auto const titled = [](std::string const& title) {
         MapParams params;
         params.width_px = 400;
@@ -221,3 +223,5 @@ TEST(Map, GoldenPicture) {
     EXPECT_LE(off / values, 1.5) << "mean difference of a channel, of 255";
     EXPECT_LE(static_cast<double>(differing) / values, 0.01) << "share of channels that differ by more than 40";
 }
+
+} // namespace map_test

@@ -14,6 +14,8 @@
 #include "pictures.hpp"
 #include "small_land.hpp"
 
+namespace sections_test {
+
 using namespace thalweg;
 using draw::cut_sections;
 using draw::Format;
@@ -134,3 +136,5 @@ TEST(Hypsometry, RefusesWhatIsNoShare) {
     params.width_px = 9000;
     EXPECT_THROW(draw::hypsometry({}, 0.0, params), BadParameter);
 }
+
+} // namespace sections_test

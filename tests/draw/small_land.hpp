@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include <support.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/order/order.hpp>
@@ -21,12 +22,7 @@ struct SmallLand {
 };
 
 inline thalweg::Raster<float> slopes(thalweg::Grid const& grid) {
-    thalweg::Raster<float> dem(grid);
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        thalweg::Cell const c = grid.at(i);
-        dem[i] = static_cast<float>(4 * (grid.height - c.row) + 3 * std::abs(2 * c.col - grid.width));
-    }
-    return dem;
+    return raster_of(grid, [&](Cell c) { return 4 * (grid.height - c.row) + 3 * std::abs(2 * c.col - grid.width); });
 }
 
 inline thalweg::Raster<std::uint8_t> shade(thalweg::Raster<float> const& dem) {

@@ -13,6 +13,8 @@
 #include "pictures.hpp"
 #include "small_land.hpp"
 
+namespace wireframe_test {
+
 using namespace thalweg;
 using draw::Format;
 using draw::WireframeParams;
@@ -144,3 +146,5 @@ TEST(Fishnet, NeverMoreLinesThanAskedAndNearlySquare) {
     EXPECT_EQ(draw::fishnet(hill(60, 60), 60).columns, 60);
     EXPECT_EQ(draw::fishnet(hill(130, 40), 60).rows, 19);
 }
+
+} // namespace wireframe_test

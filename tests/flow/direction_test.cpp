@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+namespace direction_test {
+
 using namespace thalweg;
 using flow::Direction;
 using flow::direction_of;
@@ -42,3 +44,5 @@ TEST(Direction, KeepsItsBytes) {
     EXPECT_EQ(static_cast<int>(Direction::east), 0);
     EXPECT_EQ(static_cast<int>(Direction::north_east), 7);
 }
+
+} // namespace direction_test

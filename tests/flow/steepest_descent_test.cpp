@@ -6,6 +6,8 @@
 
 #include <measure/dems.hpp>
 
+namespace steepest_descent_test {
+
 using namespace thalweg;
 using flow::Descent;
 using flow::Direction;
@@ -34,3 +36,5 @@ TEST(SteepestDescent, DividesByLengthAndTakesTheFirstOfEqualSlopes) {
     EXPECT_EQ(down.direction, Direction::east);
     EXPECT_EQ(down.slope, 1.0);
 }
+
+} // namespace steepest_descent_test

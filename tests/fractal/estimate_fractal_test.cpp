@@ -4,29 +4,30 @@
 
 #include "land.hpp"
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
 
 #include <string>
 
+namespace estimate_fractal_test {
+
 namespace {
 
 using namespace thalweg;
 using namespace thalweg::fractal;
+using test::on_threads;
 
 Raster<float> plane(std::int64_t width, std::int64_t height, float east, float south) {
-    Raster<float> z(land::frame(width, height));
-    for (std::int64_t i = 0; i < z.cells(); ++i) {
-        Cell const c = z.grid().at(i);
-        z[i] = east * static_cast<float>(c.col) + south * static_cast<float>(c.row);
-    }
-    return z;
+    return test::raster_of(test::frame_below(width, height), [&](Cell c) {
+        return east * static_cast<float>(c.col) + south * static_cast<float>(c.row);
+    });
 }
 
 TEST(EstimateFractal, FlatOrEmptyLandHasNoSigma) {
     for (Raster<float> const& z :
-         {Raster<float>(), plane(1, 1, 1, 1), plane(9, 7, 0, 0), Raster<float>(land::frame(5, 5), land::nan)}) {
+         {Raster<float>(), plane(1, 1, 1, 1), plane(9, 7, 0, 0), Raster<float>(test::frame_below(5, 5), land::nan)}) {
         Fractal const fractal = estimate_fractal(z);
         EXPECT_EQ(fractal.sigma, 0.0);
         EXPECT_EQ(fractal.hurst, 0.5);
@@ -87,11 +88,7 @@ TEST(EstimateFractal, LeavesHolesOut) {
 
 TEST(EstimateFractal, AWindowIsTheRasterCutOut) {
     Raster<float> const z = land::by_chance(20, 20, 3, 0.1);
-    Raster<float> cut(land::frame(7, 5));
-    for (std::int64_t i = 0; i < cut.cells(); ++i) {
-        Cell const c = cut.grid().at(i);
-        cut[i] = z[Cell{c.col + 4, c.row + 9}];
-    }
+    Raster<float> cut = test::raster_of(test::frame_below(7, 5), [&](Cell c) { return z[Cell{c.col + 4, c.row + 9}]; });
     Fractal const a = estimate_fractal(z, CellWindow{4, 9, 7, 5});
     Fractal const b = estimate_fractal(cut);
     EXPECT_EQ(a.hurst, b.hurst);
@@ -101,10 +98,8 @@ TEST(EstimateFractal, AWindowIsTheRasterCutOut) {
 
 TEST(EstimateFractal, IsTheSameOnAnyThreads) {
     Raster<float> const z = land::by_chance(211, 173, 4, 0.05);
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run two;
-    two.threads = 2;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const two = on_threads(2);
     EXPECT_EQ(estimate_fractal(z, {}, one).sigma, estimate_fractal(z, {}, two).sigma);
 }
 
@@ -116,3 +111,5 @@ TEST(EstimateFractal, RefusesWhatItCannotUse) {
 }
 
 } // namespace
+
+} // namespace estimate_fractal_test

@@ -4,9 +4,9 @@
 #include <thalweg/fractal/midpoint.hpp>
 
 #include "land.hpp"
-#include "message_of.hpp"
 #include "ordinary_kriging.hpp"
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
@@ -19,10 +19,15 @@
 #include <string>
 #include <vector>
 
+namespace exact_midpoint_test {
+
 namespace {
 
 using namespace thalweg;
 using namespace thalweg::fractal;
+using test::message_of;
+using test::on_threads;
+using test::same_bits;
 
 MidpointParams exactly(int levels, double hurst, double sigma, std::uint64_t seed = 1) {
     MidpointParams params;
@@ -32,12 +37,6 @@ MidpointParams exactly(int levels, double hurst, double sigma, std::uint64_t see
     params.sigma = sigma;
     params.seed = seed;
     return params;
-}
-
-Run on_threads(int threads) {
-    Run run;
-    run.threads = threads;
-    return run;
 }
 
 struct Place {
@@ -92,18 +91,18 @@ Place place_of(Raster<float> const& fine, std::int64_t i, int levels) {
 }
 
 TEST(ExactMidpoint, TakesDegenerateLand) {
-    Raster<float> const point(land::frame(1, 1), 7.0F);
-    EXPECT_TRUE(land::same_bytes(midpoint(point, exactly(5, 0.5, 3.0)).dem, point));
+    Raster<float> const point(test::frame_below(1, 1), 7.0F);
+    EXPECT_TRUE(std::ranges::equal(midpoint(point, exactly(5, 0.5, 3.0)).dem.values(), point.values()));
     EXPECT_EQ(midpoint(land::by_chance(6, 1, 3), exactly(3, 0.9, 0.1)).dem.width(), 41);
     EXPECT_EQ(midpoint(land::by_chance(1, 6, 3), exactly(3, 0.05, 0.1)).dem.height(), 41);
-    Raster<float> const all_holes(land::frame(4, 4), land::nan);
+    Raster<float> const all_holes(test::frame_below(4, 4), land::nan);
     Raster<float> const nothing = midpoint(all_holes, exactly(2, 0.5, 1.0)).dem;
     for (float const z : nothing.values()) {
         EXPECT_TRUE(std::isnan(z));
     }
     Raster<float> const coarse = land::by_chance(4, 4, 3);
-    EXPECT_TRUE(land::same_bytes(midpoint(coarse, exactly(0, 0.5, 1.0)).dem, coarse));
-    Raster<float> const high(land::frame(3, 3), 1e29F);
+    EXPECT_TRUE(same_bits(midpoint(coarse, exactly(0, 0.5, 1.0)).dem, coarse));
+    Raster<float> const high(test::frame_below(3, 3), 1e29F);
     Raster<float> const rough = midpoint(high, exactly(2, 0.95, 1e30)).dem;
     for (float const z : rough.values()) {
         EXPECT_TRUE(std::isfinite(z));
@@ -111,7 +110,7 @@ TEST(ExactMidpoint, TakesDegenerateLand) {
 }
 
 TEST(ExactMidpoint, LevelLandStaysLevel) {
-    Raster<float> coarse(land::frame(6, 5), 8848.86F);
+    Raster<float> coarse(test::frame_below(6, 5), 8848.86F);
     coarse[7] = land::nan;
     MidpointParams params;
     params.levels = 3;
@@ -134,12 +133,10 @@ TEST(ExactMidpoint, CoarseCellsKeepTheirBitsAndHolesTheirPlaces) {
         Raster<float> const dem = midpoint(coarse, params).dem;
         params.stencil = Stencil::sixteen;
         Raster<float> const by_stencil = midpoint(coarse, params).dem;
-        Raster<float> picked(coarse.grid());
-        for (std::int64_t i = 0; i < picked.cells(); ++i) {
-            Cell const c = picked.grid().at(i);
-            picked[i] = dem[Cell{c.col << levels, c.row << levels}];
-        }
-        RC_ASSERT(land::same_bytes(picked, coarse));
+        Raster<float> picked = test::raster_of(coarse.grid(), [&](Cell c) {
+            return dem[Cell{c.col << levels, c.row << levels}];
+        });
+        RC_ASSERT(same_bits(picked, coarse));
         for (std::int64_t i = 0; i < dem.cells(); ++i) {
             RC_ASSERT(std::isnan(dem[i]) == std::isnan(by_stencil[i]));
         }
@@ -165,8 +162,8 @@ TEST(ExactMidpoint, IsTheSameOnAnyThreadsAndOtherForAnotherSeed) {
     Raster<float> const coarse = land::by_chance(21, 14, 8, 0.03);
     for (double const hurst : {0.4, 0.9}) {
         Raster<float> const one = midpoint(coarse, exactly(4, hurst, 0.3), on_threads(1)).dem;
-        EXPECT_TRUE(land::same_bytes(one, midpoint(coarse, exactly(4, hurst, 0.3), on_threads(2)).dem));
-        EXPECT_FALSE(land::same_bytes(one, midpoint(coarse, exactly(4, hurst, 0.3, 2)).dem));
+        EXPECT_TRUE(same_bits(one, midpoint(coarse, exactly(4, hurst, 0.3), on_threads(2)).dem));
+        EXPECT_FALSE(same_bits(one, midpoint(coarse, exactly(4, hurst, 0.3, 2)).dem));
     }
 }
 
@@ -175,7 +172,7 @@ std::string refusal(Raster<float> const& coarse, MidpointParams const& params) {
 }
 
 TEST(ExactMidpoint, RefusesWhatItCannotUse) {
-    Raster<float> coarse(land::frame(2001, 1), 1.0F);
+    Raster<float> coarse(test::frame_below(2001, 1), 1.0F);
     std::string const many = refusal(coarse, exactly(1, 0.5, 1.0));
     EXPECT_NE(many.find("2001 coarse cells have heights (detail.stencil = \"exact\" takes up to 2000)"),
               std::string::npos)
@@ -309,3 +306,5 @@ TEST_P(ExactMidpointOfExactLand, HasTheDimension) {
 INSTANTIATE_TEST_SUITE_P(Hurst, ExactMidpointOfExactLand, testing::Values(0.3, 0.5, 0.7, 0.9));
 
 } // namespace
+
+} // namespace exact_midpoint_test

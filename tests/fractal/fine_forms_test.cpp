@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/fractal/fine_forms.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+namespace fine_forms_test {
 
 using namespace thalweg;
 
@@ -42,10 +45,7 @@ TEST(FineForms, OfTheSameLandAreTheSameLand) {
 
 TEST(FineForms, MeansComeFromTheOneAndTheRestFromTheOther) {
     Grid const grid{40, 30, 1.0, 0, 0, ""};
-    Raster<float> slope(grid);
-    for (std::int64_t i = 0; i < slope.cells(); ++i) {
-        slope[i] = static_cast<float>(5 * grid.at(i).col);
-    }
+    Raster<float> slope = test::raster_of(grid, [&](Cell c) { return 5 * c.col; });
     Raster<float> const other = rough(grid, 2);
     Raster<float> const mixed = fractal::with_fine_forms(slope, other, 2.0);
     // By the definition, one cell at a time, away from the border.
@@ -66,3 +66,5 @@ TEST(FineForms, MeansComeFromTheOneAndTheRestFromTheOther) {
     Raster<float> const one(Grid{1, 1, 1.0, 0, 0, ""}, 7.0F);
     EXPECT_EQ(fractal::with_fine_forms(one, Raster<float>(one.grid(), 90.0F), 5.0)[0], 7.0F);
 }
+
+} // namespace fine_forms_test

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -18,13 +18,9 @@ using namespace thalweg;
 
 inline constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-inline Grid frame(std::int64_t width, std::int64_t height, double cell_m = 1.0) {
-    return {width, height, cell_m, 0.0, 0.0, ""};
-}
-
 /// Heights at random between -1 and 1, and holes in a share of the cells.
 inline Raster<float> by_chance(std::int64_t width, std::int64_t height, std::uint64_t seed, double holes = 0.0) {
-    Raster<float> z(frame(width, height));
+    Raster<float> z(test::frame_below(width, height));
     for (std::int64_t i = 0; i < z.cells(); ++i) {
         auto const place = static_cast<std::uint64_t>(i);
         bool const hole = unit(random_word(seed, 1, place)) < holes;
@@ -41,7 +37,7 @@ inline double normal(std::uint64_t seed, std::uint64_t place) {
 
 /// Fractional Brownian motion on n x n points, 0 in the north-western one, by Cholesky's decomposition.
 inline Raster<float> exact_fbm(std::int64_t n, double hurst, double sigma, std::uint64_t seed) {
-    Raster<float> z(frame(n, n));
+    Raster<float> z(test::frame_below(n, n));
     auto const points = static_cast<std::size_t>(n * n - 1);
     auto const distance = [&](std::size_t a, std::size_t b) {
         Cell const p = z.grid().at(static_cast<std::int64_t>(a));
@@ -65,13 +61,6 @@ inline Raster<float> exact_fbm(std::int64_t n, double hurst, double sigma, std::
         z[static_cast<std::int64_t>(i) + 1] = static_cast<float>(sigma * height);
     }
     return z;
-}
-
-inline bool same_bytes(Raster<float> const& a, Raster<float> const& b) {
-    return a.width() == b.width() && a.height() == b.height() &&
-           std::equal(a.values().begin(), a.values().end(), b.values().begin(), [](float x, float y) {
-               return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
-           });
 }
 
 /// Mean squared difference at a lag, of columns and rows.

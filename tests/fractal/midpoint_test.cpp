@@ -3,9 +3,9 @@
 #include <thalweg/fractal/midpoint.hpp>
 
 #include "land.hpp"
-#include "message_of.hpp"
 #include "ordinary_kriging.hpp"
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/fractal/estimate_fractal.hpp>
 #include <thalweg/fractal/refine.hpp>
@@ -20,21 +20,20 @@
 #include <utility>
 #include <vector>
 
+namespace midpoint_test {
+
 namespace {
 
 using namespace thalweg;
 using namespace thalweg::fractal;
+using test::message_of;
+using test::on_threads;
+using test::same_bits;
 
 constexpr Stencil stencils[] = {Stencil::four, Stencil::four_exact, Stencil::twelve, Stencil::sixteen};
 
 Stencil any_stencil() {
     return *rc::gen::element(Stencil::four, Stencil::four_exact, Stencil::twelve, Stencil::sixteen).as("stencil");
-}
-
-Run on(int threads) {
-    Run run;
-    run.threads = threads;
-    return run;
 }
 
 MidpointParams with(int levels, Stencil stencil, double hurst, double sigma) {
@@ -105,7 +104,7 @@ Raster<float> oracle(Raster<float> const& coarse, MidpointParams const& params) 
     std::map<std::pair<std::vector<Point>, bool>, std::pair<std::vector<double>, double>> solved;
     for (int level = 1; level <= params.levels; ++level) {
         double const side = std::ldexp(1.0, -level);
-        Raster<float> to(land::frame(2 * from.width() - 1, 2 * from.height() - 1), land::nan);
+        Raster<float> to(test::frame_below(2 * from.width() - 1, 2 * from.height() - 1), land::nan);
         for (std::int64_t i = 0; i < from.cells(); ++i) {
             Cell const c = from.grid().at(i);
             to[Cell{2 * c.col, 2 * c.row}] = from[i];
@@ -196,7 +195,7 @@ TEST(Midpoint, IsTheOracleOverChunksAndBands) {
     for (Stencil const stencil : stencils) {
         MidpointParams params = with(3, stencil, 0.6, 0.5);
         Raster<float> const coarse = land::by_chance(300, 5, 3);
-        EXPECT_TRUE(alike(midpoint(coarse, params, on(2)).dem, oracle(coarse, params)));
+        EXPECT_TRUE(alike(midpoint(coarse, params, on_threads(2)).dem, oracle(coarse, params)));
     }
 }
 
@@ -206,12 +205,10 @@ TEST(Midpoint, CoarseCellsKeepTheirBits) {
         Raster<float> coarse = land::by_chance(7, 5, *rc::gen::arbitrary<std::uint64_t>(), 0.2);
         coarse[3] = -0.0F;
         Displaced const displaced = midpoint(coarse, with(levels, any_stencil(), 0.4, 9.0));
-        Raster<float> picked(coarse.grid());
-        for (std::int64_t i = 0; i < picked.cells(); ++i) {
-            Cell const c = picked.grid().at(i);
-            picked[i] = displaced.dem[Cell{c.col << levels, c.row << levels}];
-        }
-        RC_ASSERT(land::same_bytes(picked, coarse));
+        Raster<float> picked = test::raster_of(coarse.grid(), [&](Cell c) {
+            return displaced.dem[Cell{c.col << levels, c.row << levels}];
+        });
+        RC_ASSERT(same_bits(picked, coarse));
     }));
 }
 
@@ -247,8 +244,8 @@ TEST(Midpoint, IsTheSameOnAnyThreadsAndInstructions) {
             params.width = 601;
             params.height = 557;
             params.adaptation = adaptation;
-            Displaced const one = midpoint(coarse, params, on(1));
-            EXPECT_TRUE(land::same_bytes(one.dem, midpoint(coarse, params, on(2)).dem));
+            Displaced const one = midpoint(coarse, params, on_threads(1));
+            EXPECT_TRUE(same_bits(one.dem, midpoint(coarse, params, on_threads(2)).dem));
             if (adaptation == Adaptation::global) {
                 Refinement refinement;
                 refinement.coarse = &coarse;
@@ -259,8 +256,8 @@ TEST(Midpoint, IsTheSameOnAnyThreadsAndInstructions) {
                 refinement.character.sigma = 0.3;
                 Raster<float> plain(one.dem.grid());
                 Floors floors;
-                refine(refinement, plain, floors, on(2));
-                EXPECT_TRUE(land::same_bytes(one.dem, plain));
+                refine(refinement, plain, floors, on_threads(2));
+                EXPECT_TRUE(same_bits(one.dem, plain));
             }
         }
     }
@@ -272,34 +269,34 @@ TEST(Midpoint, IsTheSameWhereItIsStoredPastTheCache) {
         MidpointParams params = with(6, Stencil::sixteen, 0.5, 0.3);
         params.width = width;
         params.height = 1900;
-        Raster<float> const large = midpoint(coarse, params, on(2)).dem;
+        Raster<float> const large = midpoint(coarse, params, on_threads(2)).dem;
         params.height = 700;
-        Raster<float> const small = midpoint(coarse, params, on(1)).dem;
+        Raster<float> const small = midpoint(coarse, params, on_threads(1)).dem;
         EXPECT_TRUE(std::equal(small.values().begin(), small.values().end(), large.values().begin()));
     }
 }
 
 TEST(Midpoint, TakesDegenerateLand) {
     for (Stencil const stencil : stencils) {
-        Raster<float> const point(land::frame(1, 1), 7.0F);
-        EXPECT_TRUE(land::same_bytes(midpoint(point, with(5, stencil, 0.5, 3.0)).dem, point));
+        Raster<float> const point(test::frame_below(1, 1), 7.0F);
+        EXPECT_TRUE(std::ranges::equal(midpoint(point, with(5, stencil, 0.5, 3.0)).dem.values(), point.values()));
         Raster<float> const line = land::by_chance(6, 1, 3);
         Raster<float> const fine = midpoint(line, with(3, stencil, 0.5, 0.1)).dem;
         EXPECT_EQ(fine.width(), 41);
         EXPECT_EQ(fine.height(), 1);
         EXPECT_EQ(midpoint(land::by_chance(1, 6, 3), with(3, stencil, 0.5, 0.1)).dem.height(), 41);
-        Raster<float> const all_holes(land::frame(4, 4), land::nan);
+        Raster<float> const all_holes(test::frame_below(4, 4), land::nan);
         Raster<float> const nothing = midpoint(all_holes, with(2, stencil, 0.5, 1.0)).dem;
         for (float const z : nothing.values()) {
             EXPECT_TRUE(std::isnan(z));
         }
         Raster<float> const coarse = land::by_chance(4, 4, 3);
-        EXPECT_TRUE(land::same_bytes(midpoint(coarse, with(0, stencil, 0.5, 1.0)).dem, coarse));
+        EXPECT_TRUE(same_bits(midpoint(coarse, with(0, stencil, 0.5, 1.0)).dem, coarse));
     }
 }
 
 TEST(Midpoint, LevelLandStaysLevel) {
-    Raster<float> const coarse(land::frame(6, 5), 8848.86F);
+    Raster<float> const coarse(test::frame_below(6, 5), 8848.86F);
     for (Stencil const stencil : stencils) {
         MidpointParams params;
         params.stencil = stencil;
@@ -334,7 +331,7 @@ TEST(Midpoint, RefusesWhatItCannotUse) {
     EXPECT_NE(refusal(coarse, with(31, Stencil::sixteen, 0.5, 1.0)).find("levels is 31; it must be between 0 and 30"),
               std::string::npos);
     EXPECT_NE(refusal(coarse, with(-1, Stencil::sixteen, 0.5, 1.0)), "");
-    EXPECT_NE(refusal(Raster<float>(land::frame(3000, 1)), with(30, Stencil::four, 0.5, 1.0)).find("2^40"),
+    EXPECT_NE(refusal(Raster<float>(test::frame_below(3000, 1)), with(30, Stencil::four, 0.5, 1.0)).find("2^40"),
               std::string::npos);
     MidpointParams params = with(2, Stencil::sixteen, 0.5, 1.0);
     params.width = 13; // just covered
@@ -358,7 +355,7 @@ TEST(Midpoint, EstimatesWhatIsNotGiven) {
     EXPECT_EQ(estimated.sigma, fractal.sigma);
     params.hurst = fractal.hurst;
     params.sigma = fractal.sigma;
-    EXPECT_TRUE(land::same_bytes(midpoint(coarse, params).dem, estimated.dem));
+    EXPECT_TRUE(same_bits(midpoint(coarse, params).dem, estimated.dem));
     params.hurst = 0.4;
     params.sigma.reset();
     EXPECT_EQ(midpoint(coarse, params).sigma, estimate_fractal(coarse, {Differences::squares, 0.4}).sigma);
@@ -458,3 +455,5 @@ TEST_P(MidpointOfExactLand, HasTheDimensionAndNoCreases) {
 INSTANTIATE_TEST_SUITE_P(Hurst, MidpointOfExactLand, testing::Values(0.3, 0.5, 0.7, 0.9));
 
 } // namespace
+
+} // namespace midpoint_test

@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <vector>
 
+namespace noise_row_test {
+
 namespace {
 
 using namespace thalweg::fractal;
@@ -222,3 +224,5 @@ TEST(NoiseRow, NormalNumbersAreIndependent) {
 }
 
 } // namespace
+
+} // namespace noise_row_test

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+namespace stencil_weights_test {
+
 namespace {
 
 using namespace thalweg::fractal;
@@ -103,3 +105,5 @@ TEST(StencilWeights, MoreNeighboursKnowMore) {
 }
 
 } // namespace
+
+} // namespace stencil_weights_test

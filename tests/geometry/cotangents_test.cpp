@@ -12,6 +12,8 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
+namespace cotangents_test {
+
 using namespace thalweg;
 using namespace thalweg::geometry;
 
@@ -128,3 +130,5 @@ TEST(Cotangents, AreThoseOfTheAngles) {
         }
     }));
 }
+
+} // namespace cotangents_test

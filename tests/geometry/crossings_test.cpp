@@ -15,6 +15,8 @@
 
 #include <thalweg/core/run/error.hpp>
 
+namespace crossings_test {
+
 using thalweg::BadInput;
 using thalweg::Vec2;
 using thalweg::geometry::Crossing;
@@ -259,3 +261,5 @@ TEST(Crossings, PointsDoNotDependOnDirection) {
     });
     ASSERT_TRUE(ok);
 }
+
+} // namespace crossings_test

@@ -20,6 +20,8 @@
 #include <thalweg/geometry/internal/equidistant.hpp>
 #include <thalweg/geometry/segments_near.hpp>
 
+namespace diagram_test {
+
 using namespace thalweg;
 using namespace thalweg::geometry;
 
@@ -318,3 +320,5 @@ TEST(Diagram, CanBeStopped) {
     EXPECT_THROW(voronoi(lines, square, run), Cancelled);
     EXPECT_THROW(medial_lines(lines, square, {0.1}, run), Cancelled);
 }
+
+} // namespace diagram_test

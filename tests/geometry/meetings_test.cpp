@@ -12,6 +12,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
 
+namespace meetings_test {
+
 using thalweg::BadInput;
 using thalweg::Vec2;
 using thalweg::geometry::EndNodes;
@@ -99,3 +101,5 @@ TEST(Meetings, AreWhereCrossingsAre) {
         RC_ASSERT(met == crossed);
     }));
 }
+
+} // namespace meetings_test

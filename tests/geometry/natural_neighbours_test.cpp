@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <tins.hpp>
+
+namespace natural_neighbours_test {
 
 using namespace thalweg;
 using geometry::natural_neighbours;
@@ -18,9 +20,8 @@ using Outside = geometry::NaturalNeighboursParams::Outside;
 
 namespace {
 
-bool same_bytes(Raster<float> const& a, Raster<float> const& b) {
-    return std::memcmp(a.values().data(), b.values().data(), a.values().size_bytes()) == 0;
-}
+using test::on_threads;
+using test::same_bits;
 
 } // namespace
 
@@ -87,9 +88,9 @@ TEST(NaturalNeighbours, StayWithinTheHeightsAndMeetThePoints) {
 TEST(NaturalNeighbours, ThreadsChangeNoByte) {
     auto const points = test::points_by_chance(3000, 90.0, 8, 60);
     Grid const grid{100, 110, 1.0, -5.0, 100.0, ""};
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run many;
-    many.threads = 6;
-    EXPECT_TRUE(same_bytes(natural_neighbours(points, grid, {}, one), natural_neighbours(points, grid, {}, many)));
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const many = on_threads(6);
+    EXPECT_TRUE(same_bits(natural_neighbours(points, grid, {}, one), natural_neighbours(points, grid, {}, many)));
 }
+
+} // namespace natural_neighbours_test

@@ -11,6 +11,8 @@
 
 #include <thalweg/core/numbers/random.hpp>
 
+namespace point_grid_test {
+
 using namespace thalweg;
 using geometry::PointGrid;
 
@@ -69,3 +71,5 @@ TEST(PointGrid, IsTheNearestOfAll) {
         }
     }));
 }
+
+} // namespace point_grid_test

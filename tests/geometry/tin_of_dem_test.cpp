@@ -15,24 +15,26 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 #include <tins.hpp>
+
+namespace tin_of_dem_test {
 
 using namespace thalweg;
 using geometry::tin_of_dem;
 
 namespace {
 
+using test::has;
+using test::message_of;
+
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
 template <class Height> Raster<float> raster(std::int64_t width, std::int64_t height, Height z) {
-    Raster<float> dem(Grid{width, height, 10.0, 300000.0, 4000000.0, ""});
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        dem[i] = static_cast<float>(z(dem.grid().at(i)));
-    }
-    return dem;
+    return test::raster_of({width, height, 10.0, 300000.0, 4000000.0, ""}, z);
 }
 
 /// Hills, with a little roughness.
@@ -47,16 +49,7 @@ Raster<float> hills(std::int64_t width, std::int64_t height, std::uint64_t seed)
 }
 
 std::string refusal(Raster<float> const& dem, double error_m = 1.0) {
-    try {
-        tin_of_dem(dem, {error_m});
-    } catch (Error const& e) {
-        return e.what();
-    }
-    return "taken";
-}
-
-bool says(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
+    return message_of([&] { tin_of_dem(dem, {error_m}); });
 }
 
 /// Raster of the TIN against the DEM: every cell with data but those left out, and no other. Half a unit in the last
@@ -169,20 +162,20 @@ private:
 
 TEST(TinOfDem, BadInputIsRefused) {
     auto const flat = raster(4, 4, [](Cell) { return 1.0; });
-    EXPECT_TRUE(says(refusal(flat, 0.0), "error is 0 m"));
-    EXPECT_TRUE(says(refusal(flat, -1.0), "error is -1 m"));
-    EXPECT_TRUE(says(refusal(flat, std::numeric_limits<double>::quiet_NaN()), "greater than 0"));
-    EXPECT_TRUE(says(refusal(Raster<float>()), "of 0 x 0 cells 0 have data"));
-    EXPECT_TRUE(says(refusal(raster(1, 9, [](Cell) { return 1.0; })), "of 1 x 9 cells 9 have data"));
-    EXPECT_TRUE(says(refusal(raster(9, 1, [](Cell) { return 1.0; })), "no triangles"));
-    EXPECT_TRUE(says(refusal(raster(3, 3, [](Cell) { return none; })), "of 3 x 3 cells 0 have data"));
+    EXPECT_TRUE(has(refusal(flat, 0.0), "error is 0 m"));
+    EXPECT_TRUE(has(refusal(flat, -1.0), "error is -1 m"));
+    EXPECT_TRUE(has(refusal(flat, std::numeric_limits<double>::quiet_NaN()), "greater than 0"));
+    EXPECT_TRUE(has(refusal(Raster<float>()), "of 0 x 0 cells 0 have data"));
+    EXPECT_TRUE(has(refusal(raster(1, 9, [](Cell) { return 1.0; })), "of 1 x 9 cells 9 have data"));
+    EXPECT_TRUE(has(refusal(raster(9, 1, [](Cell) { return 1.0; })), "no triangles"));
+    EXPECT_TRUE(has(refusal(raster(3, 3, [](Cell) { return none; })), "of 3 x 3 cells 0 have data"));
     EXPECT_TRUE(
-        says(refusal(raster(3, 3, [](Cell c) { return (c.col + c.row) % 2 == 0 ? 1.0F : none; })), "5 have data"));
-    EXPECT_TRUE(says(refusal(raster(3, 3,
-                                    [](Cell c) {
-                                        return c == Cell{1, 2} ? INFINITY : 0.0F;
-                                    })),
-                     "column 1, row 2"));
+        has(refusal(raster(3, 3, [](Cell c) { return (c.col + c.row) % 2 == 0 ? 1.0F : none; })), "5 have data"));
+    EXPECT_TRUE(has(refusal(raster(3, 3,
+                                   [](Cell c) {
+                                       return c == Cell{1, 2} ? INFINITY : 0.0F;
+                                   })),
+                    "column 1, row 2"));
 }
 
 TEST(TinOfDem, PlaneIsTwoTriangles) {
@@ -235,7 +228,7 @@ TEST(TinOfDem, ErrorHoldsAtEveryCell) {
         try {
             s = tin_of_dem(dem, {error_m});
         } catch (BadInput const& e) {
-            RC_ASSERT(says(e.what(), "no triangles"));
+            RC_ASSERT(has(e.what(), "no triangles"));
             return;
         }
         RC_ASSERT(test::is_lawful(s.tin));
@@ -263,3 +256,5 @@ TEST(TinOfDem, StopsWhenAsked) {
     run.stop = stop.get_token();
     EXPECT_THROW(tin_of_dem(hills(9, 9, 1), {}, run), Cancelled);
 }
+
+} // namespace tin_of_dem_test

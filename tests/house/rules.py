@@ -66,8 +66,6 @@ NAMESPACE = re.compile(r"(?:inline )?namespace(?: ([\w:]+))? \{|\} // namespace"
 TYPE = re.compile(r"(?:struct|class|union|enum class|enum) (\w+)(?![\w:])[^;]*\{")
 FLAGS = re.compile(r"-march=|-mtune=|-mfma|-mavx|-ffast-math|-Ofast|-funsafe-math|-ffp-contract=fast")
 
-MOST_FILES = 40  # in a folder of lib or tests
-
 MACHINE_PATH = re.compile(r"(?<![\w.}$)*-])/(?:work|home|root|tmp|Users)(?![\w.-])")
 FETCHED = re.compile(r"FetchContent|ExternalProject|CPMAddPackage|\b(?:pip3?|conan|vcpkg|cargo|gem) install\b|"
                      r"\b(?:curl|wget) |pypi\.org|pythonhosted\.org|crates\.io|anaconda\.org|"
@@ -242,20 +240,12 @@ def check_text(name, lines):
             yield number, f"{found[0]}: changes bits from machine to machine"
 
 
-def check_folders(names):
-    """Folders of lib and tests in which nobody finds a file."""
-    count = collections.Counter(str(pathlib.PurePath(name).parent) for name in names if name.startswith(("lib/", "tests/")))
-    for folder, files in sorted(count.items()):
-        if files > MOST_FILES:
-            yield f"{folder}:1: {files} files in one folder; take it apart by families, {MOST_FILES} each at most"
-
-
 def violations(root):
     """Every violation under a folder, as printable lines."""
     root = pathlib.Path(root)
     sources = []
     names = files_of(root)
-    found = list(check_folders(names))
+    found = []
     for name in names:
         data = (root / name).read_bytes()
         if pathlib.PurePath(name).suffix in PICTURES or b"\0" in data:

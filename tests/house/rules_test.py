@@ -116,16 +116,6 @@ class Rules(unittest.TestCase):
             with self.subTest(name=name, text=text):
                 self.assertEqual(self.said_of(name, text), [])
 
-    def test_a_folder_with_too_many_files_is_found(self):
-        with tempfile.TemporaryDirectory() as folder:
-            place = pathlib.Path(folder, "tests/core")
-            place.mkdir(parents=True)
-            for number in range(rules.MOST_FILES + 1):
-                (place / f"a{number}_test.cpp").write_text(SPDX)
-            said = rules.violations(folder)
-            self.assertEqual(len(said), 1, said)
-            self.assertIn("tests/core:1: 41 files in one folder", said[0])
-
     def test_an_umbrella_with_a_gap_is_found(self):
         with tempfile.TemporaryDirectory() as folder:
             place = pathlib.Path(folder, "lib/thalweg")

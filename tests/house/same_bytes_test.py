@@ -44,7 +44,7 @@ def masked(fingerprint, probe):
 
 def build(cmake, preset, *targets):
     unity = "ON" if preset == "clang" else "OFF"  # the build by g++ beside it is as one unit: each way is compiled here
-    made = ROOT / "build" / "same_bytes" / preset  # not in the folder where somebody works with this preset
+    made = ROOT / "build" / "full" / f"bytes-{preset}"  # not in the folder where somebody works with this preset
     subprocess.run([cmake, "--preset", preset, "-B", made, f"-DTHALWEG_UNITY={unity}", "--log-level=WARNING"], cwd=ROOT, check=True)
     subprocess.run([cmake, "--build", made, "--target", *targets], cwd=ROOT, check=True)
     hold(preset, said(made / "bin" / "fingerprint"))

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Holds lib and tools to .clang-tidy. Files are read in the units of a unity build, where thirty share what they include.
-With THALWEG_SAMPLE a tenth of the units, others after each commit.
 Usage: tidy_test.py CMAKE CLANG_TIDY [MODULE...]     of MODULEs (or tools) alone, where there are any"""
 import concurrent.futures
 import json
@@ -11,8 +10,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MADE = ROOT / "build" / "long" / "tidy"
-SAMPLE = 10
+MADE = ROOT / "build" / "full" / "tidy"
 
 
 def units():
@@ -20,11 +18,6 @@ def units():
     subprocess.run([CMAKE, "--preset", "tidy", "-B", MADE, "--log-level=WARNING"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     commands = json.loads((MADE / "compile_commands.json").read_text())
     return sorted({command["file"] for command in commands if "/generated/" not in command["file"]})
-
-
-def commits():
-    counted = subprocess.run(["git", "rev-list", "--count", "HEAD"], cwd=ROOT, capture_output=True, text=True)
-    return int(counted.stdout) if counted.returncode == 0 else 0
 
 
 def findings(unit):
@@ -39,8 +32,6 @@ CMAKE, CLANG_TIDY, *modules = sys.argv[1:]
 chosen = units()
 if modules:
     chosen = [unit for unit in chosen if any(f"/thalweg_{name}.dir/" in unit or f"/{name}/" in unit for name in modules)]
-elif os.environ.get("THALWEG_SAMPLE"):
-    chosen = chosen[commits() % SAMPLE::SAMPLE]
 if not chosen:
     sys.exit("no unit to look at")
 with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

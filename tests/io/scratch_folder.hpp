@@ -4,9 +4,12 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <string>
+
+#include <support.hpp>
+
+using test::bytes_of;
 
 /// A folder of its own for a test, gone with it.
 class ScratchFolder {
@@ -24,6 +27,7 @@ public:
 
     std::string operator/(std::string const& name) const { return (path_ / name).string(); }
     std::filesystem::path const& path() const { return path_; }
+    void write(std::string const& name, std::string const& text) const { test::write(path_ / name, text); }
     /// How many files and folders are in it.
     std::ptrdiff_t entries() const {
         return std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator());
@@ -32,8 +36,3 @@ public:
 private:
     std::filesystem::path path_;
 };
-
-inline std::string bytes_of(std::string const& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}

@@ -9,15 +9,13 @@
 
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 
-inline constexpr float hole = std::numeric_limits<float>::quiet_NaN();
+using test::frame;
 
-/// Unit cells whose south-west corner is the origin.
-inline thalweg::Grid frame(std::int64_t width, std::int64_t height) {
-    return {width, height, 1.0, 0.0, static_cast<double>(height), ""};
-}
+inline constexpr float hole = std::numeric_limits<float>::quiet_NaN();
 
 inline thalweg::Raster<float> dem_of(std::int64_t width, std::vector<float> const& heights) {
     thalweg::Raster<float> dem(frame(width, static_cast<std::int64_t>(heights.size()) / width));

@@ -15,7 +15,9 @@
 #include <thalweg/core/channels.hpp>
 
 /// What holds of channels.
-namespace thalweg::test {
+namespace test {
+
+using namespace thalweg;
 
 inline Cell channel_cell(Channels const& rivers, std::int64_t number) {
     return rivers.grid.at(rivers.cell[static_cast<std::size_t>(number)]);
@@ -34,7 +36,7 @@ struct SomeRivers {
 };
 
 inline SomeRivers some_rivers() {
-    SomeRivers some{*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::arbitrary<bool>(), {}, grid_of(40, 40)};
+    SomeRivers some{*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::arbitrary<bool>(), {}, frame(40, 40)};
     some.net = some.on_lattice ? random_skeleton(some.seed, 40)
                                : random_forest(some.seed, *rc::gen::inRange<std::size_t>(0, 20), 2);
     some.grid.cell_m = some.on_lattice ? 1.0 : 25.0;
@@ -98,4 +100,4 @@ inline void require_short(Channels const& rivers, std::int64_t look_cells) {
     }
 }
 
-} // namespace thalweg::test
+} // namespace test

@@ -6,7 +6,9 @@
 
 #include <thalweg/network/growth/forest/grow_forest.hpp>
 
-namespace thalweg::test {
+namespace test {
+
+using namespace thalweg;
 
 inline network::ForestParams growth(std::int64_t step, std::uint64_t seed, double sticking = 1.0, int visits = 1) {
     network::ForestParams params;
@@ -17,4 +19,4 @@ inline network::ForestParams growth(std::int64_t step, std::uint64_t seed, doubl
     return params;
 }
 
-} // namespace thalweg::test
+} // namespace test

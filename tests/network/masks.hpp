@@ -7,25 +7,19 @@
 #include <utility>
 #include <vector>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 
 /// Masks to thin and trace, drawn by hand or at random.
-namespace thalweg::test {
+namespace test {
 
-/// Cells of one metre, x from 0 eastwards, y from `height` at the north edge down to 0.
-inline Grid grid_of(std::int64_t width, std::int64_t height) {
-    Grid grid;
-    grid.width = width;
-    grid.height = height;
-    grid.north = static_cast<double>(height);
-    return grid;
-}
+using namespace thalweg;
 
 /// '#' is set; all rows of one length.
 inline Mask mask_of(std::vector<std::string> const& rows) {
     Mask mask(
-        grid_of(rows.empty() ? 0 : static_cast<std::int64_t>(rows[0].size()), static_cast<std::int64_t>(rows.size())));
+        frame(rows.empty() ? 0 : static_cast<std::int64_t>(rows[0].size()), static_cast<std::int64_t>(rows.size())));
     for (std::int64_t i = 0; i < mask.cells(); ++i) {
         Cell const c = mask.grid().at(i);
         mask[i] = rows[static_cast<std::size_t>(c.row)][static_cast<std::size_t>(c.col)] == '#' ? 1 : 0;
@@ -43,7 +37,7 @@ inline std::vector<std::string> rows_of(Mask const& mask) {
 
 /// Each cell set with the given probability.
 inline Mask random_mask(std::uint64_t seed, std::int64_t width, std::int64_t height, double share) {
-    Mask mask(grid_of(width, height));
+    Mask mask(frame(width, height));
     for (std::int64_t i = 0; i < mask.cells(); ++i) {
         mask[i] = unit(random_word(seed, 1, static_cast<std::uint64_t>(i))) < share ? 1 : 0;
     }
@@ -52,7 +46,7 @@ inline Mask random_mask(std::uint64_t seed, std::int64_t width, std::int64_t hei
 
 /// A few thick strokes from the middle and from one another: a branching blob with ragged edges, one component.
 inline Mask random_blob(std::uint64_t seed, std::int64_t width, std::int64_t height, int strokes, int thickness) {
-    Mask mask(grid_of(width, height));
+    Mask mask(frame(width, height));
     std::vector<Cell> on{{width / 2, height / 2}};
     RandomStream words(seed, 2, 0);
     auto const below = [&](std::int64_t n) {
@@ -121,4 +115,4 @@ inline std::int64_t components(Mask const& mask, int value, int neighbours) {
     return count;
 }
 
-} // namespace thalweg::test
+} // namespace test

@@ -7,13 +7,17 @@
 #include <utility>
 #include <vector>
 
+#include <rapidcheck.h>
+
 #include <network/masks.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/vectorise/thin.hpp>
 #include <thalweg/network/vectorise/trace.hpp>
 
 /// Networks to prune, order and raise, drawn by hand or at random.
-namespace thalweg::test {
+namespace test {
+
+using namespace thalweg;
 
 struct Reach {
     std::size_t from;
@@ -72,6 +76,15 @@ inline StreamNetwork random_forest(std::uint64_t seed, std::size_t nodes, std::s
     return network_of(at, reaches);
 }
 
+/// A skeleton or a forest, for rapidcheck.
+inline StreamNetwork any_network() {
+    auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+    if (*rc::gen::arbitrary<bool>()) {
+        return random_skeleton(seed, *rc::gen::inRange<std::int64_t>(10, 40));
+    }
+    return random_forest(seed, *rc::gen::inRange<std::size_t>(0, 30), *rc::gen::inRange<std::size_t>(1, 4));
+}
+
 /// One chain of arcs a metre long, the outlet at node 0.
 inline StreamNetwork chain(std::size_t arcs) {
     NetworkDraft net;
@@ -83,4 +96,4 @@ inline StreamNetwork chain(std::size_t arcs) {
     return net;
 }
 
-} // namespace thalweg::test
+} // namespace test

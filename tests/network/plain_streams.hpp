@@ -11,7 +11,9 @@
 
 /// Strahler orders and side branches counted junction by junction from who flows into whom alone: the slow, obvious
 /// way.
-namespace thalweg::test {
+namespace test {
+
+using namespace thalweg;
 
 struct PlainStreams {
     std::map<int, double> streams;                  ///< by order
@@ -85,4 +87,4 @@ inline std::vector<std::int64_t> down_of(network::TokunagaTree const& tree) {
     return down;
 }
 
-} // namespace thalweg::test
+} // namespace test

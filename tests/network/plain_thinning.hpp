@@ -8,7 +8,9 @@
 
 #include <thalweg/core/raster.hpp>
 
-namespace thalweg::test {
+namespace test {
+
+using namespace thalweg;
 
 /// Whether Guo and Hall's algorithm A1 deletes a set cell in subiteration 0 or 1. p[2] ... p[9]: the neighbours from
 /// the north clockwise, as in their paper.
@@ -97,4 +99,4 @@ inline Mask table_thin(Mask const& mask) {
     return out;
 }
 
-} // namespace thalweg::test
+} // namespace test

@@ -11,43 +11,42 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <stdexcept>
 #include <string>
 
 /// A folder with one small file for each key that names a file. All lie on or over the two places where recipes without
 /// `grid.origin` lie: south-east of (500000, 5000000), and around the rivers at (500900, 5000800).
-class WalkFiles {
+class WalkFiles : public ScratchFolder {
 public:
     WalkFiles() {
         std::string const upper = line("[500300,5001500],[500700,5001200],[500900,5000700]", R"("kind":"A","up":1)");
         std::string const other = line("[501500,5001600],[501200,5001100],[500910,5000700]", R"("kind":"B","up":1)");
         std::string const lower = line("[500900,5000700],[501000,5000010]", R"("kind":"C","up":2)");
-        write("rivers.geojson", layer(upper + "," + other + "," + lower));
-        write("second.geojson", layer(upper + "," + lower));
-        write("heights.geojson", layer(line("[500300,5001500,90],[500700,5001200,60],[500900,5000700,30]", "") + "," +
-                                       line("[500900,5000700,30],[501000,5000010,5]", "")));
-        write("strokes.geojson", layer(line("[501000,5000010],[501100,5001700]", R"("rosgen":"B")") + "," +
-                                       line("[501050,5000900],[500200,5001500]", R"("rosgen":"A")")));
-        write("one_stroke.geojson", layer(line("[501000,5000010],[501100,5001700]", "")));
-        write("region.geojson", layer(polygon(square(500300, 5000300, 1300))));
-        write("second_region.geojson", layer(polygon(square(500300, 5000300, 1500))));
-        write("loop.geojson",
-              layer(upper + "," + lower + "," + line("[500700,5001200],[500500,5000900],[500900,5000700]", "")));
+        write("rivers.geojson", test::geojson(upper + "," + other + "," + lower));
+        write("second.geojson", test::geojson(upper + "," + lower));
+        write("heights.geojson", test::geojson(line("[500300,5001500,90],[500700,5001200,60],[500900,5000700,30]", "") +
+                                               "," + line("[500900,5000700,30],[501000,5000010,5]", "")));
+        write("strokes.geojson", test::geojson(line("[501000,5000010],[501100,5001700]", R"("rosgen":"B")") + "," +
+                                               line("[501050,5000900],[500200,5001500]", R"("rosgen":"A")")));
+        write("one_stroke.geojson", test::geojson(line("[501000,5000010],[501100,5001700]", "")));
+        write("region.geojson", test::geojson(polygon(square(500300, 5000300, 1300))));
+        write("second_region.geojson", test::geojson(polygon(square(500300, 5000300, 1500))));
+        write("loop.geojson", test::geojson(upper + "," + lower + "," +
+                                            line("[500700,5001200],[500500,5000900],[500900,5000700]", "")));
         write("canal.geojson",
-              layer(upper + "," + lower + "," +
-                    line("[501500,5001600],[501200,5001100],[500900,5000700]", R"("waterway":"canal")")));
+              test::geojson(upper + "," + lower + "," +
+                            line("[501500,5001600],[501200,5001100],[500900,5000700]", R"("waterway":"canal")")));
         write("coast.geojson",
-              layer(upper + "," + lower + "," +
-                    line("[499000,5000020],[501000,5000010],[503000,4999990]", R"("FTYPE":"Coastline")")));
-        write("inland.geojson", layer(line("[500300,5001500],[500700,5001200],[500900,5000700]", "")));
+              test::geojson(upper + "," + lower + "," +
+                            line("[499000,5000020],[501000,5000010],[503000,4999990]", R"("FTYPE":"Coastline")")));
+        write("inland.geojson", test::geojson(line("[500300,5001500],[500700,5001200],[500900,5000700]", "")));
         write("outlets.csv", "x,y\n500000,4999000\n501900,4999500\n");
         write("lakes.geojson",
-              layer(polygon(square(500700, 5000500, 400)) + "," + polygon(square(500600, 4998600, 800))));
+              test::geojson(polygon(square(500700, 5000500, 400)) + "," + polygon(square(500600, 4998600, 800))));
         write("points.csv", points(0.0));
         write("higher.csv", points(200.0));
-        write("patch_mask.geojson", layer(polygon(square(500800, 4998900, 200))));
+        write("patch_mask.geojson", test::geojson(polygon(square(500800, 4998900, 200))));
         raster("mask.asc", 64, 30, 500000, 4998080, [](int c, int r) { return c + r < 6 ? 0.0 : 1.0; });
         raster("uplift.asc", 100, 60, 498000, 4998000, [](int c, int) { return 1.0 + 0.05 * c; });
         raster("erodibility.asc", 100, 60, 498000, 4998000, [](int c, int r) { return (c / 9 + r / 7) % 2 + 0.5; });
@@ -57,17 +56,11 @@ public:
         two_layers("rivers.gpkg", "rivers", "second");
         two_layers("strokes.gpkg", "strokes", "one_stroke");
     }
-    std::string folder() const { return folder_.path().string(); }
-    std::string operator/(std::string const& name) const { return folder_ / name; }
+    std::string folder() const { return path().string(); }
 
 private:
     using Value = std::function<double(int, int)>;
 
-    static std::string layer(std::string const& features) {
-        return "{\"type\":\"FeatureCollection\",\"crs\":{\"type\":\"name\",\"properties\":{\"name\":"
-               "\"urn:ogc:def:crs:EPSG::32631\"}},\"features\":[" +
-               features + "]}";
-    }
     static std::string line(std::string const& vertices, std::string const& properties) {
         return "{\"type\":\"Feature\",\"properties\":{" + properties +
                "},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[" + vertices + "]}}";
@@ -94,20 +87,19 @@ private:
         }
         return text;
     }
-    void write(std::string const& name, std::string const& text) const { std::ofstream(folder_ / name) << text; }
     void raster(std::string const& name, int side, int cell, int west, int south, Value const& value) const {
-        write_ascii_grid(folder_ / name, {side, side, cell, west, south}, value);
+        write_ascii_grid(*this / name, {side, side, cell, west, south}, value);
     }
     /// A GeoPackage whose layers are two of the GeoJSON files.
     void two_layers(std::string const& name, std::string const& first, std::string const& second) const {
         GDALAllRegister();
         for (std::string const& of : {first, second}) {
             GDALDatasetH source =
-                GDALOpenEx((folder_ / (of + ".geojson")).c_str(), GDAL_OF_VECTOR, nullptr, nullptr, nullptr);
+                GDALOpenEx((*this / (of + ".geojson")).c_str(), GDAL_OF_VECTOR, nullptr, nullptr, nullptr);
             char const* words[] = {"-f", "GPKG", "-nln", of.c_str(), of == second ? "-update" : nullptr, nullptr};
             GDALVectorTranslateOptions* const options =
                 GDALVectorTranslateOptionsNew(const_cast<char**>(words), nullptr);
-            GDALDatasetH made = GDALVectorTranslate((folder_ / name).c_str(), nullptr, 1, &source, options, nullptr);
+            GDALDatasetH made = GDALVectorTranslate((*this / name).c_str(), nullptr, 1, &source, options, nullptr);
             GDALVectorTranslateOptionsFree(options);
             GDALClose(source);
             if (made == nullptr) {
@@ -116,6 +108,4 @@ private:
             GDALClose(made);
         }
     }
-
-    ScratchFolder folder_;
 };

@@ -12,6 +12,8 @@
 
 #include "fields.hpp"
 
+namespace attract_test {
+
 using namespace thalweg;
 using skeleton::attract;
 using skeleton::Falloff;
@@ -61,3 +63,5 @@ TEST(ShiftMean, MovesAllHeightsAlike) {
     EXPECT_THROW(shift_mean(dem, std::nan("")), BadParameter);
     EXPECT_EQ(shift_mean(Raster<float>{}, 1.0).cells(), 0);
 }
+
+} // namespace attract_test

@@ -3,7 +3,6 @@
 #include <thalweg/skeleton/draw_skeleton.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -14,17 +13,22 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "fields.hpp"
-#include "message_of.hpp"
+
+namespace draw_skeleton_test {
 
 using namespace thalweg;
 using skeleton::draw_skeleton;
 using skeleton::DrawnSkeleton;
 
 namespace {
+
+using test::message_of;
+using test::same_bits;
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
@@ -34,12 +38,6 @@ Valley dry(std::int64_t width, std::int64_t height) {
 
 RidgeLines one_ridge(std::vector<Vec3> line) {
     return {{{std::move(line), 1, 2}}};
-}
-
-bool same_bits(Raster<float> const& a, Raster<float> const& b) {
-    return std::equal(a.values().begin(), a.values().end(), b.values().begin(), b.values().end(), [](float x, float y) {
-        return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
-    });
 }
 
 /// Rows of whole heights, '.' for none.
@@ -275,3 +273,5 @@ TEST(DrawSkeleton, NoiseMovesRidgesAloneAndNotTheirEnds) {
     EXPECT_EQ((noisy[Cell{200, 24}]), 1.0F);
     EXPECT_EQ((noisy[Cell{100, 49}]), 5.0F);
 }
+
+} // namespace draw_skeleton_test

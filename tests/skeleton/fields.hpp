@@ -5,11 +5,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include <support.hpp>
 #include <thalweg/core/raster.hpp>
 
-inline thalweg::Grid frame(std::int64_t width, std::int64_t height) {
-    return {width, height, 1.0, 0.0, static_cast<double>(height), ""};
-}
+using test::frame;
 
 /// Mean product of a field, whose mean is known to be 0, with itself at a distance.
 inline double covariance(thalweg::Raster<float> const& field, std::int64_t dx, std::int64_t dy) {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/skeleton/grf.hpp>
 #include <thalweg/skeleton/internal/normal_row.hpp>
@@ -16,6 +17,8 @@
 
 #include "fields.hpp"
 
+namespace random_fields_test {
+
 using namespace thalweg;
 using skeleton::FieldParams;
 using skeleton::grf;
@@ -23,6 +26,8 @@ using skeleton::markov3;
 using skeleton::separable_ar;
 
 namespace {
+
+using test::on_threads;
 
 bool same(Raster<float> const& a, Raster<float> const& b) {
     return std::equal(a.values().begin(), a.values().end(), b.values().begin(), b.values().end());
@@ -150,10 +155,8 @@ TEST(Markov3, HasTheVarianceAskedForAndTheCorrelationOfTheRecursion) {
 }
 
 TEST(RandomFields, TheSeedDecidesAndThreadsDoNot) {
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run many;
-    many.threads = 5;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const many = on_threads(5);
     Grid const grid = frame(151, 97);
     FieldParams const params{.seed = 3};
     EXPECT_TRUE(same(separable_ar(grid, params, one), separable_ar(grid, params, many)));
@@ -161,3 +164,5 @@ TEST(RandomFields, TheSeedDecidesAndThreadsDoNot) {
     EXPECT_TRUE(same(grf(grid, {.seed = 3}, one).dem, grf(grid, {.seed = 3}, many).dem));
     EXPECT_FALSE(same(grf(grid, {.seed = 4}).dem, grf(grid, {.seed = 3}).dem));
 }
+
+} // namespace random_fields_test

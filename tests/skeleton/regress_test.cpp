@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/regress.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/skeleton/scatter.hpp>
 
@@ -9,10 +10,14 @@
 
 #include <cmath>
 
+namespace regress_test {
+
 using namespace thalweg;
 using namespace thalweg::skeleton;
 
 namespace {
+
+using test::on_threads;
 
 Grid const ground{130, 40, 300.0, 0.0, 12000.0, ""};
 
@@ -150,11 +155,11 @@ TEST(Regress, ASingleRowAndMoreThreads) {
     for (float const z : flat.surface.values()) {
         EXPECT_TRUE(std::isfinite(z));
     }
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run two;
-    two.threads = 2;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const two = on_threads(2);
     Regression const a = regress(some_points(50), ground, {}, one);
     Regression const b = regress(some_points(50), ground, {}, two);
     EXPECT_TRUE(std::equal(a.surface.values().begin(), a.surface.values().end(), b.surface.values().begin()));
 }
+
+} // namespace regress_test

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/segments_near.hpp>
@@ -26,12 +27,17 @@
 #include <thalweg/network/vectorise/trace.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 
+namespace ridges_test {
+
 using namespace thalweg;
 using skeleton::ridges;
 using skeleton::RidgesParams;
 using Method = RidgesParams::Method;
 
 namespace {
+
+using test::full_message_of;
+using test::on_threads;
 
 constexpr Method methods[] = {Method::voronoi, Method::segments};
 
@@ -194,15 +200,6 @@ ElevatedNetwork straight(std::vector<std::vector<Vec2>> const& lines) {
     return network::set_heights(plan).network;
 }
 
-template <class Thrown> std::string message(auto const& act) {
-    try {
-        act();
-    } catch (Thrown const& e) {
-        return std::string(e.where()) + ": " + e.what();
-    }
-    return "nothing was thrown";
-}
-
 } // namespace
 
 TEST(Ridges, NothingToKeepApartHasNone) {
@@ -222,8 +219,9 @@ TEST(Ridges, RefusesWhatDoesNotBelongTogether) {
     for (Method const method : methods) {
         RidgesParams params;
         params.method = method;
-        EXPECT_NE(message<BadInput>([&] { ridges(two, {1}, square, params); }).find("skeleton.ridges: 1 labels"),
-                  std::string::npos);
+        EXPECT_NE(
+            full_message_of<BadInput>([&] { ridges(two, {1}, square, params); }).find("skeleton.ridges: 1 labels"),
+            std::string::npos);
         EXPECT_THROW(ridges(two, {1, 2, 3}, square, params), BadInput);
         EXPECT_THROW(ridges({}, {1}, square, params), BadInput);
         ElevatedNetwork other = two;
@@ -231,7 +229,7 @@ TEST(Ridges, RefusesWhatDoesNotBelongTogether) {
         EXPECT_THROW(ridges(other, {1, 2}, square, params), BadInput);
         other = two;
         other.arc_z[1].pop_back();
-        EXPECT_NE(message<BadInput>([&] {
+        EXPECT_NE(full_message_of<BadInput>([&] {
                       ridges(other, {1, 2}, square, params);
                   }).find("arc 2 from (7.000, 8.000)"),
                   std::string::npos);
@@ -241,7 +239,7 @@ TEST(Ridges, RefusesWhatDoesNotBelongTogether) {
     ElevatedNetwork const across = straight({{{2, 8}, {8, 2}}, {{2, 2}, {8, 8}}});
     RidgesParams params;
     params.method = Method::segments;
-    EXPECT_NE(message<BadInput>([&] {
+    EXPECT_NE(full_message_of<BadInput>([&] {
                   ridges(across, {1, 2}, square, params);
               }).find("(5.000000, 5.000000)"),
               std::string::npos);
@@ -462,8 +460,7 @@ TEST(Ridges, SameForAnyThreadsAndAgain) {
     everywhere([](Land const& land, RidgesParams const& params, RidgeLines const& made) {
         std::vector<std::vector<double>> clutter; // lets meshes lie elsewhere in memory
         for (int const threads : {1, 4, 1, 2, 1}) {
-            thalweg::Run run;
-            run.threads = threads;
+            thalweg::Run const run = on_threads(threads);
             EXPECT_TRUE(same(made, ridges(land.rivers, land.stream, land.grid, params, run)));
             clutter.emplace_back(static_cast<std::size_t>(1000 * threads));
         }
@@ -482,3 +479,5 @@ TEST(Ridges, StopWhenAsked) {
         EXPECT_THROW(ridges(land.rivers, land.stream, land.grid, params, run), Cancelled);
     }
 }
+
+} // namespace ridges_test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/scatter_between.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,8 @@
 #include <cmath>
 #include <limits>
 #include <vector>
+
+namespace scatter_between_test {
 
 using namespace thalweg;
 using namespace thalweg::skeleton;
@@ -77,10 +80,7 @@ TEST(ScatterBetween, NothingIsPlacedWhereNothingMayBe) {
 
 TEST(ScatterBetween, PointsKeepTheirDistancesAndStandAboveTheNearestRiver) {
     Valley const valley = two_rivers();
-    Mask inside(ground, 1);
-    for (std::int64_t i = 0; i < ground.cells(); ++i) {
-        inside[i] = ground.at(i).col < 50 ? 1 : 0;
-    }
+    Mask inside = test::raster_of<std::uint8_t>(ground, [&](Cell c) { return c.col < 50 ? 1 : 0; });
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         for (double const spacing : {0.0, 2.5, 4.0}) {
             for (HeightLaw const law : {HeightLaw::uniform, HeightLaw::normal}) {
@@ -152,3 +152,5 @@ TEST(ScatterBetween, SaysWhatFoundNoRoom) {
     EXPECT_GT(s.points.points.size(), 150U);
     EXPECT_EQ(static_cast<std::int64_t>(s.points.points.size()) + s.missing, 400);
 }
+
+} // namespace scatter_between_test

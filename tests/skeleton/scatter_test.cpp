@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/scatter.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
@@ -10,10 +11,15 @@
 #include <cmath>
 #include <limits>
 
+namespace scatter_test {
+
 using namespace thalweg;
 using namespace thalweg::skeleton;
 
 namespace {
+
+using test::has;
+using test::message_of;
 
 Grid const ground{130, 40, 300.0, 500000.0, 5000000.0, ""};
 
@@ -43,12 +49,8 @@ TEST(Scatter, RefusesWhatCannotBe) {
     EXPECT_THROW(scatter(ground, {.highest = Vec3{0.0, 0.0, 9.0}}), BadParameter);
     EXPECT_THROW(scatter(ground, {.highest = at_cell(5, 5, 9), .lowest = at_cell(5, 5, -9)}), BadParameter);
     EXPECT_THROW(scatter(ground, {.mean_m = 10.0, .highest = at_cell(5, 5, 9)}), BadParameter);
-    try {
-        scatter(ground, {.count = 4000, .spacing_cells = 2.0});
-        FAIL();
-    } catch (BadParameter const& e) {
-        EXPECT_NE(std::string(e.what()).find("density of 3.077"), std::string::npos) << e.what();
-    }
+    EXPECT_TRUE(has(message_of<BadParameter>([&] { scatter(ground, {.count = 4000, .spacing_cells = 2.0}); }),
+                    "density of 3.077"));
 }
 
 TEST(Scatter, KeepsTheSpacingAndTheCount) {
@@ -178,3 +180,5 @@ TEST(Scatter, PlacesAreUniform) {
     EXPECT_EQ(scatter(ground, {.seed = 3}).points.points, scatter(ground, {.seed = 3}).points.points);
     EXPECT_NE(scatter(ground, {.seed = 3}).points.points, scatter(ground, {.seed = 4}).points.points);
 }
+
+} // namespace scatter_test

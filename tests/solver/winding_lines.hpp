@@ -9,7 +9,9 @@
 #include <thalweg/solver/grid/poisson.hpp>
 
 /// Problems to solve, for tests and bench.
-namespace thalweg::test {
+namespace test {
+
+using namespace thalweg;
 
 /// Winding rivers and ridges of about 150 to 950 m through a share of the cells of a square; all others are free.
 inline solver::GridProblem winding_lines(std::int64_t side, double share) {
@@ -41,4 +43,4 @@ inline solver::GridProblem winding_lines(std::int64_t side, double share) {
     return problem;
 }
 
-} // namespace thalweg::test
+} // namespace test

@@ -16,10 +16,6 @@ namespace channel_trees {
 
 using namespace thalweg;
 
-inline Grid frame(std::int64_t width, std::int64_t height, double cell_m = 10.0) {
-    return {width, height, cell_m, 0.0, static_cast<double>(height) * cell_m, ""};
-}
-
 inline std::vector<std::int64_t> beside(Grid const& grid, std::int64_t cell) {
     std::vector<std::int64_t> out;
     Cell const at = grid.at(cell);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/valley.hpp>
@@ -10,7 +11,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -21,13 +21,9 @@ using namespace thalweg;
 
 inline constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-inline Grid frame(std::int64_t width, std::int64_t height, double cell_m = 1.0) {
-    return {width, height, cell_m, 0.0, 0.0, ""};
-}
-
 /// Valley cells at random, at least one; heights in steps of 1/8 with ties, -0 and +0 among them, or arbitrary.
 inline Valley by_chance(std::int64_t width, std::int64_t height, double share, std::uint64_t seed) {
-    Valley valley{Raster<float>(frame(width, height), nan)};
+    Valley valley{Raster<float>(test::frame_below(width, height), nan)};
     bool const stepped = seed % 2 == 0;
     auto const put = [&](std::int64_t i) {
         double const u = unit(random_word(seed, 2, static_cast<std::uint64_t>(i)));
@@ -101,19 +97,6 @@ inline std::vector<double> literal_dilation(Valley const& valley, Mask const& in
         }
     }
     return z;
-}
-
-template <class T> bool same_bytes(Raster<T> const& a, Raster<T> const& b) {
-    return a.grid() == b.grid() && std::memcmp(a.values().data(), b.values().data(), a.values().size_bytes()) == 0;
-}
-
-template <class Thrown, class F> std::string message(F const& f) {
-    try {
-        f();
-    } catch (Thrown const& e) {
-        return std::string(e.where()) + ": " + e.what();
-    }
-    return "nothing was thrown";
 }
 
 } // namespace valleys

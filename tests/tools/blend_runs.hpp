@@ -7,6 +7,8 @@
 
 #include <string>
 
+namespace blend_runs {
+
 inline Outcome blend(Workplace const& place, std::string const& arguments) {
     return thalweg_run("blend " + arguments, place.path());
 }
@@ -15,3 +17,5 @@ inline Outcome blend(Workplace const& place, std::string const& arguments) {
 inline void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
     expect_refused(place, "blend " + arguments, words);
 }
+
+} // namespace blend_runs

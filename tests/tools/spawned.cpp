@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 #include <thread>
@@ -61,7 +62,7 @@ Ended Spawned::wait(double most_s) {
     Ended ended;
     auto const begin = std::chrono::steady_clock::now();
     int status = 0;
-    while (waitpid(pid_, &status, WNOHANG) == 0) {
+    while (waitpid(pid_, &status, std::isfinite(most_s) ? WNOHANG : 0) == 0) {
         if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > most_s) {
             ended.hung = true;
             kill(pid_, SIGKILL);

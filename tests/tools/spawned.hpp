@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,8 @@ public:
     Spawned& operator=(Spawned const&) = delete;
 
     pid_t pid() const { return pid_; }
-    /// Waits for the end, and kills it after so many seconds.
-    Ended wait(double most_s = 120.0);
+    /// Waits for the end, and kills it after that many seconds.
+    Ended wait(double most_s = std::numeric_limits<double>::infinity());
 
 private:
     pid_t pid_ = -1;

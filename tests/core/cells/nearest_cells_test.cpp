@@ -5,24 +5,21 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/cells/cells_around.hpp>
+
+namespace nearest_cells_test {
 
 namespace {
 
 using namespace thalweg;
-
-Grid frame(std::int64_t width, std::int64_t height) {
-    Grid grid;
-    grid.width = width;
-    grid.height = height;
-    grid.cell_m = 10.0;
-    return grid;
-}
+using test::frame_below;
+using test::on_threads;
 
 } // namespace
 
 TEST(NearestCells, OneMarkedCell) {
-    Mask marked(frame(4, 3));
+    Mask marked(frame_below(4, 3, 10.0));
     marked[Cell{1, 2}] = 1;
     Raster<std::int64_t> const found = nearest_cells(marked, {});
     for (std::int64_t const nearest : found.values()) {
@@ -34,7 +31,7 @@ TEST(NearestCells, AreThoseOfASearchOverAll) {
     ASSERT_TRUE(rc::check("least squared distance, of equals the lowest index; for any number of threads", [] {
         auto const width = *rc::gen::inRange<std::int64_t>(1, 30);
         auto const height = *rc::gen::inRange<std::int64_t>(1, 30);
-        Grid const grid = frame(width, height);
+        Grid const grid = frame_below(width, height, 10.0);
         auto const cells =
             *rc::gen::container<std::vector<std::int64_t>>(rc::gen::inRange<std::int64_t>(0, grid.cells()));
         RC_PRE(!cells.empty());
@@ -42,8 +39,7 @@ TEST(NearestCells, AreThoseOfASearchOverAll) {
         for (std::int64_t const cell : cells) {
             marked[cell] = 1;
         }
-        thalweg::Run run;
-        run.threads = *rc::gen::inRange(1, 4);
+        thalweg::Run const run = on_threads(*rc::gen::inRange(1, 4));
         Raster<std::int64_t> const found = nearest_cells(marked, run);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             std::int64_t best = -1;
@@ -56,3 +52,5 @@ TEST(NearestCells, AreThoseOfASearchOverAll) {
         }
     }));
 }
+
+} // namespace nearest_cells_test

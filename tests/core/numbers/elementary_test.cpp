@@ -14,6 +14,8 @@
 #include <string>
 #include <utility>
 
+namespace elementary_test {
+
 namespace portable = thalweg::portable;
 
 namespace {
@@ -187,3 +189,5 @@ TEST(Elementary, has_the_same_bits_everywhere) {
     }
     EXPECT_EQ(hash.value, 0xb35ab6d3889225bfULL) << std::hex << hash.value;
 }
+
+} // namespace elementary_test

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <vector>
 
+namespace random_test {
+
 using thalweg::random_block;
 using thalweg::random_word;
 using thalweg::RandomStream;
@@ -72,3 +74,5 @@ TEST(Chance, reals_are_uniform) {
     EXPECT_NEAR(sum / n, 0.0, 5.0 * std::sqrt(1.0 / 12.0 / n));
     EXPECT_NEAR(squares / n, 1.0 / 12.0, 5.0 * std::sqrt(1.0 / 180.0 / n));
 }
+
+} // namespace random_test

@@ -7,6 +7,8 @@
 #include <string>
 #include <type_traits>
 
+namespace error_test {
+
 using namespace thalweg;
 
 namespace {
@@ -62,3 +64,5 @@ TEST(Error, WhatIsThrownAgainKeepsItsFunction) {
 static_assert(std::is_nothrow_copy_constructible_v<BadInput>);
 
 } // namespace
+
+} // namespace error_test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/run/parallel.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
@@ -14,6 +15,8 @@
 #include <stdexcept>
 #include <stop_token>
 #include <vector>
+
+namespace parallel_test {
 
 using thalweg::parallel_ranges;
 
@@ -28,8 +31,7 @@ TEST(ParallelRanges, ranges_tile_the_whole) {
     ASSERT_TRUE(rc::check([] {
         auto const count = *rc::gen::inRange<std::int64_t>(0, 5000);
         auto const grain = *rc::gen::inRange<std::int64_t>(0, 700);
-        thalweg::Run run;
-        run.threads = *rc::gen::inRange(0, 4);
+        thalweg::Run const run = test::on_threads(*rc::gen::inRange(0, 4));
         std::vector<std::atomic<int>> seen(static_cast<std::size_t>(count));
         parallel_ranges(run, count, grain, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t i = begin; i < end; ++i) {
@@ -42,8 +44,7 @@ TEST(ParallelRanges, ranges_tile_the_whole) {
 
 TEST(ParallelRanges, hands_on_what_the_body_throws) {
     for (int const threads : {1, 2}) {
-        thalweg::Run run;
-        run.threads = threads;
+        thalweg::Run const run = test::on_threads(threads);
         EXPECT_THROW(parallel_ranges(run, 1000, 10,
                                      [](std::int64_t begin, std::int64_t end) {
                                          if (begin <= 500 && 500 < end) {
@@ -61,3 +62,5 @@ TEST(ParallelRanges, stops_when_asked) {
     run.stop = source.get_token();
     EXPECT_THROW(parallel_ranges(run, 10, 1, [](std::int64_t, std::int64_t) { FAIL(); }), thalweg::Cancelled);
 }
+
+} // namespace parallel_test

@@ -6,6 +6,8 @@
 
 #include <string>
 
+namespace printable_test {
+
 using namespace thalweg;
 
 TEST(Printable, PlainTextStaysAsItIs) {
@@ -62,3 +64,5 @@ TEST(Printable, PasswordsAreLeftOut) {
     EXPECT_EQ(without_passwords("http://h:80/a@b and a password"), "http://h:80/a@b and a password");
     EXPECT_EQ(without_passwords("password="), "password=");
 }
+
+} // namespace printable_test

@@ -11,6 +11,8 @@
 
 #include <thalweg/core/run/error.hpp>
 
+namespace range_test {
+
 using namespace thalweg;
 
 namespace {
@@ -69,3 +71,5 @@ TEST(Range, MessagesSayValueUnitAndRange) {
 }
 
 } // namespace
+
+} // namespace range_test

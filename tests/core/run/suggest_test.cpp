@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+namespace suggest_test {
+
 using thalweg::closest;
 
 TEST(Suggest, NothingNear) {
@@ -29,3 +31,5 @@ TEST(Suggest, SwappedNeighboursAreOneSlip) {
     EXPECT_EQ(closest("chekc", known), "check");
     EXPECT_EQ(closest("ekam", known), "");
 }
+
+} // namespace suggest_test

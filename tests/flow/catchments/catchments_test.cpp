@@ -17,6 +17,9 @@
 
 #include <measure/dems.hpp>
 #include <measure/trees.hpp>
+#include <support.hpp>
+
+namespace catchments_test {
 
 using namespace thalweg;
 using flow::Catchments;
@@ -29,6 +32,7 @@ using flow::route;
 namespace {
 
 using Counts = std::vector<std::int64_t>;
+using test::message_of;
 
 /// A valley between two walls that falls to the south by 2 a row, and a side valley from the west into its middle.
 Raster<float> small_valley() {
@@ -47,12 +51,7 @@ std::vector<Reach> small_rivers() {
 }
 
 std::string complaint_of(std::vector<Reach> const& reaches, FlowField const& drainage) {
-    try {
-        catchments(reaches, drainage);
-    } catch (BadInput const& e) {
-        return e.what();
-    }
-    return "";
+    return message_of<BadInput>([&] { catchments(reaches, drainage); });
 }
 
 /// Rivers on lattices finer or coarser than the cells, and any land with holes under them.
@@ -169,3 +168,5 @@ TEST(Catchments, FollowTheDefinitionAndAgreeWithAreas) {
         }
     }));
 }
+
+} // namespace catchments_test

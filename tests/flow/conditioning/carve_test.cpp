@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/conditioning/dem_change.hpp>
@@ -17,17 +18,19 @@
 #include "conditioning/scenes.hpp"
 #include "plain_drainage.hpp"
 
+namespace carve_test {
+
 using namespace thalweg;
 using flow::Banks;
 using flow::carve;
 using flow::confine_channels;
 using flow::fill;
 using scenes::any_scene;
-using scenes::frame;
 using scenes::require_drained;
 using scenes::require_rivers_untouched;
 using scenes::require_water_kept;
 using scenes::Scene;
+using test::frame;
 
 namespace {
 
@@ -80,11 +83,7 @@ TEST(Carve, LeavesAloneWhatHasNoInside) {
 }
 
 TEST(Carve, LeavesAloneWhatDrains) {
-    Raster<float> dem(frame(9, 7));
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        Cell const c = dem.grid().at(i);
-        dem[i] = static_cast<float>(3 * c.col + 2 * c.row);
-    }
+    Raster<float> dem = test::raster_of(frame(9, 7), [&](Cell c) { return 3 * c.col + 2 * c.row; });
     Raster<float> const out = carved(dem, any_depth(dem.grid()));
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         EXPECT_EQ(out[i], dem[i]);
@@ -179,3 +178,5 @@ TEST(Carve, DrainsAndKeepsRivers) {
         }
     }));
 }
+
+} // namespace carve_test

@@ -16,13 +16,15 @@
 #include "conditioning/scenes.hpp"
 #include "plain_drainage.hpp"
 
+namespace condition_test {
+
 using namespace thalweg;
 using flow::condition;
 using flow::ConditionedDem;
 using flow::Conditioning;
-using scenes::frame;
 using scenes::no_data;
 using scenes::no_rivers;
+using test::frame;
 
 TEST(Condition, RefusesInfiniteHeightsAndRiversWithoutData) {
     Grid const grid = frame(3, 3);
@@ -118,3 +120,5 @@ TEST(Condition, MovesLittleMoreThanTheBetterOfFillingAndBreaching) {
         }
     }
 }
+
+} // namespace condition_test

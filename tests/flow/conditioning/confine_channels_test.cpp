@@ -12,16 +12,18 @@
 #include "conditioning/scenes.hpp"
 #include "plain_drainage.hpp"
 
+namespace confine_channels_test {
+
 using namespace thalweg;
 using flow::Banks;
 using flow::confine_channels;
 using scenes::any_scene;
 using scenes::beside;
-using scenes::frame;
 using scenes::no_rivers;
 using scenes::require_rivers_untouched;
 using scenes::require_water_kept;
 using scenes::Scene;
+using test::frame;
 
 TEST(ConfineChannels, RefusesAMarginBelowZeroAndOtherFrames) {
     Grid const grid = frame(3, 3);
@@ -59,3 +61,5 @@ TEST(ConfineChannels, BanksKeepTheRiversWater) {
         }
     }));
 }
+
+} // namespace confine_channels_test

@@ -12,14 +12,16 @@
 #include "conditioning/scenes.hpp"
 #include "plain_drainage.hpp"
 
+namespace fill_test {
+
 using namespace thalweg;
 using flow::fill;
 using scenes::any_scene;
-using scenes::frame;
 using scenes::no_rivers;
 using scenes::require_drained;
 using scenes::require_rivers_untouched;
 using scenes::Scene;
+using test::frame;
 
 TEST(Fill, RefusesNoCellsAndOtherFrames) {
     EXPECT_THROW(fill(Raster<float>{}, Valley{}), BadInput);
@@ -38,3 +40,5 @@ TEST(Fill, FillIsTheLeastThatDrains) {
         require_rivers_untouched(filled, scene);
     }));
 }
+
+} // namespace fill_test

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/cells/framed.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
@@ -17,13 +18,17 @@
 #include "conditioning/scenes.hpp"
 #include "plain_drainage.hpp"
 
+namespace flood_test {
+
 using namespace thalweg;
 using flow::check_drainable;
 using flow::flood;
 using flow::Lakes;
-using scenes::frame;
+using test::frame;
 
 namespace {
+
+using test::message_of;
 
 Raster<float> flooded(Raster<float> const& dem, Raster<float> const& rivers, Lakes lakes) {
     Raster<float> level = framed(dem);
@@ -77,12 +82,7 @@ FloodScene any_flood_scene() {
 }
 
 std::string refused(Raster<float> const& dem, Valley const& valley) {
-    try {
-        check_drainable(dem, valley);
-    } catch (BadInput const& error) {
-        return error.what();
-    }
-    return "";
+    return message_of<BadInput>([&] { check_drainable(dem, valley); });
 }
 
 } // namespace
@@ -146,3 +146,5 @@ TEST(Flood, RefusesWhatCannotBeDrained) {
     valley.z[Cell{2, 1}] = 0.0F;
     EXPECT_NE(refused(dem, valley).find("missing, where a river runs"), std::string::npos);
 }
+
+} // namespace flood_test

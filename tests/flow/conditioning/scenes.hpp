@@ -11,6 +11,7 @@
 
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
@@ -23,10 +24,6 @@ namespace scenes {
 
 using namespace thalweg;
 using plain::no_data;
-
-inline Grid frame(std::int64_t width, std::int64_t height) {
-    return {width, height, 1.0, 0.0, static_cast<double>(height), ""};
-}
 
 inline Valley no_rivers(Grid const& grid) {
     return {Raster<float>(grid, no_data)};
@@ -55,7 +52,7 @@ inline Scene any_scene() {
     auto const rivers = *rc::gen::inRange(0, 4).as("rivers");
     bool const stepped = *rc::gen::arbitrary<bool>().as("stepped");
     double const holes = *rc::gen::element(0.0, 0.0, 0.1).as("holes");
-    Scene scene{Raster<float>(frame(width, height)), no_rivers(frame(width, height))};
+    Scene scene{Raster<float>(test::frame(width, height)), no_rivers(test::frame(width, height))};
     Grid const& grid = scene.dem.grid();
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         double const u = 40.0 * unit(random_word(seed, 1, static_cast<std::uint64_t>(i)));

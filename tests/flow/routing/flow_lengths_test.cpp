@@ -14,6 +14,8 @@
 
 #include <measure/dems.hpp>
 
+namespace flow_lengths_test {
+
 using namespace thalweg;
 using flow::flow_lengths;
 using flow::FlowField;
@@ -51,3 +53,5 @@ TEST(FlowLengths, AreTheLongestWayDownToACell) {
         }
     }));
 }
+
+} // namespace flow_lengths_test

@@ -16,6 +16,9 @@
 
 #include "filled_slowly.hpp"
 #include <measure/dems.hpp>
+#include <support.hpp>
+
+namespace route_dinf_test {
 
 using namespace thalweg;
 using flow::dinf_leaves;
@@ -25,6 +28,8 @@ using flow::route;
 using flow::route_dinf;
 
 namespace {
+
+using test::on_threads;
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -117,12 +122,9 @@ std::map<std::int64_t, double> shares_of(DinfFlow const& d, std::int64_t i) {
 }
 
 Raster<float> plane(double east, double south) {
-    Raster<float> dem(frame(9, 9));
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        Cell const c = dem.grid().at(i);
-        dem[i] = static_cast<float>(100.0 - east * static_cast<double>(c.col) - south * static_cast<double>(c.row));
-    }
-    return dem;
+    return test::raster_of(frame(9, 9), [&](Cell c) {
+        return 100.0 - east * static_cast<double>(c.col) - south * static_cast<double>(c.row);
+    });
 }
 
 } // namespace
@@ -247,10 +249,8 @@ TEST(RouteDinf, SameBytesForAnyThreadsAndNoWaterLost) {
     for (std::int64_t i = 0; i < dem.cells(); i += 97) {
         dem[i] = hole;
     }
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run many;
-    many.threads = 4;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const many = on_threads(4);
     FlowField const d8 = route(dem);
     DinfFlow const a = route_dinf(dem, d8, one);
     DinfFlow const b = route_dinf(dem, d8, many);
@@ -264,3 +264,5 @@ TEST(RouteDinf, SameBytesForAnyThreadsAndNoWaterLost) {
     }
     EXPECT_NEAR(leaving / data, 1.0, 1e-9);
 }
+
+} // namespace route_dinf_test

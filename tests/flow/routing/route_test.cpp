@@ -12,6 +12,9 @@
 
 #include "filled_slowly.hpp"
 #include <measure/dems.hpp>
+#include <support.hpp>
+
+namespace route_test {
 
 using namespace thalweg;
 using flow::Direction;
@@ -19,6 +22,8 @@ using flow::FlowField;
 using flow::route;
 
 namespace {
+
+using test::on_threads;
 
 std::vector<Direction> directions(FlowField const& d) {
     return {d.direction.values().begin(), d.direction.values().end()};
@@ -213,10 +218,8 @@ TEST(Route, WithoutDepressionsNothingIsFilled) {
 
 TEST(Route, SameForAnyNumberOfThreads) {
     Raster<float> dem = rough_dem(frame(900, 700), 3);
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run three;
-    three.threads = 3;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const three = on_threads(3);
     FlowField const a = route(dem, one);
     FlowField const b = route(dem, three);
     EXPECT_EQ(directions(a), directions(b));
@@ -230,3 +233,5 @@ TEST(Route, StopsWhenAsked) {
     run.progress = [](double, char const*, void*) { return 0; };
     EXPECT_THROW(route(rough_dem(frame(1000, 1000), 3), run), Cancelled);
 }
+
+} // namespace route_test

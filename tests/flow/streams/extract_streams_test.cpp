@@ -17,6 +17,8 @@
 
 #include <measure/dems.hpp>
 
+namespace extract_streams_test {
+
 using namespace thalweg;
 using flow::extract_streams;
 using flow::ExtractedStreams;
@@ -131,3 +133,5 @@ TEST(ExtractStreams, IsWhatDrainsThroughEnoughCells) {
         }
     }));
 }
+
+} // namespace extract_streams_test

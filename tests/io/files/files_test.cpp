@@ -8,10 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "full_disk.hpp"
 #include "scratch_folder.hpp"
+
+namespace files_test {
 
 using namespace thalweg;
 namespace fs = std::filesystem;
@@ -19,6 +22,8 @@ namespace fs = std::filesystem;
 namespace {
 
 using Names = std::vector<std::string>;
+using test::has;
+using test::message_of;
 
 void put(std::string const& path, std::string const& text = "old") {
     fs::create_directories(fs::path(path).parent_path());
@@ -41,14 +46,7 @@ std::string content(fs::path const& folder) {
 }
 
 testing::AssertionResult says(auto&& act, std::string const& words) {
-    try {
-        act();
-    } catch (BadInput const& error) {
-        std::string const message = error.what();
-        return message.find(words) != std::string::npos ? testing::AssertionSuccess()
-                                                        : testing::AssertionFailure() << message;
-    }
-    return testing::AssertionFailure() << "no BadInput";
+    return has(message_of<BadInput>(act), words);
 }
 
 } // namespace
@@ -214,13 +212,8 @@ TEST(OutputFolder, TwoAtOnceDoNotMeet) {
 }
 
 TEST(OutputFolder, PlaceThatCannotBeWrittenNamesPathAndReason) {
-    try {
-        io::OutputFolder const out("/proc/thalweg/out");
-        FAIL();
-    } catch (IoError const& error) {
-        EXPECT_NE(std::string(error.what()).find("/proc/thalweg: No such file or directory"), std::string::npos)
-            << error.what();
-    }
+    EXPECT_TRUE(has(message_of<IoError>([&] { io::OutputFolder const out("/proc/thalweg/out"); }),
+                    "/proc/thalweg: No such file or directory"));
 }
 
 TEST(Files, TextComesBack) {
@@ -259,11 +252,9 @@ TEST(Files, FullDiskNamesPathAndReason) {
     ScratchFolder const scratch;
     put(scratch / "large", std::string(100000, 'x'));
     FullDisk const full(5000);
-    try {
-        io::write_text(scratch / "a", std::string(100000, 'x'));
-        FAIL();
-    } catch (IoError const& error) {
-        EXPECT_NE(std::string(error.what()).find("/a: File too large"), std::string::npos) << error.what();
-    }
+    EXPECT_TRUE(has(message_of<IoError>([&] { io::write_text(scratch / "a", std::string(100000, 'x')); }),
+                    "/a: File too large"));
     EXPECT_THROW(io::copy_file(scratch / "large", scratch / "b"), IoError);
 }
+
+} // namespace files_test

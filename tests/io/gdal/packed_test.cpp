@@ -10,6 +10,8 @@
 
 #include "unpacked.hpp"
 
+namespace packed_test {
+
 using namespace thalweg;
 using Bytes = std::vector<std::uint8_t>;
 
@@ -43,3 +45,5 @@ TEST(Packed, BeyondTwoGibibytesIsRefused) {
     std::span<std::uint8_t const> const too_many(&one, std::size_t{1} << 31U); // refused before a byte is read
     EXPECT_THROW(io::packed(too_many), BadInput);
 }
+
+} // namespace packed_test

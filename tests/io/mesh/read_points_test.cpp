@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/output_file.hpp>
 #include <thalweg/io/gdal/content_of.hpp>
@@ -16,11 +17,16 @@
 
 #include "scratch_folder.hpp"
 
+namespace read_points_test {
+
 using namespace thalweg;
 using io::FileContent;
 using io::read_points;
 
 namespace {
+
+using test::has;
+using test::message_of;
 
 std::string text_file(ScratchFolder const& folder, std::string const& name, std::string const& text) {
     std::ofstream(folder / name, std::ios::binary) << text;
@@ -28,16 +34,7 @@ std::string text_file(ScratchFolder const& folder, std::string const& name, std:
 }
 
 std::string refusal(io::ReadPointsParams const& params) {
-    try {
-        read_points(params);
-    } catch (Error const& e) {
-        return e.what();
-    }
-    return "taken";
-}
-
-bool says(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
+    return message_of([&] { read_points(params); });
 }
 
 /// What a text file is refused for.
@@ -93,16 +90,16 @@ TEST(ReadPoints, TextInEveryManner) {
 }
 
 TEST(ReadPoints, BadTextNamesItsLine) {
-    EXPECT_TRUE(says(refusal_of(""), "p.csv holds no points"));
-    EXPECT_TRUE(says(refusal_of("x,y,z\n"), "holds no points"));
-    EXPECT_TRUE(says(refusal_of("x,y,h\n1,2,3\n"), "first line: no column 'z'"));
-    EXPECT_TRUE(says(refusal_of("x,y,z\n1,2,3\n1,2,three\n"), "line 3: z is 'three'"));
-    EXPECT_TRUE(says(refusal_of("1,2,3\n1,nan,3\n"), "line 2: y is 'nan'"));
-    EXPECT_TRUE(says(refusal_of("1,2,3\n#\n-inf,2,3\n"), "line 3: x is '-inf'"));
-    EXPECT_TRUE(says(refusal_of("1,2,3\n1,2,1e999\n"), "line 2: z is '1e999'"));
-    EXPECT_TRUE(says(refusal_of("1,2,3\n1,2\n"), "line 2: 2 of the columns, z is missing"));
-    EXPECT_TRUE(says(refusal_of("1,2,3\n1,,3\n"), "line 2: y is ''"));
-    EXPECT_TRUE(says(refusal({"nowhere.csv"}), "does not exist"));
+    EXPECT_TRUE(has(refusal_of(""), "p.csv holds no points"));
+    EXPECT_TRUE(has(refusal_of("x,y,z\n"), "holds no points"));
+    EXPECT_TRUE(has(refusal_of("x,y,h\n1,2,3\n"), "first line: no column 'z'"));
+    EXPECT_TRUE(has(refusal_of("x,y,z\n1,2,3\n1,2,three\n"), "line 3: z is 'three'"));
+    EXPECT_TRUE(has(refusal_of("1,2,3\n1,nan,3\n"), "line 2: y is 'nan'"));
+    EXPECT_TRUE(has(refusal_of("1,2,3\n#\n-inf,2,3\n"), "line 3: x is '-inf'"));
+    EXPECT_TRUE(has(refusal_of("1,2,3\n1,2,1e999\n"), "line 2: z is '1e999'"));
+    EXPECT_TRUE(has(refusal_of("1,2,3\n1,2\n"), "line 2: 2 of the columns, z is missing"));
+    EXPECT_TRUE(has(refusal_of("1,2,3\n1,,3\n"), "line 2: y is ''"));
+    EXPECT_TRUE(has(refusal({"nowhere.csv"}), "does not exist"));
 }
 
 TEST(ReadPoints, TextTakesTheCrsAsked) {
@@ -110,7 +107,7 @@ TEST(ReadPoints, TextTakesTheCrsAsked) {
     std::string const path = text_file(folder, "a.xyz", "1 2 3\n");
     EXPECT_EQ(read_points({path}).crs, "");
     EXPECT_EQ(read_points({path, {}, "z", "EPSG:32632"}).crs, "EPSG:32632");
-    EXPECT_TRUE(says(refusal({path, {}, "z", "EPSG:4326"}), "4326"));
+    EXPECT_TRUE(has(refusal({path, {}, "z", "EPSG:4326"}), "4326"));
 }
 
 TEST(ReadPoints, LayersGiveTheirZ) {
@@ -147,17 +144,16 @@ TEST(ReadPoints, BadLayersNameTheFeature) {
         ScratchFolder const folder;
         return refusal({layer(folder, shapes, epsg, field, type)});
     };
-    EXPECT_TRUE(says(why({}), "holds no points"));
-    EXPECT_TRUE(says(why({{"POINT (1 2)", ""}}), "feature 1 of p.gpkg has no height: neither Z nor a field 'z'"));
-    EXPECT_TRUE(
-        says(why({{"POINT (1 2)", "5"}, {"POINT (1 2)", ""}}, 32631, "z"), "feature 2 of p.gpkg has no height"));
-    EXPECT_TRUE(says(why({{"POINT (1 2)", "high"}}, 32631, "z", OFTString), "z is 'high', not a number"));
-    EXPECT_TRUE(says(why({{"LINESTRING (1 2, 3 4)", "5"}}, 32631, "z"), "is Line String, not a point"));
-    EXPECT_TRUE(says(why({{"POINT EMPTY", "5"}}, 32631, "z"), "is empty"));
-    EXPECT_TRUE(says(why({{"POINT Z (1 2 3)", ""}}, 0), "has no CRS"));
-    EXPECT_TRUE(says(refusal({"nowhere.gpkg"}), "does not exist"));
+    EXPECT_TRUE(has(why({}), "holds no points"));
+    EXPECT_TRUE(has(why({{"POINT (1 2)", ""}}), "feature 1 of p.gpkg has no height: neither Z nor a field 'z'"));
+    EXPECT_TRUE(has(why({{"POINT (1 2)", "5"}, {"POINT (1 2)", ""}}, 32631, "z"), "feature 2 of p.gpkg has no height"));
+    EXPECT_TRUE(has(why({{"POINT (1 2)", "high"}}, 32631, "z", OFTString), "z is 'high', not a number"));
+    EXPECT_TRUE(has(why({{"LINESTRING (1 2, 3 4)", "5"}}, 32631, "z"), "is Line String, not a point"));
+    EXPECT_TRUE(has(why({{"POINT EMPTY", "5"}}, 32631, "z"), "is empty"));
+    EXPECT_TRUE(has(why({{"POINT Z (1 2 3)", ""}}, 0), "has no CRS"));
+    EXPECT_TRUE(has(refusal({"nowhere.gpkg"}), "does not exist"));
     ScratchFolder const folder;
-    EXPECT_TRUE(says(refusal({layer(folder, {}, 0), "other"}), "no layer of points named 'other' (spots)"));
+    EXPECT_TRUE(has(refusal({layer(folder, {}, 0), "other"}), "no layer of points named 'other' (spots)"));
 }
 
 TEST(ReadPoints, InPlanTheyNeedNoHeights) {
@@ -172,7 +168,7 @@ TEST(ReadPoints, InPlanTheyNeedNoHeights) {
     params.path = layer(folder, {{"POINT (1 2)", ""}, {"POINT Z (4 5 6)", ""}}, 32631);
     EXPECT_EQ(read_points(params).points, wanted);
     params.path = text_file(folder, "b.csv", "1\n");
-    EXPECT_TRUE(says(refusal(params), "line 1: 1 of the columns, y is missing"));
+    EXPECT_TRUE(has(refusal(params), "line 1: 1 of the columns, y is missing"));
 }
 
 TEST(ReadPoints, AFileWithoutCrsTakesTheOneAsked) {
@@ -240,3 +236,5 @@ TEST(OutputFile, BadPlacesAreRefused) {
     std::filesystem::create_symlink("elsewhere", folder / "link");
     EXPECT_THROW(io::OutputFile(folder / "link", io::Existing::replace), BadInput);
 }
+
+} // namespace read_points_test

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
@@ -18,18 +19,19 @@
 #include "point_files.hpp"
 #include "scratch_folder.hpp"
 
+namespace write_points_test {
+
 using namespace thalweg;
 using io::PointFormat;
 using io::write_points;
 
 namespace {
 
-constexpr float none = std::numeric_limits<float>::quiet_NaN();
+using test::frame_below;
+using test::has;
+using test::message_of;
 
-/// Cells of a metre, the north-west corner at 0.
-Grid frame(std::int64_t width, std::int64_t height) {
-    return {width, height, 1.0, 0.0, 0.0, ""};
-}
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
 /// Heights that do not end in binary, a hole in every eleventh cell.
 Raster<float> land(std::int64_t width = 13, std::int64_t height = 7, double cell_m = 2.5) {
@@ -69,19 +71,6 @@ std::vector<PointFormat> formats() {
     return {PointFormat::las, PointFormat::ply, PointFormat::xyz};
 }
 
-std::string refusal(auto const& act) {
-    try {
-        act();
-    } catch (BadInput const& e) {
-        return e.what();
-    }
-    return "taken";
-}
-
-bool says(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
-}
-
 } // namespace
 
 TEST(WritePoints, FormatsByNameAndEnding) {
@@ -97,18 +86,18 @@ TEST(WritePoints, NothingAndWrongNumbersAreRefused) {
     ScratchFolder const folder;
     for (PointFormat const format : formats()) {
         auto const refused = [&](auto const& what) {
-            return refusal([&] { write_points(what, folder / "points", {.format = format}); });
+            return message_of<BadInput>([&] { write_points(what, folder / "points", {.format = format}); });
         };
-        EXPECT_TRUE(says(refused(FeaturePoints{}), "there is no point"));
-        EXPECT_TRUE(says(refused(Raster<float>()), "there is no point"));
-        EXPECT_TRUE(says(refused(Raster<float>(frame(2, 2), none)), "there is no point"));
-        EXPECT_TRUE(says(refused(FeaturePoints{{{1, 2, 3}, {1, NAN, 3}}, ""}), "point 2 is not finite"));
-        Raster<float> endless(frame(2, 2), 1.0F);
+        EXPECT_TRUE(has(refused(FeaturePoints{}), "there is no point"));
+        EXPECT_TRUE(has(refused(Raster<float>()), "there is no point"));
+        EXPECT_TRUE(has(refused(Raster<float>(frame_below(2, 2), none)), "there is no point"));
+        EXPECT_TRUE(has(refused(FeaturePoints{{{1, 2, 3}, {1, NAN, 3}}, ""}), "point 2 is not finite"));
+        Raster<float> endless(frame_below(2, 2), 1.0F);
         endless[3] = std::numeric_limits<float>::infinity();
-        EXPECT_TRUE(says(refused(endless), "the cell at (1.5, -1.5) is inf"));
+        EXPECT_TRUE(has(refused(endless), "the cell at (1.5, -1.5) is inf"));
         EXPECT_THROW(write_points(land(), folder / "points", {.format = format, .every = 0}), BadParameter);
         EXPECT_THROW(write_points(FeaturePoints{{{1, 2, 3}}, ""}, folder / "points", {.every = -1}), BadParameter);
-        EXPECT_THROW(write_points(Skeleton{land()}, Mask(frame(13, 7)), folder / "points", {.format = format}),
+        EXPECT_THROW(write_points(Skeleton{land()}, Mask(frame_below(13, 7)), folder / "points", {.format = format}),
                      BadInput);
     }
     EXPECT_EQ(folder.entries(), 0);
@@ -143,7 +132,7 @@ TEST(WritePoints, CellsReadBack) {
                 EXPECT_EQ(las.epsg, 32631);
             } else if (format == PointFormat::ply) {
                 EXPECT_EQ(point_files::read_ply_points(bytes), wanted);
-                EXPECT_TRUE(says(bytes, "\ncomment crs EPSG:32631\n"));
+                EXPECT_TRUE(has(bytes, "\ncomment crs EPSG:32631\n"));
             } else {
                 auto found = point_files::read_xyz(bytes);
                 for (Vec3& p : found) {
@@ -244,3 +233,5 @@ TEST(WritePoints, FullDiskIsAnErrorAndStopsWhenAsked) {
         EXPECT_THROW(write_points(land(), folder / "c", {.format = format}, run), Cancelled);
     }
 }
+
+} // namespace write_points_test

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -16,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/gdal/driver.hpp>
@@ -25,12 +25,17 @@
 #include "point_files.hpp"
 #include "scratch_folder.hpp"
 
+namespace write_tin_test {
+
 using namespace thalweg;
 using io::TinFormat;
 using io::write_tin;
 using point_files::number_at;
 
 namespace {
+
+using test::has;
+using test::message_of;
 
 /// Coordinates of many digits, far from the origin.
 Tin awkward() {
@@ -54,17 +59,9 @@ std::string written(ScratchFolder const& folder, Tin const& tin, TinFormat forma
 
 std::string refusal(Tin const& tin, TinFormat format) {
     ScratchFolder const folder;
-    try {
-        write_tin(tin, "", folder / "tin", format);
-    } catch (BadInput const& e) {
-        EXPECT_EQ(folder.entries(), 0);
-        return e.what();
-    }
-    return "taken";
-}
-
-bool says(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
+    std::string const message = message_of<BadInput>([&] { write_tin(tin, "", folder / "tin", format); });
+    EXPECT_TRUE(message.empty() || folder.entries() == 0) << message;
+    return message;
 }
 
 Tin read_2dm(std::string const& text, std::string const& title = "MESHNAME \"tin\"") {
@@ -239,11 +236,11 @@ TEST(WriteTin, FormatsByNameAndEnding) {
 
 TEST(WriteTin, UnsoundTinsAreRefused) {
     for (auto const& f : io::tin_formats()) {
-        EXPECT_TRUE(says(refusal({}, f.format), "no vertices"));
-        EXPECT_TRUE(says(refusal({{{0, 0, NAN}}, {}}, f.format), "vertex 1 is not finite"));
-        EXPECT_TRUE(says(refusal({{{0, INFINITY, 0}}, {}}, f.format), "vertex 1 is not finite"));
+        EXPECT_TRUE(has(refusal({}, f.format), "no vertices"));
+        EXPECT_TRUE(has(refusal({{{0, 0, NAN}}, {}}, f.format), "vertex 1 is not finite"));
+        EXPECT_TRUE(has(refusal({{{0, INFINITY, 0}}, {}}, f.format), "vertex 1 is not finite"));
         EXPECT_TRUE(
-            says(refusal({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 3}}}, f.format), "triangle 1 has vertex 4"));
+            has(refusal({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 3}}}, f.format), "triangle 1 has vertex 4"));
     }
 }
 
@@ -288,9 +285,9 @@ TEST(WriteTin, RoundTripIsExact) {
 
 TEST(WriteTin, LandXmlNamesItsCrs) {
     ScratchFolder const folder;
-    EXPECT_TRUE(says(written(folder, awkward(), TinFormat::landxml), "<CoordinateSystem epsgCode=\"32631\"/>"));
+    EXPECT_TRUE(has(written(folder, awkward(), TinFormat::landxml), "<CoordinateSystem epsgCode=\"32631\"/>"));
     write_tin(awkward(), "PROJCS[\"a<b\"]", folder / "wkt.xml", TinFormat::landxml);
-    EXPECT_TRUE(says(bytes_of(folder / "wkt.xml"), "ogcWktCode=\"PROJCS[&quot;a&lt;b&quot;]\""));
+    EXPECT_TRUE(has(bytes_of(folder / "wkt.xml"), "ogcWktCode=\"PROJCS[&quot;a&lt;b&quot;]\""));
 }
 
 TEST(WriteTin, GeoPackageHoldsFaces) {
@@ -347,15 +344,15 @@ TEST(WriteTin, HeightsInFeetAreSaid) {
     Tin const mesh = read_2dm(in_feet(TinFormat::mesh_2dm, "a.2dm"), "MESHNAME \"tin, heights in ft\"");
     EXPECT_EQ(mesh.vertices, tin.vertices);
     std::string const ply = in_feet(TinFormat::ply, "a.ply");
-    EXPECT_TRUE(says(ply, "\ncomment heights in ft\n"));
+    EXPECT_TRUE(has(ply, "\ncomment heights in ft\n"));
     EXPECT_EQ(read_ply(ply).vertices, tin.vertices);
-    EXPECT_TRUE(says(in_feet(TinFormat::ply_points, "points.ply"), "\ncomment heights in ft\n"));
-    EXPECT_TRUE(says(in_feet(TinFormat::obj, "a.obj"), "\n# heights in ft\n"));
-    EXPECT_TRUE(says(in_feet(TinFormat::off, "a.off"), "\n# heights in ft\n"));
+    EXPECT_TRUE(has(in_feet(TinFormat::ply_points, "points.ply"), "\ncomment heights in ft\n"));
+    EXPECT_TRUE(has(in_feet(TinFormat::obj, "a.obj"), "\n# heights in ft\n"));
+    EXPECT_TRUE(has(in_feet(TinFormat::off, "a.off"), "\n# heights in ft\n"));
     for (auto const& f : io::tin_formats()) {
         std::string const name = std::string("metres") + f.ending;
         write_tin(tin, "EPSG:32631", folder / name, f.format);
-        EXPECT_FALSE(says(bytes_of(folder / name), "heights in")) << f.name;
+        EXPECT_FALSE(has(bytes_of(folder / name), "heights in")) << f.name;
         std::filesystem::remove(folder / name);
     }
     for (TinFormat const other : {TinFormat::geopackage, TinFormat::landxml, TinFormat::las, TinFormat::xyz}) {
@@ -375,3 +372,5 @@ TEST(WriteTin, LasOfAWholeContinentTakesCoarserSteps) {
     EXPECT_EQ(number_at<double>(las, 179), 9e6);
     EXPECT_EQ(number_at<double>(las, 187), -9e6);
 }
+
+} // namespace write_tin_test

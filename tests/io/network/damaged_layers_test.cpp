@@ -17,6 +17,8 @@
 #include "scratch_folder.hpp"
 #include "vector_files.hpp"
 
+namespace damaged_layers_test {
+
 using namespace thalweg;
 using namespace thalweg::io;
 
@@ -65,3 +67,5 @@ TEST(DamagedLayers, HeightsAreNotTakenForMetres) {
     ASSERT_NE(data, nullptr);
     EXPECT_THROW(height_unit_of(*data->GetLayer(0)), IoError);
 }
+
+} // namespace damaged_layers_test

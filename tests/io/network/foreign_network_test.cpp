@@ -5,18 +5,23 @@
 #include <cmath>
 #include <set>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/write_network.hpp>
 
-#include "message_of.hpp"
 #include "sample_networks.hpp"
 #include "vector_files.hpp"
+
+namespace foreign_network_test {
 
 using namespace thalweg;
 
 // Every name and value of the files stands here as their owners write them, not by the table under test.
 
 namespace {
+
+using test::has;
+using test::message_of;
 
 // Two sources, at (50, 200) and (150, 200), meet at (100, 100); the outlet is at (100, 0).
 ForeignLayer taudem() {
@@ -159,11 +164,6 @@ testing::AssertionResult hangs_together(NetworkFile const& file) {
 
 std::string refusal(std::string const& path, io::ReadNetworkParams const& params = {}) {
     return message_of<BadInput>([&] { io::read_network(path, params); });
-}
-
-testing::AssertionResult says(std::string const& message, std::string const& words) {
-    return message.find(words) != std::string::npos ? testing::AssertionSuccess()
-                                                    : testing::AssertionFailure() << "'" << message << "'";
 }
 
 } // namespace
@@ -364,7 +364,7 @@ TEST(ForeignNetwork, GrassExtractIsLinkedByPlaces) {
     EXPECT_EQ(flow_of(file), (Flow{{1, 3}, {2, 3}, {3, 0}}));
     Finding const points = finding_of(file, "not_a_line");
     EXPECT_EQ(points.amount, 2.0);
-    EXPECT_TRUE(says(points.text, "feature 1 is not a line, but a POINT"));
+    EXPECT_TRUE(has(points.text, "feature 1 is not a line, but a POINT"));
 }
 
 TEST(ForeignNetwork, FieldsThatAUserNamesAreEnough) {
@@ -384,14 +384,14 @@ TEST(ForeignNetwork, FieldsThatAUserNamesAreEnough) {
     EXPECT_EQ(count_of(file, "null_number"), 0); // no arc downstream
 
     std::string const unknown = refusal(path);
-    EXPECT_TRUE(says(unknown, "Nummer, nach, ordnung"));
-    EXPECT_TRUE(says(unknown, "taudem: linkno, dslinkno"));
-    EXPECT_TRUE(says(unknown, "native: arc_id, from_node, to_node, ds_arc"));
-    EXPECT_TRUE(says(refusal(path, {.fields = {{"arc_id", "nummer"}}}), "taudem: linkno"));
-    EXPECT_TRUE(says(refusal(path, {.fields = {{"arc_id", "numer"}, {"ds_arc", "nach"}}}),
-                     "no field numer. Did you mean 'Nummer'?"));
-    EXPECT_TRUE(says(refusal(path, {.fields = {{"arcid", "nummer"}}}), "Did you mean 'arc_id'?"));
-    EXPECT_TRUE(says(refusal(path, {.schema = io::Schema::hydrorivers}), "no field HYRIV_ID"));
+    EXPECT_TRUE(has(unknown, "Nummer, nach, ordnung"));
+    EXPECT_TRUE(has(unknown, "taudem: linkno, dslinkno"));
+    EXPECT_TRUE(has(unknown, "native: arc_id, from_node, to_node, ds_arc"));
+    EXPECT_TRUE(has(refusal(path, {.fields = {{"arc_id", "nummer"}}}), "taudem: linkno"));
+    EXPECT_TRUE(has(refusal(path, {.fields = {{"arc_id", "numer"}, {"ds_arc", "nach"}}}),
+                    "no field numer. Did you mean 'Nummer'?"));
+    EXPECT_TRUE(has(refusal(path, {.fields = {{"arcid", "nummer"}}}), "Did you mean 'arc_id'?"));
+    EXPECT_TRUE(has(refusal(path, {.schema = io::Schema::hydrorivers}), "no field HYRIV_ID"));
 }
 
 TEST(ForeignNetwork, AFieldMayBeMappedWithinASchema) {
@@ -399,7 +399,7 @@ TEST(ForeignNetwork, AFieldMayBeMappedWithinASchema) {
     layer.fields[0].first = "REACH";
     ScratchFolder const folder;
     std::string const path = written(folder, "r.gpkg", "GPKG", {layer});
-    EXPECT_TRUE(says(refusal(path), "no schema"));
+    EXPECT_TRUE(has(refusal(path), "no schema"));
     NetworkFile const file =
         io::read_network(path, {.schema = io::Schema::hydrorivers, .fields = {{"arc_id", "reach"}}});
     EXPECT_EQ(file.arcs[2].id, 20000003);
@@ -432,7 +432,7 @@ TEST(ForeignNetwork, AnyLinesAreTakenByTheirFeaturesOnRequest) {
                                      {"LINESTRING (100 100, 100 0)", {"73", "river", "Po"}}}};
     ScratchFolder const folder;
     std::string const path = written(folder, "ways.gpkg", "GPKG", {ways});
-    EXPECT_TRUE(says(refusal(path), "osm_id, waterway, name"));
+    EXPECT_TRUE(has(refusal(path), "osm_id, waterway, name"));
     NetworkFile const file = io::read_network(path, {.any_lines = true});
     EXPECT_EQ(file.schema, "lines");
     EXPECT_EQ(flow_of(file), (Flow{{1, 4}, {1, 0}, {3, 4}, {4, 0}})); // as they meet
@@ -443,7 +443,7 @@ TEST(ForeignNetwork, AnyLinesAreTakenByTheirFeaturesOnRequest) {
     EXPECT_EQ(file.arcs[3].name, "Po");
     EXPECT_EQ(std::get<std::string>(file.attributes.rows[3][0]), "73");
     // Fields that a user names are never passed over, and known schemas stay what they are.
-    EXPECT_TRUE(says(refusal(path, {.fields = {{"ds_arc", "osm_id"}}, .any_lines = true}), "no schema"));
+    EXPECT_TRUE(has(refusal(path, {.fields = {{"ds_arc", "osm_id"}}, .any_lines = true}), "no schema"));
     std::string const known = written(folder, "known.gpkg", "GPKG", {taudem()});
     EXPECT_EQ(io::read_network(known, {.any_lines = true}).schema, "taudem");
 }
@@ -467,7 +467,7 @@ TEST(ForeignNetwork, FieldsOfTwoSchemasAreAmbiguous) {
     layer.fields.emplace_back("DSLINKNO", OFTInteger);
     ScratchFolder const folder;
     std::string const path = written(folder, "r.gpkg", "GPKG", {layer});
-    EXPECT_TRUE(says(refusal(path), "several schemas (taudem, hydrorivers)"));
+    EXPECT_TRUE(has(refusal(path), "several schemas (taudem, hydrorivers)"));
     EXPECT_EQ(io::read_network(path, {.schema = io::Schema::hydrorivers}).arcs.size(), 3U);
 }
 
@@ -476,13 +476,13 @@ TEST(ForeignNetwork, TheLayerIsTheOneThatIsUnderstoodOrNamed) {
     ScratchFolder const folder;
     std::string const path = written(folder, "both.gpkg", "GPKG", {roads, taudem()});
     EXPECT_EQ(io::read_network(path, io::ReadNetworkParams{}).arcs.size(), 3U);
-    EXPECT_TRUE(says(refusal(path, {.arcs_layer = "roads"}), "no schema"));
-    EXPECT_TRUE(says(refusal(path, {.arcs_layer = "rivers"}), "no layer rivers (there are roads, net)"));
-    EXPECT_TRUE(says(refusal(path, {.nodes_layer = "points"}), "no layer points"));
+    EXPECT_TRUE(has(refusal(path, {.arcs_layer = "roads"}), "no schema"));
+    EXPECT_TRUE(has(refusal(path, {.arcs_layer = "rivers"}), "no layer rivers (there are roads, net)"));
+    EXPECT_TRUE(has(refusal(path, {.nodes_layer = "points"}), "no layer points"));
     ForeignLayer second = taudem();
     second.name = "other";
-    EXPECT_TRUE(says(refusal(written(folder, "two.gpkg", "GPKG", {taudem(), second})),
-                     "2 layers of lines; name one of them (net, other)"));
+    EXPECT_TRUE(has(refusal(written(folder, "two.gpkg", "GPKG", {taudem(), second})),
+                    "2 layers of lines; name one of them (net, other)"));
 }
 
 TEST(ForeignNetwork, NativeIsNativeInEveryFormat) {
@@ -522,3 +522,5 @@ TEST(ForeignNetwork, NativeIsNativeInEveryFormat) {
     EXPECT_EQ(original.arcs[0].us_area_m2, 0.1);
     EXPECT_EQ(io::read_network(folder / "x_arcs.geojson", io::ReadNetworkParams{}).arcs.size(), 6U);
 }
+
+} // namespace foreign_network_test

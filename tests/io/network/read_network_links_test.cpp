@@ -12,6 +12,8 @@
 
 #include <thalweg/io/network/internal/read_network_lines.hpp>
 
+namespace read_network_links_test {
+
 using namespace thalweg;
 
 // Each law against the obvious search of everything by everything.
@@ -247,3 +249,5 @@ TEST(ReadNetworkLinks, ALineInShuffledPiecesIsTheLine) {
         RC_ASSERT(drawn.drawn_parts == pieces);
     }));
 }
+
+} // namespace read_network_links_test

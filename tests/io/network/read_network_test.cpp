@@ -10,24 +10,24 @@
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/write_network.hpp>
 
-#include "message_of.hpp"
 #include "sample_networks.hpp"
 #include "scratch_folder.hpp"
+
+namespace read_network_test {
 
 using namespace thalweg;
 
 namespace {
 
+using test::has;
+using test::message_of;
+
 std::string refusal(std::string const& path) {
     return message_of<BadInput>([&] { io::read_network(path); });
-}
-
-testing::AssertionResult says(std::string const& message, std::string const& words) {
-    return message.find(words) != std::string::npos ? testing::AssertionSuccess()
-                                                    : testing::AssertionFailure() << "'" << message << "'";
 }
 
 // A GeoPackage of Y shape, changed by SQL.
@@ -78,12 +78,12 @@ void leave(OGRFeature& /*feature*/) {}
 
 TEST(ReadNetwork, MissingFileAndEmptyFolder) {
     ScratchFolder const folder;
-    EXPECT_TRUE(says(refusal(folder / "none.gpkg"), "does not exist"));
-    EXPECT_TRUE(says(refusal(folder.path().string()), "0 files NAME_arcs.shp"));
+    EXPECT_TRUE(has(refusal(folder / "none.gpkg"), "does not exist"));
+    EXPECT_TRUE(has(refusal(folder.path().string()), "0 files NAME_arcs.shp"));
     std::ofstream(folder / "text.gpkg") << "no network";
-    EXPECT_TRUE(says(refusal(folder / "text.gpkg"), "cannot be read"));
+    EXPECT_TRUE(has(refusal(folder / "text.gpkg"), "cannot be read"));
     std::ofstream(folder / "rivers.shp") << "no network";
-    EXPECT_TRUE(says(refusal(folder / "rivers.shp"), "neither NAME_arcs.shp nor NAME_nodes.shp"));
+    EXPECT_TRUE(has(refusal(folder / "rivers.shp"), "neither NAME_arcs.shp nor NAME_nodes.shp"));
 }
 
 TEST(ReadNetwork, EveryNameOfANetworkReadsTheSame) {
@@ -107,9 +107,9 @@ TEST(ReadNetwork, EveryNameOfANetworkReadsTheSame) {
         EXPECT_EQ(file.arcs[5].line.back(), (Vec3{1000.1, 0.0, 3.0}));
     }
     io::write_shapefiles(sample.tables(), folder / "shapes/second");
-    EXPECT_TRUE(says(refusal(folder / "shapes"), "2 files"));
+    EXPECT_TRUE(has(refusal(folder / "shapes"), "2 files"));
     std::filesystem::remove(folder / "shapes/net_nodes.shp");
-    EXPECT_TRUE(says(refusal(folder / "shapes/net_arcs.shp"), "net_nodes.shp does not exist"));
+    EXPECT_TRUE(has(refusal(folder / "shapes/net_arcs.shp"), "net_nodes.shp does not exist"));
 }
 
 TEST(ReadNetwork, BadNumbersInAFileAreReadAsTheyStand) {
@@ -123,26 +123,26 @@ TEST(ReadNetwork, BadNumbersInAFileAreReadAsTheyStand) {
 
 TEST(ReadNetwork, MissingLayerAndMissingFieldsAreNamed) {
     ScratchFolder const one;
-    EXPECT_TRUE(says(refusal(changed(one, {"DROP TABLE nodes"})), "no layer nodes"));
+    EXPECT_TRUE(has(refusal(changed(one, {"DROP TABLE nodes"})), "no layer nodes"));
     ScratchFolder const two;
-    EXPECT_TRUE(says(refusal(changed(two, {"ALTER TABLE arcs DROP COLUMN ds_arc",
-                                           "ALTER TABLE arcs RENAME COLUMN shreve TO magnitude"})),
-                     "layer arcs: no field ds_arc, shreve"));
+    EXPECT_TRUE(has(refusal(changed(two, {"ALTER TABLE arcs DROP COLUMN ds_arc",
+                                          "ALTER TABLE arcs RENAME COLUMN shreve TO magnitude"})),
+                    "layer arcs: no field ds_arc, shreve"));
 }
 
 TEST(ReadNetwork, NumbersMustBeThereAndWhole) {
     ScratchFolder const none;
-    EXPECT_TRUE(says(refusal(hand_made(none, wkbLineString25D, "LINESTRING Z (0 0 1, 1 1 0)",
-                                       [](OGRFeature& f) { f.SetFieldNull(f.GetFieldIndex("to_node")); })),
-                     "feature 1 has no to_node"));
+    EXPECT_TRUE(has(refusal(hand_made(none, wkbLineString25D, "LINESTRING Z (0 0 1, 1 1 0)",
+                                      [](OGRFeature& f) { f.SetFieldNull(f.GetFieldIndex("to_node")); })),
+                    "feature 1 has no to_node"));
     ScratchFolder const half;
-    EXPECT_TRUE(says(refusal(hand_made(
-                         half, wkbLineString25D, "LINESTRING Z (0 0 1, 1 1 0)",
-                         [](OGRFeature& f) { f.SetField("strahler", 1.5); }, OFTReal)),
-                     "strahler 1.5, not a whole number"));
+    EXPECT_TRUE(has(refusal(hand_made(
+                        half, wkbLineString25D, "LINESTRING Z (0 0 1, 1 1 0)",
+                        [](OGRFeature& f) { f.SetField("strahler", 1.5); }, OFTReal)),
+                    "strahler 1.5, not a whole number"));
     ScratchFolder const text;
-    EXPECT_TRUE(says(refusal(hand_made(text, wkbLineString25D, "LINESTRING Z (0 0 1, 1 1 0)", leave, OFTString)),
-                     "arc_id holds text, which is read as numbers"));
+    EXPECT_TRUE(has(refusal(hand_made(text, wkbLineString25D, "LINESTRING Z (0 0 1, 1 1 0)", leave, OFTString)),
+                    "arc_id holds text, which is read as numbers"));
     ScratchFolder const whole;
     EXPECT_EQ(io::read_network(hand_made(
                                    whole, wkbLineString25D, "LINESTRING Z (0 0 1, 1 1 0)",
@@ -154,12 +154,12 @@ TEST(ReadNetwork, NumbersMustBeThereAndWhole) {
 
 TEST(ReadNetwork, ShapesMustBeLinesWithZ) {
     ScratchFolder const flat;
-    EXPECT_TRUE(says(refusal(hand_made(flat, wkbLineString, "LINESTRING (0 0, 1 1)", leave)), "has no heights (Z)"));
+    EXPECT_TRUE(has(refusal(hand_made(flat, wkbLineString, "LINESTRING (0 0, 1 1)", leave)), "has no heights (Z)"));
     ScratchFolder const polygon;
-    EXPECT_TRUE(says(refusal(hand_made(polygon, wkbPolygon25D, "POLYGON Z ((0 0 0, 1 1 0, 1 0 0, 0 0 0))", leave)),
-                     "is not a line"));
+    EXPECT_TRUE(has(refusal(hand_made(polygon, wkbPolygon25D, "POLYGON Z ((0 0 0, 1 1 0, 1 0 0, 0 0 0))", leave)),
+                    "is not a line"));
     ScratchFolder const parts;
-    EXPECT_TRUE(says(
+    EXPECT_TRUE(has(
         refusal(hand_made(parts, wkbMultiLineString25D, "MULTILINESTRING Z ((0 0 1, 1 1 0), (2 2 1, 3 3 0))", leave)),
         "has 2 parts"));
     ScratchFolder const one;
@@ -204,3 +204,5 @@ TEST(ReadNetwork, DamagedFileIsNotReadInPart) {
     std::filesystem::resize_file(path, size / 2);
     EXPECT_THROW(io::read_network(path), Error);
 }
+
+} // namespace read_network_test

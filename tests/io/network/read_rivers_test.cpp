@@ -15,15 +15,22 @@
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 
+#include "scratch_folder.hpp"
+
+namespace read_rivers_test {
+
 using namespace thalweg;
 namespace fs = std::filesystem;
 
 namespace {
+
+using test::has;
 
 struct Feature {
     std::string wkt;
@@ -40,15 +47,7 @@ struct Layer {
 
 class ReadRivers : public ::testing::Test {
 protected:
-    void SetUp() override {
-        folder_ = fs::temp_directory_path() /
-                  ("thalweg_rivers_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    std::string path(std::string const& name) const { return (folder_ / name).string(); }
+    std::string path(std::string const& name) const { return folder_ / name; }
 
     std::string write(std::string const& name, std::vector<Layer> const& layers, char const* format = "GPKG") {
         io::Driver const driver;
@@ -83,26 +82,12 @@ protected:
     }
 
     std::string refusal(io::ReadRiversParams const& params) {
-        try {
-            io::read_rivers(params);
-        } catch (BadInput const& e) {
-            return e.what();
-        }
-        return "taken";
+        return test::message_of<BadInput>([&] { io::read_rivers(params); });
     }
 
 private:
-    fs::path folder_;
+    ScratchFolder folder_;
 };
-
-bool has(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
-}
-
-std::string bytes_of(std::string const& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::vector<Vec2> plan(RiverLine const& line) {
     std::vector<Vec2> result;
@@ -484,3 +469,5 @@ TEST(Walker, EveryEvidenceSaysTheSame) {
     EXPECT_EQ(outlet(network::Orientation::rank), outlet(network::Orientation::as_drawn));
     EXPECT_EQ(outlet(network::Orientation::rank), outlet(network::Orientation::automatic));
 }
+
+} // namespace read_rivers_test

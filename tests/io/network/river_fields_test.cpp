@@ -12,6 +12,8 @@
 
 #include "vector_files.hpp"
 
+namespace river_fields_test {
+
 using namespace thalweg;
 
 namespace {
@@ -143,3 +145,5 @@ TEST(RiverFields, WhatIsNoNaturalWatercourseSaysWhy) {
                   .unnatural,
               (std::vector<std::string>{"", "FTYPE Coastline", "FTYPE 428", "FCODE 33600 CanalDitch", "", ""}));
 }
+
+} // namespace river_fields_test

@@ -19,6 +19,8 @@
 #include "scratch_folder.hpp"
 #include "vector_files.hpp"
 
+namespace user_columns_test {
+
 using namespace thalweg;
 using io::Schema;
 using Type = AttributeTable::Type;
@@ -261,3 +263,5 @@ TEST(UserColumns, EveryFormatGivesBackWhatAFileSaid) {
         }
     }
 }
+
+} // namespace user_columns_test

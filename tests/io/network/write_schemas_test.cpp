@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 #include <rapidcheck.h>
 
 #include <measure/trees.hpp>
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/write_network.hpp>
@@ -19,15 +18,18 @@
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
 
-#include "message_of.hpp"
 #include "sample_networks.hpp"
 #include "scratch_folder.hpp"
+
+namespace write_schemas_test {
 
 using namespace thalweg;
 using io::NetworkFormat;
 using io::Schema;
 
 namespace {
+
+using test::message_of;
 
 struct Close {
     void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
@@ -305,7 +307,6 @@ TEST(WriteSchemas, SameBytesEachTimeAndNoFileButThoseAnnounced) {
             CPLErrorReset();
             io::write_network(sample.tables(), one / name, params);
             EXPECT_EQ(CPLGetLastErrorType(), CE_None) << format.name << CPLGetLastErrorMsg();
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
             io::write_network(sample.tables(), two / name, params);
             auto const files = io::network_files(name, params);
             EXPECT_EQ(one.entries(), static_cast<std::ptrdiff_t>(files.size())) << format.name;
@@ -441,3 +442,5 @@ TEST(WriteSchemas, SamplesComeBackFromEverySchemaOnceTheyAreSplit) {
         }
     }
 }
+
+} // namespace write_schemas_test

@@ -17,14 +17,21 @@
 #include <ogrsf_frmts.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "full_disk.hpp"
 #include "scratch_folder.hpp"
 
+namespace raster_files_test {
+
 using namespace thalweg;
 
 namespace {
+
+using test::has;
+using test::message_of;
+using test::on_threads;
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
@@ -36,11 +43,7 @@ Opened open(std::string const& path) {
 }
 
 Raster<float> raster(std::int64_t width, std::int64_t height, std::function<double(Cell)> const& z) {
-    Raster<float> dem(Grid{width, height, 10.0, 500000.0, 4000000.0, "EPSG:32631"});
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        dem[i] = static_cast<float>(z(dem.grid().at(i)));
-    }
-    return dem;
+    return test::raster_of({width, height, 10.0, 500000.0, 4000000.0, "EPSG:32631"}, z);
 }
 
 bool same_bits(std::span<float const> a, std::span<float const> b) {
@@ -49,17 +52,7 @@ bool same_bits(std::span<float const> a, std::span<float const> b) {
 }
 
 template <class Failure = BadInput> std::string refusal(std::string const& path) {
-    try {
-        io::read_dem(path);
-    } catch (Failure const& error) {
-        return error.what();
-    }
-    return "";
-}
-
-testing::AssertionResult says(std::string const& message, std::string const& words) {
-    return message.find(words) != std::string::npos ? testing::AssertionSuccess()
-                                                    : testing::AssertionFailure() << "'" << message << "'";
+    return message_of<Failure>([&] { io::read_dem(path); });
 }
 
 // A GeoTIFF of 1 band (or more), placed as given, each cell the value.
@@ -97,12 +90,8 @@ TEST(WriteDem, HeightsThatCannotBeStoredAreNamed) {
          {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(), -9999.0F}) {
         Raster<float> dem = raster(3, 2, [](Cell) { return 1.0; });
         dem[Cell{2, 1}] = bad;
-        try {
-            io::write_dem(dem, folder / "dem.tif");
-            FAIL() << bad;
-        } catch (BadInput const& error) {
-            EXPECT_TRUE(says(error.what(), "column 2, row 1"));
-        }
+        EXPECT_TRUE(has(message_of<BadInput>([&] { io::write_dem(dem, folder / "dem.tif"); }), "column 2, row 1"))
+            << bad;
     }
     EXPECT_EQ(folder.entries(), 0);
 }
@@ -176,8 +165,7 @@ TEST(WriteDem, SameBytesForAnyNumberOfThreads) {
         mask[i] = 1;
     }
     for (int const threads : {1, 2, 8}) {
-        thalweg::Run run;
-        run.threads = threads;
+        thalweg::Run const run = on_threads(threads);
         io::write_dem(dem, folder / ("dem" + std::to_string(threads)), run);
         io::write_mask(mask, folder / ("mask" + std::to_string(threads)), run);
     }
@@ -235,11 +223,11 @@ TEST(WriteDem, MaskIsAByteGeoTiff) {
 
 TEST(ReadDem, WhatIsNoRasterIsRefused) {
     ScratchFolder const folder;
-    EXPECT_TRUE(says(refusal(folder / "none.tif"), "does not exist"));
-    EXPECT_TRUE(says(refusal("/vsicurl/http://example.org/dem.tif"), "does not exist"));
+    EXPECT_TRUE(has(refusal(folder / "none.tif"), "does not exist"));
+    EXPECT_TRUE(has(refusal("/vsicurl/http://example.org/dem.tif"), "does not exist"));
     std::ofstream(folder / "text.tif") << "no raster";
-    EXPECT_TRUE(says(refusal(folder / "text.tif"), "cannot be read"));
-    EXPECT_TRUE(says(refusal(folder.path().string()), "cannot be read"));
+    EXPECT_TRUE(has(refusal(folder / "text.tif"), "cannot be read"));
+    EXPECT_TRUE(has(refusal(folder.path().string()), "cannot be read"));
 }
 
 TEST(ReadDem, OneCell) {
@@ -251,30 +239,30 @@ TEST(ReadDem, OneCell) {
 TEST(ReadDem, OnlyNoData) {
     ScratchFolder const folder;
     io::write_dem(raster(3, 3, [](Cell) { return none; }), folder / "dem.tif");
-    EXPECT_TRUE(says(refusal(folder / "dem.tif"), "holds no heights"));
-    EXPECT_TRUE(says(refusal(tiff(folder, north_up, none)), "holds no heights"));
+    EXPECT_TRUE(has(refusal(folder / "dem.tif"), "holds no heights"));
+    EXPECT_TRUE(has(refusal(tiff(folder, north_up, none)), "holds no heights"));
 }
 
 TEST(ReadDem, FramesThatAreNotSquareAndNorthUpAreRefused) {
     ScratchFolder const folder;
-    EXPECT_TRUE(says(refusal(tiff(folder, {0.0, 2.0, 0.1, 0.0, 0.0, -2.0}, 1.0)), "is rotated"));
-    EXPECT_TRUE(says(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.5}, 1.0)), "cells of 2 x 2.5"));
-    EXPECT_TRUE(says(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, 2.0}, 1.0)), "not north-up"));
-    EXPECT_TRUE(says(refusal(tiff(folder, {0.0, -2.0, 0.0, 0.0, 0.0, -2.0}, 1.0)), "not north-up"));
-    EXPECT_TRUE(says(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.0001}, 1.0)), "2.0001"));
+    EXPECT_TRUE(has(refusal(tiff(folder, {0.0, 2.0, 0.1, 0.0, 0.0, -2.0}, 1.0)), "is rotated"));
+    EXPECT_TRUE(has(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.5}, 1.0)), "cells of 2 x 2.5"));
+    EXPECT_TRUE(has(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, 2.0}, 1.0)), "not north-up"));
+    EXPECT_TRUE(has(refusal(tiff(folder, {0.0, -2.0, 0.0, 0.0, 0.0, -2.0}, 1.0)), "not north-up"));
+    EXPECT_TRUE(has(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.0001}, 1.0)), "2.0001"));
     EXPECT_EQ(io::read_dem(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.000001}, 1.0)).grid().cell_m, 2.0);
 }
 
 TEST(ReadDem, ImplausibleHeightIsNamed) {
     ScratchFolder const folder;
-    EXPECT_TRUE(says(refusal(tiff(folder, north_up, 2e30)), "column 0, row 0 is 2"));
-    EXPECT_TRUE(says(refusal(tiff(folder, north_up, -std::numeric_limits<double>::infinity())), "damaged"));
+    EXPECT_TRUE(has(refusal(tiff(folder, north_up, 2e30)), "column 0, row 0 is 2"));
+    EXPECT_TRUE(has(refusal(tiff(folder, north_up, -std::numeric_limits<double>::infinity())), "damaged"));
     EXPECT_EQ(io::read_dem(tiff(folder, north_up, 9e29))[0], 9e29F);
 }
 
 TEST(ReadDem, SeveralBandsAreRefused) {
     ScratchFolder const folder;
-    EXPECT_TRUE(says(refusal(tiff(folder, north_up, 1.0, 3)), "has 3 bands"));
+    EXPECT_TRUE(has(refusal(tiff(folder, north_up, 1.0, 3)), "has 3 bands"));
 }
 
 TEST(ReadDem, ScaleOffsetAndForeignNoData) {
@@ -319,7 +307,7 @@ TEST(ReadDem, LargerThanMemoryIsRefusedAtOnce) {
     ScratchFolder const folder;
     std::ofstream(folder / "dem.vrt") << "<VRTDataset rasterXSize=\"2000000000\" rasterYSize=\"2000000000\">"
                                          "<VRTRasterBand dataType=\"Float32\" band=\"1\"/></VRTDataset>";
-    EXPECT_TRUE(says(refusal(folder / "dem.vrt"), "larger than memory"));
+    EXPECT_TRUE(has(refusal(folder / "dem.vrt"), "larger than memory"));
 }
 
 TEST(ReadDem, DamagedTilesNeverPassUnseen) {
@@ -448,10 +436,8 @@ TEST(WriteField, WritesDoublesExactly) {
         field[i] = static_cast<double>(i) / 3.0;
     }
     field[5] = std::numeric_limits<double>::quiet_NaN();
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run two;
-    two.threads = 2;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const two = on_threads(2);
     io::write_field(field, folder / "field.tif", one);
     io::write_field(field, folder / "again.tif", two);
     EXPECT_TRUE(bytes_of(folder / "field.tif") == bytes_of(folder / "again.tif"));
@@ -468,3 +454,5 @@ TEST(WriteField, WritesDoublesExactly) {
     field[5] = 0.0;
     EXPECT_THROW(io::write_field(field, folder / "again.tif"), IoError);
 }
+
+} // namespace raster_files_test

@@ -16,6 +16,8 @@
 
 #include "scratch_folder.hpp"
 
+namespace read_drawable_test {
+
 using namespace thalweg;
 using io::Drawable;
 using io::read_drawable;
@@ -184,3 +186,5 @@ TEST(ReadDrawable, SaysWhatItHadToAssume) {
     made.bands = 3;
     EXPECT_TRUE(notes_say(read_drawable(make(folder, "bands.tif", made)), "first of 3 bands"));
 }
+
+} // namespace read_drawable_test

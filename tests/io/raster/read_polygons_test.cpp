@@ -3,18 +3,24 @@
 #include <thalweg/io/raster/read_polygons.hpp>
 
 #include <cmath>
-#include <fstream>
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/raster/write_dem.hpp>
 
 #include "scratch_folder.hpp"
 
+namespace read_polygons_test {
+
 using namespace thalweg;
 
 namespace {
+
+using test::has;
+using test::message_of;
+using test::write;
 
 std::string geojson(std::string const& geometry, int epsg = 32631) {
     return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::)" +
@@ -26,54 +32,41 @@ std::string const square =
     R"({"type":"Polygon","coordinates":[[[500000,0],[500100,0],[500100,100],[500000,100],[500000,0]],)"
     R"([[500020,20],[500040,20],[500040,40],[500020,20]]]})";
 
-void write(ScratchFolder const& folder, std::string const& name, std::string const& text) {
-    std::ofstream(folder / name) << text;
-}
-
 std::string refused(std::string const& path, std::string const& crs = "EPSG:32631") {
-    try {
-        io::read_polygons(path, crs);
-    } catch (BadInput const& error) {
-        return error.what();
-    }
-    return "nothing was thrown";
-}
-
-bool contains(std::string const& text, std::string const& words) {
-    return text.find(words) != std::string::npos;
+    return message_of<BadInput>([&] { io::read_polygons(path, crs); });
 }
 
 } // namespace
 
 TEST(ReadPolygons, RefusesNamingFileLayerAndFeature) {
     ScratchFolder const folder;
-    EXPECT_TRUE(contains(refused(folder / "none.gpkg"), "does not exist"));
-    write(folder, "line.geojson", geojson(R"({"type":"LineString","coordinates":[[1,1],[2,2]]})"));
-    EXPECT_TRUE(contains(refused(folder / "line.geojson"), "line.geojson has no layer of polygons (line)"));
+    EXPECT_TRUE(has(refused(folder / "none.gpkg"), "does not exist"));
+    write(folder / "line.geojson", geojson(R"({"type":"LineString","coordinates":[[1,1],[2,2]]})"));
+    EXPECT_TRUE(has(refused(folder / "line.geojson"), "line.geojson has no layer of polygons (line)"));
     EXPECT_FALSE(io::holds_polygons(folder / "line.geojson"));
-    write(folder, "text.gpkg", "no file of shapes");
-    EXPECT_TRUE(contains(refused(folder / "text.gpkg"), "cannot be read"));
-    write(folder, "two.geojson",
+    write(folder / "text.gpkg", "no file of shapes");
+    EXPECT_TRUE(has(refused(folder / "text.gpkg"), "cannot be read"));
+    write(folder / "two.geojson",
           R"({"type":"FeatureCollection","features":[{"type":"Feature","id":1,"properties":{},"geometry":)"
           R"({"type":"Polygon","coordinates":[[[1,1],[2,1],[2,2],[1,1]]]}},{"type":"Feature","id":2,"properties":{},)"
           R"("geometry":{"type":"Point","coordinates":[1,1]}}]})");
-    EXPECT_TRUE(contains(refused(folder / "two.geojson"), "feature 2 of two.geojson is a Point, not a polygon"));
-    write(folder, "null.geojson",
+    EXPECT_TRUE(has(refused(folder / "two.geojson"), "feature 2 of two.geojson is a Point, not a polygon"));
+    write(folder / "null.geojson",
           R"({"type":"FeatureCollection","features":[{"type":"Feature","id":1,"properties":{},"geometry":)"
           R"({"type":"Polygon","coordinates":[[[1,1],[2,1],[2,2],[1,1]]]}},{"type":"Feature","id":5,"properties":{},)"
           R"("geometry":null}]})");
-    EXPECT_TRUE(contains(refused(folder / "null.geojson"), "feature 5 of null.geojson has no polygon"));
-    write(folder, "pole.geojson", geojson(R"({"type":"Polygon","coordinates":[[[1,1],[2,1],[2,95],[1,1]]]})", 4326));
-    EXPECT_TRUE(contains(refused(folder / "pole.geojson"), "vertex 3 of feature 7 of pole.geojson, (2, 95)"))
+    EXPECT_TRUE(has(refused(folder / "null.geojson"), "feature 5 of null.geojson has no polygon"));
+    write(folder / "pole.geojson", geojson(R"({"type":"Polygon","coordinates":[[[1,1],[2,1],[2,95],[1,1]]]})", 4326));
+    EXPECT_TRUE(has(refused(folder / "pole.geojson"), "vertex 3 of feature 7 of pole.geojson, (2, 95)"))
         << refused(folder / "pole.geojson");
-    write(folder, "a.geojson", geojson(square));
+    write(folder / "a.geojson", geojson(square));
     auto const text = refused(folder / "a.geojson", "");
-    EXPECT_TRUE(contains(text, "a.geojson has EPSG:32631, the grid has no CRS")) << text;
+    EXPECT_TRUE(has(text, "a.geojson has EPSG:32631, the grid has no CRS")) << text;
 }
 
 TEST(ReadPolygons, KeepsCoordinatesInTheSameCrs) {
     ScratchFolder const folder;
-    write(folder, "a.geojson", geojson(square));
+    write(folder / "a.geojson", geojson(square));
     EXPECT_TRUE(io::holds_polygons(folder / "a.geojson"));
     Polygons const read = io::read_polygons(folder / "a.geojson", "EPSG:32631");
     ASSERT_EQ(read.polygons.size(), 1U);
@@ -88,7 +81,7 @@ TEST(ReadPolygons, KeepsCoordinatesInTheSameCrs) {
 TEST(ReadPolygons, BringsPartsIntoTheGridsCrs) {
     ScratchFolder const folder;
     // On the equator at the zone's middle meridian, a thousandth of a degree wide.
-    write(folder, "b.geojson",
+    write(folder / "b.geojson",
           geojson(R"({"type":"MultiPolygon","coordinates":[[[[3,0],[3.001,0],[3.001,0.001],[3,0]]],)"
                   R"([[[3,1],[3.001,1],[3.001,1.001],[3,1]]]]})",
                   4326));
@@ -103,9 +96,9 @@ TEST(ReadPolygons, BringsPartsIntoTheGridsCrs) {
 
 TEST(ReadPolygons, TheCrsWhereNoneIsAskedIsMetric) {
     ScratchFolder const folder;
-    write(folder, "metres.geojson", geojson(square));
+    write(folder / "metres.geojson", geojson(square));
     EXPECT_EQ(io::crs_for_polygons(folder / "metres.geojson"), "EPSG:32631");
-    write(folder, "degrees.geojson",
+    write(folder / "degrees.geojson",
           geojson(R"({"type":"Polygon","coordinates":[[[8,-3],[10,-3],[10,-1],[8,-3]]]})", 4326));
     EXPECT_EQ(io::crs_for_polygons(folder / "degrees.geojson"), "EPSG:32732");
     EXPECT_THROW(io::crs_for_polygons(folder / "none.geojson"), BadInput);
@@ -117,3 +110,5 @@ TEST(ReadPolygons, ARasterHoldsNone) {
     EXPECT_FALSE(io::holds_polygons(folder / "m.tif"));
     EXPECT_THROW(io::holds_polygons(folder / "none.tif"), BadInput);
 }
+
+} // namespace read_polygons_test

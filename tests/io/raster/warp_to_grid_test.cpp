@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/frame/places_on_earth.hpp>
 #include <thalweg/io/frame/same_frame.hpp>
@@ -16,30 +17,20 @@
 
 #include "scratch_folder.hpp"
 
+namespace warp_to_grid_test {
+
 using namespace thalweg;
 
 namespace {
 
+using test::full_message_of;
+using test::has;
+
 Raster<float> plane(Grid const& grid, double east, double south) {
-    Raster<float> dem(grid);
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        Vec2 const p = grid.centre(grid.at(i));
-        dem[i] = static_cast<float>(100.0 + east * (p.x - grid.west) + south * (grid.north - p.y));
-    }
-    return dem;
-}
-
-template <class Act> std::string refused(Act const& act) {
-    try {
-        act();
-    } catch (BadInput const& error) {
-        return std::string(error.where()) + ": " + error.what();
-    }
-    return "nothing was thrown";
-}
-
-bool contains(std::string const& text, std::string const& words) {
-    return text.find(words) != std::string::npos;
+    return test::raster_of(grid, [&](Cell c) {
+        Vec2 const p = grid.centre(c);
+        return 100.0 + east * (p.x - grid.west) + south * (grid.north - p.y);
+    });
 }
 
 Grid const utm{40, 30, 30.0, 500000.0, 4000000.0, "EPSG:32631"};
@@ -65,10 +56,10 @@ TEST(WarpToGrid, LeavesWhatFits) {
 TEST(WarpToGrid, RefusesWhereOnlyOneSideHasACrs) {
     Grid bare = utm;
     bare.crs = "";
-    auto const text = refused([&] { io::warp_to_grid(plane(utm, 0, 0), bare, "io.test: a.tif"); });
-    EXPECT_TRUE(contains(text, "io.test: a.tif has EPSG:32631, the grid has no CRS")) << text;
-    EXPECT_TRUE(
-        contains(refused([&] { io::warp_to_grid(plane(bare, 0, 0), utm, "a"); }), "a has no CRS, the grid has"));
+    auto const text = full_message_of<BadInput>([&] { io::warp_to_grid(plane(utm, 0, 0), bare, "io.test: a.tif"); });
+    EXPECT_TRUE(has(text, "io.test: a.tif has EPSG:32631, the grid has no CRS")) << text;
+    EXPECT_TRUE(has(full_message_of<BadInput>([&] { io::warp_to_grid(plane(bare, 0, 0), utm, "a"); }),
+                    "a has no CRS, the grid has"));
 }
 
 TEST(WarpToGrid, OtherCellsLieOnTheGridsLattice) {
@@ -127,7 +118,8 @@ TEST(WarpToGrid, RealLandComesIntoItsZone) {
 TEST(WarpToGrid, WhatWouldNotFitInMemoryIsRefused) {
     Grid tiny = utm;
     tiny.cell_m = 1e-6;
-    EXPECT_TRUE(contains(refused([&] { io::warp_to_grid(plane(utm, 0, 0), tiny, "a"); }), "more than memory holds"));
+    EXPECT_TRUE(has(full_message_of<BadInput>([&] { io::warp_to_grid(plane(utm, 0, 0), tiny, "a"); }),
+                    "more than memory holds"));
 }
 
 TEST(WarpToGrid, CellsTooSmallForTheirPositionAreRefused) {
@@ -167,7 +159,8 @@ TEST(SameFrame, ComparesCrsAndCells) {
     EXPECT_TRUE(io::overlap_on_earth(beyond, fiji, "a", "b"));
     Grid nowhere = utm;
     nowhere.west = 1e300;
-    EXPECT_TRUE(contains(refused([&] { io::overlap_on_earth(utm, nowhere, "a.tif", "b.tif"); }), "b.tif lies where"));
+    EXPECT_TRUE(has(full_message_of<BadInput>([&] { io::overlap_on_earth(utm, nowhere, "a.tif", "b.tif"); }),
+                    "b.tif lies where"));
 }
 
 TEST(ReadMask, TakesCellsThatAreNeitherZeroNorNoData) {
@@ -187,12 +180,14 @@ TEST(ReadMask, TakesCellsThatAreNeitherZeroNorNoData) {
     EXPECT_EQ(again[3] + again[4], 2);
     Grid other = utm;
     other.width = 41;
-    EXPECT_TRUE(contains(refused([&] { io::read_mask(folder / "b.tif", other); }), "40 x 30 cells"));
+    EXPECT_TRUE(has(full_message_of<BadInput>([&] { io::read_mask(folder / "b.tif", other); }), "40 x 30 cells"));
     other = utm;
     other.crs = "EPSG:32632";
-    auto const text = refused([&] { io::read_mask(folder / "b.tif", other); });
-    EXPECT_TRUE(contains(text, "is in EPSG:32631, the grid in EPSG:32632")) << text;
+    auto const text = full_message_of<BadInput>([&] { io::read_mask(folder / "b.tif", other); });
+    EXPECT_TRUE(has(text, "is in EPSG:32631, the grid in EPSG:32632")) << text;
     other.crs = "";
-    EXPECT_TRUE(contains(refused([&] { io::read_mask(folder / "b.tif", other); }), "the grid has no CRS"));
-    EXPECT_TRUE(contains(refused([&] { io::read_mask(folder / "c.tif", utm); }), "does not exist"));
+    EXPECT_TRUE(has(full_message_of<BadInput>([&] { io::read_mask(folder / "b.tif", other); }), "the grid has no CRS"));
+    EXPECT_TRUE(has(full_message_of<BadInput>([&] { io::read_mask(folder / "c.tif", utm); }), "does not exist"));
 }
+
+} // namespace warp_to_grid_test

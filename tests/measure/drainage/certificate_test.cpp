@@ -18,6 +18,8 @@
 
 #include "dems.hpp"
 
+namespace certificate_test {
+
 using namespace thalweg;
 using flow::Reach;
 using flow::route;
@@ -434,3 +436,5 @@ TEST(Agreement, BestThresholdIsTheBestOfAll) {
         }
     }));
 }
+
+} // namespace certificate_test

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/measure/drainage/extract_ridges.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+namespace extract_ridges_test {
 
 using namespace thalweg;
 using namespace thalweg::measure;
@@ -18,12 +21,9 @@ Grid const ground{80, 60, 10.0, 1000.0, 5000.0, ""};
 
 /// A roof: its ridge along row 30, a little higher to the east.
 Raster<float> roof() {
-    Raster<float> dem(ground);
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        Cell const c = ground.at(i);
-        dem[i] = 500.0F - 3.0F * static_cast<float>(std::abs(c.row - 30)) + 0.5F * static_cast<float>(c.col);
-    }
-    return dem;
+    return test::raster_of(ground, [&](Cell c) {
+        return 500.0F - 3.0F * static_cast<float>(std::abs(c.row - 30)) + 0.5F * static_cast<float>(c.col);
+    });
 }
 
 RidgeLines along_row(std::int64_t row) {
@@ -56,3 +56,5 @@ TEST(ExtractRidges, ARidgeThatTheDemHasNotIsMissed) {
     ExtractedRidges const found = extract_ridges(roof(), along_row(10));
     EXPECT_LT(found.extracted[1].f(), 0.3);
 }
+
+} // namespace extract_ridges_test

@@ -15,6 +15,8 @@
 #include "dems.hpp"
 #include "trees.hpp"
 
+namespace horton_test {
+
 using namespace thalweg;
 using measure::horton;
 using measure::HortonLaws;
@@ -177,3 +179,5 @@ TEST(Horton, StreamsAreChainsOfEqualOrder) {
         }
     }));
 }
+
+} // namespace horton_test

@@ -20,6 +20,8 @@
 #include "dems.hpp"
 #include "trees.hpp"
 
+namespace network_laws_test {
+
 using namespace thalweg;
 using namespace thalweg::measure;
 
@@ -339,3 +341,5 @@ TEST(NaturalRanges, SayWhereTheyComeFrom) {
     }
     EXPECT_EQ(natural_range("colour"), nullptr);
 }
+
+} // namespace network_laws_test

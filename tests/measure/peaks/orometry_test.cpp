@@ -17,6 +17,8 @@
 
 #include "dems.hpp"
 
+namespace orometry_test {
+
 using namespace thalweg;
 using measure::isolation;
 using measure::orometry;
@@ -138,3 +140,5 @@ TEST(Orometry, CountsByArea) {
     EXPECT_TRUE(std::isnan(orometry(Raster<float>{}).peaks_per_km2));
     EXPECT_TRUE(std::isnan(orometry(Raster<float>(frame(5, 5), 1.0F)).median_isolation_m));
 }
+
+} // namespace orometry_test

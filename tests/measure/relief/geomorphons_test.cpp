@@ -9,10 +9,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "dems.hpp"
+
+namespace geomorphons_test {
 
 using namespace thalweg;
 using measure::Form;
@@ -21,6 +24,8 @@ using measure::Geomorphons;
 using measure::geomorphons;
 
 namespace {
+
+using test::on_threads;
 
 struct Counts {
     int rise = 0;
@@ -172,12 +177,12 @@ TEST(Geomorphons, TurnedOverValleysAreRidges) {
 
 TEST(Geomorphons, SameBytesForAnyThreads) {
     Raster<float> const dem = rough_dem(frame(300, 300), 11);
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run five;
-    five.threads = 5;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const five = on_threads(5);
     Geomorphons const a = geomorphons(dem, {}, one);
     Geomorphons const b = geomorphons(dem, {}, five);
     EXPECT_TRUE(std::equal(a.form.values().begin(), a.form.values().end(), b.form.values().begin()));
     EXPECT_EQ(a.shares, b.shares);
 }
+
+} // namespace geomorphons_test

@@ -9,15 +9,22 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "dems.hpp"
+
+namespace hypsometry_test {
 
 using namespace thalweg;
 using measure::hypsometry;
 using measure::Hypsometry;
 
 namespace {
+
+using test::has;
+using test::message_of;
+using test::on_threads;
 
 void hold_to_definition(Raster<float> const& dem) {
     std::vector<double> heights;
@@ -56,12 +63,10 @@ TEST(Hypsometry, OneHeight) {
 TEST(Hypsometry, RefusesNoHeightsAndInfiniteOnes) {
     EXPECT_THROW(hypsometry(Raster<float>{}), BadInput);
     EXPECT_THROW(hypsometry(dem_of(2, {hole, hole})), BadInput);
-    try {
-        hypsometry(dem_of(2, {1.0F, 2.0F, 3.0F, -std::numeric_limits<float>::infinity()}));
-        FAIL();
-    } catch (BadInput const& e) {
-        EXPECT_NE(std::string(e.what()).find("column 1, row 1"), std::string::npos) << e.what();
-    }
+    EXPECT_TRUE(has(message_of<BadInput>([&] {
+                        hypsometry(dem_of(2, {1.0F, 2.0F, 3.0F, -std::numeric_limits<float>::infinity()}));
+                    }),
+                    "column 1, row 1"));
 }
 
 TEST(Hypsometry, HundredAndOneHeightsAreTheCurve) {
@@ -96,10 +101,8 @@ TEST(Hypsometry, SameBitsForAnyThreads) {
     for (std::int64_t i = 0; i < dem.cells(); i += 7) {
         dem[i] = hole;
     }
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run four;
-    four.threads = 4;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const four = on_threads(4);
     Hypsometry const a = hypsometry(dem, one);
     Hypsometry const b = hypsometry(dem, four);
     EXPECT_EQ(a.integral, b.integral);
@@ -107,3 +110,5 @@ TEST(Hypsometry, SameBitsForAnyThreads) {
         EXPECT_EQ(a.points[k].z, b.points[k].z);
     }
 }
+
+} // namespace hypsometry_test

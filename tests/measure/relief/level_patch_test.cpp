@@ -13,6 +13,8 @@
 
 #include "dems.hpp"
 
+namespace level_patch_test {
+
 using namespace thalweg;
 using measure::level_patch;
 using measure::LevelPatch;
@@ -104,3 +106,5 @@ TEST(LevelPatch, AsFoundByNumbers) {
         RC_ASSERT(found.cells == largest_by_numbers(dem, below_deg));
     }));
 }
+
+} // namespace level_patch_test

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
@@ -16,6 +17,8 @@
 #include <thalweg/measure/relief/relief_metrics.hpp>
 
 #include "graded_land.hpp"
+
+namespace relief_test {
 
 using namespace thalweg;
 using flow::route;
@@ -27,6 +30,8 @@ using measure::relief;
 using measure::statistics;
 
 namespace {
+
+using test::on_threads;
 
 Relief relief_of(Raster<float> const& dem, Run const& run = {}) {
     return relief(dem, route(dem, run), statistics(dem, run), {}, run);
@@ -184,10 +189,8 @@ TEST(Relief, TotalVariation) {
 
 TEST(Relief, SameBitsForAnyThreads) {
     Raster<float> const dem = rough_dem(frame(260, 300), 11);
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run five;
-    five.threads = 5;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const five = on_threads(5);
     Relief const a = relief_of(dem, one);
     Relief const b = relief_of(dem, five);
     for (measure::ReliefMetric const& figure : measure::relief_metrics()) {
@@ -195,3 +198,5 @@ TEST(Relief, SameBitsForAnyThreads) {
         EXPECT_TRUE(unknown || figure.of(a) == figure.of(b)) << figure.key;
     }
 }
+
+} // namespace relief_test

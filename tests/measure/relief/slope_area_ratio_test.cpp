@@ -10,6 +10,8 @@
 
 #include "graded_land.hpp"
 
+namespace slope_area_ratio_test {
+
 using namespace thalweg;
 using flow::route;
 using measure::slope_area_ratio;
@@ -43,3 +45,5 @@ TEST(SlopeAreaRatio, IsTheMeanSlopeOfEither) {
     }
     EXPECT_NEAR(slope_area_ratio(dem, drainage), 0.2 / 0.6, 1e-6);
 }
+
+} // namespace slope_area_ratio_test

@@ -13,6 +13,8 @@
 
 #include "graded_land.hpp"
 
+namespace slope_area_test {
+
 using namespace thalweg;
 using flow::route;
 using measure::chi;
@@ -97,3 +99,5 @@ TEST(SlopeArea, OfTheLandsOwnDrainage) {
     ASSERT_TRUE(law);
     EXPECT_NEAR(-law->exponent, 0.45, 0.1);
 }
+
+} // namespace slope_area_test

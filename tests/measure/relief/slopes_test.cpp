@@ -11,15 +11,20 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "dems.hpp"
+
+namespace slopes_test {
 
 using namespace thalweg;
 using measure::Slopes;
 using measure::slopes;
 
 namespace {
+
+using test::on_threads;
 
 /// Horn's gradient of every cell that has one, written out.
 std::vector<std::pair<double, double>> gradients(Raster<float> const& dem) {
@@ -46,15 +51,11 @@ double degrees(double angle) {
 Raster<float> plane(double towards_deg, double tangent, double cell_m) {
     Grid grid = frame(9, 7);
     grid.cell_m = cell_m;
-    Raster<float> dem(grid);
     double const angle = towards_deg * std::numbers::pi / 180.0;
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        Cell const c = grid.at(i);
-        dem[i] = static_cast<float>(
-            tangent * cell_m *
-            (std::cos(angle) * static_cast<double>(c.col) + std::sin(angle) * static_cast<double>(c.row)));
-    }
-    return dem;
+    return test::raster_of(grid, [&](Cell c) {
+        return tangent * cell_m *
+               (std::cos(angle) * static_cast<double>(c.col) + std::sin(angle) * static_cast<double>(c.row));
+    });
 }
 
 } // namespace
@@ -153,10 +154,8 @@ TEST(Slopes, AConeFacesEveryWay) {
 
 TEST(Slopes, SameBitsForAnyThreads) {
     Raster<float> const dem = rough_dem(frame(300, 500), 11);
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run five;
-    five.threads = 5;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const five = on_threads(5);
     Slopes const a = slopes(dem, one);
     Slopes const b = slopes(dem, five);
     EXPECT_EQ(a.mean_deg, b.mean_deg);
@@ -166,3 +165,5 @@ TEST(Slopes, SameBitsForAnyThreads) {
     EXPECT_EQ(a.percentile_deg, b.percentile_deg);
     EXPECT_EQ(a.aspects_on_grid, b.aspects_on_grid);
 }
+
+} // namespace slopes_test

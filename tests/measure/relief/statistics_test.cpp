@@ -10,16 +10,21 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "dems.hpp"
+
+namespace statistics_test {
 
 using namespace thalweg;
 using measure::statistics;
 using measure::Statistics;
 
 namespace {
+
+using test::on_threads;
 
 /// Sums over every pair of cells at a distance.
 struct Pairs {
@@ -249,10 +254,9 @@ TEST(Statistics, HolesAreLeftOutAndMakeDifferencesOneSided) {
 TEST(Statistics, SlopeInUnitCellsAndInMetres) {
     Grid grid = frame(6, 5);
     grid.cell_m = 30.0;
-    Raster<float> dem(grid);
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        dem[i] = static_cast<float>(3 * grid.at(i).col + 4 * grid.at(i).row); // |grad| = 5 m a cell everywhere
-    }
+    Raster<float> dem = test::raster_of(grid, [&](Cell c) {
+        return 3 * c.col + 4 * c.row; // |grad| = 5 m a cell everywhere
+    });
     EXPECT_NEAR(statistics(dem).slope_rad, std::atan(5.0), 1e-15);
     EXPECT_NEAR(statistics(dem).slope_true_deg, std::atan(5.0 / 30.0) * 180.0 / 3.14159265358979323846, 1e-13);
 }
@@ -319,12 +323,10 @@ TEST(Statistics, WhatAPlainDoesNotTellIsNotANumber) {
 
 TEST(Statistics, SameBitsForAnyNumberOfThreads) {
     Raster<float> const dem = rough_dem(frame(301, 257), 5);
-    thalweg::Run one;
-    one.threads = 1;
+    thalweg::Run const one = on_threads(1);
     Statistics const a = statistics(dem, one);
     for (int const threads : {2, 5}) {
-        thalweg::Run many;
-        many.threads = threads;
+        thalweg::Run const many = on_threads(threads);
         Statistics const b = statistics(dem, many);
         EXPECT_EQ(a.mean, b.mean);
         EXPECT_EQ(a.std, b.std);
@@ -355,3 +357,5 @@ TEST(CompensatedSum, KeepsWhatRoundingDrops) {
     }
     EXPECT_EQ(sum.value(), 2.0);
 }
+
+} // namespace statistics_test

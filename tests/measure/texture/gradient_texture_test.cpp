@@ -7,9 +7,12 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "dems.hpp"
+
+namespace gradient_texture_test {
 
 using namespace thalweg;
 using measure::gradient_texture;
@@ -18,6 +21,8 @@ using measure::texture_lags_m;
 
 namespace {
 
+using test::on_threads;
+
 Grid cells_of(double cell_m, std::int64_t width, std::int64_t height) {
     Grid grid = frame(width, height);
     grid.cell_m = cell_m;
@@ -25,11 +30,7 @@ Grid cells_of(double cell_m, std::int64_t width, std::int64_t height) {
 }
 
 template <class Height> Raster<float> dem_by(Grid const& grid, Height height) {
-    Raster<float> dem(grid);
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        dem[i] = static_cast<float>(height(grid.at(i)));
-    }
-    return dem;
+    return test::raster_of(grid, height);
 }
 
 /// d z by central differences, at the edges to one side.
@@ -182,12 +183,12 @@ TEST(GradientTexture, HolesAreLeftOut) {
 
 TEST(GradientTexture, SameBitsForAnyThreads) {
     Raster<float> const dem = rough_dem(cells_of(30.0, 310, 290), 3);
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run five;
-    five.threads = 5;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const five = on_threads(5);
     GradientTexture const a = gradient_texture(dem, {}, one);
     GradientTexture const b = gradient_texture(dem, {}, five);
     EXPECT_EQ(a.correlation, b.correlation);
     EXPECT_EQ(a.anisotropy, b.anisotropy);
 }
+
+} // namespace gradient_texture_test

@@ -8,10 +8,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/routing/route.hpp>
 
 #include "dems.hpp"
+
+namespace straight_channels_test {
 
 using namespace thalweg;
 using flow::route;
@@ -22,12 +25,9 @@ namespace {
 
 /// A valley along the middle row of a plane that falls to the east.
 Raster<float> valley(std::int64_t width) {
-    Raster<float> dem(frame(width, 9));
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        Cell const at = dem.grid().at(i);
-        dem[i] = static_cast<float>(width - at.col) + 4.0F * std::fabs(static_cast<float>(at.row - 4));
-    }
-    return dem;
+    return test::raster_of(frame(width, 9), [&](Cell at) {
+        return static_cast<float>(width - at.col) + 4.0F * std::fabs(static_cast<float>(at.row - 4));
+    });
 }
 
 } // namespace
@@ -105,3 +105,5 @@ TEST(StraightChannels, AsCountedDownstream) {
         RC_ASSERT(reaches == 0 || found.straight_share == static_cast<double>(straight) / static_cast<double>(reaches));
     }));
 }
+
+} // namespace straight_channels_test

@@ -17,6 +17,8 @@
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/run/error.hpp>
 
+namespace channels_test {
+
 namespace {
 
 using namespace thalweg;
@@ -58,23 +60,23 @@ std::string drawn(Channels const& rivers) {
 }
 
 TEST(Channels, NoNetworkIsNoChannels) {
-    ChannelsOfArcs const out = channels(StreamNetwork{}, test::grid_of(3, 3));
+    ChannelsOfArcs const out = channels(StreamNetwork{}, test::frame(3, 3));
     EXPECT_TRUE(out.channels.cell.empty());
     EXPECT_TRUE(out.of_arc.empty());
 }
 
 TEST(Channels, BadInputAndParametersAreNamed) {
     StreamNetwork const net = test::network_of({{0.5, 0.5}, {7.0, 0.5}}, {{1, 0}});
-    EXPECT_THROW(channels(net, test::grid_of(3, 3)), BadInput);
-    EXPECT_THROW(channels(net, test::grid_of(9, 3), {.look_cells = 65}), BadParameter);
-    EXPECT_THROW(channels(net, test::grid_of(9, 3), {.stub_cells = -1}), BadParameter);
+    EXPECT_THROW(channels(net, test::frame(3, 3)), BadInput);
+    EXPECT_THROW(channels(net, test::frame(9, 3), {.look_cells = 65}), BadParameter);
+    EXPECT_THROW(channels(net, test::frame(9, 3), {.stub_cells = -1}), BadParameter);
     StreamNetwork const ring = test::network_of({{0.5, 0.5}, {2.5, 0.5}}, {{0, 1}, {1, 0}});
-    EXPECT_THROW(channels(ring, test::grid_of(3, 3)), BadInput);
+    EXPECT_THROW(channels(ring, test::frame(3, 3)), BadInput);
 }
 
 TEST(Channels, AnArcWithinOneCellIsThatCell) {
     StreamNetwork const net = test::network_of({{1.2, 1.2}, {1.8, 1.7}}, {{0, 1}});
-    ChannelsOfArcs const out = channels(net, test::grid_of(3, 3));
+    ChannelsOfArcs const out = channels(net, test::frame(3, 3));
     EXPECT_EQ(out.channels.cell, std::vector<std::int64_t>{4});
     EXPECT_EQ(out.channels.receiver, std::vector<std::int64_t>{-1});
     EXPECT_EQ(out.of_arc, (std::vector<std::vector<std::int64_t>>{{0}}));
@@ -84,7 +86,7 @@ TEST(Channels, AForkAsDrawn) {
     //  two sources, a confluence in the middle, out in the south
     StreamNetwork const net =
         test::network_of({{2.5, 0.5}, {2.5, 2.5}, {0.5, 4.5}, {4.5, 4.5}}, {{1, 0}, {2, 1}, {3, 1}});
-    ChannelsOfArcs const out = channels(net, test::grid_of(5, 5));
+    ChannelsOfArcs const out = channels(net, test::frame(5, 5));
     EXPECT_EQ(drawn(out.channels), "1...3\n"
                                    ".1.3.\n"
                                    "..2..\n"
@@ -96,21 +98,21 @@ TEST(Channels, AForkAsDrawn) {
 
 TEST(Channels, CornersAreCutAndCellsWithoutWaterLeftOut) {
     StreamNetwork const net = test::network_of({{0.5, 0.5}, {3.5, 3.5}}, {{1, 0, {{0.5, 3.5}}}});
-    EXPECT_EQ(drawn(channels(net, test::grid_of(4, 4), literal()).channels), "2444\n"
-                                                                             "2...\n"
-                                                                             "2...\n"
-                                                                             "o...\n");
-    EXPECT_EQ(drawn(channels(net, test::grid_of(4, 4)).channels), ".344\n"
-                                                                  "2...\n"
-                                                                  "2...\n"
-                                                                  "o...\n");
+    EXPECT_EQ(drawn(channels(net, test::frame(4, 4), literal()).channels), "2444\n"
+                                                                           "2...\n"
+                                                                           "2...\n"
+                                                                           "o...\n");
+    EXPECT_EQ(drawn(channels(net, test::frame(4, 4)).channels), ".344\n"
+                                                                "2...\n"
+                                                                "2...\n"
+                                                                "o...\n");
 }
 
 TEST(Channels, AConfluenceCellThatBothArmsPassByIsLeftOut) {
     // both arms come to the node from the north, beside the stem's first cells
     StreamNetwork const net =
         test::network_of({{2.5, 0.5}, {2.5, 3.5}, {1.5, 3.5}, {3.5, 3.5}}, {{1, 0}, {2, 1}, {3, 1}});
-    ChannelsOfArcs const out = channels(net, test::grid_of(5, 4));
+    ChannelsOfArcs const out = channels(net, test::frame(5, 4));
     EXPECT_EQ(drawn(out.channels), ".1.3.\n"
                                    "..2..\n"
                                    "..2..\n"
@@ -122,10 +124,10 @@ TEST(Channels, AConfluenceCellThatBothArmsPassByIsLeftOut) {
 TEST(Channels, ALoopWithinCellsIsLeftOut) {
     StreamNetwork const net = test::network_of({{0.5, 0.5}, {5.5, 0.5}},
                                                {{1, 0, {{2.6, 0.5}, {2.6, 2.5}, {3.5, 2.5}, {3.5, 1.5}, {2.4, 0.6}}}});
-    test::require_law(channels(net, test::grid_of(6, 3), literal()).channels);
-    EXPECT_EQ(drawn(channels(net, test::grid_of(6, 3), literal()).channels), "......\n"
-                                                                             "......\n"
-                                                                             "o44444\n");
+    test::require_law(channels(net, test::frame(6, 3), literal()).channels);
+    EXPECT_EQ(drawn(channels(net, test::frame(6, 3), literal()).channels), "......\n"
+                                                                           "......\n"
+                                                                           "o44444\n");
 }
 
 TEST(Channels, RiversThatCrossAreOneFromThere) {
@@ -133,7 +135,7 @@ TEST(Channels, RiversThatCrossAreOneFromThere) {
     for (double const shift : {0.0, 1.0}) {
         StreamNetwork const net =
             test::network_of({{0.5, 0.5}, {19.5, 19.5}, {0.5, 19.5 - shift}, {19.5 - shift, 0.5}}, {{1, 0}, {3, 2}});
-        ChannelsOfArcs const out = channels(net, test::grid_of(20, 20));
+        ChannelsOfArcs const out = channels(net, test::frame(20, 20));
         test::require_law(out.channels);
         ASSERT_EQ(out.notes.size(), 1U) << shift;
         EXPECT_EQ(out.notes.front().kind, "captured");
@@ -145,7 +147,7 @@ TEST(Channels, RiversThatCrossAreOneFromThere) {
 
 TEST(Channels, AStubBelowACrossingIsLeftOut) {
     StreamNetwork const net = test::network_of({{0.5, 5.5}, {19.5, 5.5}, {9.5, 0.5}, {9.5, 12.5}}, {{1, 0}, {3, 2}});
-    ChannelsOfArcs const out = channels(net, test::grid_of(20, 20));
+    ChannelsOfArcs const out = channels(net, test::frame(20, 20));
     test::require_law(out.channels);
     EXPECT_EQ(std::count(out.channels.receiver.begin(), out.channels.receiver.end(), -1), 1);
     EXPECT_EQ(out.channels.cell.size(), 20U + 7U);
@@ -158,7 +160,7 @@ TEST(Channels, KeepTheirLawWhateverIsDrawn) {
         auto const basins = *rc::gen::inRange<std::size_t>(1, 4);
         auto const side = *rc::gen::inRange<std::int64_t>(1, 80);
         StreamNetwork const net = test::random_forest(seed, nodes, basins);
-        Grid grid = test::grid_of(side, side);
+        Grid grid = test::frame(side, side);
         grid.cell_m = 1000.0 / static_cast<double>(side);
         grid.north = 1000.0;
         ChannelsParams const params = *rc::gen::element(ChannelsParams{}, literal(), ChannelsParams{64, 3});
@@ -192,7 +194,7 @@ TEST(Channels, RiversOnALatticeKeepTheirWay) {
     ASSERT_TRUE(rc::check("each arc's cells lead down to its outlet, and sources stay", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         StreamNetwork const net = test::random_skeleton(seed, 48);
-        Grid const grid = test::grid_of(48, 48);
+        Grid const grid = test::frame(48, 48);
         ChannelsOfArcs const out = channels(net, grid);
         test::require_law(out.channels);
         test::require_short(out.channels, 8);
@@ -209,3 +211,5 @@ TEST(Channels, RiversOnALatticeKeepTheirWay) {
 }
 
 } // namespace
+
+} // namespace channels_test

@@ -11,6 +11,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/channels/flood_lakes.hpp>
 
+namespace choose_lakes_test {
+
 namespace {
 
 using namespace thalweg;
@@ -19,7 +21,7 @@ using network::ChannelsOfArcs;
 using network::choose_lakes;
 
 ChannelsOfArcs one_river() {
-    return channels(test::network_of({{50.5, 0.5}, {50.5, 99.5}}, {{1, 0}}), test::grid_of(100, 100));
+    return channels(test::network_of({{50.5, 0.5}, {50.5, 99.5}}, {{1, 0}}), test::frame(100, 100));
 }
 
 TEST(ChooseLakes, RefusesBadParameters) {
@@ -42,7 +44,7 @@ TEST(ChooseLakes, AShareOfReaches) {
     ASSERT_TRUE(rc::check("lakes keep apart and from the edge, and can be flooded", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         StreamNetwork const net = test::random_skeleton(seed, 90);
-        Grid const grid = test::grid_of(90, 90);
+        Grid const grid = test::frame(90, 90);
         ChannelsOfArcs const drawn = channels(net, grid);
         std::vector<double> const areas(drawn.of_arc.size(), 5e4);
         auto const labels =
@@ -74,3 +76,5 @@ TEST(ChooseLakes, AShareOfReaches) {
 }
 
 } // namespace
+
+} // namespace choose_lakes_test

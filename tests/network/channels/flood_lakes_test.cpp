@@ -16,6 +16,8 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
+namespace flood_lakes_test {
+
 namespace {
 
 using namespace thalweg;
@@ -26,7 +28,7 @@ using network::Flooded;
 
 Raster<std::int32_t> labels_of(std::vector<std::string> const& rows) {
     Raster<std::int32_t> out(
-        test::grid_of(static_cast<std::int64_t>(rows[0].size()), static_cast<std::int64_t>(rows.size())));
+        test::frame(static_cast<std::int64_t>(rows[0].size()), static_cast<std::int64_t>(rows.size())));
     for (std::int64_t i = 0; i < out.cells(); ++i) {
         Cell const c = out.grid().at(i);
         char const sign = rows[static_cast<std::size_t>(c.row)][static_cast<std::size_t>(c.col)];
@@ -73,16 +75,16 @@ std::vector<std::string> kinds(Flooded const& flooded) {
 /// A river from the north to the south through the middle of eleven columns.
 ChannelsOfArcs one_river(std::int64_t height) {
     auto const top = static_cast<double>(height);
-    return channels(test::network_of({{5.5, 0.5}, {5.5, top - 0.5}}, {{1, 0}}), test::grid_of(11, height));
+    return channels(test::network_of({{5.5, 0.5}, {5.5, top - 0.5}}, {{1, 0}}), test::frame(11, height));
 }
 
 TEST(FloodLakes, RefusesWhatIsNotOnTheGrid) {
-    EXPECT_THROW(flood_lakes(one_river(8), Raster<std::int32_t>(test::grid_of(3, 3))), BadInput);
-    EXPECT_THROW(flood_lakes(one_river(8), Raster<std::int32_t>(test::grid_of(11, 8), -1)), BadInput);
+    EXPECT_THROW(flood_lakes(one_river(8), Raster<std::int32_t>(test::frame(3, 3))), BadInput);
+    EXPECT_THROW(flood_lakes(one_river(8), Raster<std::int32_t>(test::frame(11, 8), -1)), BadInput);
 }
 
 TEST(FloodLakes, NoLakeChangesNothing) {
-    Flooded const out = flood_lakes(one_river(8), Raster<std::int32_t>(test::grid_of(11, 8)));
+    Flooded const out = flood_lakes(one_river(8), Raster<std::int32_t>(test::frame(11, 8)));
     EXPECT_EQ(out.drawn.channels.cell, one_river(8).channels.cell);
     EXPECT_EQ(out.drawn.channels.receiver, one_river(8).channels.receiver);
     EXPECT_EQ(out.drawn.of_arc, one_river(8).of_arc);
@@ -140,7 +142,7 @@ TEST(FloodLakes, OneOutletEvenWhereTwoRiversLeave) {
     // two rivers side by side, the eastern one with a tributary
     StreamNetwork const net = test::network_of(
         {{3.5, 0.5}, {3.5, 11.5}, {7.5, 0.5}, {7.5, 11.5}, {7.5, 9.5}, {9.5, 11.5}}, {{1, 0}, {4, 2}, {3, 4}, {5, 4}});
-    Raster<std::int32_t> const lake = lake_between({2, 3}, {8, 7}, test::grid_of(11, 12));
+    Raster<std::int32_t> const lake = lake_between({2, 3}, {8, 7}, test::frame(11, 12));
     Flooded const out = flood_lakes(channels(net, lake.grid()), lake);
     test::require_law(out.drawn.channels, test::Diagonals::may_cross);
     ASSERT_EQ(out.lakes.size(), 1U);
@@ -157,7 +159,7 @@ TEST(FloodLakes, ARiverThatComesBackIsSwallowed) {
     // out to the east of the lake and in again
     StreamNetwork const net =
         test::network_of({{4.5, 0.5}, {4.5, 15.5}}, {{1, 0, {{4.5, 11.5}, {11.5, 11.5}, {11.5, 6.5}, {4.5, 6.5}}}});
-    Raster<std::int32_t> const lake = lake_between({2, 2}, {6, 12}, test::grid_of(14, 16));
+    Raster<std::int32_t> const lake = lake_between({2, 2}, {6, 12}, test::frame(14, 16));
     Flooded const out = flood_lakes(channels(net, lake.grid()), lake);
     test::require_law(out.drawn.channels, test::Diagonals::may_cross);
     ASSERT_EQ(out.lakes.size(), 1U);
@@ -170,7 +172,7 @@ TEST(FloodLakes, ARiverThatComesBackIsSwallowed) {
 TEST(FloodLakes, GivenHeightsAreRaisedToTheLake) {
     ChannelsOfArcs drawn = one_river(9);
     drawn.channels.z = {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F, 8.0F};
-    Raster<std::int32_t> const lake = lake_between({4, 2}, {6, 5}, test::grid_of(11, 9));
+    Raster<std::int32_t> const lake = lake_between({4, 2}, {6, 5}, test::frame(11, 9));
     Flooded const out = flood_lakes(drawn, lake);
     Channels const& rivers = out.drawn.channels;
     for (std::size_t i = 0; i < rivers.cell.size(); ++i) {
@@ -261,3 +263,5 @@ TEST(FloodLakes, WhateverIsDrawn) {
 }
 
 } // namespace
+
+} // namespace flood_lakes_test

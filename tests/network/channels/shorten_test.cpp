@@ -14,6 +14,8 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
+namespace shorten_test {
+
 namespace {
 
 using namespace thalweg;
@@ -43,7 +45,7 @@ std::vector<std::int64_t> some_tips(Channels const& rivers, std::uint64_t seed, 
 }
 
 TEST(Shorten, NothingGoneChangesNothing) {
-    ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
+    ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
     Shortened const out = shorten(fork(), drawn, {});
     EXPECT_TRUE(out.notes.empty());
     EXPECT_EQ(out.drawn.channels.cell, drawn.channels.cell);
@@ -52,7 +54,7 @@ TEST(Shorten, NothingGoneChangesNothing) {
 }
 
 TEST(Shorten, RefusesWhatIsNoTip) {
-    ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
+    ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
     EXPECT_THROW(shorten(fork(), drawn, {-1}), BadInput);
     EXPECT_THROW(shorten(fork(), drawn, {static_cast<std::int64_t>(drawn.channels.cell.size())}), BadInput);
     EXPECT_THROW(shorten(fork(), drawn, {0}), BadInput);
@@ -60,7 +62,7 @@ TEST(Shorten, RefusesWhatIsNoTip) {
 }
 
 TEST(Shorten, ATipBeginsFartherDown) {
-    ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
+    ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
     std::vector<std::int64_t> const left(drawn.of_arc[1].begin(), drawn.of_arc[1].begin() + 2);
     Shortened const out = shorten(fork(), drawn, left);
     EXPECT_EQ(out.network.arc(1).line, (std::vector<Vec2>{{2.5, 7.5}, {5.5, 4.5}}));
@@ -73,7 +75,7 @@ TEST(Shorten, ATipBeginsFartherDown) {
 }
 
 TEST(Shorten, CellsBesideTheirLineStay) {
-    ChannelsOfArcs drawn = channels(fork(), test::grid_of(11, 11));
+    ChannelsOfArcs drawn = channels(fork(), test::frame(11, 11));
     Grid const& grid = drawn.channels.grid;
     std::vector<std::int64_t> const& arm = drawn.of_arc[1];
     for (std::size_t k = 0; k + 1 < arm.size(); ++k) { // the line touches their corners
@@ -88,7 +90,7 @@ TEST(Shorten, CellsBesideTheirLineStay) {
 }
 
 TEST(Shorten, AnArmThatGoesLeavesOneRiver) {
-    ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
+    ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
     std::vector<std::int64_t> const left(drawn.of_arc[1].begin(), drawn.of_arc[1].end() - 1);
     Shortened const out = shorten(fork(), drawn, left);
     ASSERT_EQ(out.network.arc_count(), 1U);
@@ -99,7 +101,7 @@ TEST(Shorten, AnArmThatGoesLeavesOneRiver) {
 }
 
 TEST(Shorten, AllMayGo) {
-    ChannelsOfArcs const drawn = channels(fork(), test::grid_of(11, 11));
+    ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
     Shortened const out = shorten(fork(), drawn, some_tips(drawn.channels, 1, 1.0));
     EXPECT_EQ(out.network.arc_count(), 0U);
     EXPECT_TRUE(out.drawn.channels.cell.empty());
@@ -156,3 +158,5 @@ TEST(Shorten, WhatIsLeftIsWhatWasDrawn) {
 }
 
 } // namespace
+
+} // namespace shorten_test

@@ -23,6 +23,8 @@
 #include <set>
 #include <utility>
 
+namespace side_valleys_test {
+
 using namespace thalweg;
 using namespace thalweg::network;
 
@@ -48,13 +50,9 @@ Scene scene_of(StreamNetwork const& plan, Grid const& grid, std::uint64_t seed) 
     return scene;
 }
 
-Grid square(std::int64_t side) {
-    return {side, side, 1.0, 0.0, static_cast<double>(side), ""};
-}
-
 /// A river from the north to the south border, bent, with one tributary.
 Scene plain_scene() {
-    Grid const grid = square(90);
+    Grid const grid = test::frame(90, 90);
     return scene_of(test::network_of({{45.5, 80.5}, {50.5, 40.5}, {45.5, 0.5}, {80.5, 60.5}},
                                      {{0, 1, {{40.2, 60.7}}}, {1, 2, {{44.1, 20.3}}}, {3, 1, {{66.6, 44.4}}}}),
                     grid, 5);
@@ -159,7 +157,7 @@ TEST(SideValleys, WhatMakesNoSenseIsRefused) {
     Scene const scene = plain_scene();
     EXPECT_THROW(side_valleys(scene.rivers, scene.channels, scene.dem, scene.drainage, {0}), BadParameter);
     flow::FlowField other = scene.drainage;
-    other.area_cells = Raster<std::int64_t>(square(91));
+    other.area_cells = Raster<std::int64_t>(test::frame(91, 91));
     EXPECT_THROW(side_valleys(scene.rivers, scene.channels, scene.dem, other), BadInput);
 }
 
@@ -190,7 +188,9 @@ TEST(SideValleys, LawsOfRandomNetworks) {
         auto const support = *rc::gen::inRange<std::int64_t>(1, 120);
         StreamNetwork const plan = test::random_skeleton(seed, side);
         RC_PRE(plan.arc_count() > 0);
-        Scene const scene = scene_of(plan, square(side), seed);
+        Scene const scene = scene_of(plan, test::frame(side, side), seed);
         expect_lawful(scene, side_valleys(scene.rivers, scene.channels, scene.dem, scene.drainage, {support}), support);
     }));
 }
+
+} // namespace side_valleys_test

@@ -10,8 +10,11 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/order/order.hpp>
+
+namespace assign_types_test {
 
 namespace {
 
@@ -20,6 +23,8 @@ using network::assign_types;
 using network::AssignTypesParams;
 using network::Rosgen;
 using network::TypeChoice;
+using test::has;
+using test::message_of;
 
 /// Two sources, a confluence, the outlet at node 0; arcs of 100 m.
 StreamNetwork y_river(std::string const& left = "", std::string const& trunk = "") {
@@ -41,16 +46,7 @@ StreamNetwork binary(int order) {
 }
 
 std::string refusal(StreamNetwork const& net) {
-    try {
-        assign_types(net, network::order(net));
-    } catch (BadInput const& e) {
-        return e.what();
-    }
-    return "";
-}
-
-bool says(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
+    return message_of<BadInput>([&] { assign_types(net, network::order(net)); });
 }
 
 } // namespace
@@ -72,10 +68,10 @@ TEST(AssignTypes, EmptyAndBadInput) {
 
 TEST(AssignTypes, AnUnknownTypeIsNamedWithItsPlace) {
     std::string const said = refusal(y_river("", "da"));
-    EXPECT_TRUE(says(said, "'da', the type of arc 3 (feature 9) at (0.000, 100.000)")) << said;
-    EXPECT_TRUE(says(said, "Aa+, A, B, C, D, DA, E, F, G")) << said;
-    EXPECT_TRUE(says(said, "Did you mean 'DA'?")) << said;
-    EXPECT_TRUE(says(refusal(y_river("stream")), "'stream', the type of arc 1 (feature 7) at (-60.000, 180.000)"));
+    EXPECT_TRUE(has(said, "'da', the type of arc 3 (feature 9) at (0.000, 100.000)")) << said;
+    EXPECT_TRUE(has(said, "Aa+, A, B, C, D, DA, E, F, G")) << said;
+    EXPECT_TRUE(has(said, "Did you mean 'DA'?")) << said;
+    EXPECT_TRUE(has(refusal(y_river("stream")), "'stream', the type of arc 1 (feature 7) at (-60.000, 180.000)"));
 }
 
 TEST(AssignTypes, OwnTypesComeFirst) {
@@ -147,3 +143,5 @@ TEST(AssignTypes, Laws) {
         }
     }));
 }
+
+} // namespace assign_types_test

@@ -12,6 +12,8 @@
 #include <measure/trees.hpp>
 #include <thalweg/core/run/error.hpp>
 
+namespace drape_test {
+
 using namespace thalweg;
 
 namespace {
@@ -71,3 +73,5 @@ TEST(Drape, LeastHeightOfAllUpstream) {
         }
     }));
 }
+
+} // namespace drape_test

@@ -14,6 +14,8 @@
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/elevation/channel_heights.hpp>
 
+namespace elevate_from_dem_test {
+
 namespace {
 
 using namespace thalweg;
@@ -45,10 +47,10 @@ void require_consistent(ElevatedNetwork const& raised, StreamNetwork const& net)
 
 TEST(RaiseFromLand, NeedsLandUnderRivers) {
     StreamNetwork const net = test::network_of({{0.5, 0.5}, {2.5, 0.5}}, {{1, 0}});
-    Channels const rivers = channels(net, test::grid_of(3, 1)).channels;
-    EXPECT_THROW(elevate_from_dem(net, rivers, Raster<float>(test::grid_of(3, 2), 1.0F)), BadInput);
+    Channels const rivers = channels(net, test::frame(3, 1)).channels;
+    EXPECT_THROW(elevate_from_dem(net, rivers, Raster<float>(test::frame(3, 2), 1.0F)), BadInput);
     EXPECT_THROW(
-        elevate_from_dem(net, rivers, Raster<float>(test::grid_of(3, 1), std::numeric_limits<float>::infinity())),
+        elevate_from_dem(net, rivers, Raster<float>(test::frame(3, 1), std::numeric_limits<float>::infinity())),
         BadInput);
 }
 
@@ -56,7 +58,7 @@ TEST(RaiseFromLand, VerticesTakeTheirCellsHeightsAndShareADrop) {
     // three vertices in the middle cell: the first has its height, the others lie between it and the next cell
     StreamNetwork const net =
         test::network_of({{0.5, 0.5}, {1.5, 0.5}, {2.5, 0.5}}, {{1, 0, {{1.25, 0.5}}}, {2, 1, {{1.75, 0.5}}}});
-    Grid const grid = test::grid_of(3, 1);
+    Grid const grid = test::frame(3, 1);
     Raster<float> land(grid);
     land[0] = 1.0F;
     land[1] = 2.25F;
@@ -70,7 +72,7 @@ TEST(RaiseFromLand, CellsOfOneHeightMakeNoLevelArcOffALake) {
     // two confluences stand equally high where the water passes beside one of them
     StreamNetwork const net =
         test::network_of({{0.5, 0.5}, {1.5, 0.5}, {2.5, 0.5}, {3.5, 0.5}}, {{1, 0}, {2, 1}, {3, 2}});
-    Grid const grid = test::grid_of(4, 1);
+    Grid const grid = test::frame(4, 1);
     Raster<float> land(grid);
     land[0] = 1.0F;
     land[1] = 2.0F;
@@ -88,7 +90,7 @@ TEST(RaiseFromLand, ArcsFallWhereTheLandDoes) {
     ASSERT_TRUE(rc::check("on a lattice", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         StreamNetwork const net = test::random_skeleton(seed, 40);
-        Grid const grid = test::grid_of(40, 40);
+        Grid const grid = test::frame(40, 40);
         auto const drawn = channels(net, grid);
         ElevatedNetwork const raised = elevate_from_dem(net, drawn.channels, land_around(drawn.channels, seed, 0.0));
         require_consistent(raised, net);
@@ -99,7 +101,7 @@ TEST(RaiseFromLand, ArcsFallWhereTheLandDoes) {
     ASSERT_TRUE(rc::check("never rise and stay between the land's heights, whatever is drawn", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         StreamNetwork const net = test::random_forest(seed, *rc::gen::inRange<std::size_t>(0, 30), 2);
-        Grid grid = test::grid_of(50, 50);
+        Grid grid = test::frame(50, 50);
         grid.cell_m = 20.0;
         grid.north = 1000.0;
         auto const drawn = channels(net, grid);
@@ -110,8 +112,8 @@ TEST(RaiseFromLand, ArcsFallWhereTheLandDoes) {
 
 TEST(RaiseFromLand, LevelChannelsMakeLevelRivers) {
     StreamNetwork const net = test::random_skeleton(5, 40);
-    auto const drawn = channels(net, test::grid_of(40, 40));
-    Raster<float> const land(test::grid_of(40, 40), 7.0F);
+    auto const drawn = channels(net, test::frame(40, 40));
+    Raster<float> const land(test::frame(40, 40), 7.0F);
     ElevatedNetwork const raised = elevate_from_dem(net, drawn.channels, land);
     EXPECT_EQ(std::count(raised.node_z.begin(), raised.node_z.end(), 7.0),
               static_cast<std::ptrdiff_t>(raised.node_z.size()));
@@ -121,7 +123,7 @@ TEST(ChannelHeights, NeverRiseDownstream) {
     ASSERT_TRUE(rc::check("also where rivers share cells", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         StreamNetwork const net = test::random_forest(seed, *rc::gen::inRange<std::size_t>(0, 30), 2);
-        Grid grid = test::grid_of(50, 50);
+        Grid grid = test::frame(50, 50);
         grid.cell_m = 20.0;
         grid.north = 1000.0;
         Channels const rivers = channels(net, grid).channels;
@@ -138,3 +140,5 @@ TEST(ChannelHeights, NeverRiseDownstream) {
 }
 
 } // namespace
+
+} // namespace elevate_from_dem_test

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+namespace keep_heights_test {
+
 namespace {
 
 using namespace thalweg;
@@ -49,3 +51,5 @@ TEST(KeepHeights, OutletCarriedOnFallsWithTheSlope) {
     EXPECT_EQ(out.arc_z[2], (std::vector<double>{5, 1, -4}));
     EXPECT_EQ(out.node_z[3], -4);
 }
+
+} // namespace keep_heights_test

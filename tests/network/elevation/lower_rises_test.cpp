@@ -12,6 +12,8 @@
 
 #include "measure/trees.hpp"
 
+namespace lower_rises_test {
+
 using namespace thalweg;
 using network::lower_rises;
 using network::Lowered;
@@ -82,3 +84,5 @@ TEST(LowerRises, IsTheHighestThatFalls) {
         }
     }));
 }
+
+} // namespace lower_rises_test

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+namespace rosgen_test {
+
 using namespace thalweg::network;
 
 TEST(Rosgen, NamesReadBackAndNothingElseIsAName) {
@@ -48,3 +50,5 @@ TEST(Rosgen, OnlyTypesDAreBraided) {
     }
     EXPECT_EQ(braided, "D DA ");
 }
+
+} // namespace rosgen_test

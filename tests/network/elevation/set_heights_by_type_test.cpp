@@ -13,6 +13,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/order/order.hpp>
 
+namespace set_heights_by_type_test {
+
 namespace {
 
 using namespace thalweg;
@@ -124,3 +126,5 @@ TEST(SetHeightsByType, ChanceBelongsToSeedAndPlace) {
     auto const minus = raise(test::network_of({{0, 0}, {-0.0, 9.0}}, {{1, 0}}), 7);
     EXPECT_EQ(raise(test::network_of({{0, 0}, {0.0, 9.0}}, {{1, 0}}), 7), minus);
 }
+
+} // namespace set_heights_by_type_test

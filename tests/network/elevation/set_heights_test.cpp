@@ -12,19 +12,13 @@
 #include <network/networks.hpp>
 #include <thalweg/core/run/error.hpp>
 
+namespace set_heights_test {
+
 namespace {
 
 using namespace thalweg;
 using network::HeightMode;
 using network::set_heights;
-
-StreamNetwork any_network() {
-    auto const seed = *rc::gen::arbitrary<std::uint64_t>();
-    if (*rc::gen::arbitrary<bool>()) {
-        return test::random_skeleton(seed, *rc::gen::inRange<std::int64_t>(10, 40));
-    }
-    return test::random_forest(seed, *rc::gen::inRange<std::size_t>(0, 30), *rc::gen::inRange<std::size_t>(1, 4));
-}
 
 /// A hook: the source lies beside its outlet, the river goes far round (node 2 is farther out than node 3 above it).
 StreamNetwork hook() {
@@ -90,7 +84,7 @@ TEST(SetHeights, TheDefaultIsFiveDegreesRepaired) {
 TEST(SetHeights, Laws) {
     ASSERT_TRUE(
         rc::check("every arc falls strictly, no node below straight, ends bit for bit, vertices never rise", [] {
-            StreamNetwork const net = any_network();
+            StreamNetwork const net = test::any_network();
             double const slope = *rc::gen::element(1e-6, 0.087, 3.0);
             auto const straight = set_heights(net, {HeightMode::straight, slope});
             for (HeightMode const mode :
@@ -130,7 +124,7 @@ TEST(SetHeights, Laws) {
 
 TEST(SetHeights, TheRepairIsTheLeastMajorant) {
     ASSERT_TRUE(rc::check("z(u) = max over v downstream of s|v| + 0.01 s length(u, v); along_stream = s length", [] {
-        StreamNetwork const net = any_network();
+        StreamNetwork const net = test::any_network();
         double const slope = 0.087;
         auto const straight = set_heights(net, {HeightMode::straight, slope}).network.node_z;
         auto const repaired = set_heights(net, {HeightMode::straight_repaired, slope});
@@ -158,3 +152,5 @@ TEST(SetHeights, ALongChain) {
     auto const raised = set_heights(test::chain(200000), {HeightMode::along_stream, 1.0}).network;
     EXPECT_EQ(raised.node_z.back(), 2e5);
 }
+
+} // namespace set_heights_test

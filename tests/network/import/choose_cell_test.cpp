@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/import/choose_cell.hpp>
 
+#include <network/rivers.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
@@ -9,19 +10,13 @@
 
 #include <cmath>
 
+namespace choose_cell_test {
+
 namespace {
 
 using namespace thalweg;
 using network::choose_cell;
-
-RiverLines lines_of(std::vector<std::vector<Vec3>> const& drawn) {
-    RiverLines lines;
-    lines.name = "r.gpkg";
-    for (auto const& vertices : drawn) {
-        lines.lines.push_back({static_cast<std::int64_t>(lines.lines.size()) + 1, vertices, "", 0});
-    }
-    return lines;
-}
+using test::lines_of;
 
 /// A straight line with a vertex every step.
 std::vector<Vec3> straight(Vec2 from, Vec2 to, double step) {
@@ -122,3 +117,5 @@ RC_GTEST_PROP(ChooseCell, ARoundNumberAndFewEnoughCells, ()) {
     RC_ASSERT(is_round(cell));
     RC_ASSERT(cells_with(wide, tall, cell) <= 2000000.0);
 }
+
+} // namespace choose_cell_test

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+namespace clip_lines_test {
+
 namespace {
 
 using namespace thalweg;
@@ -50,3 +52,5 @@ TEST(ClipLines, CrossesWithoutAVertexInside) {
     ASSERT_EQ(out.lines.size(), 1U);
     EXPECT_EQ(out.lines[0].vertices, (std::vector<Vec3>{{0, 5, 20}, {10, 5, 10}}));
 }
+
+} // namespace clip_lines_test

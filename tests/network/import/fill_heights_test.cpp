@@ -7,25 +7,18 @@
 
 #include <gtest/gtest.h>
 
+#include <network/rivers.hpp>
 #include <thalweg/core/run/error.hpp>
+
+namespace fill_heights_test {
 
 namespace {
 
 using namespace thalweg;
 using network::fill_heights;
+using test::lines_of;
 
 double const none = std::nan("");
-
-RiverLines lines_of(std::vector<std::vector<Vec3>> const& lines) {
-    RiverLines out;
-    for (auto const& vertices : lines) {
-        RiverLine line;
-        line.feature = static_cast<std::int64_t>(out.lines.size()) + 1;
-        line.vertices = vertices;
-        out.lines.push_back(line);
-    }
-    return out;
-}
 
 std::vector<double> heights(RiverLines const& lines, std::size_t line) {
     std::vector<double> z;
@@ -85,3 +78,5 @@ TEST(FillHeights, ARiverOfItsOwnBeginsAtTheNearestHeight) {
     auto const filled = fill_heights(lines_of({{{0, 0, 100}, {100, 0, 90}}, {{90, 200, none}, {90, 100, none}}}), 0.1);
     EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{100, 90}));
 }
+
+} // namespace fill_heights_test

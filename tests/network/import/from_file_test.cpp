@@ -10,14 +10,19 @@
 #include <rapidcheck.h>
 
 #include <measure/trees.hpp>
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/network/order/order.hpp>
+
+namespace from_file_test {
 
 using namespace thalweg;
 using network::from_file;
 
 namespace {
+
+using test::message_of;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -37,12 +42,7 @@ NetworkFile y_shape() {
 }
 
 std::string fault_of(NetworkFile const& file) {
-    try {
-        from_file(file);
-    } catch (BadInput const& error) {
-        return error.what();
-    }
-    return "";
+    return message_of<BadInput>([&] { from_file(file); });
 }
 
 void expect_fault(NetworkFile const& file, std::string const& words) {
@@ -175,3 +175,5 @@ TEST(FromFile, UndoesAsFile) {
         }
     }));
 }
+
+} // namespace from_file_test

@@ -12,7 +12,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <network/rivers.hpp>
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
+
+namespace import_test {
 
 using namespace thalweg;
 using network::Divergences;
@@ -23,34 +27,17 @@ using network::Orientation;
 
 namespace {
 
+using test::count;
+using test::flats;
+using test::has;
+using test::message_of;
+
 constexpr ImportParams strictly{.divergences = Divergences::error};
 constexpr double no_z = std::numeric_limits<double>::quiet_NaN();
 
-RiverLine flat(std::int64_t feature, std::vector<Vec2> const& plan) {
-    RiverLine line;
-    line.feature = feature;
-    for (auto const p : plan) {
-        line.vertices.push_back({p.x, p.y, no_z});
-    }
-    return line;
-}
-
-RiverLines flats(std::vector<std::vector<Vec2>> const& plans) {
-    RiverLines lines;
-    lines.name = "rivers.gpkg";
-    for (auto const& plan : plans) {
-        lines.lines.push_back(flat(static_cast<std::int64_t>(lines.lines.size()) + 1, plan));
-    }
-    return lines;
-}
-
 RiverLines with_heights(std::vector<std::vector<Vec3>> const& all) {
-    RiverLines lines;
-    lines.name = "rivers.gpkg";
+    RiverLines lines = test::lines_of(all);
     lines.has_z = true;
-    for (auto const& vertices : all) {
-        lines.lines.push_back({static_cast<std::int64_t>(lines.lines.size()) + 1, vertices, "", 0});
-    }
     return lines;
 }
 
@@ -58,26 +45,9 @@ std::vector<Arc> arcs_of(Imported const& imported) {
     return imported.network.arcs();
 }
 
-std::int64_t count(Imported const& imported, std::string const& kind) {
-    return std::ranges::count(imported.repairs, kind, &Finding::kind);
-}
-
 Finding first(Imported const& imported, std::string const& kind) {
     auto const found = std::ranges::find(imported.repairs, kind, &Finding::kind);
     return found == imported.repairs.end() ? Finding{} : *found;
-}
-
-template <class Call> std::string message(Call const& call) {
-    try {
-        call();
-    } catch (BadInput const& e) {
-        return e.what();
-    }
-    return "";
-}
-
-bool has(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
 }
 
 using Step = std::pair<std::pair<double, double>, std::pair<double, double>>;
@@ -150,79 +120,93 @@ void expect_kept(StreamNetwork const& net, std::vector<RiverLine> const& lines) 
 } // namespace
 
 TEST(AdoptRefuses, Nothing) {
-    EXPECT_TRUE(has(message([] { import_lines(flats({})); }), "rivers.gpkg holds no lines"));
+    EXPECT_TRUE(has(message_of<BadInput>([] { import_lines(flats({})); }), "rivers.gpkg holds no lines"));
 }
 
 TEST(AdoptRefuses, NoLength) {
-    EXPECT_TRUE(has(message([] {
+    EXPECT_TRUE(has(message_of<BadInput>([] {
                         import_lines(flats({{{0, 0}, {1, 0}}, {}}));
                     }),
                     "river 2 in rivers.gpkg has no length"));
-    EXPECT_TRUE(has(message([] { import_lines(flats({{{4, 5}}})); }), "river 1 in rivers.gpkg has no length at (4.0"));
-    EXPECT_TRUE(has(message([] {
+    EXPECT_TRUE(has(message_of<BadInput>([] {
+                        import_lines(flats({{{4, 5}}}));
+                    }),
+                    "river 1 in rivers.gpkg has no length at (4.0"));
+    EXPECT_TRUE(has(message_of<BadInput>([] {
                         import_lines(flats({{{0, 0}, {1, 0}}, {{7, 7}, {7, 7}, {7, 7}}}));
                     }),
                     "river 2 in rivers.gpkg has no length at (7.000000, 7.000000)"));
 }
 
 TEST(AdoptRefuses, NotFinite) {
-    EXPECT_TRUE(has(message([] {
+    EXPECT_TRUE(has(message_of<BadInput>([] {
                         import_lines(flats({{{0, 0}, {1, no_z}, {2, 0}}}));
                     }),
                     "vertex 2 of river 1 in rivers.gpkg"));
-    EXPECT_TRUE(has(message([] { import_lines(flats({{{INFINITY, 0}, {1, 0}}})); }), "vertex 1 of river 1"));
-    EXPECT_TRUE(has(message([] { import_lines(with_heights({{{0, 0, 1}, {1, 0, no_z}}})); }), "vertex 2 of river 1"));
+    EXPECT_TRUE(has(message_of<BadInput>([] {
+                        import_lines(flats({{{INFINITY, 0}, {1, 0}}}));
+                    }),
+                    "vertex 1 of river 1"));
+    EXPECT_TRUE(has(message_of<BadInput>([] {
+                        import_lines(with_heights({{{0, 0, 1}, {1, 0, no_z}}}));
+                    }),
+                    "vertex 2 of river 1"));
 }
 
 TEST(AdoptRefuses, BadSnap) {
     EXPECT_THROW(import_lines(flats({{{0, 0}, {1, 0}}}), {.snap_m = -1.0}), BadParameter);
     EXPECT_THROW(import_lines(flats({{{0, 0}, {1, 0}}}), {.snap_m = no_z}), BadParameter);
     auto const cross = flats({{{0, -15}, {0, 15}}, {{-17, 0}, {17, 0}}});
-    EXPECT_TRUE(has(message([&] { import_lines(cross, {.snap_m = 20.0}); }), "every river in rivers.gpkg is shorter"));
+    EXPECT_TRUE(has(message_of<BadInput>([&] { import_lines(cross, {.snap_m = 20.0}); }),
+                    "every river in rivers.gpkg is shorter"));
 }
 
 TEST(AdoptRefuses, Cycles) {
-    auto const triangle = message([] {
+    auto const triangle = message_of<BadInput>([] {
         import_lines(flats({{{0, 0}, {4, 0}}, {{4, 0}, {2, 3}}, {{2, 3}, {0, 0}}, {{9, 9}, {4, 0}}}), strictly);
     });
     EXPECT_TRUE(has(triangle, "rivers 1, 2 and 3 in rivers.gpkg form a cycle through (2.000000, 3.000000)"))
         << triangle;
-    auto const braid = message([] {
+    auto const braid = message_of<BadInput>([] {
         import_lines(flats({{{0, 0}, {2, 1}, {4, 0}}, {{0, 0}, {2, -1}, {4, 0}}}), strictly);
     });
     EXPECT_TRUE(has(braid, "rivers 1 and 2 in rivers.gpkg form a cycle")) << braid;
-    auto const ring = message([] { import_lines(flats({{{0, 0}, {2, 1}, {4, 0}, {0, 0}}}), strictly); });
+    auto const ring = message_of<BadInput>([] { import_lines(flats({{{0, 0}, {2, 1}, {4, 0}, {0, 0}}}), strictly); });
     EXPECT_TRUE(has(ring, "river 1 in rivers.gpkg forms a cycle")) << ring;
-    auto const knot = message([] { import_lines(flats({{{0, 0}, {4, 0}, {2, 2}, {2, -2}}}), strictly); });
+    auto const knot = message_of<BadInput>([] { import_lines(flats({{{0, 0}, {4, 0}, {2, 2}, {2, -2}}}), strictly); });
     EXPECT_TRUE(has(knot, "river 1 in rivers.gpkg forms a cycle through (2.000000, 0.000000)")) << knot;
-    auto const twice = message([] { import_lines(flats({{{0, 0}, {9, 0}}, {{1, 1}, {2, -1}, {3, 1}}}), strictly); });
+    auto const twice = message_of<BadInput>([] {
+        import_lines(flats({{{0, 0}, {9, 0}}, {{1, 1}, {2, -1}, {3, 1}}}), strictly);
+    });
     EXPECT_TRUE(has(twice, "rivers 1 and 2 in rivers.gpkg form a cycle through")) << twice;
 }
 
 TEST(AdoptRefuses, Bifurcations) {
-    auto const by_height = message([] {
+    auto const by_height = message_of<BadInput>([] {
         import_lines(with_heights({{{0, 0, 9}, {0, -5, 5}}, {{0, -5, 5}, {-4, -9, 1}}, {{0, -5, 5}, {3, -9, 2}}}),
                      strictly);
     });
     EXPECT_TRUE(has(by_height, "rivers 3 and 2 in rivers.gpkg both run away from (0.000000, -5.000000) by height"))
         << by_height;
     auto const fork = flats({{{0, 0}, {0, -5}}, {{0, -5}, {-4, -9}}, {{0, -5}, {3, -9}}});
-    auto const drawn =
-        message([&] { import_lines(fork, {.orientation = Orientation::as_drawn, .divergences = Divergences::error}); });
+    auto const drawn = message_of<BadInput>(
+        [&] { import_lines(fork, {.orientation = Orientation::as_drawn, .divergences = Divergences::error}); });
     EXPECT_TRUE(has(drawn, "both run away from (0.000000, -5.000000) by the drawn direction")) << drawn;
     auto ranked = flats({{{0, 0}, {1, 0}}, {{1, 0}, {2, 0}}, {{2, 0}, {3, 0}}});
     ranked.lines[0].rank = 1;
     ranked.lines[1].rank = 5;
     ranked.lines[2].rank = 2;
-    auto const by_rank = message([&] { import_lines(ranked, strictly); });
+    auto const by_rank = message_of<BadInput>([&] { import_lines(ranked, strictly); });
     EXPECT_TRUE(has(by_rank, "both run away from") && has(by_rank, "by rank")) << by_rank;
 }
 
 TEST(AdoptRefuses, EvidenceThatIsNotThere) {
     auto const line = flats({{{0, 0}, {1, 0}}});
-    EXPECT_TRUE(has(message([&] { import_lines(line, {.orientation = Orientation::height}); }), "no heights"));
-    EXPECT_TRUE(has(message([&] { import_lines(line, {.orientation = Orientation::rank}); }), "no rank"));
-    EXPECT_TRUE(has(message([&] { network::take_file_heights(import_lines(line), line); }), "carry no heights"));
+    EXPECT_TRUE(
+        has(message_of<BadInput>([&] { import_lines(line, {.orientation = Orientation::height}); }), "no heights"));
+    EXPECT_TRUE(has(message_of<BadInput>([&] { import_lines(line, {.orientation = Orientation::rank}); }), "no rank"));
+    EXPECT_TRUE(
+        has(message_of<BadInput>([&] { network::take_file_heights(import_lines(line), line); }), "carry no heights"));
 }
 
 TEST(Import, StopsWhenAsked) {
@@ -301,7 +285,7 @@ TEST(AdoptSnaps, AnEndOnALineStaysWhereItIs) {
     auto const lines = flats({{{0, 0}, {3, 1}}, {{1, 5}, {1, 1.0 / 3.0}}});
     auto const imported = import_lines(lines);
     EXPECT_EQ(imported.network.arc_count(), 3U);
-    EXPECT_EQ(count(imported, "snapped"), 0);
+    EXPECT_EQ(count(imported.repairs, "snapped"), 0);
     expect_kept(imported.network, lines.lines);
 }
 
@@ -316,7 +300,7 @@ TEST(AdoptSplits, AtACrossing) {
     auto const lines = flats({{{0, 1}, {3, 1}}, {{1, 0}, {2, 3}}}); // they cross at (4/3, 1)
     auto const imported = import_lines(lines);
     EXPECT_EQ(imported.network.arc_count(), 4U);
-    EXPECT_EQ(count(imported, "split"), 2);
+    EXPECT_EQ(count(imported.repairs, "split"), 2);
     EXPECT_EQ(first(imported, "split").where, (Vec2{4.0 / 3.0, 1}));
     expect_trees(imported.network);
     expect_kept(imported.network, lines.lines);
@@ -325,7 +309,7 @@ TEST(AdoptSplits, AtACrossing) {
 TEST(AdoptSplits, WhereALineTouchesAVertex) {
     auto const imported = import_lines(flats({{{0, 0}, {5, 0}, {10, 0}}, {{5, 7}, {5, 0}}}));
     EXPECT_EQ(imported.network.arc_count(), 3U);
-    EXPECT_EQ(count(imported, "split"), 1);
+    EXPECT_EQ(count(imported.repairs, "split"), 1);
     expect_trees(imported.network);
 }
 
@@ -350,7 +334,7 @@ TEST(AdoptDropsDuplicates, IdenticalReversedAndNear) {
     auto const imported =
         import_lines(flats({{{0, 0}, {5, 1}, {9, 0}}, {{0, 0}, {5, 1}, {9, 0}}, {{9, 0}, {5, 1}, {0, 0}}}));
     EXPECT_EQ(imported.network.arc_count(), 1U);
-    EXPECT_EQ(count(imported, "duplicate"), 2);
+    EXPECT_EQ(count(imported.repairs, "duplicate"), 2);
     auto const near = import_lines(flats({{{0, 0}, {5, 1}, {9, 0}}, {{9, 0.1}, {5, 1.1}, {0, 0}}}), {.snap_m = 0.5});
     EXPECT_EQ(near.network.arc_count(), 1U);
     EXPECT_EQ(first(near, "duplicate").feature, 2);
@@ -369,7 +353,7 @@ TEST(AdoptDropsDuplicates, APartThatOverlaps) {
 TEST(AdoptOrients, ByHeight) {
     auto const imported =
         import_lines(with_heights({{{0, 0, 1}, {5, 0, 4}}, {{5, 0, 4}, {9, 0, 7}}, {{5, 0, 4}, {5, 9, 8}}}));
-    EXPECT_EQ(count(imported, "reversed"), 3);
+    EXPECT_EQ(count(imported.repairs, "reversed"), 3);
     EXPECT_EQ(first(imported, "reversed").amount, 5.0);
     ASSERT_EQ(imported.network.outlets().size(), 1U);
     EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at, (Vec2{0, 0}));
@@ -383,14 +367,14 @@ TEST(AdoptOrients, ByRankWhateverWasDrawn) {
     lines.lines[2].rank = 20;
     auto const imported = import_lines(lines);
     EXPECT_EQ(imported.network.node(imported.network.outlets().at(0)).at, (Vec2{0, 0}));
-    EXPECT_EQ(count(imported, "reversed"), 2);
+    EXPECT_EQ(count(imported.repairs, "reversed"), 2);
 }
 
 TEST(AdoptOrients, TheOneReachDrawnTheWrongWay) {
     auto const lines = flats({{{0, 90}, {0, 60}}, {{0, 40}, {0, 60}}, {{0, 40}, {0, 0}}, {{50, 60}, {0, 40}}});
     auto const imported = import_lines(lines);
     EXPECT_EQ(imported.network.node(imported.network.outlets().at(0)).at, (Vec2{0, 0}));
-    EXPECT_EQ(count(imported, "reversed"), 1);
+    EXPECT_EQ(count(imported.repairs, "reversed"), 1);
     EXPECT_EQ(first(imported, "reversed").feature, 2);
 }
 
@@ -441,14 +425,15 @@ TEST(AdoptHeights, UphillNamesRiverAndVertices) {
     auto const uphill = with_heights({{{0, 0, 20}, {1, 0, 9}},
                                       {{0, 5, 20}, {1, 5, 9}},
                                       {{0, 9, 20}, {1, 9, 18}, {2, 9, 13}, {3, 9, 12.1}, {4, 9, 12.9}, {5, 9, 3}}});
-    EXPECT_EQ(message([&] { network::take_file_heights(import_lines(uphill), uphill); }),
+    EXPECT_EQ(message_of<BadInput>([&] { network::take_file_heights(import_lines(uphill), uphill); }),
               "river 3 in rivers.gpkg runs uphill between vertex 4 (12.1 m) and 5 (12.9 m). Reverse the line, or leave "
               "heights to [network] heights.");
     auto const turned = with_heights({{{5, 9, 3}, {4, 9, 12.9}, {3, 9, 12.1}, {2, 9, 13}}});
-    EXPECT_TRUE(has(message([&] { network::take_file_heights(import_lines(turned), turned); }),
+    EXPECT_TRUE(has(message_of<BadInput>([&] { network::take_file_heights(import_lines(turned), turned); }),
                     "river 1 in rivers.gpkg runs uphill between vertex 3 (12.1 m) and 2 (12.9 m)"));
     auto const hardly = with_heights({{{0, 0, 20}, {1, 0, 9}, {2, 0, 9.000000001}, {3, 0, 1}}});
-    EXPECT_TRUE(has(message([&] { network::take_file_heights(import_lines(hardly), hardly); }), "(9.000000001 m)"));
+    EXPECT_TRUE(has(message_of<BadInput>([&] { network::take_file_heights(import_lines(hardly), hardly); }),
+                    "(9.000000001 m)"));
 }
 
 TEST(AdoptHeights, LevelIsNotUphill) {
@@ -648,3 +633,5 @@ TEST(AdoptLaws, CrossingsAreAllThatIsAdded) {
     });
     ASSERT_TRUE(ok);
 }
+
+} // namespace import_test

@@ -16,6 +16,8 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 
+namespace land_and_sea_test {
+
 namespace {
 
 using namespace thalweg;
@@ -61,13 +63,13 @@ Shore shore(std::uint64_t seed) {
 } // namespace
 
 TEST(LandAndSea, WithoutACoastInTheGridAllIsLand) {
-    Grid const grid = test::grid_of(20, 20);
+    Grid const grid = test::frame(20, 20);
     EXPECT_EQ(land_and_sea({}, lines({{{2, 2}, {9, 9}}}), grid).land.cells(), 0);
     EXPECT_EQ(land_and_sea(lines({{{-40, 5}, {-30, 9}}}), lines({{{2, 2}, {9, 9}}}), grid).land.cells(), 0);
 }
 
 TEST(LandAndSea, WaterLiesToTheRightUnlessRiversDo) {
-    Grid const grid = test::grid_of(20, 20);
+    Grid const grid = test::frame(20, 20);
     std::vector<Vec2> const north{{10, -5}, {10, 25}};
     // Northward: the east is the right.
     LandAndSea const none = land_and_sea(lines({north}), {}, grid);
@@ -83,7 +85,7 @@ TEST(LandAndSea, WaterLiesToTheRightUnlessRiversDo) {
 TEST(LandAndSea, IsLikeTheNearestCoastlineWhereOneCrossesTheGrid) {
     ASSERT_TRUE(rc::check("below the coast is sea, above it land", [] {
         Shore const made = shore(*rc::gen::arbitrary<std::uint64_t>());
-        Grid const grid = test::grid_of(64, 64);
+        Grid const grid = test::frame(64, 64);
         std::vector<Vec2> drawn = made.coast;
         if (*rc::gen::arbitrary<bool>()) { // the rivers say which side is land
             std::reverse(drawn.begin(), drawn.end());
@@ -104,7 +106,7 @@ TEST(LandAndSea, IsLikeTheNearestCoastlineWhereOneCrossesTheGrid) {
 }
 
 TEST(LandAndSea, BeyondTheEndsOfACoastlineItGoesMidwayToTheRivers) {
-    Grid const grid = test::grid_of(64, 64);
+    Grid const grid = test::frame(64, 64);
     // The coast ends at x = 30; a river runs east of it, far to the north.
     LandAndSea const divided = land_and_sea(lines({{{-1, 20}, {30, 20}}}), lines({{{60, 60}, {60, 40}}}), grid);
     EXPECT_EQ((divided.land[grid.cell_of({10, 10})]), 0);
@@ -114,7 +116,7 @@ TEST(LandAndSea, BeyondTheEndsOfACoastlineItGoesMidwayToTheRivers) {
 }
 
 TEST(LandAndSea, ARiverDrawnBeyondTheCoastMakesNoLandThere) {
-    Grid const grid = test::grid_of(64, 64);
+    Grid const grid = test::frame(64, 64);
     std::vector<Vec2> const coast{{-1, 30}, {65, 30}};
     LandAndSea const divided = land_and_sea(lines({coast}), lines({{{20, 60}, {20, 30}, {24, 8}}}), grid);
     EXPECT_EQ(divided.sea_cells, 64 * 30);
@@ -123,7 +125,7 @@ TEST(LandAndSea, ARiverDrawnBeyondTheCoastMakesNoLandThere) {
 }
 
 TEST(LandAndSea, RiversKeepLandAroundThem) {
-    Grid const grid = test::grid_of(24, 24);
+    Grid const grid = test::frame(24, 24);
     StreamNetwork const net = test::network_of({{12.5, 4.5}, {12.5, 20.5}}, {{1, 0}});
     Mask const land = network::land_along_rivers(Mask(grid, 0), net);
     EXPECT_EQ(std::count(land.values().begin(), land.values().end(), 1),
@@ -135,7 +137,7 @@ TEST(LandAndSea, RiversKeepLandAroundThem) {
 TEST(LandBehindOutlets, EachOutletInsideLiesAtTheSea) {
     ASSERT_TRUE(rc::check("rivers are land; before every outlet there is sea; sources have none behind them", [] {
         Shore const made = shore(*rc::gen::arbitrary<std::uint64_t>());
-        Grid const grid = test::grid_of(64, 64);
+        Grid const grid = test::frame(64, 64);
         std::vector<Vec2> nodes;
         std::vector<test::Reach> reaches;
         for (std::vector<Vec2> const& river : made.rivers) {
@@ -158,12 +160,12 @@ TEST(LandBehindOutlets, EachOutletInsideLiesAtTheSea) {
 }
 
 TEST(LandBehindOutlets, WhereAllOutletsLieOnTheBorderAllIsLand) {
-    Grid const grid = test::grid_of(16, 16);
+    Grid const grid = test::frame(16, 16);
     EXPECT_EQ(network::land_behind_outlets(test::network_of({{8.5, 0.5}, {8.5, 9.5}}, {{1, 0}}), grid).cells(), 0);
 }
 
 TEST(CarryOutlets, EndsAtTheSea) {
-    Grid const grid = test::grid_of(32, 32);
+    Grid const grid = test::frame(32, 32);
     Mask land(grid, 1);
     for (std::int64_t row = 0; row < 32; ++row) {
         for (std::int64_t col = 0; col < 10; ++col) {
@@ -182,3 +184,5 @@ TEST(CarryOutlets, EndsAtTheSea) {
     EXPECT_TRUE(network::carry_outlets(net, land, 5).notes.empty());
     EXPECT_TRUE(network::carry_outlets(carried.network, land, 100).notes.empty());
 }
+
+} // namespace land_and_sea_test

@@ -11,20 +11,19 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
+
+namespace order_test {
 
 namespace {
 
 using namespace thalweg;
 using network::order;
+using test::full_message_of;
 
 std::string refusal(StreamNetwork const& net) {
-    try {
-        order(net);
-    } catch (BadInput const& e) {
-        return std::string(e.where()) + ": " + e.what();
-    }
-    return "";
+    return full_message_of<BadInput>([&] { order(net); });
 }
 
 /// The definitions, recursively, straight from the graph.
@@ -187,3 +186,5 @@ TEST(Order, AChainOfAMillionArcs) {
     EXPECT_EQ(o.strahler.front(), 1);
     EXPECT_EQ(o.node_dist_out_m.back(), 1e6);
 }
+
+} // namespace order_test

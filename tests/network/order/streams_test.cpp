@@ -16,6 +16,8 @@
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/order/order.hpp>
 
+namespace streams_test {
+
 using namespace thalweg;
 using network::order;
 using network::streams;
@@ -127,3 +129,5 @@ TEST(Streams, AreAsManyAsTheTreeHas) {
         EXPECT_EQ(static_cast<double>(of_order[w].size()), count) << w;
     }
 }
+
+} // namespace streams_test

@@ -16,6 +16,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 
+namespace carry_outlets_test {
+
 namespace {
 
 using namespace thalweg;
@@ -220,7 +222,7 @@ network::CarryParams const alone{.join = false, .beside_cells = 0.0};
 } // namespace
 
 TEST(CarryOutlets, NothingToCarry) {
-    Grid const grid = test::grid_of(5, 5);
+    Grid const grid = test::frame(5, 5);
     EXPECT_EQ(carry_outlets({}, grid).network.arc_count(), 0U);
     auto const at_the_border = carry_outlets(test::network_of({{2.5, 0.5}, {2.5, 3.5}}, {{1, 0}}), grid);
     EXPECT_TRUE(at_the_border.notes.empty());
@@ -230,7 +232,7 @@ TEST(CarryOutlets, NothingToCarry) {
 }
 
 TEST(CarryOutlets, OneArcIsDrawnOn) {
-    Grid const grid = test::grid_of(15, 7);
+    Grid const grid = test::frame(15, 7);
     auto const carried = carry_outlets(test::network_of({{7.25, 2.75}, {7.5, 6.5}}, {{1, 0, {}, 42}}), grid, alone);
     ASSERT_EQ(carried.network.arc_count(), 1U);
     // Aside first, away from its own river, then straight; of the two sides the west.
@@ -245,7 +247,7 @@ TEST(CarryOutlets, OneArcIsDrawnOn) {
 }
 
 TEST(CarryOutlets, SeveralArcsGetATrunk) {
-    Grid const grid = test::grid_of(15, 7);
+    Grid const grid = test::frame(15, 7);
     NetworkDraft net = test::network_of({{7.5, 2.5}, {5.5, 4.5}, {9.5, 4.5}}, {{1, 0}, {2, 0}}).draft();
     for (DraftArc& drawn : net.arcs) {
         drawn.arc.persistence = drawn.from == 1 ? 3.0 : 4.0;
@@ -262,7 +264,7 @@ TEST(CarryOutlets, SeveralArcsGetATrunk) {
 
 TEST(CarryOutlets, AClosedBasinStays) {
     // A ring of rivers around the outlet: they end in a gap too narrow to pass.
-    Grid const grid = test::grid_of(11, 11);
+    Grid const grid = test::frame(11, 11);
     StreamNetwork const net =
         test::network_of({{5.5, 5.5}, {5.5, 6.5}, {0.5, 2.5}, {2.5, 2.5}},
                          {{1, 0}, {3, 2, {{2.5, 8.5}, {8.5, 8.5}, {8.5, 2.5}, {3.5, 2.5}, {3.5, 0.5}, {0.5, 0.5}}}});
@@ -279,7 +281,7 @@ TEST(CarryOutlets, AClosedBasinStays) {
 
 TEST(CarryOutlets, NotThroughADiagonalRiver) {
     // Two diagonal rivers make a closed lozenge of cells that only touch at their corners.
-    Grid const grid = test::grid_of(11, 11);
+    Grid const grid = test::frame(11, 11);
     StreamNetwork const net =
         test::network_of({{5.5, 5.5}, {5.5, 6.5}, {0.5, 5.5}, {2.5, 5.5}},
                          {{1, 0}, {3, 2, {{5.5, 8.5}, {8.5, 5.5}, {5.5, 2.5}, {3.5, 4.5}, {2.5, 4.5}}}});
@@ -292,7 +294,7 @@ TEST(CarryOutlets, TheCheapestWay) {
     ASSERT_TRUE(rc::check("A* = relaxing every step; closed only where there is no way", [] {
         StreamNetwork const net = scattered_rivers(*rc::gen::arbitrary<std::uint64_t>(), 1);
         RC_PRE(net.arc_count() > 0U);
-        PlainGround ground{test::grid_of(32, 32), {}, {}, {}};
+        PlainGround ground{test::frame(32, 32), {}, {}, {}};
         for (ArcId arc = 0; arc < net.arc_count(); ++arc) {
             ground.add(net.arc(arc).line);
         }
@@ -320,7 +322,7 @@ TEST(CarryOutlets, AddsNoCrossing) {
                                       ? scattered_rivers(seed, *rc::gen::inRange<std::size_t>(1, 9))
                                       : test::random_skeleton(seed, 32);
         RC_PRE(net.arc_count() > 0U);
-        PlainGround ground{test::grid_of(32, 32), {}, {}, {}};
+        PlainGround ground{test::frame(32, 32), {}, {}, {}};
         for (ArcId arc = 0; arc < net.arc_count(); ++arc) {
             ground.add(net.arc(arc).line);
         }
@@ -360,13 +362,13 @@ TEST(CarryOutlets, AddsNoCrossing) {
 }
 
 TEST(CarryOutlets, RefusesCostsBelowNothing) {
-    EXPECT_THROW(carry_outlets({}, test::grid_of(5, 5), {.join_cells = -1.0}), BadParameter);
-    EXPECT_THROW(carry_outlets({}, test::grid_of(5, 5), {.beside_cells = std::nan("")}), BadParameter);
+    EXPECT_THROW(carry_outlets({}, test::frame(5, 5), {.join_cells = -1.0}), BadParameter);
+    EXPECT_THROW(carry_outlets({}, test::frame(5, 5), {.beside_cells = std::nan("")}), BadParameter);
 }
 
 TEST(CarryOutlets, RiversThatAreJoinedAreTreesWithoutCrossings) {
     ASSERT_TRUE(rc::check("many strokes", [] {
-        Grid const grid = test::grid_of(64, 64);
+        Grid const grid = test::frame(64, 64);
         RandomStream words(*rc::gen::arbitrary<std::uint64_t>(), 4, 0);
         std::vector<Vec2> nodes;
         std::vector<test::Reach> reaches;
@@ -408,3 +410,5 @@ TEST(CarryOutlets, RiversThatAreJoinedAreTreesWithoutCrossings) {
         }
     }));
 }
+
+} // namespace carry_outlets_test

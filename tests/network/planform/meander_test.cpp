@@ -9,11 +9,14 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
+#include <support.hpp>
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/meetings.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/internal/segment_grid.hpp>
+
+namespace meander_test {
 
 namespace {
 
@@ -117,7 +120,7 @@ double least_distance(std::vector<Vec2> const& a, std::vector<Vec2> const& b) {
 }
 
 Grid hundred_cells() {
-    Grid grid = test::grid_of(100, 100);
+    Grid grid = test::frame(100, 100);
     grid.cell_m = 30.0;
     grid.west = 500000.0;
     grid.north = 5000000.0;
@@ -125,17 +128,17 @@ Grid hundred_cells() {
 }
 
 TEST(Meander, NothingIsNothing) {
-    EXPECT_EQ(meander({}, test::grid_of(5, 5), {}).network.arc_count(), 0U);
+    EXPECT_EQ(meander({}, test::frame(5, 5), {}).network.arc_count(), 0U);
 }
 
 TEST(Meander, RefusesWhatItCannotBend) {
-    Grid const grid = test::grid_of(10, 10);
+    Grid const grid = test::frame(10, 10);
     StreamNetwork const net = test::network_of({{5.0, 0.0}, {5.0, 9.0}}, {{1, 0}});
     EXPECT_THROW(meander(net, grid, {1.0}, {.gain = 2.1}), BadParameter);
     EXPECT_THROW(meander(net, grid, {1.0}, {.gap_cells = 0.1}), BadParameter);
     EXPECT_THROW(meander(net, grid, {}), BadInput);
     EXPECT_THROW(meander(net, grid, {-1.0}), BadInput);
-    EXPECT_THROW(meander(net, test::grid_of(5, 5), {1.0}), BadInput);
+    EXPECT_THROW(meander(net, test::frame(5, 5), {1.0}), BadInput);
     StreamNetwork const cross = test::network_of({{5.0, 0.0}, {5.0, 9.0}, {1.0, 4.0}, {9.0, 4.0}}, {{1, 0}, {2, 3}});
     EXPECT_THROW(meander(cross, grid, {1.0, 1.0}), BadInput);
     StreamNetwork const point = test::network_of({{5.0, 0.0}, {5.0, 0.0}}, {{1, 0}});
@@ -226,10 +229,7 @@ TEST(Meander, RiversStayOnLandAndEndWhereTheyEnded) {
         StreamNetwork net = lattice_rivers(seed, grid);
         RC_PRE(net.arc_count() > 0U);
         // the last eight cells are sea, but for what the rivers run through
-        Mask land(grid, 1);
-        for (std::int64_t i = 0; i < grid.cells(); ++i) {
-            land[i] = grid.at(i).row < 92 ? 1 : 0;
-        }
+        Mask land = test::raster_of<std::uint8_t>(grid, [&](Cell c) { return c.row < 92 ? 1 : 0; });
         for (ArcId e = 0; e < net.arc_count(); ++e) {
             for (Cell const c : cells_along(net.arc(e).line, grid)) {
                 land[c] = 1;
@@ -272,3 +272,5 @@ TEST(Meander, ChanceIsTheSeeds) {
 }
 
 } // namespace
+
+} // namespace meander_test

@@ -14,6 +14,8 @@
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/network/growth/dla/pick_branch.hpp>
 
+namespace rotate_test {
+
 namespace {
 
 using namespace thalweg;
@@ -22,17 +24,17 @@ using network::Rotated;
 
 TEST(Rotate, RefusesWhatItCannotTurn) {
     StreamNetwork const net = test::network_of({{0.0, 0.0}, {0.0, 9.0}}, {{1, 0}});
-    EXPECT_THROW(rotate({}, test::grid_of(9, 9)), BadInput);
-    EXPECT_THROW(rotate(net, test::grid_of(9, 9), {181.0}), BadParameter);
-    EXPECT_THROW(rotate(net, test::grid_of(9, 5), {0.0}), BadInput);
+    EXPECT_THROW(rotate({}, test::frame(9, 9)), BadInput);
+    EXPECT_THROW(rotate(net, test::frame(9, 9), {181.0}), BadParameter);
+    EXPECT_THROW(rotate(net, test::frame(9, 5), {0.0}), BadInput);
     StreamNetwork const nowhere =
         test::network_of({{0.0, 0.0}, {0.0, std::numeric_limits<double>::quiet_NaN()}}, {{1, 0}});
-    EXPECT_THROW(rotate(nowhere, test::grid_of(9, 9)), BadInput);
+    EXPECT_THROW(rotate(nowhere, test::frame(9, 9)), BadInput);
 }
 
 TEST(Rotate, AQuarterTurnIsCounterClockwise) {
     StreamNetwork const net = test::network_of({{0.0, 0.0}, {0.0, 8.0}}, {{1, 0}});
-    Rotated const out = rotate(net, test::grid_of(10, 10), {90.0});
+    Rotated const out = rotate(net, test::frame(10, 10), {90.0});
     EXPECT_EQ(out.network.node(0).at, (Vec2{9.0, 5.0}));
     EXPECT_EQ(out.network.node(1).at, (Vec2{1.0, 5.0}));
 }
@@ -44,7 +46,7 @@ TEST(Rotate, TheSameRiversInTheMiddleOfTheirGrid) {
         RC_ASSERT(std::fabs(turn) >= 12.0);
         RC_ASSERT(std::fabs(turn) <= 33.0);
         StreamNetwork const net = test::random_skeleton(seed, 40);
-        Grid frame = test::grid_of(0, 0);
+        Grid frame = test::frame(0, 0);
         frame.west = 500000.0;
         frame.north = 5000000.0;
         Rotated const out = rotate(net, frame, {turn});
@@ -72,9 +74,11 @@ TEST(Rotate, ABranchCutToTheTurnedBoxFits) {
             net.add_node({static_cast<double>(c.col), -static_cast<double>(c.row)});
         }
         net.add_arc(0, 1);
-        EXPECT_NO_THROW(rotate(net, test::grid_of(60, 40), {turn}));
-        EXPECT_THROW(rotate(net, test::grid_of(60, 30), {turn}), BadInput);
+        EXPECT_NO_THROW(rotate(net, test::frame(60, 40), {turn}));
+        EXPECT_THROW(rotate(net, test::frame(60, 30), {turn}), BadInput);
     }
 }
 
 } // namespace
+
+} // namespace rotate_test

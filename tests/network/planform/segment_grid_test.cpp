@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+namespace segment_grid_test {
+
 using namespace thalweg;
 using network::Segment;
 using network::squared_distance;
@@ -92,3 +94,5 @@ TEST(SegmentGrid, FindsAllThatAreNear) {
         }
     }));
 }
+
+} // namespace segment_grid_test

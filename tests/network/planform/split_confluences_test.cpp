@@ -16,6 +16,8 @@
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/network/order/order.hpp>
 
+namespace split_confluences_test {
+
 using namespace thalweg;
 using network::split_confluences;
 
@@ -243,3 +245,5 @@ TEST(SplitConfluences, LawsHoldOnRandomRivers) {
         }
     }));
 }
+
+} // namespace split_confluences_test

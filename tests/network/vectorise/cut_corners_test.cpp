@@ -13,6 +13,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 
+namespace cut_corners_test {
+
 namespace {
 
 using namespace thalweg;
@@ -66,3 +68,5 @@ TEST(CutCorners, PrunedRiversHaveNoCornerAndKeepTheirEnds) {
         }
     }));
 }
+
+} // namespace cut_corners_test

@@ -13,6 +13,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
 
+namespace cut_loops_test {
+
 using namespace thalweg;
 using network::cut_loops;
 using network::CutLine;
@@ -73,3 +75,5 @@ TEST(CutLoops, AnyLineBecomesSimple) {
         RC_ASSERT(cut.cut_m >= 0.0);
     }));
 }
+
+} // namespace cut_loops_test

@@ -12,12 +12,16 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
+
+namespace prune_test {
 
 namespace {
 
 using namespace thalweg;
 using network::prune;
+using test::full_message_of;
 
 /// A network as a set of lines with their thresholds.
 using Lines = std::map<std::vector<std::pair<double, double>>, double>;
@@ -171,14 +175,6 @@ Lines filtered(StreamNetwork const& net, double length_cells) {
     return lines;
 }
 
-StreamNetwork any_network() {
-    auto const seed = *rc::gen::arbitrary<std::uint64_t>();
-    if (*rc::gen::arbitrary<bool>()) {
-        return test::random_skeleton(seed, *rc::gen::inRange<std::int64_t>(10, 40));
-    }
-    return test::random_forest(seed, *rc::gen::inRange<std::size_t>(0, 30), *rc::gen::inRange<std::size_t>(1, 4));
-}
-
 /// A length at which something is left: a random share of the longest threshold.
 double any_length(StreamNetwork const& net) {
     double longest = 0.0;
@@ -189,12 +185,7 @@ double any_length(StreamNetwork const& net) {
 }
 
 std::string refusal(StreamNetwork const& net, network::PruneParams const& params) {
-    try {
-        prune(net, params);
-    } catch (BadParameter const& e) {
-        return std::string(e.where()) + ": " + e.what();
-    }
-    return "";
+    return full_message_of<BadParameter>([&] { prune(net, params); });
 }
 
 } // namespace
@@ -260,7 +251,7 @@ TEST(Prune, ASmallBasinMayVanish) {
 
 TEST(Prune, Laws) {
     ASSERT_TRUE(rc::check("a forest without short leaves or nodes of degree two", [] {
-        StreamNetwork const net = prune(any_network(), {0.0, 1.0}).network;
+        StreamNetwork const net = prune(test::any_network(), {0.0, 1.0}).network;
         double const length = any_length(net);
         network::Pruned const pruned = prune(net, {length, 1.0});
         RC_ASSERT(pruned.arcs_before == static_cast<std::int64_t>(net.arc_count()));
@@ -279,7 +270,7 @@ TEST(Prune, Laws) {
 
 TEST(Prune, EqualsTheRuleAsItIsTold) {
     ASSERT_TRUE(rc::check("queue = search for the shortest leaf, arcs and thresholds", [] {
-        StreamNetwork const net = any_network();
+        StreamNetwork const net = test::any_network();
         double const length = any_length(prune(net, {0.0, 1.0}).network);
         RC_ASSERT(same_lines(lines_of(prune(net, {length, 1.0}).network), plain_prune(net, length)));
     }));
@@ -287,7 +278,7 @@ TEST(Prune, EqualsTheRuleAsItIsTold) {
 
 TEST(Prune, ThresholdsAgreeWithPruningAnew) {
     ASSERT_TRUE(rc::check("filter by survives and merge = prune; kept(L2) is a subset of kept(L1)", [] {
-        StreamNetwork const net = prune(any_network(), {0.0, 1.0}).network;
+        StreamNetwork const net = prune(test::any_network(), {0.0, 1.0}).network;
         double const one = any_length(net);
         double const two = any_length(net);
         double const low = std::min(one, two);
@@ -374,3 +365,5 @@ TEST(Prune, ACombOfManyTeeth) {
     std::size_t const left = teeth - 49 * 1024 + 1;
     EXPECT_EQ(pruned.arc_count(), 2 * left - 1); // the head of the spine is merged with its tooth
 }
+
+} // namespace prune_test

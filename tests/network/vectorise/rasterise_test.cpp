@@ -11,26 +11,25 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
+#include <support.hpp>
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
+
+namespace rasterise_test {
 
 namespace {
 
 using namespace thalweg;
 using network::rasterise;
+using test::full_message_of;
 
 ElevatedNetwork raised(StreamNetwork const& net, std::vector<std::vector<double>> arc_z) {
     return {net, std::vector<double>(net.node_count(), 0.0), std::move(arc_z)};
 }
 
 std::string refusal(ElevatedNetwork const& net, Grid const& grid) {
-    try {
-        rasterise(net, grid);
-    } catch (BadInput const& e) {
-        return std::string(e.where()) + ": " + e.what();
-    }
-    return "";
+    return full_message_of<BadInput>([&] { rasterise(net, grid); });
 }
 
 /// All cells of all arcs, downstream, from the lowest height on each: lowered by sweeps until none rises.
@@ -78,14 +77,14 @@ std::map<std::int64_t, float> plain_valley(ElevatedNetwork const& net, Grid cons
 } // namespace
 
 TEST(Rasterise, AnEmptyNetworkIsAnEmptyValley) {
-    auto const out = rasterise({}, test::grid_of(3, 2));
+    auto const out = rasterise({}, test::frame(3, 2));
     for (float const v : out.valley.z.values()) {
         EXPECT_TRUE(std::isnan(v));
     }
 }
 
 TEST(Rasterise, OutsideTheGrid) {
-    Grid const grid = test::grid_of(4, 4);
+    Grid const grid = test::frame(4, 4);
     StreamNetwork const net = test::network_of({{0.5, 0.5}, {2.5, 2.5}, {5, 1}}, {{1, 0}, {2, 1}});
     EXPECT_EQ(refusal(raised(net, {{1, 0}, {2, 1}}), grid),
               "core.cells_along: vertex 0 of arc 2 at (5.000, 1.000) lies outside the grid (x 0.000 to 4.000, y 0.000 "
@@ -97,7 +96,7 @@ TEST(Rasterise, OutsideTheGrid) {
 }
 
 TEST(Rasterise, HeightsThatDoNotFit) {
-    Grid const grid = test::grid_of(4, 4);
+    Grid const grid = test::frame(4, 4);
     StreamNetwork const net = test::network_of({{0.5, 0.5}, {2.5, 2.5}}, {{1, 0}});
     EXPECT_NE(refusal(raised(net, {}), grid), "");
     EXPECT_NE(refusal(raised(net, {{1.0}}), grid), "");
@@ -105,7 +104,7 @@ TEST(Rasterise, HeightsThatDoNotFit) {
 }
 
 TEST(Rasterise, TheOuterEdgesBelongToTheOutermostCells) {
-    Grid const grid = test::grid_of(4, 3);
+    Grid const grid = test::frame(4, 3);
     EXPECT_EQ(cells_along({{4.0, 0.0}}, grid), (std::vector<Cell>{{3, 2}}));
     EXPECT_EQ(cells_along({{0.0, 3.0}}, grid), (std::vector<Cell>{{0, 0}}));
     EXPECT_THROW(cells_along({{4.0000001, 1.0}}, grid), BadInput);
@@ -115,7 +114,7 @@ TEST(Rasterise, TheOuterEdgesBelongToTheOutermostCells) {
 }
 
 TEST(Rasterise, LinearBetweenVerticesAndLowestWhereShared) {
-    Grid const grid = test::grid_of(5, 3);
+    Grid const grid = test::frame(5, 3);
     // Two rivers: one along the middle row, one down the column of its third cell.
     StreamNetwork const net = test::network_of({{0.5, 1.5}, {4.5, 1.5}, {2.5, 2.5}, {2.5, 0.5}}, {{1, 0}, {2, 3}});
     auto const out = rasterise(raised(net, {{8, 4}, {2, 1}}), grid);
@@ -127,7 +126,7 @@ TEST(Rasterise, LinearBetweenVerticesAndLowestWhereShared) {
 
 TEST(Rasterise, CellsOfALine) {
     ASSERT_TRUE(rc::check("8-connected, as many steps as the longer side, half a cell from the line", [] {
-        Grid const grid = test::grid_of(60, 50);
+        Grid const grid = test::frame(60, 50);
         auto const place = [] {
             return Vec2{*rc::gen::inRange<int>(0, 601) / 10.0, *rc::gen::inRange<int>(0, 501) / 10.0};
         };
@@ -179,7 +178,7 @@ TEST(Rasterise, ASkeletonGetsItsOwnCellsBack) {
     ASSERT_TRUE(rc::check("cells of a traced skeleton, nothing to lower", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         StreamNetwork const net = test::random_skeleton(seed, 32);
-        auto const out = rasterise(network::set_heights(net).network, test::grid_of(32, 32));
+        auto const out = rasterise(network::set_heights(net).network, test::frame(32, 32));
         std::int64_t cells = 0;
         std::int64_t vertices = static_cast<std::int64_t>(net.outlets().size());
         for (float const v : out.valley.z.values()) {
@@ -192,3 +191,5 @@ TEST(Rasterise, ASkeletonGetsItsOwnCellsBack) {
         RC_ASSERT(out.lowered_cells == 0);
     }));
 }
+
+} // namespace rasterise_test

@@ -11,6 +11,8 @@
 #include <network/plain_thinning.hpp>
 #include <thalweg/core/run/error.hpp>
 
+namespace thin_test {
+
 namespace {
 
 using namespace thalweg;
@@ -35,15 +37,15 @@ Mask any_mask() {
 
 TEST(Thin, EmptyAndFullAndSingle) {
     EXPECT_EQ(thin(Mask()).cells(), 0);
-    EXPECT_TRUE(same(thin(Mask(test::grid_of(70, 3))), Mask(test::grid_of(70, 3))));
-    EXPECT_TRUE(same(thin(Mask(test::grid_of(1, 1), 1)), Mask(test::grid_of(1, 1), 1)));
-    EXPECT_EQ(test::components(thin(Mask(test::grid_of(130, 70), 1)), 1, 8), 1);
+    EXPECT_TRUE(same(thin(Mask(test::frame(70, 3))), Mask(test::frame(70, 3))));
+    EXPECT_TRUE(same(thin(Mask(test::frame(1, 1), 1)), Mask(test::frame(1, 1), 1)));
+    EXPECT_EQ(test::components(thin(Mask(test::frame(130, 70), 1)), 1, 8), 1);
 }
 
 TEST(Thin, AnyValueButZeroIsInside) {
-    Mask mask(test::grid_of(70, 9), 255);
+    Mask mask(test::frame(70, 9), 255);
     mask[Cell{3, 3}] = 128;
-    EXPECT_TRUE(same(thin(mask), thin(Mask(test::grid_of(70, 9), 1))));
+    EXPECT_TRUE(same(thin(mask), thin(Mask(test::frame(70, 9), 1))));
 }
 
 TEST(Thin, BlocksOfTwoByTwoDoNotVanish) {
@@ -57,7 +59,7 @@ TEST(Thin, StaircasesLoseTheirCorners) {
 }
 
 TEST(Thin, AcrossTheSeamOfTwoWords) {
-    Mask mask(test::grid_of(128, 5));
+    Mask mask(test::frame(128, 5));
     for (std::int64_t col = 50; col < 80; ++col) {
         for (std::int64_t row = 1; row < 4; ++row) {
             mask[Cell{col, row}] = 1;
@@ -119,5 +121,7 @@ TEST(Thin, Stops) {
     source.request_stop();
     thalweg::Run run;
     run.stop = source.get_token();
-    EXPECT_THROW(thin(Mask(test::grid_of(8, 8), 1), run), Cancelled);
+    EXPECT_THROW(thin(Mask(test::frame(8, 8), 1), run), Cancelled);
 }
+
+} // namespace thin_test

@@ -14,6 +14,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/vectorise/thin.hpp>
 
+namespace trace_test {
+
 namespace {
 
 using namespace thalweg;
@@ -112,7 +114,7 @@ Mask any_skeleton() {
 
 TEST(Trace, NothingToTrace) {
     EXPECT_THROW(trace(Mask(), {Vec2{}}), BadInput);
-    EXPECT_THROW(trace(Mask(test::grid_of(5, 5)), {Vec2{}}), BadInput);
+    EXPECT_THROW(trace(Mask(test::frame(5, 5)), {Vec2{}}), BadInput);
     EXPECT_THROW(trace(test::mask_of({"#....", "..#..", "....#"}), {Vec2{}}), BadInput);
     EXPECT_THROW(trace(test::mask_of({"##"}), {Vec2{NAN, 0.0}}), BadParameter);
 }
@@ -227,3 +229,5 @@ TEST(Trace, InMetres) {
     EXPECT_EQ(net.arc(0).line,
               (std::vector<Vec2>{{500075.0, 3999985.0}, {500045.0, 3999985.0}, {500015.0, 3999985.0}}));
 }
+
+} // namespace trace_test

@@ -9,6 +9,8 @@
 
 #include "measure/faults.hpp"
 
+namespace mend_network_test {
+
 using namespace thalweg;
 using measure::check_topology;
 using pipeline::mend_network;
@@ -137,3 +139,5 @@ TEST(MendNetwork, AHeightIsFilledBetweenItsNeighbours) {
     ASSERT_TRUE(mended.done);
     EXPECT_EQ(mended.network.arc_z.front(), (std::vector<double>{8, 6, 4, 2, 0}));
 }
+
+} // namespace mend_network_test

@@ -7,14 +7,19 @@
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>
+
+namespace reaches_of_file_test {
 
 using namespace thalweg;
 using pipeline::FileReaches;
 using pipeline::reaches_of_file;
 
 namespace {
+
+using test::message_of;
 
 Grid const grid{10, 10, 1.0, 0.0, 10.0, ""};
 
@@ -38,12 +43,7 @@ NetworkFile three_arcs() {
 }
 
 std::string complaint_of(NetworkFile const& file) {
-    try {
-        reaches_of_file(file, grid);
-    } catch (BadInput const& e) {
-        return e.what();
-    }
-    return "";
+    return message_of<BadInput>([&] { reaches_of_file(file, grid); });
 }
 
 std::vector<std::int64_t> downstream(FileReaches const& reaches) {
@@ -120,3 +120,5 @@ TEST(ReachesOfFile, RefusesCirclesAndLeavesOutWhatIsNowhere) {
     EXPECT_EQ(reaches_of_file(file, grid).outside, 1);
     EXPECT_EQ(reaches_of_file(file, grid).nowhere, 0);
 }
+
+} // namespace reaches_of_file_test

@@ -13,6 +13,8 @@
 #include <map>
 #include <string>
 
+namespace replay_test {
+
 using namespace thalweg;
 using namespace thalweg::pipeline;
 
@@ -114,3 +116,5 @@ TEST(Replay, DefaultsThatAreReckonedAreWritten) {
         EXPECT_NE(text.find(line), std::string::npos) << line << text;
     }
 }
+
+} // namespace replay_test

@@ -9,6 +9,8 @@
 
 #include <thalweg/io/raster/read_dem.hpp>
 
+namespace grass_forms_test {
+
 using namespace thalweg;
 
 namespace {
@@ -40,3 +42,5 @@ TEST(GrassForms, CellByCell) {
     EXPECT_EQ(cells_that_differ("bigtujunga", "bigtujunga_srtm1_utm11.tif", {500, 250}), 0);
     EXPECT_EQ(cells_that_differ("jacksboro", "jacksboro_utm16.tif", {110, 120}), 0);
 }
+
+} // namespace grass_forms_test

@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+namespace in_unit_test {
+
 namespace {
 
 using namespace thalweg;
@@ -64,3 +66,5 @@ RC_GTEST_PROP(InUnit, TheOrderStays, (std::vector<int> numbers)) {
         RC_ASSERT(std::fabs(static_cast<double>(feet[i]) * 0.3048 - static_cast<double>(dem[i])) < 0.01);
     }
 }
+
+} // namespace in_unit_test

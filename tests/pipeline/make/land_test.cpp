@@ -10,24 +10,24 @@
 
 #include <io/scratch_folder.hpp>
 
+#include "made.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+namespace land_test {
+
 using namespace thalweg;
 using namespace thalweg::pipeline;
 
 namespace {
 
-std::string const rivers = "[grid]\nwidth = 160\nheight = 120\n[network]\nprune = 6\n[network.dla]\nparticles = 3000\n";
+using test::made;
 
-Made made(std::string const& toml, std::string const& folder = "") {
-    Recipe recipe = read_recipe(toml, "test");
-    recipe.folder = folder;
-    return make(recipe);
-}
+std::string const rivers = "[grid]\nwidth = 160\nheight = 120\n[network]\nprune = 6\n[network.dla]\nparticles = 3000\n";
 
 /// What make says of these increments.
 std::string said(std::string const& increment) {
@@ -280,3 +280,5 @@ TEST(Land, EveryPriorMeetsTable4) {
         EXPECT_NEAR(t.assessment.statistics->dimension, 2.39, 0.02);
     }
 }
+
+} // namespace land_test

@@ -17,6 +17,8 @@
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/report/law_rows.hpp>
 
+namespace laws_test {
+
 using namespace thalweg;
 using namespace thalweg::pipeline;
 
@@ -127,3 +129,5 @@ TEST(Laws, TheDemsRiversAreAsLongAsTheNetwork) {
     EXPECT_TRUE(rivers.assessment.laws.network);
     EXPECT_FALSE(rivers.assessment.laws.dem);
 }
+
+} // namespace laws_test

@@ -15,6 +15,8 @@
 #include <thalweg/network/planform/meander.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
 
+namespace line_sources_test {
+
 using namespace thalweg;
 using pipeline::LineSources;
 
@@ -250,3 +252,5 @@ TEST(LineSources, SplitConfluencesAreCovered) {
     });
     ASSERT_TRUE(ok);
 }
+
+} // namespace line_sources_test

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+namespace make_test {
+
 using namespace thalweg;
 using namespace thalweg::pipeline;
 
@@ -88,3 +90,5 @@ TEST(Make, TimingsAreThoseOfTheValues) {
     EXPECT_EQ(timings_of(made).size(), made.plan.timings_s.size() + made.rivers.timings_s.size() +
                                            made.terrain.timings_s.size() + made.assessment.timings_s.size());
 }
+
+} // namespace make_test

@@ -13,6 +13,8 @@
 #include <thalweg/io/raster/read_dem.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 
+namespace reference_dems_test {
+
 using namespace thalweg;
 using measure::Relief;
 
@@ -144,3 +146,5 @@ TEST(ReferenceDems, LieInTheirOwnRange) {
         }
     }
 }
+
+} // namespace reference_dems_test

@@ -12,6 +12,8 @@
 #include <thalweg/io/raster/read_dem.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 
+namespace relief_rows_test {
+
 using namespace thalweg;
 using namespace thalweg::pipeline;
 
@@ -94,3 +96,5 @@ TEST(ReliefRows, PerchedOnlyWithRivers) {
     EXPECT_FALSE(row.ok());
     EXPECT_EQ(*row.value, 1.0);
 }
+
+} // namespace relief_rows_test

@@ -8,25 +8,35 @@
 #include <gtest/gtest.h>
 
 #include <io/scratch_folder.hpp>
+#include <support.hpp>
+
+#include "made.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
+
+namespace rivers_of_forest_test {
 
 using namespace thalweg;
 using namespace thalweg::pipeline;
 
 namespace {
 
+using test::count;
+using test::fault_of;
+using test::geojson;
+using test::has;
+using test::made;
+
 std::string const forest = "[network]\nsource = \"forest\"\n";
 std::string const small_grid = "[grid]\nwidth = 200\nheight = 160\n";
 std::string const dilated = "[surface]\nmethod = \"dilate\"\n";
 
 /// A folder with regions and outlets near (500000, 5000000) in EPSG:32631.
-class Files {
+class Files : public ScratchFolder {
 public:
     Files() {
         // Two islands, 150 x 120 cells of 30 m with a lagoon, and 20 x 20.
@@ -38,51 +48,20 @@ public:
         write("lake.geojson",
               polygons("[[[500900,5000900],[501500,5000900],[501500,5001500],[500900,5001500],[500900,5000900]]]"));
         write("points.csv", "x,y\n500000,5001000\n503000,5003700\n");
-        write("west.geojson", layer("{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"LineString\","
-                                    "\"coordinates\":[[500010,4999000],[500010,5004000]]}}"));
-        write("inland.geojson", layer("{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"LineString\","
-                                      "\"coordinates\":[[501000,5001000],[501200,5001000]]}}"));
+        write("west.geojson", geojson("{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"LineString\","
+                                      "\"coordinates\":[[500010,4999000],[500010,5004000]]}}"));
+        write("inland.geojson", geojson("{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"LineString\","
+                                        "\"coordinates\":[[501000,5001000],[501200,5001000]]}}"));
     }
-    std::string folder() const { return folder_.path().string(); }
+    std::string folder() const { return path().string(); }
 
 private:
-    static std::string layer(std::string const& feature) {
-        return "{\"type\":\"FeatureCollection\",\"crs\":{\"type\":\"name\",\"properties\":{\"name\":"
-               "\"urn:ogc:def:crs:EPSG::32631\"}},\"features\":[" +
-               feature + "]}";
-    }
     static std::string polygons(std::string const& parts) {
-        return layer(
+        return geojson(
             "{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"MultiPolygon\",\"coordinates\":[" +
             parts + "]}}");
     }
-    void write(char const* name, std::string const& text) const { std::ofstream(folder_ / std::string(name)) << text; }
-
-    ScratchFolder folder_;
 };
-
-Made made(std::string const& toml, std::string const& folder = "") {
-    Recipe recipe = read_recipe(toml, "test");
-    recipe.folder = folder;
-    return make(recipe);
-}
-
-std::string fault_of(std::string const& toml, std::string const& folder = "") {
-    try {
-        made(toml, folder);
-    } catch (Error const& e) {
-        return e.what();
-    }
-    return "";
-}
-
-bool has(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
-}
-
-std::int64_t count(std::vector<Finding> const& notes, std::string const& kind) {
-    return std::ranges::count(notes, kind, &Finding::kind);
-}
 
 /// Law: land has heights and the sea has none; every outlet lies on the coast or the grid's border; every check holds.
 void expect_lawful(Made const& t) {
@@ -218,3 +197,5 @@ TEST(PlanForest, OutletsThatArePrunedAwayAreTold) {
     EXPECT_LT(after, before);
     EXPECT_EQ(count(repairs_of(some), "pruned_outlet"), static_cast<std::int64_t>(before - after));
 }
+
+} // namespace rivers_of_forest_test

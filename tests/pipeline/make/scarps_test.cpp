@@ -12,6 +12,8 @@
 #include <iterator>
 #include <string>
 
+namespace scarps_test {
+
 using namespace thalweg;
 using namespace thalweg::pipeline;
 
@@ -78,3 +80,5 @@ TEST(Scarps, TheHarmonicBaseLeavesNone) {
 }
 
 } // namespace
+
+} // namespace scarps_test

@@ -8,6 +8,8 @@
 
 #include <thalweg/core/stream_network.hpp>
 
+namespace split_areas_test {
+
 using namespace thalweg;
 
 namespace {
@@ -85,3 +87,5 @@ TEST(SplitAreas, UnknownStaysUnknown) {
     EXPECT_EQ(us, (std::vector<double>{-1.0, -1.0, -1.0, -1.0}));
     EXPECT_EQ(ds, us);
 }
+
+} // namespace split_areas_test

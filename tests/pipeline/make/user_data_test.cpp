@@ -11,6 +11,8 @@
 #include <network/networks.hpp>
 #include <thalweg/network/order/order.hpp>
 
+namespace user_data_test {
+
 using namespace thalweg;
 using pipeline::Made;
 
@@ -93,3 +95,5 @@ TEST(UserData, ShortenedNamesAreThoseOfTheShapefile) {
     EXPECT_EQ(names[0].name, "name_of_the_river");
     EXPECT_EQ(names[0].in_shapefile, "name_of_th");
 }
+
+} // namespace user_data_test

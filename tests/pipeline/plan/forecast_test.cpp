@@ -4,6 +4,7 @@
 
 #include "old_recipes.hpp"
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
@@ -14,10 +15,14 @@
 #include <string>
 #include <vector>
 
+namespace forecast_test {
+
 using namespace thalweg;
 using namespace thalweg::pipeline;
 
 namespace {
+
+using test::message_of;
 
 namespace fs = std::filesystem;
 
@@ -45,21 +50,13 @@ TEST(Forecast, RefusesWhatMakeRefuses) {
     EXPECT_THROW(forecast(recipe), BadParameter); // no file
     recipe = cluster_recipe();
     set_key(recipe, "surface.erodibility=nowhere.tif");
-    try {
-        forecast(recipe);
-        FAIL() << "the file is missing";
-    } catch (BadInput const& e) {
-        EXPECT_STREQ(e.what(), "surface.erodibility = \"nowhere.tif\": there is no such file");
-    }
+    EXPECT_EQ(message_of<BadInput>([&] { forecast(recipe); }),
+              "surface.erodibility = \"nowhere.tif\": there is no such file");
     recipe = cluster_recipe();
     set_key(recipe, "patch.1.source=nowhere.tif");
     set_key(recipe, "patch.2.source=" + (old_recipes() / "detail_points/recipe.toml").string());
-    try {
-        forecast(recipe);
-        FAIL() << "the file of the first patch is missing";
-    } catch (BadInput const& e) {
-        EXPECT_STREQ(e.what(), "patch.1.source = \"nowhere.tif\": there is no such file");
-    }
+    EXPECT_EQ(message_of<BadInput>([&] { forecast(recipe); }),
+              "patch.1.source = \"nowhere.tif\": there is no such file");
     recipe = cluster_recipe();
     set_key(recipe, "grid.width=1000000");
     set_key(recipe, "grid.height=1000000");
@@ -110,3 +107,5 @@ TEST(Forecast, OfAGridThatIsStillUnknown) {
 }
 
 } // namespace
+
+} // namespace forecast_test

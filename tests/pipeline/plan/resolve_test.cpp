@@ -4,6 +4,7 @@
 
 #include "old_recipes.hpp"
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/pipeline/plan/forecast.hpp>
 
@@ -13,10 +14,14 @@
 #include <filesystem>
 #include <string>
 
+namespace resolve_test {
+
 using namespace thalweg;
 using namespace thalweg::pipeline;
 
 namespace {
+
+using test::on_threads;
 
 namespace fs = std::filesystem;
 
@@ -41,8 +46,7 @@ TEST(Resolve, RefusesAnEmptyRecipeAndAMissingFile) {
 
 // The law: the same recipe and files give the same plan.
 TEST(Resolve, TwiceGivesTheSamePlan) {
-    thalweg::Run alone;
-    alone.threads = 1;
+    thalweg::Run const alone = on_threads(1);
     int recipes = 0;
     for (fs::directory_entry const& entry : fs::directory_iterator(old_recipes())) {
         if (!entry.is_directory()) {
@@ -113,3 +117,5 @@ TEST(Resolve, AnIslandHasItsCoastBeforeItsRivers) {
     EXPECT_FALSE(plan.forest->outlets.empty());
     EXPECT_EQ(plan.recipe.network->meander, 0.3); // short rivers bend less
 }
+
+} // namespace resolve_test

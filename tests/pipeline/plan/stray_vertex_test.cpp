@@ -2,16 +2,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/plan/internal/stray_vertex.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
 
 #include <string>
 
+namespace stray_vertex_test {
+
 using namespace thalweg;
 using pipeline::require_no_stray_vertex;
 
 namespace {
+
+using test::has;
+using test::message_of;
 
 /// Two rivers of 40 vertices each, a few kilometres long.
 RiverLines two_rivers() {
@@ -50,12 +56,10 @@ TEST(StrayVertex, ALostCoordinateIsNamed) {
                             Vec3{5.0e6, 4500100.0, 0.0}, Vec3{500100.0, 4.5e7, 0.0}}) {
         RiverLines rivers = two_rivers();
         rivers.lines[1].vertices[17] = lost;
-        try {
-            require_no_stray_vertex(rivers);
-            FAIL() << lost.x << " " << lost.y;
-        } catch (BadInput const& fault) {
-            EXPECT_NE(std::string(fault.what()).find("river 2 in rivers.gpkg has a vertex at"), std::string::npos)
-                << fault.what();
-        }
+        EXPECT_TRUE(has(message_of<BadInput>([&] { require_no_stray_vertex(rivers); }),
+                        "river 2 in rivers.gpkg has a vertex at"))
+            << lost.x << " " << lost.y;
     }
 }
+
+} // namespace stray_vertex_test

@@ -1,19 +1,22 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
+
+namespace documented_keys_test {
 
 using namespace thalweg;
 
 namespace {
+
+using test::bytes_of;
 
 /// Names in docs that begin as keys do: files, and places in report.json.
 std::set<std::string> const other_names = {"network.gpkg", "network.laws", "network.uphill_before_repair",
@@ -30,11 +33,6 @@ std::set<std::string> keys_and_sections() {
     return names;
 }
 
-std::string text_of(std::filesystem::path const& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 } // namespace
 
 // A key that docs name is one that a recipe may have.
@@ -49,10 +47,12 @@ TEST(DocumentedKeys, Exist) {
         if (entry.path().extension() != ".md" || folder == "decisions") { // which speak of their day
             continue;
         }
-        std::string const text = text_of(entry.path());
+        std::string const text = bytes_of(entry.path());
         for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at, ++found) {
             EXPECT_TRUE(known.contains((*at)[1])) << entry.path() << " names the key " << (*at)[1];
         }
     }
     EXPECT_GT(found, 30);
 }
+
+} // namespace documented_keys_test

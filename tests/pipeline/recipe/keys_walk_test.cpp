@@ -13,6 +13,7 @@
 
 #include <house/fnv.hpp>
 #include <pipeline/walk_files.hpp>
+#include <support.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,12 +22,16 @@
 #include <string>
 #include <vector>
 
+namespace keys_walk_test {
+
 using namespace thalweg;
 using namespace thalweg::pipeline;
 
 namespace {
 
 using Words = std::vector<std::string>;
+using test::has;
+using test::message_of;
 
 /// A small recipe of a method.
 struct BaseRecipe {
@@ -353,17 +358,8 @@ bool has_stage(BaseRecipe const& base, std::string const& path) {
            base.toml.find("[" + section) != std::string::npos;
 }
 
-bool has(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
-}
-
 std::string checked(Recipe const& recipe) {
-    try {
-        check_recipe(recipe);
-    } catch (BadParameter const& fault) {
-        return fault.what();
-    }
-    return "";
+    return message_of<BadParameter>([&] { check_recipe(recipe); });
 }
 
 /// Whether the effect of a key is tried in a base.
@@ -462,3 +458,5 @@ TEST(Keys, EachIsTriedInARecipeOfTheWalk) {
         EXPECT_TRUE(used) << "no recipe of the walk uses " << path;
     }
 }
+
+} // namespace keys_walk_test

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+namespace recipe_keys_test {
+
 using namespace thalweg;
 using namespace thalweg::pipeline;
 
@@ -74,3 +76,5 @@ TEST(RecipeKeys, FilesAreThoseOfEverySectionAndItem) {
     EXPECT_EQ(found, (std::vector<std::string>{"network.lines.path a.gpkg rivers", "patch.1.source b.tif ",
                                                "patch.2.source c.tif ", "patch.2.mask d.gpkg "}));
 }
+
+} // namespace recipe_keys_test

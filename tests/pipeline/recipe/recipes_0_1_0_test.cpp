@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+namespace recipes_0_1_0_test {
+
 using namespace thalweg;
 using namespace thalweg::pipeline;
 
@@ -75,3 +77,5 @@ TEST(Recipes010, AreWrittenWithTheKeysTheyUseAlone) {
         EXPECT_LT(written.size(), io::read_text(folder + "/" + name + "/recipe.toml", 1 << 20).size()) << name;
     }
 }
+
+} // namespace recipes_0_1_0_test

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <string>
 
+namespace embed_test {
+
 TEST(Embed, AnyByteSurvives) {
     std::string_view const bytes = thalweg::pipeline::awkward_bytes();
     std::ifstream file(THALWEG_SOURCE_DIR "/tests/data/awkward.bin", std::ios::binary);
@@ -18,3 +20,5 @@ TEST(Embed, AnyByteSurvives) {
     }
     EXPECT_NE(bytes.find("@@DATA@@)\"R\"(;[=[${x}@y@\\\\;]]"), std::string_view::npos);
 }
+
+} // namespace embed_test

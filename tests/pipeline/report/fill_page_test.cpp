@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+namespace fill_page_test {
+
 using namespace thalweg::pipeline;
 
 namespace {
@@ -45,3 +47,5 @@ TEST(FillPage, TheBuiltInPageIsTheFileAndHoldsEachMarkerOnce) {
     EXPECT_TRUE(page_template() == bytes);
     EXPECT_NO_THROW(fill_page(page_template(), {}));
 }
+
+} // namespace fill_page_test

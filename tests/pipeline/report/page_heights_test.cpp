@@ -7,10 +7,13 @@
 
 #include <measure/dems.hpp>
 #include <pipeline/page_decoder.hpp>
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <cmath>
 #include <string>
+
+namespace page_heights_test {
 
 using namespace thalweg;
 using pipeline::page_cells;
@@ -18,6 +21,9 @@ using pipeline::page_heights;
 using pipeline::PageHeights;
 
 namespace {
+
+using test::has;
+using test::message_of;
 
 /// Decodes the page's heights and holds each to the mean of its square.
 void hold_to_means(Raster<float> const& dem) {
@@ -83,12 +89,7 @@ TEST(PageHeights, OneHeightIsExact) {
 TEST(PageHeights, AnInfiniteHeightIsRefusedByItsPlace) {
     Raster<float> dem = dem_of(2, {1.0F, 2.0F, 3.0F, 4.0F});
     dem[3] = std::numeric_limits<float>::infinity();
-    try {
-        page_heights(dem);
-        FAIL();
-    } catch (BadInput const& e) {
-        EXPECT_NE(std::string(e.what()).find("column 1, row 1"), std::string::npos) << e.what();
-    }
+    EXPECT_TRUE(has(message_of<BadInput>([&] { page_heights(dem); }), "column 1, row 1"));
 }
 
 TEST(PageHeights, TheSmallestSquaresThatAreFewEnough) {
@@ -116,11 +117,8 @@ TEST(PageHeights, AnyDem) {
 TEST(PageHeights, RoughAndSmoothAndOneRowWithMeans) {
     hold_to_means(rough_dem(frame(300, 200), 3));
     hold_to_means(rough_dem(frame(1, 300), 4));
-    Raster<float> smooth(frame(200, 100));
-    for (std::int64_t i = 0; i < smooth.cells(); ++i) {
-        Cell const c = smooth.grid().at(i);
-        smooth[i] = 1e4F - static_cast<float>(c.col * c.row) * 0.1F;
-    }
+    Raster<float> smooth =
+        test::raster_of(frame(200, 100), [&](Cell c) { return 1e4F - static_cast<float>(c.col * c.row) * 0.1F; });
     hold_to_means(smooth);
     for (auto const& grid : {frame(1301, 1277), frame(9001, 2), frame(1, 12300)}) {
         Raster<float> dem = rough_dem(grid, 5);
@@ -135,11 +133,7 @@ TEST(PageHeights, RoughAndSmoothAndOneRowWithMeans) {
 }
 
 TEST(PageHeights, APlaneCostsNextToNothing) {
-    Raster<float> plane(frame(256, 256));
-    for (std::int64_t i = 0; i < plane.cells(); ++i) {
-        Cell const c = plane.grid().at(i);
-        plane[i] = static_cast<float>(c.col + 2 * c.row);
-    }
+    Raster<float> plane = test::raster_of(frame(256, 256), [&](Cell c) { return c.col + 2 * c.row; });
     auto const page = page_heights(plane);
     std::size_t small = 0;
     for (std::size_t i = 256; i < page->bytes.size(); ++i) {
@@ -147,3 +141,5 @@ TEST(PageHeights, APlaneCostsNextToNothing) {
     }
     EXPECT_GT(small, page->bytes.size() * 98 / 100) << "residuals of a plane are its roundings";
 }
+
+} // namespace page_heights_test

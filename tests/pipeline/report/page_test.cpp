@@ -15,6 +15,8 @@
 #include <limits>
 #include <string>
 
+namespace page_test {
+
 using namespace thalweg;
 using namespace thalweg::pipeline;
 using nlohmann::json;
@@ -256,3 +258,5 @@ TEST(Page, LargeGridsAreShownByMeansAndSaySo) {
     ASSERT_EQ(data["notes"].size(), 1U);
     EXPECT_EQ(data["notes"][0], "heights are shown as means of 2x2 cells");
 }
+
+} // namespace page_test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid/poisson.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/solver/grid/internal/conjugate_gradients.hpp>
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
@@ -22,40 +22,29 @@
 
 #include <solver/winding_lines.hpp>
 
+namespace poisson_test {
+
 using namespace thalweg;
 using namespace thalweg::solver;
 using test::winding_lines;
 
 namespace {
 
+using test::frame_below;
+using test::message_of;
+using test::on_threads;
+using test::same_bits;
+
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-Grid frame(std::int64_t width, std::int64_t height) {
-    return {width, height, 1.0, 0.0, 0.0, ""};
-}
-
 GridProblem all_free(std::int64_t width, std::int64_t height) {
-    return {Raster<std::uint8_t>(frame(width, height), free_cell), Raster<double>(frame(width, height)), {}};
+    return {
+        Raster<std::uint8_t>(frame_below(width, height), free_cell), Raster<double>(frame_below(width, height)), {}};
 }
 
 void fix(GridProblem& problem, Cell c, double value) {
     problem.kind[c] = fixed_cell;
     problem.value[c] = value;
-}
-
-Run on(int threads) {
-    Run run;
-    run.threads = threads;
-    return run;
-}
-
-template <class Thrown, class F> std::string message(F const& f) {
-    try {
-        f();
-    } catch (Thrown const& e) {
-        return e.what();
-    }
-    return "nothing was thrown";
 }
 
 std::vector<Cell> neighbours(GridProblem const& problem, Cell c) {
@@ -134,10 +123,6 @@ double greatest_difference(Raster<double> const& a, Raster<double> const& b) {
     return most;
 }
 
-bool same_bytes(Raster<double> const& a, Raster<double> const& b) {
-    return a.cells() == b.cells() && std::memcmp(a.values().data(), b.values().data(), a.values().size_bytes()) == 0;
-}
-
 TEST(Poisson, NothingToDo) {
     EXPECT_EQ(solve_poisson({}).iterations, 0);
     GridProblem problem = all_free(1, 1);
@@ -155,28 +140,28 @@ TEST(Poisson, NothingToDo) {
 
 TEST(Poisson, RefusesWhatHasNoSolution) {
     GridProblem problem = all_free(7, 5);
-    EXPECT_NE(message<BadInput>([&] { solve_poisson(problem); }).find("column 0, row 0"), std::string::npos);
+    EXPECT_NE(message_of<BadInput>([&] { solve_poisson(problem); }).find("column 0, row 0"), std::string::npos);
     fix(problem, {0, 0}, 1.0);
     for (std::int64_t row = 0; row < 5; ++row) {
         problem.kind[{4, row}] = outside_cell; // a wall
     }
-    EXPECT_NE(message<BadInput>([&] { solve_poisson(problem); }).find("column 5, row 0"), std::string::npos);
+    EXPECT_NE(message_of<BadInput>([&] { solve_poisson(problem); }).find("column 5, row 0"), std::string::npos);
     fix(problem, {6, 4}, 1.0);
     EXPECT_NO_THROW(solve_poisson(problem));
     for (PoissonParams const& bad : {PoissonParams{0.0, 9}, {1.0, 9}, {nan, 9}, {1e-6, -1}}) {
         EXPECT_THROW(solve_poisson(problem, bad), BadParameter);
     }
     fix(problem, {2, 3}, nan);
-    EXPECT_NE(message<BadInput>([&] { solve_poisson(problem); }).find("column 2, row 3"), std::string::npos);
+    EXPECT_NE(message_of<BadInput>([&] { solve_poisson(problem); }).find("column 2, row 3"), std::string::npos);
     fix(problem, {2, 3}, 2.0);
     problem.source = Raster<double>(problem.kind.grid());
     problem.source[{3, 3}] = std::numeric_limits<double>::infinity();
-    EXPECT_NE(message<BadInput>([&] { solve_poisson(problem); }).find("column 3, row 3"), std::string::npos);
-    problem.source = Raster<double>(frame(5, 7));
+    EXPECT_NE(message_of<BadInput>([&] { solve_poisson(problem); }).find("column 3, row 3"), std::string::npos);
+    problem.source = Raster<double>(frame_below(5, 7));
     EXPECT_THROW(solve_poisson(problem), BadInput);
     problem.source = {};
     problem.kind[{1, 1}] = 3;
-    EXPECT_NE(message<BadInput>([&] { solve_poisson(problem); }).find("column 1, row 1"), std::string::npos);
+    EXPECT_NE(message_of<BadInput>([&] { solve_poisson(problem); }).find("column 1, row 1"), std::string::npos);
 }
 
 TEST(Poisson, SaysWhenItHasNotConverged) {
@@ -289,9 +274,9 @@ TEST(Poisson, LongAndThin) {
 
 TEST(Poisson, SameBytesForAnyThreadsAndLanes) {
     GridProblem problem = by_chance(701, 333, 0.02, 0.05, 4);
-    GridSolution const one = solve_poisson(problem, {1e-8, 100}, on(1));
+    GridSolution const one = solve_poisson(problem, {1e-8, 100}, on_threads(1));
     for (int const threads : {2, 3, 8}) {
-        EXPECT_TRUE(same_bytes(solve_poisson(problem, {1e-8, 100}, on(threads)).value, one.value));
+        EXPECT_TRUE(same_bits(solve_poisson(problem, {1e-8, 100}, on_threads(threads)).value, one.value));
     }
     std::vector<Raster<double>> values;
     for (Lanes const lanes : {Lanes::plain, widest_lanes()}) {
@@ -305,7 +290,7 @@ TEST(Poisson, SameBytesForAnyThreadsAndLanes) {
             values.back()[i] = iterate.x.of[(c.col + c.row) & 1].row(c.row)[c.col / 2];
         }
     }
-    EXPECT_TRUE(same_bytes(values[0], values[1]));
+    EXPECT_TRUE(same_bits(values[0], values[1]));
 }
 
 TEST(Poisson, IterationsDoNotGrowWithTheGrid) {
@@ -347,7 +332,7 @@ TEST(Poisson, AnyUnitOfHeight) {
         for (double& z : solved.values()) {
             z /= unit_m;
         }
-        EXPECT_TRUE(same_bytes(solved, metres));
+        EXPECT_TRUE(same_bits(solved, metres));
     }
 }
 
@@ -413,3 +398,5 @@ TEST(Unreached, FindsPartsWithoutFixedCells) {
 }
 
 } // namespace
+
+} // namespace poisson_test

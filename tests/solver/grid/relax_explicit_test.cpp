@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid/relax_explicit.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
@@ -13,10 +14,14 @@
 #include <cstring>
 #include <limits>
 
+namespace relax_explicit_test {
+
 using namespace thalweg;
 using namespace thalweg::solver;
 
 namespace {
+
+using test::on_threads;
 
 /// Fixed cells of 0 and 1 among others, and all holes isolated: no part is without a fixed cell.
 GridProblem by_chance(std::int64_t width, std::int64_t height, std::uint64_t seed) {
@@ -99,8 +104,7 @@ TEST(RelaxExplicit, TendsToTheSolution) {
 
 TEST(RelaxExplicit, SameBytesForAnyThreads) {
     GridProblem const problem = by_chance(301, 203, 6);
-    thalweg::Run run;
-    run.threads = 1;
+    thalweg::Run run = on_threads(1);
     Raster<double> const one = relax_explicit(problem, {0.25, 21}, run).value;
     for (int const threads : {2, 5}) {
         run.threads = threads;
@@ -110,3 +114,5 @@ TEST(RelaxExplicit, SameBytesForAnyThreads) {
 }
 
 } // namespace
+
+} // namespace relax_explicit_test

@@ -22,6 +22,8 @@
 #include <limits>
 #include <string>
 
+namespace skeletons_test {
+
 using namespace thalweg;
 using namespace thalweg::solver;
 
@@ -90,3 +92,5 @@ TEST(PoissonOnSkeletons, StreamsOfLand) {
 }
 
 } // namespace
+
+} // namespace skeletons_test

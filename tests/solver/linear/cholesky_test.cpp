@@ -6,12 +6,17 @@
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
+
+namespace cholesky_test {
 
 using namespace thalweg;
 
 namespace {
+
+using test::on_threads;
 
 /// A A' + 1 for random A: positive definite.
 std::vector<double> random_matrix(std::size_t n, std::uint64_t seed) {
@@ -58,8 +63,7 @@ TEST(Cholesky, SolvesWithTheSameBitsForAnyNumberOfThreads) {
             b[i] += matrix[i * n + j] * x[j];
         }
     }
-    thalweg::Run run;
-    run.threads = 1;
+    thalweg::Run run = on_threads(1);
     auto const one = solver::factor(matrix, n, 0.0, run);
     auto const found = solver::solve(one, b);
     for (std::size_t i = 0; i < n; ++i) {
@@ -69,3 +73,5 @@ TEST(Cholesky, SolvesWithTheSameBitsForAnyNumberOfThreads) {
     auto const many = solver::factor(matrix, n, 0.0, run);
     EXPECT_EQ(solver::solve(many, b), found);
 }
+
+} // namespace cholesky_test

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <limits>
 
+namespace least_squares_test {
+
 using namespace thalweg;
 using namespace thalweg::solver;
 
@@ -176,3 +178,5 @@ TEST(LeastSquaresOnSphere, RefusesWhatIsNoSphere) {
     }
     EXPECT_THROW(least_squares_on_sphere(twice, b, {{0}, diagonal({1}), 1.0}), BadInput);
 }
+
+} // namespace least_squares_test

@@ -10,6 +10,8 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
+namespace sparse_test {
+
 using namespace thalweg;
 using namespace thalweg::solver;
 
@@ -66,3 +68,5 @@ TEST(SparseFactor, SolvesForEveryRightHandSide) {
         }
     }
 }
+
+} // namespace sparse_test

@@ -3,7 +3,6 @@
 #include <thalweg/solver/grid/poisson.hpp>
 #include <thalweg/solver/grid/relax_explicit.hpp>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -16,6 +15,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/solver/opencl/devices.hpp>
@@ -23,12 +23,18 @@
 #include <thalweg/solver/opencl/internal/opencl_device.hpp>
 #include <thalweg/solver/opencl/internal/relax_opencl.hpp>
 
+namespace opencl_test {
+
 using namespace thalweg;
 using solver::CellKind;
 using solver::GridProblem;
 
 // Without an OpenCL device these tests fail: pocl-opencl-icd is one.
 namespace {
+
+using test::frame_below;
+using test::full_message_of;
+using test::same_bits;
 
 constexpr std::uint8_t outside = 0;
 constexpr std::uint8_t free_cell = 1;
@@ -40,18 +46,11 @@ Run on_device() {
     return run;
 }
 
-Grid grid_of(std::int64_t width, std::int64_t height) {
-    Grid grid;
-    grid.width = width;
-    grid.height = height;
-    return grid;
-}
-
 /// Heights to 1000 m at some cells, others outside; every other seed has sources. All free cells are part of the same
 /// land as a fixed one: those that are not are outside.
 GridProblem random_problem(std::int64_t width, std::int64_t height, std::uint64_t seed, double fixed_share,
                            double outside_share) {
-    Grid const grid = grid_of(width, height);
+    Grid const grid = frame_below(width, height);
     GridProblem problem{Raster<std::uint8_t>(grid, free_cell), Raster<double>(grid, 0.0), Raster<double>()};
     if (seed % 2 == 1) {
         problem.source = Raster<double>(grid, 0.0);
@@ -87,10 +86,6 @@ GridProblem random_problem(std::int64_t width, std::int64_t height, std::uint64_
         problem.kind[i] = wet[static_cast<std::size_t>(i)] == 0 ? outside : problem.kind[i];
     }
     return problem;
-}
-
-bool same_bits(double a, double b) {
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
 double greatest_difference(GridProblem const& problem, Raster<double> const& a, Raster<double> const& b) {
@@ -155,15 +150,6 @@ private:
     bool was_set_ = false;
 };
 
-template <class Failure, class Work> std::string message_of(Work work) {
-    try {
-        work();
-    } catch (Failure const& e) {
-        return std::string(e.where()) + ": " + e.what();
-    }
-    return "nothing was thrown";
-}
-
 } // namespace
 
 TEST(OpenCl, NamesItsDevices) {
@@ -181,7 +167,7 @@ TEST(OpenCl, NamesItsDevices) {
 TEST(OpenCl, RefusesDevicesThatAreNot) {
     for (char const* const wrong : {"7:7", "gpu", "", "0", "0:0:0", "0:", "-1:0"}) {
         Setting const bad("THALWEG_OPENCL_DEVICE", wrong);
-        std::string const words = message_of<BadParameter>([] { solver::opencl_device_name(); });
+        std::string const words = full_message_of<BadParameter>([] { solver::opencl_device_name(); });
         EXPECT_NE(words.find("names no device: write platform:device as in 0:0 "), std::string::npos) << words;
         GridProblem const problem = random_problem(9, 9, 2, 0.3, 0.0);
         EXPECT_THROW(solver::relax_explicit(problem, {.sweeps = 1}, on_device()), BadParameter);
@@ -190,10 +176,10 @@ TEST(OpenCl, RefusesDevicesThatAreNot) {
 }
 
 TEST(OpenCl, SaysWhatTheCompilerSays) {
-    std::string const words = message_of<IoError>([] { solver::DeviceQueue("solver.test", "#error wombat"); });
+    std::string const words = full_message_of<IoError>([] { solver::DeviceQueue("solver.test", "#error wombat"); });
     EXPECT_NE(words.find("solver.test: "), std::string::npos) << words;
     EXPECT_NE(words.find("wombat"), std::string::npos) << words;
-    std::string const unknown = message_of<IoError>([] {
+    std::string const unknown = full_message_of<IoError>([] {
         solver::DeviceQueue queue("solver.test", "kernel void f(int i) {}");
         queue.run("g", 1, 1, 1);
     });
@@ -206,8 +192,8 @@ TEST(OpenCl, RefusesWhatDoesNotFit) {
     device.memory_bytes = 3'000'000'000;
     device.largest_block_bytes = 1'000'000'000;
     EXPECT_NO_THROW(solver::check_device_memory(device, "solver.test", 3'000'000'000, 1'000'000'000));
-    std::string const words =
-        message_of<IoError>([&] { solver::check_device_memory(device, "solver.test", 5'500'000'000, 900'000'000); });
+    std::string const words = full_message_of<IoError>(
+        [&] { solver::check_device_memory(device, "solver.test", 5'500'000'000, 900'000'000); });
     EXPECT_EQ(words,
               "solver.test: the grid needs 5.5 GB in blocks of up to 0.9 GB on the OpenCL device tiny, which has "
               "3.0 GB in blocks of up to 1.0 GB: make the grid smaller or leave --device out");
@@ -218,7 +204,7 @@ TEST(OpenClPoisson, OfNothingOfOneCellAndOfRows) {
     EXPECT_EQ(solver::solve_poisson({}, {}, on_device()).value.cells(), 0);
     for (std::int64_t const length : {1, 2, 3, 17, 70}) {
         for (int const turned : {0, 1}) {
-            Grid const grid = turned == 1 ? grid_of(1, length) : grid_of(length, 1);
+            Grid const grid = turned == 1 ? frame_below(1, length) : frame_below(length, 1);
             GridProblem problem{Raster<std::uint8_t>(grid, free_cell), Raster<double>(grid, 0.0), Raster<double>()};
             problem.kind[0] = fixed;
             problem.value[0] = 100.0;
@@ -276,23 +262,23 @@ TEST(OpenClPoisson, RefusesBadProblems) {
             dry.kind[Cell{col, row}] = free_cell;
         }
     }
-    EXPECT_NE(message_of<BadInput>([&] { solve(dry); }).find("column 6, row 0"), std::string::npos);
+    EXPECT_NE(full_message_of<BadInput>([&] { solve(dry); }).find("column 6, row 0"), std::string::npos);
     GridProblem hole = good;
     hole.kind[Cell{3, 2}] = fixed;
     hole.value[Cell{3, 2}] = std::numeric_limits<double>::infinity();
-    EXPECT_NE(message_of<BadInput>([&] { solve(hole); }).find("column 3, row 2"), std::string::npos);
+    EXPECT_NE(full_message_of<BadInput>([&] { solve(hole); }).find("column 3, row 2"), std::string::npos);
     GridProblem other_size = good;
-    other_size.value = Raster<double>(grid_of(9, 12));
+    other_size.value = Raster<double>(frame_below(9, 12));
     EXPECT_THROW(solve(other_size), BadInput);
     GridProblem odd_source = good;
-    odd_source.source = Raster<double>(grid_of(3, 3));
+    odd_source.source = Raster<double>(frame_below(3, 3));
     EXPECT_THROW(solve(odd_source), BadInput);
     for (double const tolerance : {0.0, -1.0, 1.0, std::nan("")}) {
         EXPECT_THROW(solve(good, {.tolerance = tolerance}), BadParameter);
     }
     EXPECT_THROW(solve(good, {.most_iterations = -1}), BadParameter);
     EXPECT_THROW(solve(random_problem(80, 80, 2, 0.01, 0.0), {.most_iterations = 2}), NotConverged);
-    EXPECT_NE(message_of<NotConverged>([&] {
+    EXPECT_NE(full_message_of<NotConverged>([&] {
                   solve(random_problem(80, 80, 2, 0.01, 0.0), {.tolerance = 1e-18});
               }).find("out of reach"),
               std::string::npos);
@@ -423,3 +409,5 @@ TEST(OpenClRelax, StopsBetweenSweeps) {
     };
     EXPECT_THROW(solver::relax_explicit(problem, {.sweeps = 100'000'000}, run), Cancelled);
 }
+
+} // namespace opencl_test

@@ -7,10 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/normal.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/solver/statistics/expected_slope.hpp>
+
+namespace circulant_test {
 
 using namespace thalweg;
 using solver::Circulant;
@@ -18,9 +21,8 @@ using solver::StableCovariance;
 
 namespace {
 
-Grid frame(std::int64_t width, std::int64_t height) {
-    return {width, height, 1.0, 0.0, 0.0, ""};
-}
+using test::frame_below;
+using test::on_threads;
 
 double covariance_of(Circulant const& torus, solver::Quarter const& table, Cell a, Cell b) {
     auto const apart = [](std::int64_t p, std::int64_t q, std::int64_t around) {
@@ -82,13 +84,13 @@ TEST(Circulant, EigenvaluesAndCovariancesBelongTogether) {
 TEST(Circulant, TheSmallestTorus) {
     Circulant const torus = solver::circulant({1.0, 1.0, 2.5}, 2, 2);
     EXPECT_NEAR(solver::covariances(torus)[3], std::exp(-std::sqrt(2.0)), 1e-15);
-    EXPECT_TRUE(std::isfinite(solver::sample(torus, frame(1, 1), 1, 1)[0]));
+    EXPECT_TRUE(std::isfinite(solver::sample(torus, frame_below(1, 1), 1, 1)[0]));
 }
 
 TEST(Circulant, MultipliesAsTheMatrixDoes) {
     Circulant const torus = solver::circulant({4.0, 2.0, 2.3}, 30, 16);
     auto const table = solver::covariances(torus);
-    Grid const grid = frame(17, 9);
+    Grid const grid = frame_below(17, 9);
     Raster<double> a(grid);
     Raster<double> b(grid);
     for (std::int64_t i = 0; i < a.cells(); ++i) {
@@ -114,7 +116,7 @@ TEST(Circulant, MultipliesAsTheMatrixDoes) {
 TEST(Circulant, SamplesHaveItsCovariance) {
     Circulant const torus = solver::circulant({3.0, 5.0, 2.4}, 24, 30);
     auto const table = solver::covariances(torus);
-    Grid const grid = frame(9, 8); // an even and an odd number of rows meet the pairing of rows
+    Grid const grid = frame_below(9, 8); // an even and an odd number of rows meet the pairing of rows
     constexpr int draws = 4000;
     Cell const here{4, 3};
     Raster<double> sums(grid);
@@ -135,11 +137,10 @@ TEST(Circulant, SamplesHaveItsCovariance) {
 }
 
 TEST(Circulant, SameBitsForAnyNumberOfThreads) {
-    thalweg::Run run;
-    run.threads = 1;
+    thalweg::Run run = on_threads(1);
     auto const made = [&] {
         Circulant const torus = solver::circulant({9.0, 5.0, 2.4}, 200, 120, run);
-        Raster<double> field = solver::sample(torus, frame(97, 61), 3, 1, run);
+        Raster<double> field = solver::sample(torus, frame_below(97, 61), 3, 1, run);
         Raster<double> other = field;
         solver::multiply(torus, field, other, run);
         return std::vector<double>(field.values().begin(), field.values().end());
@@ -173,3 +174,5 @@ TEST(NormalPair, IsNormal) {
     EXPECT_EQ(still, 0.0);
     EXPECT_EQ(normal_pair(0, 5)[0], 0.0);
 }
+
+} // namespace circulant_test

@@ -8,8 +8,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
+
+namespace fft_test {
 
 using namespace thalweg;
 using solver::Complex;
@@ -17,6 +20,8 @@ using solver::Direction;
 using solver::fft;
 
 namespace {
+
+using test::on_threads;
 
 Raster<Complex> noise(std::int64_t width, std::int64_t height, std::uint64_t seed) {
     Raster<Complex> values(Grid{width, height, 1.0, 0.0, 0.0, ""});
@@ -91,8 +96,7 @@ TEST(Fft, ThereAndBackMultipliesByTheNumberOfCells) {
 
 TEST(Fft, SameBitsForAnyNumberOfThreads) {
     auto const values = noise(210, 147, 5);
-    thalweg::Run run;
-    run.threads = 1;
+    thalweg::Run run = on_threads(1);
     auto const one = fft(values, Direction::forward, run);
     for (int const threads : {2, 5}) {
         run.threads = threads;
@@ -107,3 +111,5 @@ TEST(Fft, StopsWhenAsked) {
     run.stop = source.get_token();
     EXPECT_THROW(fft(noise(8, 8, 1), Direction::forward, run), Cancelled);
 }
+
+} // namespace fft_test

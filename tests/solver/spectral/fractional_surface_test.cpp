@@ -11,8 +11,11 @@
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
+
+namespace fractional_surface_test {
 
 using namespace thalweg;
 using solver::fractional_surface;
@@ -20,15 +23,9 @@ using solver::FractionalSurface;
 
 namespace {
 
-Grid lattice(std::int64_t width, std::int64_t height) {
-    return {width, height, 1.0, 0.0, 0.0, ""};
-}
-
-Run with_threads(int threads) {
-    Run run;
-    run.threads = threads;
-    return run;
-}
+using test::frame_below;
+using test::message_of;
+using test::on_threads;
 
 double variogram(Cell a, Cell b, double hurst) {
     double const dx = static_cast<double>(a.col - b.col);
@@ -37,12 +34,7 @@ double variogram(Cell a, Cell b, double hurst) {
 }
 
 std::string refusal_of(std::int64_t width, std::int64_t height, double hurst) {
-    try {
-        fractional_surface(width, height, hurst);
-    } catch (BadParameter const& error) {
-        return error.what();
-    }
-    return "";
+    return message_of<BadParameter>([&] { fractional_surface(width, height, hurst); });
 }
 
 } // namespace
@@ -115,7 +107,7 @@ TEST(FractionalSurface, DiffersAsTheVariogramSaysInEveryDirection) {
             std::size_t const cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
             std::vector<double> squares(cells * cells, 0.0);
             for (std::uint64_t seed = 1; seed <= runs; ++seed) {
-                Raster<double> const z = sample(surface, seed, 7, with_threads(1));
+                Raster<double> const z = sample(surface, seed, 7, on_threads(1));
                 ASSERT_EQ(z[0], 0.0);
                 for (std::size_t a = 0; a < cells; ++a) {
                     for (std::size_t b = 0; b < a; ++b) {
@@ -124,7 +116,7 @@ TEST(FractionalSurface, DiffersAsTheVariogramSaysInEveryDirection) {
                     }
                 }
             }
-            Grid const grid = lattice(width, height);
+            Grid const grid = frame_below(width, height);
             for (std::size_t a = 0; a < cells; ++a) {
                 for (std::size_t b = 0; b < a; ++b) {
                     double const truth =
@@ -141,7 +133,7 @@ TEST(FractionalSurface, DiffersAsTheVariogramSaysInEveryDirection) {
 TEST(FractionalSurface, VariogramsAreSuperposedAsTheSlowSumsAre) {
     for (double const hurst : {0.05, 0.6, 0.9}) {
         for (auto const& [width, height] : {std::pair{12, 9}, std::pair{1, 1}, std::pair{30, 1}, std::pair{2, 17}}) {
-            Raster<double> weights(lattice(width, height));
+            Raster<double> weights(frame_below(width, height));
             for (std::int64_t i = 0; i < weights.cells(); ++i) {
                 weights[i] = unit(random_word(3, static_cast<std::uint64_t>(i))) - 0.3;
             }
@@ -164,14 +156,16 @@ TEST(FractionalSurface, VariogramsAreSuperposedAsTheSlowSumsAre) {
 
 TEST(FractionalSurface, IsTheSameOnAnyThreads) {
     for (double const hurst : {0.4, 0.9}) {
-        FractionalSurface const one = fractional_surface(150, 77, hurst, with_threads(1));
-        FractionalSurface const two = fractional_surface(150, 77, hurst, with_threads(2));
+        FractionalSurface const one = fractional_surface(150, 77, hurst, on_threads(1));
+        FractionalSurface const two = fractional_surface(150, 77, hurst, on_threads(2));
         EXPECT_EQ(one.torus.eigenvalues, two.torus.eigenvalues);
-        Raster<double> a = sample(one, 5, 6, with_threads(1));
-        Raster<double> b = sample(two, 5, 6, with_threads(2));
+        Raster<double> a = sample(one, 5, 6, on_threads(1));
+        Raster<double> b = sample(two, 5, 6, on_threads(2));
         EXPECT_TRUE(std::equal(a.values().begin(), a.values().end(), b.values().begin()));
-        superpose_variograms(one, a, with_threads(1));
-        superpose_variograms(two, b, with_threads(2));
+        superpose_variograms(one, a, on_threads(1));
+        superpose_variograms(two, b, on_threads(2));
         EXPECT_TRUE(std::equal(a.values().begin(), a.values().end(), b.values().begin()));
     }
 }
+
+} // namespace fractional_surface_test

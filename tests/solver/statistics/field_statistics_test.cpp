@@ -9,13 +9,18 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
+
+namespace field_statistics_test {
 
 using namespace thalweg;
 using solver::Axis;
 using solver::Quantity;
 
 namespace {
+
+using test::on_threads;
 
 constexpr float hole = std::numeric_limits<float>::quiet_NaN();
 
@@ -63,8 +68,7 @@ Pairs pairs_at(Raster<float> const& dem, double datum, Axis axis, std::int64_t l
 }
 
 thalweg::Run one_thread() {
-    thalweg::Run run;
-    run.threads = 1;
+    thalweg::Run const run = on_threads(1);
     return run;
 }
 
@@ -189,10 +193,7 @@ TEST(CorrelationLength, CrossingAndFit) {
 }
 
 TEST(FractalDimension, OfPlanesAndPowers) {
-    Raster<float> plane(Grid{20, 10, 1.0, 0.0, 0.0, ""});
-    for (std::int64_t i = 0; i < plane.cells(); ++i) {
-        plane[i] = static_cast<float>(3 * plane.grid().at(i).col + plane.grid().at(i).row);
-    }
+    Raster<float> plane = test::raster_of({20, 10, 1.0, 0.0, 0.0, ""}, [&](Cell c) { return 3 * c.col + c.row; });
     EXPECT_NEAR(solver::fractal_dimension(solver::differences(plane, solver::near_lags)), 2.0, 1e-14);
     std::vector<solver::Difference> power;
     for (std::int64_t const lag : solver::dyadic_lags) {
@@ -232,8 +233,7 @@ TEST(Derivative, IsTheLimitOfFiniteDifferences) {
 
 TEST(FieldStatistics, SameBitsForAnyNumberOfThreads) {
     Raster<float> const dem = hills(211, 190, 5, 10);
-    thalweg::Run run;
-    run.threads = 1;
+    thalweg::Run run = on_threads(1);
     auto const one = solver::field_statistics(dem, run);
     auto const slope = solver::derivative(dem, one, Quantity::slope_rad, run);
     auto const length = solver::derivative(dem, one, Quantity::ln_ly, run);
@@ -250,3 +250,5 @@ TEST(FieldStatistics, SameBitsForAnyNumberOfThreads) {
         EXPECT_TRUE(std::equal(too.values().begin(), too.values().end(), length.values().begin()));
     }
 }
+
+} // namespace field_statistics_test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/diffusion/diffuse.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/value_noise.hpp>
 #include <thalweg/core/run/error.hpp>
@@ -17,16 +18,16 @@
 
 #include "valleys.hpp"
 
+namespace diffuse_test {
+
 using namespace thalweg;
 using namespace thalweg::surface;
 
 namespace {
 
-Run on(int threads) {
-    Run run;
-    run.threads = threads;
-    return run;
-}
+using test::full_message_of;
+using test::on_threads;
+using test::same_bits;
 
 DiffuseParams sweeps(int iterations, DiffusionStart start = DiffusionStart::coarse) {
     DiffuseParams params;
@@ -47,17 +48,17 @@ Skeleton skeleton_of(Valley const& valley) {
 
 TEST(Diffuse, RefusesWhatCannotBeSpread) {
     EXPECT_THROW(diffuse(Skeleton{}), BadInput);
-    Skeleton bare{Raster<float>(valleys::frame(5, 4), valleys::nan)};
-    EXPECT_NE(valleys::message<BadInput>([&] { diffuse(bare); }).find("surface.diffuse"), std::string::npos);
+    Skeleton bare{Raster<float>(test::frame_below(5, 4), valleys::nan)};
+    EXPECT_NE(full_message_of<BadInput>([&] { diffuse(bare); }).find("surface.diffuse"), std::string::npos);
     bare.z[{3, 1}] = std::numeric_limits<float>::infinity();
-    EXPECT_NE(valleys::message<BadInput>([&] { diffuse(bare); }).find("column 3, row 1"), std::string::npos);
-    Skeleton land{Raster<float>(valleys::frame(5, 4), 1.0F)};
-    EXPECT_THROW(diffuse(land, Mask(valleys::frame(4, 5), 1)), BadInput);
-    EXPECT_THROW(diffuse(land, Mask(valleys::frame(5, 4), 0)), BadInput);
+    EXPECT_NE(full_message_of<BadInput>([&] { diffuse(bare); }).find("column 3, row 1"), std::string::npos);
+    Skeleton land{Raster<float>(test::frame_below(5, 4), 1.0F)};
+    EXPECT_THROW(diffuse(land, Mask(test::frame_below(4, 5), 1)), BadInput);
+    EXPECT_THROW(diffuse(land, Mask(test::frame_below(5, 4), 0)), BadInput);
     auto const refused = [&](auto const& change) {
         DiffuseParams params;
         change(params);
-        return valleys::message<BadParameter>([&] { diffuse(land, params); });
+        return full_message_of<BadParameter>([&] { diffuse(land, params); });
     };
     for (double const alpha : {std::nextafter(0.25, 1.0), 0.26, 0.0, -0.1, std::nan("")}) {
         EXPECT_NE(refused([&](auto& p) { p.alpha = alpha; }).find("1/4"), std::string::npos) << alpha;
@@ -71,14 +72,14 @@ TEST(Diffuse, RefusesWhatCannotBeSpread) {
 }
 
 TEST(Diffuse, AllSkeleton) {
-    Skeleton const land{Raster<float>(valleys::frame(3, 2), -0.0F)};
+    Skeleton const land{Raster<float>(test::frame_below(3, 2), -0.0F)};
     for (DiffuseParams const& params : {DiffuseParams{}, sweeps(10)}) {
-        EXPECT_TRUE(valleys::same_bytes(diffuse(land, params).dem, land.z));
+        EXPECT_TRUE(same_bits(diffuse(land, params).dem, land.z));
     }
 }
 
 TEST(Diffuse, PartsWithoutASkeletonStayEmpty) {
-    Skeleton land{Raster<float>(valleys::frame(9, 5), valleys::nan)};
+    Skeleton land{Raster<float>(test::frame_below(9, 5), valleys::nan)};
     land.z[{1, 2}] = 7.0F;
     land.z[{4, 2}] = 9.0F; // outside: does not count
     Mask inside(land.z.grid(), 1);
@@ -189,7 +190,7 @@ TEST(Diffuse, EqualHeightsMakeAPlain) {
 }
 
 TEST(Diffuse, LastSweepsTakeTheSeam) {
-    Skeleton land{Raster<float>(valleys::frame(41, 41), valleys::nan)};
+    Skeleton land{Raster<float>(test::frame_below(41, 41), valleys::nan)};
     for (std::int64_t i = 0; i < land.z.cells(); ++i) {
         land.z[i] = land.z.grid().on_border(land.z.grid().at(i)) ? 0.0F : land.z[i];
     }
@@ -204,7 +205,7 @@ TEST(Diffuse, LastSweepsTakeTheSeam) {
     DiffuseParams params;
     params.passes = 3;
     for (int pass = 0; pass < params.passes; ++pass) {
-        smooth_free(kind, params.sigma_cells, averaged, on(1));
+        smooth_free(kind, params.sigma_cells, averaged, on_threads(1));
     }
     Raster<float> const soft = diffuse(land, params).dem;
     Cell const beside{21, 20};
@@ -214,13 +215,13 @@ TEST(Diffuse, LastSweepsTakeTheSeam) {
 }
 
 TEST(SmoothFree, IsTheMeanOfTheCellsThere) {
-    Raster<std::uint8_t> kind(valleys::frame(5, 1), 1);
+    Raster<std::uint8_t> kind(test::frame_below(5, 1), 1);
     kind[0] = 2;
     kind[3] = 0;
     Raster<double> value(kind.grid(), 1.0);
     value[0] = 5.0;
     value[3] = 1e9;
-    smooth_free(kind, 1.0, value, on(1));
+    smooth_free(kind, 1.0, value, on_threads(1));
     double const near = portable::exp(-0.5);
     double const far = portable::exp(-2.0);
     EXPECT_EQ(value[0], 5.0);
@@ -248,7 +249,7 @@ TEST(ValueNoise, IsSmoothAndFillsItsRange) {
 }
 
 TEST(Diffuse, NoiseVanishesAtTheSkeleton) {
-    Skeleton land{Raster<float>(valleys::frame(60, 50), valleys::nan)};
+    Skeleton land{Raster<float>(test::frame_below(60, 50), valleys::nan)};
     land.z[{0, 25}] = 0.0F;
     DiffuseParams params;
     params.noise_m = 10.0;
@@ -266,9 +267,9 @@ TEST(Diffuse, SameBytesForAnyThreads) {
     Skeleton const skeleton = skeleton_of(valleys::by_chance(300, 211, 0.01, 6));
     for (DiffuseParams params : {DiffuseParams{}, sweeps(33)}) {
         params.noise_m = 2.0;
-        Raster<float> const one = diffuse(skeleton, params, on(1)).dem;
+        Raster<float> const one = diffuse(skeleton, params, on_threads(1)).dem;
         for (int const threads : {2, 5}) {
-            EXPECT_TRUE(valleys::same_bytes(diffuse(skeleton, params, on(threads)).dem, one));
+            EXPECT_TRUE(same_bits(diffuse(skeleton, params, on_threads(threads)).dem, one));
         }
     }
 }
@@ -284,3 +285,5 @@ TEST(Diffuse, StopsWhenAsked) {
 }
 
 } // namespace
+
+} // namespace diffuse_test

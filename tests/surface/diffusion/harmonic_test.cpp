@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/diffusion/harmonic.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
@@ -22,26 +23,30 @@
 
 #include "valleys.hpp"
 
+namespace harmonic_test {
+
 using namespace thalweg;
 using namespace thalweg::surface;
 
 namespace {
 
+using test::full_message_of;
+
 TEST(Harmonic, RefusesWhatHasNoHeights) {
     EXPECT_THROW(harmonic(Valley{}), BadInput);
-    Valley dry{Raster<float>(valleys::frame(5, 5), valleys::nan)};
+    Valley dry{Raster<float>(test::frame_below(5, 5), valleys::nan)};
     EXPECT_THROW(harmonic(dry), BadInput);
     dry.z[{3, 1}] = std::numeric_limits<float>::infinity();
-    auto const text = valleys::message<BadInput>([&] { harmonic(dry); });
+    auto const text = full_message_of<BadInput>([&] { harmonic(dry); });
     EXPECT_NE(text.find("surface.harmonic"), std::string::npos) << text;
     EXPECT_NE(text.find("column 3, row 1"), std::string::npos) << text;
     dry.z[{3, 1}] = 1.0F;
-    EXPECT_THROW(harmonic(dry, Mask(valleys::frame(4, 5), 1)), BadInput);
-    EXPECT_THROW(harmonic(dry, Mask(valleys::frame(5, 5), 0)), BadInput);
+    EXPECT_THROW(harmonic(dry, Mask(test::frame_below(4, 5), 1)), BadInput);
+    EXPECT_THROW(harmonic(dry, Mask(test::frame_below(5, 5), 0)), BadInput);
 }
 
 TEST(Harmonic, ATighterToleranceIsNearerToTheEnd) {
-    Valley valley{Raster<float>(valleys::frame(200, 150), valleys::nan)};
+    Valley valley{Raster<float>(test::frame_below(200, 150), valleys::nan)};
     valley.z[{3, 1}] = 0.0F;
     valley.z[{190, 140}] = 1000.0F;
     Raster<float> const end = harmonic(valley, {}, HarmonicParams{1e-12});
@@ -141,3 +146,5 @@ TEST(Harmonic, LeavesNoScarpsOnRidges) {
 }
 
 } // namespace
+
+} // namespace harmonic_test

@@ -9,6 +9,8 @@
 
 #include <cmath>
 
+namespace dilate_over_test {
+
 namespace {
 
 using namespace thalweg;
@@ -31,19 +33,19 @@ DilateParams even_slopes() {
 } // namespace
 
 TEST(DilateOver, RefusesABaseOfAnotherFrame) {
-    Valley const valley = one_river(valleys::frame(5, 5));
-    EXPECT_THROW(dilate_over(valley, Raster<float>(valleys::frame(5, 6))), BadInput);
+    Valley const valley = one_river(test::frame_below(5, 5));
+    EXPECT_THROW(dilate_over(valley, Raster<float>(test::frame_below(5, 6))), BadInput);
 }
 
 TEST(DilateOver, HasNoHeightWhereTheBaseHasNone) {
-    Valley const valley = one_river(valleys::frame(5, 5));
+    Valley const valley = one_river(test::frame_below(5, 5));
     Raster<float> base(valley.z.grid(), 1.0F);
     base[Cell{0, 3}] = std::nanf("");
     EXPECT_TRUE(std::isnan(dilate_over(valley, base).dem[Cell{0, 3}]));
 }
 
 TEST(DilateOver, RisesFromTheBaseAsADilationRisesFromLevelGround) {
-    Grid const grid = valleys::frame(9, 7);
+    Grid const grid = test::frame_below(9, 7);
     Valley const valley = one_river(grid);
     Valley level = valley;
     for (float& z : level.z.values()) {
@@ -62,7 +64,7 @@ TEST(DilateOver, RisesFromTheBaseAsADilationRisesFromLevelGround) {
 }
 
 TEST(DilateOver, CellsBehindABarrierStayWithout) {
-    Grid const grid = valleys::frame(9, 7);
+    Grid const grid = test::frame_below(9, 7);
     Valley const valley = one_river(grid);
     Mask inside(grid, 1);
     for (std::int64_t row = 0; row < grid.height; ++row) {
@@ -73,3 +75,5 @@ TEST(DilateOver, CellsBehindABarrierStayWithout) {
     EXPECT_TRUE(std::isnan(land.dem[Cell{2, 3}]));
     EXPECT_FALSE(std::isnan(land.dem[Cell{3, 3}]));
 }
+
+} // namespace dilate_over_test

@@ -12,27 +12,28 @@
 #include <numeric>
 
 #include <golden.hpp>
+#include <support.hpp>
 
 #include "valleys.hpp"
+
+namespace dilate_test {
 
 using namespace thalweg;
 using namespace thalweg::surface;
 
 namespace {
 
+using test::full_message_of;
+using test::on_threads;
+using test::same_bits;
+
 DilateParams with(std::string const& increment, Metric metric = Metric::cityblock, double relief_m = 0.0) {
     return {{increment}, metric, relief_m};
 }
 
-Run on(int threads) {
-    Run run;
-    run.threads = threads;
-    return run;
-}
-
 /// One river cell of height z at the west end of a row of land.
 Valley ditch(std::int64_t width, float z, double cell_m = 1.0) {
-    Valley valley{Raster<float>(valleys::frame(width, 1, cell_m), valleys::nan)};
+    Valley valley{Raster<float>(test::frame_below(width, 1, cell_m), valleys::nan)};
     valley.z[0] = z;
     return valley;
 }
@@ -40,14 +41,14 @@ Valley ditch(std::int64_t width, float z, double cell_m = 1.0) {
 TEST(Dilate, RefusesWhatCannotBeDilated) {
     for (Metric const metric : {Metric::cityblock, Metric::euclid}) {
         EXPECT_THROW(dilate(Valley{}, with("uniform", metric)), BadInput);
-        Valley dry{Raster<float>(valleys::frame(5, 5), valleys::nan)};
+        Valley dry{Raster<float>(test::frame_below(5, 5), valleys::nan)};
         EXPECT_THROW(dilate(dry, with("uniform", metric)), BadInput);
         dry.z[{3, 1}] = std::numeric_limits<float>::infinity();
-        auto const text = valleys::message<BadInput>([&] { dilate(dry, with("uniform", metric)); });
+        auto const text = full_message_of<BadInput>([&] { dilate(dry, with("uniform", metric)); });
         EXPECT_NE(text.find("column 3, row 1"), std::string::npos) << text;
         Valley const outside = ditch(3, 1.0F);
         EXPECT_THROW(dilate(outside, Mask(outside.z.grid(), 0), with("uniform", metric)), BadInput);
-        EXPECT_THROW(dilate(outside, Mask(valleys::frame(1, 3), 1), with("uniform", metric)), BadInput);
+        EXPECT_THROW(dilate(outside, Mask(test::frame_below(1, 3), 1), with("uniform", metric)), BadInput);
         EXPECT_THROW(dilate(ditch(3, 1.0F, 0.0), with("uniform", metric)), BadInput);
         EXPECT_THROW(dilate(ditch(3, 1.0F), with("unifrm", metric)), BadParameter);
         EXPECT_THROW(dilate(ditch(3, 1.0F), with("1/(x-2)", metric)), BadParameter);
@@ -59,10 +60,10 @@ TEST(Dilate, RefusesWhatCannotBeDilated) {
 }
 
 TEST(Dilate, AllRiver) {
-    Valley const valley{Raster<float>(valleys::frame(3, 2), -0.0F)};
+    Valley const valley{Raster<float>(test::frame_below(3, 2), -0.0F)};
     for (Metric const metric : {Metric::cityblock, Metric::euclid}) {
         Dilated const d = dilate(valley, with("rise_fall", metric, 100.0));
-        EXPECT_TRUE(valleys::same_bytes(d.dem, valley.z));
+        EXPECT_TRUE(same_bits(d.dem, valley.z));
         EXPECT_EQ(d.levels, 0);
         EXPECT_TRUE(d.increments.empty());
         EXPECT_EQ(d.flat_share, 0.0);
@@ -132,13 +133,13 @@ TEST(Dilate, ThreadsChangeNoByte) {
     for (Metric const metric : {Metric::cityblock, Metric::euclid}) {
         for (double const relief_m : {0.0, 300.0}) {
             DilateParams const params = with("rise_fall", metric, relief_m);
-            Dilated const one = dilate(valley, params, on(1));
-            Dilated const two = dilate(valley, params, on(2));
-            EXPECT_TRUE(valleys::same_bytes(one.dem, two.dem));
+            Dilated const one = dilate(valley, params, on_threads(1));
+            Dilated const two = dilate(valley, params, on_threads(2));
+            EXPECT_TRUE(same_bits(one.dem, two.dem));
             EXPECT_EQ(one.increments, two.increments);
             EXPECT_EQ(one.flat_share, two.flat_share);
-            EXPECT_TRUE(valleys::same_bytes(dilate(valley, inside, params, on(1)).dem,
-                                            dilate(valley, inside, params, on(2)).dem));
+            EXPECT_TRUE(same_bits(dilate(valley, inside, params, on_threads(1)).dem,
+                                  dilate(valley, inside, params, on_threads(2)).dem));
         }
     }
 }
@@ -148,7 +149,7 @@ TEST(Dilate, AnOpenMaskChangesNoByte) {
     for (Metric const metric : {Metric::cityblock, Metric::euclid}) {
         Dilated const open = dilate(valley, with("rise_fall", metric));
         Dilated const masked = dilate(valley, Mask(valley.z.grid(), 7), with("rise_fall", metric));
-        EXPECT_TRUE(valleys::same_bytes(open.dem, masked.dem));
+        EXPECT_TRUE(same_bits(open.dem, masked.dem));
     }
 }
 
@@ -252,7 +253,7 @@ TEST(DilateEuclid, IsTheNearestOfAllValleyCells) {
 }
 
 TEST(DilateEuclid, DiffersFromCityBlockOffTheAxes) {
-    Valley valley{Raster<float>(valleys::frame(9, 9), valleys::nan)};
+    Valley valley{Raster<float>(test::frame_below(9, 9), valleys::nan)};
     valley.z[{4, 4}] = 0.0F;
     Dilated const round = dilate(valley, with("1", Metric::euclid));
     EXPECT_EQ((round.dem[{7, 8}]), 5.0F);
@@ -286,7 +287,7 @@ Valley fork() {
                             "....#.........."
                             "....#.........."
                             "....#..........";
-    Valley valley{Raster<float>(valleys::frame(15, 9), valleys::nan)};
+    Valley valley{Raster<float>(test::frame_below(15, 9), valleys::nan)};
     for (std::int64_t i = 0; i < valley.z.cells(); ++i) {
         if (map[static_cast<std::size_t>(i)] == '#') {
             valley.z[i] = 0.25F * static_cast<float>(8 - valley.z.grid().at(i).row);
@@ -314,3 +315,5 @@ TEST(DilateGolden, ForkRound) {
 }
 
 } // namespace
+
+} // namespace dilate_test

@@ -3,6 +3,7 @@
 #include <thalweg/surface/dilation/dilate.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
@@ -12,22 +13,27 @@
 
 #include "valleys.hpp"
 
+namespace expand_test {
+
 using namespace thalweg;
 using namespace thalweg::surface;
 
 namespace {
+
+using test::full_message_of;
+using test::on_threads;
+using test::same_bits;
 
 Expansion frontier(Valley const& valley) {
     return expand_frontier(valley, Mask(valley.z.grid(), 1));
 }
 
 bool same(Expansion const& a, Expansion const& b) {
-    return valleys::same_bytes(a.level, b.level) && valleys::same_bytes(a.base, b.base);
+    return same_bits(a.level, b.level) && same_bits(a.base, b.base);
 }
 
 template <class Level> Expansion by_lanes(Valley const& valley, Lanes lanes, int threads) {
-    Run run;
-    run.threads = threads;
+    Run const run = on_threads(threads);
     Expansion expansion{Raster<std::int32_t>(valley.z.grid()), Raster<float>(valley.z.grid())};
     auto const swept = separable::sweep_down<Level>(valley, expansion.base, lanes, run);
     separable::sweep_up(swept, expansion.base, expansion.level, lanes, run);
@@ -40,21 +46,21 @@ TEST(Expand, RefusesWhatIsNoValley) {
     Valley const none;
     EXPECT_THROW(expand(none), BadInput);
     EXPECT_THROW(expand_frontier(none, Mask()), BadInput);
-    Valley valley{Raster<float>(valleys::frame(9, 4), valleys::nan)};
+    Valley valley{Raster<float>(test::frame_below(9, 4), valleys::nan)};
     EXPECT_THROW(expand(valley), BadInput);
     EXPECT_THROW(frontier(valley), BadInput);
     valley.z[{2, 3}] = 1.0F;
     valley.z[{8, 1}] = -std::numeric_limits<float>::infinity();
     for (auto const& verb :
          {+[](Valley const& v) { return expand(v); }, +[](Valley const& v) { return frontier(v); }}) {
-        auto const text = valleys::message<BadInput>([&] { verb(valley); });
+        auto const text = full_message_of<BadInput>([&] { verb(valley); });
         EXPECT_NE(text.find("column 8, row 1"), std::string::npos) << text;
     }
-    EXPECT_THROW(expand_frontier(valley, Mask(valleys::frame(4, 9), 1)), BadInput);
+    EXPECT_THROW(expand_frontier(valley, Mask(test::frame_below(4, 9), 1)), BadInput);
 }
 
 TEST(Expand, OneCell) {
-    Valley const valley{Raster<float>(valleys::frame(1, 1), -0.0F)};
+    Valley const valley{Raster<float>(test::frame_below(1, 1), -0.0F)};
     for (Expansion const& e : {expand(valley), frontier(valley)}) {
         EXPECT_EQ(e.level[0], 0);
         EXPECT_TRUE(std::signbit(e.base[0]));
@@ -62,7 +68,7 @@ TEST(Expand, OneCell) {
 }
 
 TEST(Expand, LongLines) {
-    for (auto const& grid : {valleys::frame(70000, 1), valleys::frame(1, 70000), valleys::frame(65534, 1)}) {
+    for (auto const& grid : {test::frame_below(70000, 1), test::frame_below(1, 70000), test::frame_below(65534, 1)}) {
         Valley valley{Raster<float>(grid, valleys::nan)};
         valley.z[0] = 3.0F;
         EXPECT_TRUE(same(expand(valley), frontier(valley)));
@@ -71,7 +77,7 @@ TEST(Expand, LongLines) {
 }
 
 TEST(Expand, AllNaNsMeanNoRiver) {
-    Valley plain{Raster<float>(valleys::frame(11, 3), valleys::nan)};
+    Valley plain{Raster<float>(test::frame_below(11, 3), valleys::nan)};
     plain.z[5] = 2.0F;
     Valley odd = plain;
     for (float& z : odd.z.values()) {
@@ -139,7 +145,7 @@ TEST(Frontier, GoesAroundWallsAndNotIntoPockets) {
                             ".##.#.#.#"
                             ".....##.#"
                             "####...##";
-    Valley valley{Raster<float>(valleys::frame(9, 4), valleys::nan)};
+    Valley valley{Raster<float>(test::frame_below(9, 4), valleys::nan)};
     Mask inside(valley.z.grid(), 1);
     for (std::int64_t i = 0; i < inside.cells(); ++i) {
         char const c = map[static_cast<std::size_t>(i)];
@@ -167,3 +173,5 @@ TEST(Frontier, Cancelled) {
 }
 
 } // namespace
+
+} // namespace expand_test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/dilation/increment.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <gtest/gtest.h>
@@ -13,17 +14,21 @@
 
 #include "valleys.hpp"
 
+namespace increment_test {
+
 using namespace thalweg;
 using namespace thalweg::surface;
 
 namespace {
+
+using test::full_message_of;
 
 std::vector<double> sums(std::int64_t levels, IncrementParams const& params) {
     return heights_above_valley(increments(levels, params));
 }
 
 std::string refusal(std::string const& text) {
-    return valleys::message<BadParameter>([&] { increments(10, {text}); });
+    return full_message_of<BadParameter>([&] { increments(10, {text}); });
 }
 
 TEST(Increments, NoLevels) {
@@ -131,10 +136,12 @@ TEST(Increments, AFunctionThatIsNotFiniteOrThrows) {
     IncrementParams given;
     given.function = [](double x) { return 1.0 / (x - 7.0); };
     EXPECT_NO_THROW(increments(6, given));
-    EXPECT_EQ(valleys::message<BadParameter>([&] { increments(10, given); }),
+    EXPECT_EQ(full_message_of<BadParameter>([&] { increments(10, given); }),
               "surface.increments: the function is not finite at x = 7; choose one that is, for x = 1 to 10");
     given.function = [](double) -> double { throw std::out_of_range("a table of its own"); };
     EXPECT_THROW(increments(10, given), std::out_of_range);
 }
 
 } // namespace
+
+} // namespace increment_test

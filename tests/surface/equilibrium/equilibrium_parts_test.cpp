@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <support.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/surface/equilibrium/internal/area_power.hpp>
 #include <thalweg/surface/equilibrium/internal/edge_heights.hpp>
@@ -20,6 +21,8 @@
 
 #include "channel_trees.hpp"
 
+namespace equilibrium_parts_test {
+
 using namespace thalweg;
 using namespace thalweg::surface;
 
@@ -30,7 +33,7 @@ LandLevel any_level() {
     auto const width = *rc::gen::inRange<std::int64_t>(1, 25).as("width");
     auto const height = *rc::gen::inRange<std::int64_t>(1, 25).as("height");
     auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
-    Grid const grid = channel_trees::frame(width, height);
+    Grid const grid = test::frame(width, height, 10.0);
     auto const end = static_cast<std::int64_t>(random_word(seed, 1) % static_cast<std::uint64_t>(grid.cells()));
     Channels const rivers =
         channel_trees::grown(grid, {0, end}, {}, grid.cells() / 3 + 1, channel_trees::Room::crowd, seed);
@@ -267,3 +270,5 @@ TEST(EdgeHeights, AskNoNumbers) {
         RC_ASSERT(level.z == before);
     }));
 }
+
+} // namespace equilibrium_parts_test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/direction.hpp>
@@ -19,9 +20,10 @@
 
 #include "channel_trees.hpp"
 
+namespace equilibrium_test {
+
 using namespace thalweg;
 using channel_trees::beside;
-using channel_trees::frame;
 using channel_trees::Room;
 using surface::Edge;
 using surface::equilibrium;
@@ -31,6 +33,10 @@ using surface::EquilibriumTerrain;
 using surface::RiverHeights;
 
 namespace {
+
+using test::has;
+using test::message_of;
+using test::on_threads;
 
 struct Scene {
     Channels rivers;
@@ -128,7 +134,7 @@ Scene any_scene() {
     scene.params.floor_width_km = *rc::gen::element(0.0085, 0.0, 1.0).as("floor");
     scene.params.mean_slope_deg = *rc::gen::element(25.0, 0.001, 60.0).as("slope");
     scene.room = *rc::gen::element(Room::apart, Room::apart, Room::crowd).as("room");
-    Grid const grid = frame(width, height, *rc::gen::element(10.0, 0.5, 1000.0).as("cell"));
+    Grid const grid = test::frame(width, height, *rc::gen::element(10.0, 0.5, 1000.0).as("cell"));
     // A closed land that is in pieces would need a river on each.
     bool const sea = scene.params.edge != Edge::closed && *rc::gen::arbitrary<bool>().as("sea");
     if (sea) {
@@ -243,28 +249,19 @@ std::set<std::int64_t> river_cells(Scene const& scene, EquilibriumTerrain const&
 }
 
 template <class Thrown> std::string message(Scene const& scene) {
-    try {
-        equilibrium(scene.rivers, scene.fields, scene.params);
-    } catch (Thrown const& e) {
-        return e.what();
-    }
-    return "nothing was thrown";
+    return message_of<Thrown>([&] { equilibrium(scene.rivers, scene.fields, scene.params); });
 }
 
 /// One river straight through a square from its middle column's head to the southern border.
 Scene square(std::int64_t side, Edge edge = Edge::open) {
     Scene scene;
-    scene.rivers.grid = frame(side, side);
+    scene.rivers.grid = test::frame(side, side, 10.0);
     scene.params.edge = edge;
     for (std::int64_t row = side - 1; row >= side / 4; --row) {
         scene.rivers.receiver.push_back(static_cast<std::int64_t>(scene.rivers.cell.size()) - 1);
         scene.rivers.cell.push_back(row * side + side / 2);
     }
     return scene;
-}
-
-bool has(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
 }
 
 } // namespace
@@ -276,7 +273,7 @@ TEST(Equilibrium, TinyGridsHaveLand) {
              {std::pair<std::int64_t, std::int64_t>{1, 1}, {5, 1}, {1, 5}, {2, 2}, {3, 3}}) {
             Scene scene;
             scene.params.edge = edge;
-            scene.rivers = {frame(width, height), {0}, {-1}, {}, {}};
+            scene.rivers = {test::frame(width, height, 10.0), {0}, {-1}, {}, {}};
             EquilibriumTerrain const land = equilibrium(scene.rivers, {}, scene.params);
             EXPECT_EQ(land.dem[0], 0.0F);
             EXPECT_EQ(land.direction[0], flow::Direction::leaves);
@@ -289,7 +286,7 @@ TEST(Equilibrium, TinyGridsHaveLand) {
 
 TEST(Equilibrium, AGridMayBeAllRiver) {
     Scene scene;
-    scene.rivers = {frame(4, 1), {0, 1, 2, 3}, {-1, 0, 1, 2}, {}, {}};
+    scene.rivers = {test::frame(4, 1, 10.0), {0, 1, 2, 3}, {-1, 0, 1, 2}, {}, {}};
     EquilibriumTerrain const land = equilibrium(scene.rivers, {}, scene.params);
     for (std::int64_t i = 1; i < 4; ++i) {
         EXPECT_GT(land.dem[i], land.dem[i - 1]);
@@ -392,7 +389,7 @@ TEST(Equilibrium, WhatLiesBeyondTheGridDoesNotLiftGivenHeights) {
     constexpr float none = std::numeric_limits<float>::quiet_NaN();
     for (std::int64_t length = 2; length < 7; ++length) {
         Channels rivers;
-        rivers.grid = frame(3, 8, 0.5);
+        rivers.grid = test::frame(3, 8, 0.5);
         for (std::int64_t n = 0; n < length; ++n) {
             rivers.cell.push_back(1 + 3 * n);
             rivers.receiver.push_back(n - 1);
@@ -433,8 +430,7 @@ TEST(Equilibrium, RiversAreGradedBetweenGivenHeights) {
 TEST(Equilibrium, ThreadsDoNotMatterSeedsDo) {
     Scene scene = square(90);
     auto const bytes = [&](int threads) {
-        thalweg::Run run;
-        run.threads = threads;
+        thalweg::Run const run = on_threads(threads);
         EquilibriumTerrain const land = equilibrium(scene.rivers, {}, scene.params, run);
         std::vector<std::uint32_t> out;
         std::transform(land.dem.values().begin(), land.dem.values().end(), std::back_inserter(out),
@@ -528,32 +524,32 @@ TEST(Equilibrium, RefusesWhatCannotBe) {
     };
     auto const bad_input = [&](auto change) { return message<BadInput>(with(change)); };
     auto const bad_parameter = [&](auto change) { return message<BadParameter>(with(change)); };
-    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.grid = frame(0, 0); }), "no cells"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.grid = test::frame(0, 0, 10.0); }), "no cells"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.grid.cell_m = 0.0; }), "cell size"));
-    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers = {frame(8, 8), {}, {}, {}, {}}; }), "no rivers"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers = {test::frame(8, 8, 10.0), {}, {}, {}, {}}; }), "no rivers"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.receiver.pop_back(); }), "one each"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.cell[1] = 64; }), "outside"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.cell[1] = s.rivers.cell[0]; }), "column 4, row 7"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.receiver[1] = 2; }), "downstream first"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.receiver[3] = 0; }), "not a neighbour"));
-    EXPECT_TRUE(has(bad_input([](Scene& s) { s.fields.land = Mask(frame(7, 8), 1); }), "another frame"));
-    EXPECT_TRUE(has(bad_input([](Scene& s) { s.fields.land = Mask(frame(8, 8), 0); }), "no land"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.fields.land = Mask(test::frame(7, 8, 10.0), 1); }), "another frame"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.fields.land = Mask(test::frame(8, 8, 10.0), 0); }), "no land"));
     EXPECT_TRUE(has(bad_input([](Scene& s) {
-                        s.fields.land = Mask(frame(8, 8), 1);
+                        s.fields.land = Mask(test::frame(8, 8, 10.0), 1);
                         s.fields.land[{4, 6}] = 0;
                     }),
                     "column 4, row 6 lies at sea"));
     EXPECT_TRUE(has(bad_input([](Scene& s) {
-                        s.fields.uplift = Raster<float>(frame(8, 8), 1.0F);
+                        s.fields.uplift = Raster<float>(test::frame(8, 8, 10.0), 1.0F);
                         s.fields.uplift[{2, 3}] = std::numeric_limits<float>::quiet_NaN();
                     }),
                     "uplift is nan at column 2, row 3"));
-    EXPECT_TRUE(
-        has(bad_input([](Scene& s) { s.fields.erodibility = Raster<float>(frame(8, 8), 0.0F); }), "erodibility"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.fields.erodibility = Raster<float>(test::frame(8, 8, 10.0), 0.0F); }),
+                    "erodibility"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.z = {5, 6, 7, 6, 9, 10}; }), "rises"));
     EXPECT_TRUE(has(bad_input([](Scene& s) {
                         s.params.edge = Edge::closed;
-                        s.fields.land = Mask(frame(8, 8), 1);
+                        s.fields.land = Mask(test::frame(8, 8, 10.0), 1);
                         for (std::int64_t i = 0; i < 8; ++i) {
                             s.fields.land[{1, i}] = 0;
                         }
@@ -576,3 +572,5 @@ TEST(Equilibrium, StopsWhenAsked) {
     Scene const scene = square(8);
     EXPECT_THROW(equilibrium(scene.rivers, {}, scene.params, run), Cancelled);
 }
+
+} // namespace equilibrium_test

@@ -13,6 +13,8 @@
 
 #include <thalweg/core/numbers/random.hpp>
 
+namespace flood_land_test {
+
 using namespace thalweg;
 using namespace thalweg::surface;
 
@@ -226,3 +228,5 @@ TEST(FloodLand, RaisesHardlyMoreThanTheLeast) {
         });
     }));
 }
+
+} // namespace flood_land_test

@@ -16,6 +16,8 @@
 
 #include <gtest/gtest.h>
 
+namespace region_test {
+
 using namespace thalweg;
 using namespace thalweg::surface;
 
@@ -200,3 +202,5 @@ TEST(OrderCells, AddsInflowsDownstream) {
     EXPECT_EQ(level.area[9], 103U);
     EXPECT_EQ(level.area[10], 104U);
 }
+
+} // namespace region_test

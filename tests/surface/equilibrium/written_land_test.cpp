@@ -17,6 +17,8 @@
 #include <thalweg/surface/equilibrium/internal/flood_land.hpp>
 #include <thalweg/surface/equilibrium/internal/order_cells.hpp>
 
+namespace written_land_test {
+
 using namespace thalweg;
 using namespace thalweg::surface;
 
@@ -217,3 +219,5 @@ TEST(WrittenLand, SoftHeightsAreUpperBounds) {
     EXPECT_NEAR(out.max_lowered_m, greatest, 1e-9);
     EXPECT_LE(out.p95_lowered_m, out.max_lowered_m);
 }
+
+} // namespace written_land_test

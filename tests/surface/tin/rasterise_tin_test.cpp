@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/height_on_plane.hpp>
 #include <thalweg/geometry/segments_near.hpp>
@@ -17,27 +17,25 @@
 #include <thalweg/geometry/triangulate.hpp>
 #include <tins.hpp>
 
+namespace rasterise_tin_test {
+
 using namespace thalweg;
 using surface::rasterise_tin;
 using Outside = surface::RasteriseTinParams::Outside;
 
 namespace {
 
+using test::has;
+using test::message_of;
+using test::on_threads;
+using test::same_bits;
+
 Tin triangle() {
     return {{{0, 0, 1}, {4, 0, 5}, {0, 4, 9}}, {{0, 1, 2}}};
 }
 
 std::string refusal(Tin const& tin) {
-    try {
-        rasterise_tin(tin, {4, 4, 1.0, 0.0, 4.0, ""});
-    } catch (BadInput const& e) {
-        return e.what();
-    }
-    return "taken";
-}
-
-bool says(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
+    return message_of<BadInput>([&] { rasterise_tin(tin, {4, 4, 1.0, 0.0, 4.0, ""}); });
 }
 
 double height_in(Tin const& tin, std::array<std::uint32_t, 3> const& t, Vec2 p) {
@@ -87,23 +85,19 @@ void expect_as_by_hand(Tin const& tin, Raster<float> const& dem) {
     }
 }
 
-bool same_bytes(Raster<float> const& a, Raster<float> const& b) {
-    return std::memcmp(a.values().data(), b.values().data(), a.values().size_bytes()) == 0;
-}
-
 } // namespace
 
 TEST(RasteriseTin, UnsoundTinsAreRefused) {
     Tin tin = triangle();
     tin.triangles[0] = {0, 2, 1};
-    EXPECT_TRUE(says(refusal(tin), "triangle 1 at (0, 0) does not run counterclockwise"));
+    EXPECT_TRUE(has(refusal(tin), "triangle 1 at (0, 0) does not run counterclockwise"));
     tin.triangles[0] = {0, 1, 3};
-    EXPECT_TRUE(says(refusal(tin), "triangle 1 has vertex 4 of 3"));
+    EXPECT_TRUE(has(refusal(tin), "triangle 1 has vertex 4 of 3"));
     tin.triangles[0] = {0, 1, 1};
-    EXPECT_TRUE(says(refusal(tin), "does not run counterclockwise"));
+    EXPECT_TRUE(has(refusal(tin), "does not run counterclockwise"));
     tin = triangle();
     tin.vertices[1].z = INFINITY;
-    EXPECT_TRUE(says(refusal(tin), "vertex 2 is not finite"));
+    EXPECT_TRUE(has(refusal(tin), "vertex 2 is not finite"));
 }
 
 TEST(RasteriseTin, NoTriangleGivesNoHeight) {
@@ -147,9 +141,8 @@ TEST(RasteriseTin, IsPointInTriangle) {
         Grid const grid{30, 35, cell_m, west + shift, 20.5 - shift, ""};
         auto const dem = rasterise_tin(tin, grid);
         expect_as_by_hand(tin, dem);
-        thalweg::Run one;
-        one.threads = 1;
-        RC_ASSERT(same_bytes(dem, rasterise_tin(tin, grid, {}, one)));
+        thalweg::Run const one = on_threads(1);
+        RC_ASSERT(same_bits(dem, rasterise_tin(tin, grid, {}, one)));
     }));
 }
 
@@ -200,10 +193,10 @@ TEST(RasteriseTin, ThreadsChangeNoByte) {
     Tin const tin = geometry::triangulate(test::points_by_chance(20000, 500.0, 3, 400)).tin;
     Grid const grid{520, 530, 1.0, -10.5, 510.5, ""};
     for (auto const outside : {Outside::no_data, Outside::nearest}) {
-        thalweg::Run one;
-        one.threads = 1;
-        thalweg::Run many;
-        many.threads = 7;
-        EXPECT_TRUE(same_bytes(rasterise_tin(tin, grid, {outside}, one), rasterise_tin(tin, grid, {outside}, many)));
+        thalweg::Run const one = on_threads(1);
+        thalweg::Run const many = on_threads(7);
+        EXPECT_TRUE(same_bits(rasterise_tin(tin, grid, {outside}, one), rasterise_tin(tin, grid, {outside}, many)));
     }
 }
+
+} // namespace rasterise_tin_test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include <algorithm>
@@ -11,20 +12,16 @@
 
 #include <gtest/gtest.h>
 
+namespace uplift_pattern_test {
+
 namespace {
 
 using namespace thalweg;
 using surface::uplift_pattern;
 using surface::UpliftPattern;
 using surface::UpliftPatternParams;
-
-Grid frame(std::int64_t width, std::int64_t height, double cell_m) {
-    Grid grid;
-    grid.width = width;
-    grid.height = height;
-    grid.cell_m = cell_m;
-    return grid;
-}
+using test::frame_below;
+using test::on_threads;
 
 UpliftPatternParams of(UpliftPattern pattern, double strike_deg = 0.0) {
     return {.pattern = pattern, .wave_m = 3000.0, .strike_deg = strike_deg};
@@ -54,7 +51,7 @@ TEST(UpliftPattern, LiesBetweenItsBounds) {
         for (double const contrast : {1.0, 4.0, 100.0}) {
             UpliftPatternParams params = of(pattern, 33.0);
             params.contrast = contrast;
-            Raster<float> const uplift = uplift_pattern(frame(90, 70, 100.0), params);
+            Raster<float> const uplift = uplift_pattern(frame_below(90, 70, 100.0), params);
             auto const [low, high] = std::minmax_element(uplift.values().begin(), uplift.values().end());
             EXPECT_GE(*low, static_cast<float>(1.0 / std::sqrt(contrast)) * (1.0F - 1e-5F));
             EXPECT_LE(*high, static_cast<float>(std::sqrt(contrast)) * (1.0F + 1e-5F));
@@ -66,21 +63,22 @@ TEST(UpliftPattern, LiesBetweenItsBounds) {
 // Along the strike uplift hardly changes, across it does; domes have no strike.
 TEST(UpliftPattern, FollowsItsStrike) {
     for (UpliftPattern const pattern : {UpliftPattern::tilt, UpliftPattern::blocks, UpliftPattern::folds}) {
-        Raster<float> const northward = uplift_pattern(frame(120, 120, 100.0), of(pattern, 0.0));
+        Raster<float> const northward = uplift_pattern(frame_below(120, 120, 100.0), of(pattern, 0.0));
         EXPECT_GT(difference(northward, 6, 0), 2.0 * difference(northward, 0, 6));
-        Raster<float> const eastward = uplift_pattern(frame(120, 120, 100.0), of(pattern, 90.0));
+        Raster<float> const eastward = uplift_pattern(frame_below(120, 120, 100.0), of(pattern, 90.0));
         EXPECT_GT(difference(eastward, 0, 6), 2.0 * difference(eastward, 6, 0));
     }
-    Raster<float> const domes = uplift_pattern(frame(120, 120, 100.0), of(UpliftPattern::domes, 0.0));
-    EXPECT_EQ(domes.values()[77], uplift_pattern(frame(120, 120, 100.0), of(UpliftPattern::domes, 90.0)).values()[77]);
+    Raster<float> const domes = uplift_pattern(frame_below(120, 120, 100.0), of(UpliftPattern::domes, 0.0));
+    EXPECT_EQ(domes.values()[77],
+              uplift_pattern(frame_below(120, 120, 100.0), of(UpliftPattern::domes, 90.0)).values()[77]);
     EXPECT_NEAR(difference(domes, 6, 0) / difference(domes, 0, 6), 1.0, 0.4);
 }
 
 // Cells of half the size see the same uplift, four in the place of one.
 TEST(UpliftPattern, IsOnePlaceAtAnyCellSize) {
     for (UpliftPattern const pattern : all) {
-        Raster<float> const coarse = uplift_pattern(frame(60, 48, 200.0), of(pattern, 20.0));
-        Raster<float> const fine = uplift_pattern(frame(120, 96, 100.0), of(pattern, 20.0));
+        Raster<float> const coarse = uplift_pattern(frame_below(60, 48, 200.0), of(pattern, 20.0));
+        Raster<float> const fine = uplift_pattern(frame_below(120, 96, 100.0), of(pattern, 20.0));
         double off = 0.0;
         for (std::int64_t i = 0; i < coarse.cells(); ++i) {
             Cell const c = coarse.grid().at(i);
@@ -95,15 +93,14 @@ TEST(UpliftPattern, IsOnePlaceAtAnyCellSize) {
 }
 
 TEST(UpliftPattern, SameForAnyThreadsOtherForAnotherSeed) {
-    thalweg::Run alone;
-    alone.threads = 1;
+    thalweg::Run const alone = on_threads(1);
     for (UpliftPattern const pattern : all) {
         UpliftPatternParams params = of(pattern, 10.0);
-        Raster<float> const one = uplift_pattern(frame(70, 50, 120.0), params, alone);
-        Raster<float> const many = uplift_pattern(frame(70, 50, 120.0), params);
+        Raster<float> const one = uplift_pattern(frame_below(70, 50, 120.0), params, alone);
+        Raster<float> const many = uplift_pattern(frame_below(70, 50, 120.0), params);
         EXPECT_TRUE(std::equal(one.values().begin(), one.values().end(), many.values().begin()));
         params.seed = 8;
-        Raster<float> const other = uplift_pattern(frame(70, 50, 120.0), params);
+        Raster<float> const other = uplift_pattern(frame_below(70, 50, 120.0), params);
         bool const same = std::equal(one.values().begin(), one.values().end(), other.values().begin());
         EXPECT_EQ(same, pattern == UpliftPattern::tilt);
     }
@@ -111,8 +108,10 @@ TEST(UpliftPattern, SameForAnyThreadsOtherForAnotherSeed) {
 }
 
 TEST(UpliftPattern, RefusesWhatCannotBe) {
-    Grid const grid = frame(4, 4, 30.0);
+    Grid const grid = frame_below(4, 4, 30.0);
     EXPECT_THROW(uplift_pattern(grid, {.contrast = 0.9}), BadParameter);
     EXPECT_THROW(uplift_pattern(grid, {.wave_m = 0.0}), BadParameter);
     EXPECT_THROW(uplift_pattern(grid, {.strike_deg = std::numeric_limits<double>::quiet_NaN()}), BadParameter);
 }
+
+} // namespace uplift_pattern_test

@@ -16,6 +16,11 @@
 #include <string>
 #include <utility>
 
+namespace blend_mesh_test {
+
+using blend_runs::blend;
+using blend_runs::refused;
+
 namespace fs = std::filesystem;
 using namespace thalweg;
 
@@ -153,3 +158,5 @@ TEST(BlendMesh, RefusesWhatItCannotUse) {
     ASSERT_EQ(blend(place, "land.obj hill.obj" + rest).code, 0);
     refused(place, "land.obj hill.obj" + rest, "--overwrite");
 }
+
+} // namespace blend_mesh_test

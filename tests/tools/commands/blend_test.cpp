@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "blend_runs.hpp"
 
+#include <support.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
 #include <thalweg/io/raster/write_dem.hpp>
 
@@ -13,6 +14,11 @@
 #include <limits>
 #include <string>
 
+namespace blend_test {
+
+using blend_runs::blend;
+using blend_runs::refused;
+
 namespace fs = std::filesystem;
 using namespace thalweg;
 
@@ -22,13 +28,9 @@ Grid const target_grid{60, 50, 30.0, 500000.0, 4000000.0, "EPSG:32631"};
 
 /// A slope to the east, and waves on it where a source is wanted.
 Raster<float> land(Grid const& grid, double waves) {
-    Raster<float> dem(grid);
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        Cell const c = grid.at(i);
-        dem[i] =
-            static_cast<float>(c.col) + static_cast<float>(waves) * static_cast<float>((c.col * 7 + c.row * 5) % 11);
-    }
-    return dem;
+    return test::raster_of(grid, [&](Cell c) {
+        return static_cast<float>(c.col) + static_cast<float>(waves) * static_cast<float>((c.col * 7 + c.row * 5) % 11);
+    });
 }
 
 void write(Workplace const& place, std::string const& name, Raster<float> const& dem) {
@@ -167,11 +169,8 @@ TEST(Blend, MasksAndRiversSayWhatStays) {
     ASSERT_EQ(polygons.code, 0) << polygons.err;
     EXPECT_EQ(nlohmann::json::parse(polygons.out)["cells"], 10 * 7);
     Raster<float> const before = read(place, "target.tif");
-    Raster<float> cells(target_grid, 0.0F);
-    for (std::int64_t i = 0; i < cells.cells(); ++i) {
-        Cell const c = cells.grid().at(i);
-        cells[i] = c.col >= 25 && c.col < 35 && c.row >= 10 && c.row < 15 ? 1.0F : 0.0F;
-    }
+    Raster<float> cells = test::raster_of(
+        target_grid, [&](Cell c) { return c.col >= 25 && c.col < 35 && c.row >= 10 && c.row < 15 ? 1.0F : 0.0F; });
     write(place, "mask.tif", cells);
     Outcome const raster = blend(place, "target.tif source.tif -o b.tif --mask mask.tif --json");
     ASSERT_EQ(raster.code, 0) << raster.err;
@@ -270,3 +269,5 @@ TEST(Blend, BadInputIsRefused) {
     refused(place, "target.tif source.tif -o a.tif --keep dry.geojson", "no line of dry.geojson crosses the target");
     refused(place, "target.tif source.tif -o none/a.tif", "there is no folder none");
 }
+
+} // namespace blend_test

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.hpp"
+#include "report.hpp"
 
 #include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+namespace certificate_test {
 
 namespace {
 
@@ -19,10 +22,6 @@ constexpr char const* recipe =
     "[network]\nsource = \"dla\"\nprune = 10\nslope = 0.02\n"
     "[network.dla]\nparticles = 6000\n"
     "[surface]\nmethod = \"dilate\"\nincrement = \"rise_fall\"\nmetric = \"euclid\"\nrelief = 200\n";
-
-json report_of(Workplace const& work, std::string const& folder) {
-    return json::parse(file_bytes(work / folder / "report.json"));
-}
 
 json check_of(json const& report, std::string const& name) {
     for (json const& check : report["checks"]) {
@@ -47,7 +46,7 @@ TEST(Certificate, TellsALandThatDrainsFromOneThatDoesNot) {
         Outcome const made =
             thalweg_run("make valley.toml -q -o " + method + " --set surface.drain=" + method, work.path());
         EXPECT_EQ(made.code, 0) << made.err;
-        json const report = report_of(work, method);
+        json const report = report_of(work / method);
         EXPECT_EQ(check_of(report, "valley_cells_moved")["value"], 0);
         Outcome const check = thalweg_run("check " + method + " --dem " + method + "/dem.tif --json", work.path());
         json const checked = json::parse(check.out);
@@ -97,3 +96,5 @@ TEST(Certificate, RefusesAnotherCrsAndNoDem) {
     ASSERT_EQ(beside.code, 0) << beside.err;
     EXPECT_EQ(thalweg_run("check v --dem x/dem.tif", work.path()).code, 2);
 }
+
+} // namespace certificate_test

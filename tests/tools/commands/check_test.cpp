@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+namespace check_test {
+
 namespace fs = std::filesystem;
 using nlohmann::json;
 
@@ -184,3 +186,5 @@ TEST(Check, ForgedColumnsAreFound) {
     change(place / "net.gpkg", "UPDATE nodes SET kind = 'source'");
     EXPECT_EQ(thalweg_run("check net.gpkg", place.path()).code, 3);
 }
+
+} // namespace check_test

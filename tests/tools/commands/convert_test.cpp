@@ -10,6 +10,10 @@
 #include <ogrsf_frmts.h>
 
 #include "command.hpp"
+#include "refused.hpp"
+#include "report.hpp"
+
+namespace convert_test {
 
 namespace fs = std::filesystem;
 
@@ -26,17 +30,6 @@ char const* const lines = R"({"type": "FeatureCollection",
 {"type": "Feature", "properties": {"nr": 16, "into": 0}, "geometry": {"type": "LineString", "coordinates": [[500, 300], [500, 100]]}}]})";
 
 std::string const read_lines = "rivers.geojson --field arc_id=nr --field ds_arc=into ";
-
-/// The bytes of every file below a folder.
-std::map<std::string, std::string> content(fs::path const& folder) {
-    std::map<std::string, std::string> files;
-    for (auto const& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.is_regular_file()) {
-            files[entry.path().lexically_relative(folder).string()] = file_bytes(entry.path());
-        }
-    }
-    return files;
-}
 
 /// The arcs of a GeoPackage in thalweg's own columns, but for what tells from which file they came.
 std::string network_in(fs::path const& gpkg) {
@@ -81,12 +74,7 @@ void write_plane(Workplace const& place) {
 }
 
 void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
-    auto const before = content(place.path());
-    Outcome const outcome = thalweg_run("convert " + arguments, place.path());
-    EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.err;
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << arguments << "\n" << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_TRUE(content(place.path()) == before) << arguments;
+    expect_refused(place, "convert " + arguments, words);
 }
 
 } // namespace
@@ -283,3 +271,5 @@ TEST(Convert, MakeLeavesItsRiversInAnotherSchemaToo) {
         EXPECT_EQ(thalweg_run("replay " + schema + " --verify", place.path()).code, 0) << schema;
     }
 }
+
+} // namespace convert_test

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+namespace deform_test {
+
 namespace {
 
 using namespace thalweg;
@@ -172,3 +174,5 @@ TEST(Deform, RotatesAPartOfAMeshOutOfThePlane) {
     write_lands(place);
     refused("land.tif -o out.tif --mask region.tif --rotate 5", "turn meshes");
 }
+
+} // namespace deform_test

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.hpp"
+#include "refused.hpp"
 
 #include <cpl_minixml.h>
 #include <gdal_alg.h>
@@ -17,6 +18,8 @@
 #include <set>
 #include <string>
 #include <vector>
+
+namespace draw_test {
 
 namespace fs = std::filesystem;
 
@@ -99,15 +102,6 @@ void expect_well_formed(fs::path const& path) {
     }
 }
 
-void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
-    std::string const before = names_in(place.path());
-    Outcome const o = thalweg_run(arguments, place.path());
-    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
-    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
-    EXPECT_EQ(o.out, "") << arguments;
-    EXPECT_EQ(names_in(place.path()), before) << arguments;
-}
-
 } // namespace
 
 TEST(Draw, AFolderThatMakeLeftInEveryFormat) {
@@ -177,7 +171,7 @@ TEST(Draw, RiversFromAnyLineFile) {
     EXPECT_EQ(far.code, 0);
     EXPECT_NE(far.err.find("no river of rivers.geojson runs on the DEM"), std::string::npos) << far.err;
     EXPECT_FALSE(fs::exists(place / "far/profile.png"));
-    refused(place, "draw far.tif --network rivers.geojson --what profile -o p", "no profile can be drawn");
+    expect_refused(place, "draw far.tif --network rivers.geojson --what profile -o p", "no profile can be drawn");
 }
 
 TEST(Draw, AReportPageOfAnyRaster) {
@@ -194,13 +188,13 @@ TEST(Draw, AReportPageOfAnyRaster) {
     ASSERT_EQ(thalweg_run("draw made -o made --what page,map", place.path()).code, 2); // map.png is there
     ASSERT_EQ(thalweg_run("draw made -o made --what page", place.path()).code, 0);
     EXPECT_NE(file_bytes(place / "made/page.html").find("\"strahler\":["), std::string::npos);
-    refused(place, "draw made -o made --what page", "already exists");
-    refused(place, "draw made -o x.html --what map", "name of a page");
-    refused(place, "draw made -o x.png --what page", "name of one picture");
-    refused(place, "draw made -o x --what pag", "Did you mean 'page'?");
+    expect_refused(place, "draw made -o made --what page", "already exists");
+    expect_refused(place, "draw made -o x.html --what map", "name of a page");
+    expect_refused(place, "draw made -o x.png --what page", "name of one picture");
+    expect_refused(place, "draw made -o x --what pag", "Did you mean 'page'?");
     place.write("r.toml", "[network]\nprune = 6\n[network.dla]\nparticles = 3000\n");
     ASSERT_EQ(thalweg_run("make r.toml -o bare -q", place.path()).code, 0);
-    refused(place, "draw bare -o x.html", "no DEM");
+    expect_refused(place, "draw bare -o x.html", "no DEM");
 }
 
 TEST(Draw, LandThatIsHardlyLand) {
@@ -218,7 +212,7 @@ TEST(Draw, LandThatIsHardlyLand) {
         }
     }
     make_dem(place, "nothing.tif", {}, [](int, int) { return NAN; });
-    refused(place, "draw nothing.tif -o nothing", "holds no heights");
+    expect_refused(place, "draw nothing.tif -o nothing", "holds no heights");
 }
 
 TEST(Draw, GeographicRastersAreWarpedAndItIsSaid) {
@@ -255,21 +249,21 @@ TEST(Draw, RefusesInWords) {
     make_dem(place, "hill.tif", {}, hill);
     fs::create_directory(place / "empty");
     place.write("text.tif", "no raster");
-    refused(place, "draw hill.tif", "--output");
-    refused(place, "draw nowhere.tif -o out", "does not exist");
-    refused(place, "draw text.tif -o out", "text.tif");
-    refused(place, "draw empty -o out", "holds neither dem.tif nor network.gpkg");
-    refused(place, "draw hill.tif -o out --what wirefram", "Did you mean 'wireframe'?");
-    refused(place, "draw hill.tif -o out --format pngg", "Did you mean 'png'?");
-    refused(place, "draw hill.tif -o out --what curve", "no curve can be drawn");
-    refused(place, "draw hill.tif -o out --what profile", "no profile can be drawn");
-    refused(place, "draw hill.tif -o map.png --what map,sections", "name of one picture");
-    refused(place, "draw hill.tif -o map.png --format svg", "name of one picture");
-    refused(place, "draw hill.tif -o out --width 20", "--width");
-    refused(place, "draw hill.tif -o out --elevation 90", "--elevation");
-    refused(place, "draw hill.tif -o out --network nowhere.gpkg", "nowhere.gpkg");
-    refused(place, "draw hill.tif -o hill.tif", "hill.tif");
-    refused(place, "draw hill.tif -o out --titel x", "Did you mean '--title'?");
+    expect_refused(place, "draw hill.tif", "--output");
+    expect_refused(place, "draw nowhere.tif -o out", "does not exist");
+    expect_refused(place, "draw text.tif -o out", "text.tif");
+    expect_refused(place, "draw empty -o out", "holds neither dem.tif nor network.gpkg");
+    expect_refused(place, "draw hill.tif -o out --what wirefram", "Did you mean 'wireframe'?");
+    expect_refused(place, "draw hill.tif -o out --format pngg", "Did you mean 'png'?");
+    expect_refused(place, "draw hill.tif -o out --what curve", "no curve can be drawn");
+    expect_refused(place, "draw hill.tif -o out --what profile", "no profile can be drawn");
+    expect_refused(place, "draw hill.tif -o map.png --what map,sections", "name of one picture");
+    expect_refused(place, "draw hill.tif -o map.png --format svg", "name of one picture");
+    expect_refused(place, "draw hill.tif -o out --width 20", "--width");
+    expect_refused(place, "draw hill.tif -o out --elevation 90", "--elevation");
+    expect_refused(place, "draw hill.tif -o out --network nowhere.gpkg", "nowhere.gpkg");
+    expect_refused(place, "draw hill.tif -o hill.tif", "hill.tif");
+    expect_refused(place, "draw hill.tif -o out --titel x", "Did you mean '--title'?");
 }
 
 TEST(Draw, NothingIsOverwrittenUnasked) {
@@ -278,8 +272,8 @@ TEST(Draw, NothingIsOverwrittenUnasked) {
     fs::create_directory(place / "out");
     place.write("out/map.png", "mine");
     place.write("out/letter.txt", "mine");
-    refused(place, "draw hill.tif -o out", "already exists");
-    refused(place, "draw hill.tif -o out/map.png", "already exists");
+    expect_refused(place, "draw hill.tif -o out", "already exists");
+    expect_refused(place, "draw hill.tif -o out/map.png", "already exists");
     EXPECT_EQ(names_in(place / "out"), "letter.txt map.png");
     Outcome const o = thalweg_run("draw hill.tif -o out --what map,wireframe --overwrite", place.path());
     ASSERT_EQ(o.code, 0) << o.err;
@@ -289,7 +283,7 @@ TEST(Draw, NothingIsOverwrittenUnasked) {
     ASSERT_EQ(thalweg_run("draw hill.tif -o out --what sections", place.path()).code, 0)
         << "a folder may hold other things";
     fs::create_directory(place / "out/hypsometry.png");
-    refused(place, "draw hill.tif -o out --what hypsometry --overwrite", "hypsometry.png");
+    expect_refused(place, "draw hill.tif -o out --what hypsometry --overwrite", "hypsometry.png");
 }
 
 TEST(Draw, AFolderWithoutASurfaceHasItsProfile) {
@@ -299,5 +293,7 @@ TEST(Draw, AFolderWithoutASurfaceHasItsProfile) {
     Outcome const o = thalweg_run("draw made -o out", place.path());
     ASSERT_EQ(o.code, 0) << o.err;
     EXPECT_EQ(names_in(place / "out"), "profile.png");
-    refused(place, "draw made -o map.png", "there is no DEM");
+    expect_refused(place, "draw made -o map.png", "there is no DEM");
 }
+
+} // namespace draw_test

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `thalweg make RIVERS`: terrain around a file of lines, without a recipe.
 #include "command.hpp"
+#include "refused.hpp"
+#include "report.hpp"
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -18,6 +20,8 @@
 
 #include <thalweg/core/vec.hpp>
 
+namespace given_rivers_test {
+
 using thalweg::cross;
 using thalweg::Vec2;
 
@@ -33,10 +37,6 @@ std::string const coarse = " --set grid.cell=90"; // quick; what the data choose
 void run_gdal(std::string const& command, Workplace const& place) {
     std::string const line = "cd '" + place.path().string() + "' && " + command + " >/dev/null 2>&1";
     ASSERT_EQ(std::system(line.c_str()), 0) << command;
-}
-
-json report_of(fs::path const& folder) {
-    return json::parse(file_bytes(folder / "report.json"));
 }
 
 struct Box {
@@ -83,17 +83,12 @@ json made(Workplace const& place, std::string const& input, std::string const& o
         return {};
     }
     json const report = report_of(place / folder);
-    for (auto const& check : report["checks"]) {
-        EXPECT_TRUE(check["ok"].get<bool>()) << input << check;
-    }
+    expect_checks_hold(report, input);
     return report;
 }
 
 void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
-    Outcome const o = thalweg_run("make " + arguments + " -o out", place.path());
-    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
-    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
-    EXPECT_FALSE(fs::exists(place / "out")) << arguments;
+    expect_refused(place, "make " + arguments + " -o out", words);
 }
 
 std::string const utm = R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":)"
@@ -268,7 +263,7 @@ TEST(GivenRivers, CoarserCellsHaveGentlerSlopes) {
     auto const slope_at = [&](std::string const& cell) {
         Outcome const o = thalweg_run("make '" + walker + "' -o out" + cell + " --set grid.cell=" + cell, place.path());
         EXPECT_EQ(o.code, 0) << o.err;
-        json const report = json::parse(file_bytes(place / ("out" + cell) / "report.json"));
+        json const report = report_of(place / ("out" + cell));
         return report["recipe"]["surface"]["mean_slope"].get<double>();
     };
     EXPECT_EQ(slope_at("30"), 25.0);
@@ -352,3 +347,5 @@ TEST(GivenRivers, StrokesThatNearlyTouchPassAllChecksOnceTheAdviceIsTaken) {
         EXPECT_EQ(o.err.find("network.lines.snap"), std::string::npos) << "it is taken\n" << o.err;
     }
 }
+
+} // namespace given_rivers_test

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <string>
 
+namespace grow_test {
+
 namespace {
 
 /// Exit 2 and the words in the message, nothing on stdout.
@@ -114,3 +116,5 @@ TEST(Grow, RulesOfAFileAreDrawnOrPrinted) {
     refused_here("--rules none.txt --lsystem", "none.txt");
     refused_here("-o koch.svg", "--rules FILE");
 }
+
+} // namespace grow_test

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Land from numbers and from points, as the command line makes it.
 #include "command.hpp"
+#include "refused.hpp"
+#include "report.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +11,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+
+namespace land_test {
 
 namespace fs = std::filesystem;
 
@@ -27,10 +31,7 @@ void refused(std::string const& arguments, std::string const& words) {
         place.write(name + ".toml", "[skeleton]\npoints = \"" + name + ".csv\"\n");
     }
     place.write("empty.toml", "[statistics]\nmean = 5\n");
-    Outcome const o = thalweg_run(arguments, place.path());
-    EXPECT_EQ(o.code, 2) << arguments << o.err;
-    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
-    EXPECT_FALSE(fs::exists(place / "out"));
+    expect_refused(place, arguments, words);
 }
 
 } // namespace
@@ -41,9 +42,7 @@ TEST(Land, EverySampleIsMadeAgainWithAnyNumberOfThreads) {
         Outcome const o = thalweg_run("make " + samples + name + ".toml -o out -q --threads 1 --json", place.path());
         ASSERT_EQ(o.code, 0) << name << o.err;
         auto const report = nlohmann::json::parse(o.out);
-        for (auto const& check : report["checks"]) {
-            EXPECT_TRUE(check["ok"].get<bool>()) << name << check;
-        }
+        expect_checks_hold(report, name);
         bool const has_rivers = name == "tin" || name == "feature_points";
         EXPECT_EQ(report.contains("statistics"), !has_rivers);
         EXPECT_EQ(fs::exists(place / "out/tin.2dm"), name == "scattered" || has_rivers);
@@ -199,3 +198,5 @@ TEST(Land, PointsThatContradictTheStatisticsLeaveResidualsAndFiles) {
     EXPECT_EQ(report["statistics"]["residuals"].size(), 4U);
     EXPECT_TRUE(fs::exists(place / "out/dem.tif"));
 }
+
+} // namespace land_test

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.hpp"
+#include "refused.hpp"
 
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
@@ -9,11 +10,12 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
+
+namespace measure_test {
 
 namespace fs = std::filesystem;
 
@@ -38,12 +40,7 @@ std::vector<double> values_of(fs::path const& path) {
 
 /// Exit 2, the words in the message, nothing written.
 void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
-    auto const before = std::distance(fs::recursive_directory_iterator(place.path()), {});
-    Outcome const o = thalweg_run("measure " + arguments, place.path());
-    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
-    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
-    EXPECT_EQ(o.out, "") << arguments;
-    EXPECT_EQ(std::distance(fs::recursive_directory_iterator(place.path()), {}), before) << arguments;
+    expect_refused(place, "measure " + arguments, words);
 }
 
 /// A plane that falls by 2 to the east and 1 to the south, with a hole in its corner; and its river along the bottom.
@@ -165,3 +162,5 @@ TEST(Measure, RefusesWhatItCannotMeasure) {
     ASSERT_EQ(thalweg_run("measure dem.asc -o out --what d8,dinf --overwrite", place.path()).code, 0);
     EXPECT_TRUE(fs::exists(place / "out/mine.txt"));
 }
+
+} // namespace measure_test

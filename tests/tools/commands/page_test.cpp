@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <string>
 
+namespace page_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -95,3 +97,5 @@ TEST(ReportPage, TheSampleStaysBelowThreeMegabytes) {
     ASSERT_EQ(o.code, 0) << o.err;
     EXPECT_LT(fs::file_size(place / "out/report.html"), 3'000'000U);
 }
+
+} // namespace page_test

@@ -13,6 +13,8 @@
 #include <string>
 #include <utility>
 
+namespace points_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -143,3 +145,5 @@ TEST(Points, SkeletonsHaveTheirRidgesToo) {
     EXPECT_GT(std::count(las.classes.begin(), las.classes.end(), 9), 100);
     EXPECT_GT(std::count(las.classes.begin(), las.classes.end(), 8), 100);
 }
+
+} // namespace points_test

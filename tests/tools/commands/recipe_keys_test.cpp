@@ -5,18 +5,20 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <support.hpp>
+
 #include <string>
+
+namespace recipe_keys_test {
 
 using nlohmann::json;
 
 namespace {
 
+using test::has;
+
 Outcome recipe(std::string const& arguments) {
     return thalweg_run("recipe " + arguments, std::filesystem::temp_directory_path());
-}
-
-bool has(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
 }
 
 } // namespace
@@ -65,3 +67,5 @@ TEST(RecipeKeys, AsJson) {
         EXPECT_TRUE(one["keys"][0][field].is_string()) << field;
     }
 }
+
+} // namespace recipe_keys_test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files of rivers as their publishers make them: every line is found again, on the arcs or in layer secondary.
 #include "command.hpp"
+#include "report.hpp"
 
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
@@ -16,6 +17,8 @@
 #include <vector>
 
 #include <thalweg/core/numbers/random.hpp>
+
+namespace river_files_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -142,10 +145,8 @@ json made(Workplace const& place, std::string const& input, std::int64_t count, 
     if (o.code != 0) {
         return {};
     }
-    json const report = json::parse(file_bytes(place / "out/report.json"));
-    for (auto const& check : report["checks"]) {
-        EXPECT_TRUE(check["ok"].get<bool>()) << check;
-    }
+    json const report = report_of(place / "out");
+    expect_checks_hold(report);
     expect_all_found(place / "out/network.gpkg", count);
     expect_sources_cover_arcs(place / "out/network.gpkg");
     Outcome const split = thalweg_run("convert out -o split.gpkg --max-upstream 2", place.path());
@@ -511,7 +512,7 @@ TEST(RiverFiles, SmallDefectsAreLeftOutAndReported) {
         R"({"type":"Feature","properties":{"id":3},"geometry":{"type":"LineString","coordinates":[[5,5],[5,5]]}},)"
         R"({"type":"Feature","properties":{"id":4},"geometry":{"type":"LineString","coordinates":[[0,8000],[3000,0]]}}]})");
     ASSERT_EQ(thalweg_run("make defects.geojson -o out" + coarse, place.path()).code, 0);
-    json const report = json::parse(file_bytes(place / "out/report.json"));
+    json const report = report_of(place / "out");
     std::set<std::int64_t> left_out;
     for (auto const& repair : report["repairs"]) {
         if (repair["kind"] == "left_out") {
@@ -521,3 +522,5 @@ TEST(RiverFiles, SmallDefectsAreLeftOutAndReported) {
     EXPECT_EQ(left_out, (std::set<std::int64_t>{1, 2, 3}));
     EXPECT_EQ(features_in(place / "out/network.gpkg", "arcs"), (std::set<std::int64_t>{4}));
 }
+
+} // namespace river_files_test

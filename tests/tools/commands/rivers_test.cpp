@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rivers by branching rules, along strokes, and with relief pasted over them, as the command line makes them.
 #include "command.hpp"
+#include "refused.hpp"
+#include "report.hpp"
 
+#include <support.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
 
 #include <gdal_priv.h>
@@ -12,22 +15,19 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <iterator>
 #include <string>
+
+namespace rivers_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
 
+using test::geojson;
+
 std::string const samples = THALWEG_SOURCE_DIR "/samples/";
 std::string const small = " --set grid.width=160 --set grid.height=160 --set network.tokunaga.order=3 ";
-
-std::string collection(std::string const& features) {
-    return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32631"}},)"
-           R"("features":[)" +
-           features + "]}";
-}
 
 std::string feature(int id, std::string const& type, std::string const& coordinates,
                     std::string const& properties = "\"a\":1") {
@@ -45,10 +45,6 @@ std::string const strokes_recipe =
 
 /// A ring 3 km wide and high.
 std::string const ring = "[[500000,4000000],[503000,4000300],[503000,4003000],[500300,4003300],[500000,4000000]]";
-
-json report_of(fs::path const& folder) {
-    return json::parse(file_bytes(folder / "report.json"));
-}
 
 /// Exit 0, every check holds, and the network and the land are there. Gives the report.
 json made(Workplace const& place, std::string const& arguments, std::string const& folder = "out") {
@@ -69,11 +65,7 @@ json made(Workplace const& place, std::string const& arguments, std::string cons
 }
 
 void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
-    auto const before = std::distance(fs::directory_iterator(place.path()), {});
-    Outcome const o = thalweg_run("make " + arguments + " -o out", place.path());
-    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
-    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
-    EXPECT_EQ(std::distance(fs::directory_iterator(place.path()), {}), before) << arguments;
+    expect_refused(place, "make " + arguments + " -o out", words);
 }
 
 double greatest_difference(fs::path const& a, fs::path const& b) {
@@ -186,7 +178,7 @@ TEST(Rivers, ANetworkFillsAPolygon) {
     std::string const recipe = "[network]\nsource = \"tokunaga\"\n[network.tokunaga]\norder = 3\nregion = "
                                "\"region.geojson\"\n[surface]\n";
     place.write("r.toml", recipe);
-    place.write("region.geojson", collection(feature(1, "Polygon", "[" + ring + "]")));
+    place.write("region.geojson", geojson(feature(1, "Polygon", "[" + ring + "]")));
     json const report = made(place, "r.toml");
     EXPECT_EQ(report["network"]["tokunaga"]["dropped"], 0);
     EXPECT_TRUE(fs::exists(place / "out/inputs/region/region.geojson"));
@@ -198,17 +190,17 @@ TEST(Rivers, ANetworkFillsAPolygon) {
     refused(place, "r.toml --set network.tokunaga.strokes=region.geojson", "do not go together");
     refused(place, "r.toml --set network.source=dla", "network.tokunaga.region");
     place.write("region.geojson",
-                collection(feature(1, "Polygon", "[" + ring + "]") + "," + feature(2, "Polygon", "[" + ring + "]")));
+                geojson(feature(1, "Polygon", "[" + ring + "]") + "," + feature(2, "Polygon", "[" + ring + "]")));
     refused(place, "r.toml", "region.geojson\" holds 2 polygons of 2 rings");
     place.write(
         "region.geojson",
-        collection(feature(1, "Polygon",
-                           "[" + ring + ",[[501000,4001000],[501500,4001000],[501500,4001500],[501000,4001000]]]")));
+        geojson(feature(1, "Polygon",
+                        "[" + ring + ",[[501000,4001000],[501500,4001000],[501500,4001500],[501000,4001000]]]")));
     refused(place, "r.toml", "holds 1 polygons of 2 rings; a network fills one without holes");
     place.write(
         "region.geojson",
-        collection(feature(
-            1, "Polygon", "[[[500000,4000000],[503000,4003000],[503000,4000000],[500000,4003000],[500000,4000000]]]")));
+        geojson(feature(1, "Polygon",
+                        "[[[500000,4000000],[503000,4003000],[503000,4000000],[500000,4003000],[500000,4000000]]]")));
     refused(place, "r.toml", "meets itself at (501500");
     refused(place, "r.toml --set network.tokunaga.region=none.geojson", "none.geojson");
 }
@@ -242,7 +234,7 @@ TEST(Rivers, PatchesLieOneOverTheOther) {
     EXPECT_GT(kept["patches"][0]["kept"], 0);
 
     auto const with_mask = [&](std::string const& coordinates) {
-        place.write("mask.geojson", collection(feature(1, "Polygon", "[" + coordinates + "]")));
+        place.write("mask.geojson", geojson(feature(1, "Polygon", "[" + coordinates + "]")));
         place.write("mask.toml", land + patch + "at = [502400, 4997600]\nmask = \"mask.geojson\"\n");
     };
     with_mask("[[502200,4997500],[502600,4997500],[502600,4997700],[502200,4997500]]");
@@ -265,7 +257,7 @@ TEST(Rivers, StrokesThatAreNoneAreRefusedWithTheirPlace) {
     Workplace const place;
     place.write("r.toml", strokes_recipe);
     std::string const good = stroke(1, "[503000,4000300],[503000,4004500]");
-    auto const with = [&](std::string const& more) { place.write("s.geojson", collection(good + "," + more)); };
+    auto const with = [&](std::string const& more) { place.write("s.geojson", geojson(good + "," + more)); };
     with(stroke(2, "[501000,4002000],[505000,4002000]"));
     refused(place, "r.toml", "stroke 1 of s.geojson at (503000.000, 4002000.000) crosses stroke 2");
     with(stroke(2, "[501000,4002000],[507000,4002000]"));
@@ -280,7 +272,7 @@ TEST(Rivers, StrokesThatAreNoneAreRefusedWithTheirPlace) {
     }
     with(stroke(2, "[501000,4002000],[503000,4003000]"));
     refused(place, "r.toml", "stroke 2 of s.geojson at (503000.000, 4003000.000) ends on stroke 1");
-    place.write("s.geojson", collection(""));
+    place.write("s.geojson", geojson(""));
     refused(place, "r.toml", "s.geojson");
     fs::remove(place / "s.geojson");
     refused(place, "r.toml", "s.geojson");
@@ -298,7 +290,7 @@ TEST(Rivers, WithoutACellOfASkeletonThereIsNoLand) {
 TEST(Rivers, OneStrokeAloneHasRidgesOnlyBetweenItsStreams) {
     Workplace const place;
     place.write("r.toml", strokes_recipe + "[skeleton]\nridges = \"voronoi\"\n");
-    place.write("s.geojson", collection(stroke(1, "[503000,4000300],[503000,4000900]", "\"lambda\":1")));
+    place.write("s.geojson", geojson(stroke(1, "[503000,4000300],[503000,4000900]", "\"lambda\":1")));
     json const report = made(place, "r.toml --set network.tokunaga.order=1 --set surface.method=diffuse");
     EXPECT_EQ(report["network"]["arcs"], 3); // one refinement at least
     EXPECT_GT(report["ridges"]["count"], 0);
@@ -339,11 +331,13 @@ TEST(Rivers, LinksWithoutRoomAreWarnedOfOrRefused) {
 
     // A stroke so short that its many branches have no room beside it.
     place.write("r.toml", strokes_recipe);
-    place.write("s.geojson", collection(stroke(1, "[503000,4000300],[503000,4005700]", "\"lambda\":2") + "," +
-                                        stroke(2, "[500300,4001000],[500300,4001300]", "\"lambda\":20")));
+    place.write("s.geojson", geojson(stroke(1, "[503000,4000300],[503000,4005700]", "\"lambda\":2") + "," +
+                                     stroke(2, "[500300,4001000],[500300,4001300]", "\"lambda\":20")));
     Outcome const o = thalweg_run("make r.toml -o out", place.path());
     EXPECT_EQ(o.code, 0) << o.err;
     EXPECT_NE(o.err.find("warning: [network.tokunaga]: "), std::string::npos) << o.err;
     EXPECT_NE(o.err.find(" links found no room on 200 x 200 cells: lower network.tokunaga.order"), std::string::npos)
         << o.err;
 }
+
+} // namespace rivers_test

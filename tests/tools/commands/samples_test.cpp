@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.hpp"
+#include "report.hpp"
 
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
@@ -12,6 +13,8 @@
 #include <set>
 #include <string>
 #include <vector>
+
+namespace samples_test {
 
 namespace fs = std::filesystem;
 
@@ -46,10 +49,8 @@ std::map<GIntBig, FileArc> read_arcs(OGRLayer* layer) {
 
 /// The whole of what a sample must leave, read with GDAL and OGR alone.
 void hold_to_contract(fs::path const& folder) {
-    auto const report = nlohmann::json::parse(file_bytes(folder / "report.json"));
-    for (auto const& check : report["checks"]) {
-        EXPECT_TRUE(check["ok"].get<bool>()) << check;
-    }
+    auto const report = report_of(folder);
+    expect_checks_hold(report);
     auto const gpkg = open(folder / "network.gpkg", GDAL_OF_VECTOR);
     ASSERT_TRUE(gpkg);
     OGRLayer* const layer = gpkg->GetLayerByName("arcs");
@@ -199,7 +200,7 @@ TEST(Samples, EvenSlopesInEquilibriumTerrainStandOnWalls) {
                                   place.path());
     EXPECT_EQ(o.code, 3) << o.err;
     EXPECT_NE(o.err.find("river cells stand on walls"), std::string::npos) << o.err;
-    auto const report = nlohmann::json::parse(file_bytes(place / "out/report.json"));
+    auto const report = report_of(place / "out");
     for (auto const& check : report["checks"]) {
         EXPECT_EQ(check["ok"].get<bool>(), check["name"] != "walled_cells") << check;
     }
@@ -320,3 +321,5 @@ TEST(Samples, AFolderOfShapefilesIsKeptWhole) {
     EXPECT_TRUE(fs::exists(place / "file/inputs/rivers.prj"));
     EXPECT_EQ(thalweg_run("replay file", place.path()).code, 0);
 }
+
+} // namespace samples_test

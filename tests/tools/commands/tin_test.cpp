@@ -10,6 +10,8 @@
 #include <iterator>
 #include <string>
 
+namespace tin_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -137,3 +139,5 @@ TEST(Tin, BadInputIsRefused) {
     refused(place, "flat.geojson -o a.2dm", "have no heights");
     refused(place, "p.csv -o a.2dm --crs EPSG:4326", "4326");
 }
+
+} // namespace tin_test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rivers in feet or degrees, and terrain in feet.
 #include "command.hpp"
+#include "report.hpp"
 
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
@@ -13,6 +14,8 @@
 #include <cstdlib>
 #include <string>
 #include <vector>
+
+namespace units_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -33,10 +36,8 @@ json made(Workplace const& place, std::string const& arguments, std::string cons
     if (o.code != 0) {
         return {};
     }
-    json const report = json::parse(file_bytes(place / folder / "report.json"));
-    for (auto const& check : report["checks"]) {
-        EXPECT_TRUE(check["ok"].get<bool>()) << arguments << check;
-    }
+    json const report = report_of(place / folder);
+    expect_checks_hold(report, arguments);
     return report;
 }
 
@@ -188,7 +189,7 @@ TEST(Units, WideExtentsAreWarnedOfOrGetAnotherProjection) {
     std::string const wide = words_of("wide");
     EXPECT_NE(wide.find("warning: the grid reaches far beyond its UTM zone EPSG:32632"), std::string::npos) << wide;
     EXPECT_NE(wide.find("--crs"), std::string::npos) << wide;
-    EXPECT_TRUE(tells(json::parse(file_bytes(place / "wide/report.json")), "too long there"));
+    EXPECT_TRUE(tells(report_of(place / "wide"), "too long there"));
     std::string const wider = words_of("wider");
     EXPECT_NE(wider.find("reprojected into Equal area around 15, 48"), std::string::npos) << wider;
     EXPECT_EQ(wider.find("beyond its UTM zone"), std::string::npos) << wider;
@@ -306,3 +307,5 @@ TEST(Units, ACrsWithoutACodeIsKeptWithoutAWord) {
     json const utm = made(place, "albers.gpkg --set grid.cell=80 --crs EPSG:32610", "utm");
     EXPECT_TRUE(tells(utm, "are reprojected into EPSG:32610"));
 }
+
+} // namespace units_test

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+namespace verdict_test {
+
 using namespace thalweg;
 using namespace thalweg::tools;
 
@@ -26,3 +28,5 @@ TEST(Verdict, CountsFailedChecks) {
 }
 
 } // namespace
+
+} // namespace verdict_test

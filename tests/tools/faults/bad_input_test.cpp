@@ -5,22 +5,22 @@
 
 #include <gtest/gtest.h>
 
+#include <support.hpp>
+
 #include <cstdlib>
 #include <iterator>
 #include <string>
+
+namespace bad_input_test {
 
 namespace fs = std::filesystem;
 
 namespace {
 
+using test::geojson;
+
 std::string const small = "make --set grid.width=64 --set grid.height=64 --set network.dla.particles=400 "
                           "--set network.prune=4 -o out ";
-
-std::string geojson(std::string const& features) {
-    return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32631"}},)"
-           R"("features":[)" +
-           features + "]}";
-}
 
 std::string river(int id, std::string const& coordinates) {
     return R"({"type":"Feature","id":)" + std::to_string(id) +
@@ -162,3 +162,5 @@ open('in/r.shp', 'wb').write(shape.replace(struct.pack('<d', 500010.25), struct.
     place.write("r.toml", lines_recipe("in/r.shp"));
     expect_refused(place, "make r.toml -o out", "vertex");
 }
+
+} // namespace bad_input_test

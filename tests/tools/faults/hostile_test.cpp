@@ -20,6 +20,8 @@
 #include <utility>
 #include <vector>
 
+namespace hostile_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -523,3 +525,5 @@ TEST_F(Hostile, WhatAVrtNamesIsKeptAndReplays) {
     Outcome const again = thalweg_run("replay made --verify", inside());
     EXPECT_EQ(again.code, 0) << again.out << again.err;
 }
+
+} // namespace hostile_test

@@ -9,6 +9,8 @@
 #include <regex>
 #include <string>
 
+namespace manners_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -130,18 +132,6 @@ TEST(Manners, StraightHeightsThatRiseFailTheCheckAndLeaveTheFiles) {
     EXPECT_EQ(thalweg_run("check out", place.path()).code, 3);
 }
 
-TEST(Manners, InterruptLeavesNothing) {
-    Workplace const place;
-    Workplace const aside;
-    aside.write("run.sh", "cd '" + place.path().string() +
-                              "'\n'" THALWEG_EXE
-                              "' make --set grid.width=4000 --set grid.height=4000 --set network.dla.particles=5000000 "
-                              "-o out >/dev/null 2>&1 &\nsleep 1\nkill -INT $!\nwait $!\n");
-    int const status = std::system(("bash " + (aside / "run.sh").string()).c_str());
-    EXPECT_EQ(WEXITSTATUS(status), 130);
-    EXPECT_EQ(entries(place.path()), 0U);
-}
-
 TEST(Manners, ATamperedFileIsFoundByReplay) {
     Workplace const place;
     ASSERT_EQ(thalweg_run(small + "-o out -q", place.path()).code, 0);
@@ -156,10 +146,12 @@ TEST(Manners, ATamperedFileIsFoundByReplay) {
     EXPECT_NE(o.out.find("MISSING  map.png"), std::string::npos) << o.out;
 }
 
-TEST(Manners, TheDeviceIsNamed) {
+TEST(Manners, TheOpenClDeviceIsNamed) {
     Workplace const place;
     Outcome const there = thalweg_run(small + "-o out --device opencl", place.path());
     ASSERT_EQ(there.code, 0) << there.err;
     EXPECT_NE(("\n" + there.err).find("\ndevice "), std::string::npos) << there.err;
     EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0) << "a device is no part of a recipe";
 }
+
+} // namespace manners_test

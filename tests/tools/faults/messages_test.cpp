@@ -17,6 +17,8 @@
 #include <fstream>
 #include <string>
 
+namespace messages_test {
+
 namespace fs = std::filesystem;
 using thalweg::is_utf8;
 
@@ -311,3 +313,5 @@ TEST(Messages, StatsReprojectsDegreesAndSaysSo) {
     double const slope = nlohmann::json::parse(o.out)["slope_true_deg"];
     EXPECT_NEAR(slope, 3.67, 0.1) << "5 m in 78.8 m, 1 m in 111.1 m";
 }
+
+} // namespace messages_test

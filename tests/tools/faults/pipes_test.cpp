@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
+namespace pipes_test {
+
 namespace fs = std::filesystem;
 
 namespace {
 
 using Words = std::vector<std::string>;
-
-constexpr double most_s = 20.0;
 
 class Pipes : public MadeOnce {
 protected:
@@ -39,8 +39,7 @@ protected:
         for (std::string const& word : words) {
             line += word + " ";
         }
-        Ended const ended = Spawned(words, place().path(), [] {}).wait(most_s);
-        EXPECT_FALSE(ended.hung) << line;
+        Ended const ended = spawn(words, place().path());
         EXPECT_EQ(ended.code, 2) << line << ended.err;
         EXPECT_NE(ended.err.find("a pipe or a device"), std::string::npos) << line << ended.err;
         EXPECT_FALSE(fs::exists(place() / "out")) << line;
@@ -141,3 +140,5 @@ TEST_F(Pipes, AreRefusedBesideAFileAndWhereAnotherNamesThem) {
     expect_refused({"stats", "land.vrt"});
     expect_refused({"draw", "land.vrt", "-o", "out"});
 }
+
+} // namespace pipes_test

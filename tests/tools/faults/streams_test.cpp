@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+namespace streams_test {
+
 namespace {
 
 using Words = std::vector<std::string>;
@@ -118,3 +120,5 @@ TEST_F(Streams, AReaderThatLeavesLeavesNothingHalfDone) {
     EXPECT_EQ(ended.code, 1);
     EXPECT_EQ(difference(here / "out", place() / "base"), "");
 }
+
+} // namespace streams_test

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <string>
 
+namespace bar_test {
+
 using namespace thalweg::tools;
 
 namespace {
@@ -135,3 +137,5 @@ TEST(Abilities, FollowTerminalTermAndNoColor) {
         EXPECT_FALSE(abilities(true, term, nullptr).colours);
     }
 }
+
+} // namespace bar_test

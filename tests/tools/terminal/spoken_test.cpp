@@ -5,17 +5,19 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <support.hpp>
+
 #include <regex>
 #include <string>
 
+namespace spoken_test {
+
 namespace {
+
+using test::has;
 
 std::string const small = "make -o out --set grid.width=64 --set grid.height=48 --set network.dla.particles=400 --set "
                           "network.prune=4 ";
-
-bool has(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
-}
 
 } // namespace
 
@@ -96,3 +98,5 @@ TEST(Spoken, ADryRunWritesNothing) {
     EXPECT_EQ(wrong.code, 2) << wrong.out;
     EXPECT_TRUE(std::filesystem::is_empty(place.path()));
 }
+
+} // namespace spoken_test

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+namespace stage_times_test {
+
 using thalweg::tools::StageTimes;
 
 namespace {
@@ -65,3 +67,5 @@ RC_GTEST_PROP(StageTimes, CountsNoSecondTwice, (std::vector<std::pair<int, bool>
 }
 
 } // namespace
+
+} // namespace stage_times_test

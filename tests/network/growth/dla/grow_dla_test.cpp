@@ -6,6 +6,7 @@
 
 #include <network/chi_squared.hpp>
 #include <network/unit_step_dla.hpp>
+#include <support.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -22,12 +23,17 @@
 #include <utility>
 #include <vector>
 
+namespace grow_dla_test {
+
 using namespace thalweg::network;
 using thalweg::BadParameter;
 using thalweg::Cancelled;
 using thalweg::Cell;
 
 namespace {
+
+using test::full_message_of;
+using test::on_threads;
 
 DlaParams dla(std::int64_t particles, double sticking, int visits, std::uint64_t seed) {
     DlaParams params;
@@ -78,12 +84,8 @@ TEST(GrowDla, refuses_parameters_out_of_range) {
     DlaParams params;
     params.max_radius = -1;
     EXPECT_THROW(grow_dla(params), BadParameter);
-    try {
-        grow_dla(dla(10, 2.0, 1, 7));
-    } catch (BadParameter const& e) {
-        EXPECT_STREQ(e.where(), "network.grow_dla");
-        EXPECT_STREQ(e.what(), "sticking is 2; it must be greater than 0 and at most 1");
-    }
+    EXPECT_EQ(full_message_of<BadParameter>([&] { grow_dla(dla(10, 2.0, 1, 7)); }),
+              "network.grow_dla: sticking is 2; it must be greater than 0 and at most 1");
 }
 
 TEST(GrowDla, most_visits_make_a_cross) {
@@ -167,10 +169,8 @@ TEST(GrowDla, laws_of_a_cluster) {
 // Law: no field of Run changes a result. The memory has been widened several times at this size.
 TEST(GrowDla, same_cells_for_any_number_of_threads_and_any_run) {
     DlaParams const params = dla(20000, 0.85, 3, 7);
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run two;
-    two.threads = 2;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const two = on_threads(2);
     Cluster const first = grow_dla(params, one);
     for (Cluster const& again : {grow_dla(params, two), grow_dla(params)}) {
         EXPECT_EQ(again.cells, first.cells);
@@ -236,3 +236,5 @@ TEST(GrowDla, what_would_not_end_is_refused_before_it_begins) {
     narrow.max_radius = 30;
     EXPECT_NO_THROW(thalweg::network::require_growth(narrow));
 }
+
+} // namespace grow_dla_test

@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+namespace growth_law_test {
+
 using namespace thalweg::network;
 using thalweg::Cell;
 
@@ -171,3 +173,5 @@ TEST(GrowthLaw, sticking_before_counting_is_thicker) {
     EXPECT_NEAR(block_share(grown(20000, 0.5, 3, 1)), 0.31, 0.02);
     EXPECT_NEAR(block_share(grown(20000, 0.5, 3, 1, VisitRule::stick_then_count)), 0.54, 0.02);
 }
+
+} // namespace growth_law_test

@@ -13,6 +13,8 @@
 #include <cstdlib>
 #include <vector>
 
+namespace pick_branch_test {
+
 using namespace thalweg::network;
 using thalweg::BadInput;
 using thalweg::BadParameter;
@@ -167,3 +169,5 @@ TEST(PickBranch, laws_of_arms) {
         }
     }));
 }
+
+} // namespace pick_branch_test

@@ -22,6 +22,8 @@
 #include <utility>
 #include <vector>
 
+namespace walk_test {
+
 using namespace thalweg::network;
 using thalweg::Cell;
 using thalweg::RandomStream;
@@ -313,3 +315,5 @@ TEST(FirstArrivals, have_the_distribution_of_unit_steps) {
     EXPECT_LT(planted.p, 0.01) << "chi2 " << planted.x << " of " << planted.freedom;
     RecordProperty("p_planted", std::to_string(planted.p));
 }
+
+} // namespace walk_test

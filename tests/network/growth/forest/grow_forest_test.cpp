@@ -8,6 +8,7 @@
 #include <network/growth_params.hpp>
 #include <network/masks.hpp>
 #include <network/plain_forest.hpp>
+#include <support.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -20,14 +21,19 @@
 #include <stop_token>
 #include <vector>
 
+namespace grow_forest_test {
+
 using namespace thalweg;
 using namespace thalweg::network;
-using thalweg::test::grid_of;
-using thalweg::test::growth;
-using thalweg::test::mask_of;
-using thalweg::test::random_blob;
+using test::frame;
+using test::growth;
+using test::mask_of;
+using test::random_blob;
 
 namespace {
+
+using test::full_message_of;
+using test::on_threads;
 
 /// Some cells of a region that lie two steps apart, at least one.
 std::vector<Cell> random_seeds(Mask const& region, std::int64_t step, std::size_t most, std::uint64_t seed) {
@@ -96,22 +102,20 @@ TEST(GrowForest, refuses_parameters_and_seeds) {
     EXPECT_THROW(grow_forest(land, {{4, 0}}), BadInput);
     EXPECT_THROW(grow_forest(land, {{0, 0}, {1, 1}}, growth(1, 7)), BadInput);
     EXPECT_NO_THROW(grow_forest(land, {{0, 0}, {2, 0}}, growth(1, 7)));
-    try {
-        grow_forest(land, {{0, 0}, {1, 0}}, growth(1, 7));
-    } catch (BadInput const& e) {
-        EXPECT_STREQ(e.where(), "network.grow_forest");
-        EXPECT_STREQ(e.what(), "the seed (1, 0) lies nearer than 2 cells to another");
-    }
+    EXPECT_EQ(full_message_of<BadInput>([&] {
+                  grow_forest(land, {{0, 0}, {1, 0}}, growth(1, 7));
+              }),
+              "network.grow_forest: the seed (1, 0) lies nearer than 2 cells to another");
 }
 
 TEST(GrowForest, is_cancelled_while_nothing_grows) {
-    Mask const land(grid_of(300, 300), 1);
+    Mask const land(frame(300, 300), 1);
     std::stop_source source;
     source.request_stop();
     thalweg::Run stopped;
     stopped.stop = source.get_token();
     EXPECT_THROW(grow_forest(land, {{0, 0}}, growth(5, 7), stopped), Cancelled);
-    EXPECT_THROW(grow_forest(Mask(grid_of(3, 3), 1), {{0, 0}}, growth(1, 7, 1e-9), stopped), Cancelled);
+    EXPECT_THROW(grow_forest(Mask(frame(3, 3), 1), {{0, 0}}, growth(1, 7, 1e-9), stopped), Cancelled);
 }
 
 // Laws of the header: a particle hangs on the one nearest to it, s to s + 1 away; it keeps 2 s from all others, but
@@ -160,10 +164,8 @@ TEST(GrowForest, land_without_a_seed_stays_empty) {
 TEST(GrowForest, same_cells_for_any_number_of_threads) {
     Mask const land = random_blob(5, 200, 200, 8, 60);
     std::vector<Cell> const seeds = random_seeds(land, 5, 6, 9);
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run two;
-    two.threads = 2;
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const two = on_threads(2);
     GrownForest const first = grow_forest(land, seeds, growth(5, 7), one);
     for (GrownForest const& again :
          {grow_forest(land, seeds, growth(5, 7), two), grow_forest(land, seeds, growth(5, 7))}) {
@@ -175,7 +177,7 @@ TEST(GrowForest, same_cells_for_any_number_of_threads) {
 }
 
 TEST(GrowForest, a_longer_growth_continues_a_shorter) {
-    Mask const land(grid_of(120, 90), 1);
+    Mask const land(frame(120, 90), 1);
     GrownForest const whole = grow_forest(land, {{0, 0}, {100, 50}}, growth(4, 7));
     ForestParams params = growth(4, 7);
     params.particles = 60;
@@ -189,7 +191,7 @@ TEST(GrowForest, a_longer_growth_continues_a_shorter) {
 // Law: on trees that do not grow, walkers by jumps and walkers by unit steps arrive alike, in a region with corners and
 // an islet; the test would see it if one in twenty were displaced.
 TEST(RegionWalk, arrivals_have_the_distribution_of_unit_steps) {
-    Mask land(grid_of(60, 50), 1);
+    Mask land(frame(60, 50), 1);
     for (std::int64_t i = 0; i < land.cells(); ++i) {
         Cell const c = land.grid().at(i);
         bool const bay = c.col > 30 && c.row < 14;
@@ -237,7 +239,9 @@ TEST(GrowForest, shapes_come_as_often_as_by_unit_steps) {
 }
 
 TEST(GrowForest, what_would_not_end_is_refused_before_it_begins) {
-    Mask const region(grid_of(40, 40), 1);
+    Mask const region(frame(40, 40), 1);
     EXPECT_THROW(grow_forest(region, {{20, 20}}, {.sticking = 1e-300}), BadParameter);
     EXPECT_THROW(grow_forest(region, {{20, 20}}, {.sticking = 1e-12}), BadParameter);
 }
+
+} // namespace grow_forest_test

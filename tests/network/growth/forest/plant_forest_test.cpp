@@ -12,6 +12,7 @@
 
 #include <network/growth_params.hpp>
 #include <network/masks.hpp>
+#include <support.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -23,18 +24,19 @@
 #include <string>
 #include <vector>
 
+namespace plant_forest_test {
+
 using namespace thalweg;
 using namespace thalweg::network;
-using thalweg::test::grid_of;
-using thalweg::test::growth;
-using thalweg::test::mask_of;
-using thalweg::test::random_blob;
+using test::frame;
+using test::growth;
+using test::random_blob;
 
 namespace {
 
-std::int64_t count(std::vector<Finding> const& notes, std::string const& kind) {
-    return std::ranges::count(notes, kind, &Finding::kind);
-}
+using test::count;
+using test::full_message_of;
+using test::on_threads;
 
 /// By cell the basin of the river that runs there, 0 for none.
 Raster<std::int64_t> basins(StreamNetwork const& network, Grid const& grid) {
@@ -50,36 +52,34 @@ Raster<std::int64_t> basins(StreamNetwork const& network, Grid const& grid) {
 } // namespace
 
 TEST(PlantForest, refuses_what_leaves_no_room) {
-    EXPECT_THROW(plant_forest(Mask(grid_of(40, 40), 0), {}), BadInput);
-    EXPECT_THROW(plant_forest(Mask(grid_of(5, 5), 1), {{0, 0}}), BadInput);
-    Mask const land(grid_of(40, 40), 1);
+    EXPECT_THROW(plant_forest(Mask(frame(40, 40), 0), {}), BadInput);
+    EXPECT_THROW(plant_forest(Mask(frame(5, 5), 1), {{0, 0}}), BadInput);
+    Mask const land(frame(40, 40), 1);
     EXPECT_THROW(plant_forest(land, {{20, 20}}), BadInput);
     EXPECT_THROW(plant_forest(land, {{40, 20}}), BadInput);
     EXPECT_THROW(plant_forest(land, {{0, 20}}, growth(3, 7)), BadParameter);
     EXPECT_THROW(plant_forest(land, {{0, 20}}, growth(101, 7)), BadParameter);
-    try {
-        plant_forest(land, {{20, 20}});
-    } catch (BadInput const& e) {
-        EXPECT_STREQ(e.where(), "network.plant_forest");
-        EXPECT_STREQ(e.what(), "the outlet (20, 20) lies off the land's coast");
-    }
+    EXPECT_EQ(full_message_of<BadInput>([&] {
+                  plant_forest(land, {{20, 20}});
+              }),
+              "network.plant_forest: the outlet (20, 20) lies off the land's coast");
 }
 
 TEST(PlantForest, land_without_outlets_gets_one_and_says_so) {
-    PlantedForest const f = plant_forest(Mask(grid_of(60, 60), 1), {});
+    PlantedForest const f = plant_forest(Mask(frame(60, 60), 1), {});
     EXPECT_EQ(f.outlets, 1);
     EXPECT_EQ(count(f.notes, "added_outlet"), 1);
     EXPECT_EQ(f.stop, ForestStop::full);
 }
 
 TEST(PlantForest, outlets_too_near_to_one_another_are_left_out) {
-    PlantedForest const f = plant_forest(Mask(grid_of(80, 60), 1), {{0, 30}, {0, 32}, {79, 30}, {79, 30}});
+    PlantedForest const f = plant_forest(Mask(frame(80, 60), 1), {{0, 30}, {0, 32}, {79, 30}, {79, 30}});
     EXPECT_EQ(f.outlets, 2);
     EXPECT_EQ(count(f.notes, "crowded_outlet"), 2);
 }
 
 TEST(PlantForest, islands_get_an_outlet_or_a_note) {
-    Mask land(grid_of(200, 80), 0);
+    Mask land(frame(200, 80), 0);
     for (std::int64_t i = 0; i < land.cells(); ++i) {
         Cell const c = land.grid().at(i);
         bool const wide = c.row > 2 && c.row < 77 && ((c.col > 2 && c.col < 90) || (c.col > 92 && c.col < 180));
@@ -136,7 +136,7 @@ TEST(PlantForest, laws_of_a_planted_forest) {
 // Law: what comes out passes every check of a network, with many outlets.
 TEST(PlantForest, networks_pass_every_check) {
     for (std::uint64_t const seed : {1U, 2U, 3U}) {
-        Grid const grid = grid_of(400, 300);
+        Grid const grid = frame(400, 300);
         Mask const land = shape_island(grid, {0.7, seed});
         PlantedForest const f = plant_forest(land, spread_outlets(land, coast_cells(land), {}), growth(5, seed));
         EXPECT_GT(f.outlets, 10);
@@ -150,10 +150,9 @@ TEST(PlantForest, networks_pass_every_check) {
 
 // Law: no field of Run changes a result.
 TEST(PlantForest, same_network_for_any_number_of_threads) {
-    Mask const land = shape_island(grid_of(220, 200), {0.5, 4});
+    Mask const land = shape_island(frame(220, 200), {0.5, 4});
     std::vector<Cell> const outlets = spread_outlets(land, coast_cells(land), {});
-    thalweg::Run one;
-    one.threads = 1;
+    thalweg::Run const one = on_threads(1);
     PlantedForest const a = plant_forest(land, outlets, growth(5, 7), one);
     PlantedForest const b = plant_forest(land, outlets, growth(5, 7));
     ASSERT_EQ(a.network.arc_count(), b.network.arc_count());
@@ -161,3 +160,5 @@ TEST(PlantForest, same_network_for_any_number_of_threads) {
         EXPECT_EQ(a.network.arc(k).line, b.network.arc(k).line);
     }
 }
+
+} // namespace plant_forest_test

@@ -6,6 +6,7 @@
 #include <thalweg/network/growth/forest/spread_outlets.hpp>
 
 #include <network/masks.hpp>
+#include <support.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -15,12 +16,16 @@
 #include <limits>
 #include <vector>
 
+namespace shape_island_test {
+
 using namespace thalweg;
 using namespace thalweg::network;
-using thalweg::test::components;
-using thalweg::test::grid_of;
+using test::components;
+using test::frame;
 
 namespace {
+
+using test::on_threads;
 
 std::int64_t land_cells(Mask const& land) {
     return std::ranges::count(land.values(), std::uint8_t{1});
@@ -29,16 +34,16 @@ std::int64_t land_cells(Mask const& land) {
 } // namespace
 
 TEST(ShapeIsland, refuses_what_leaves_no_island) {
-    EXPECT_THROW(shape_island(grid_of(15, 90)), BadInput);
+    EXPECT_THROW(shape_island(frame(15, 90)), BadInput);
     for (double const r : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
-        EXPECT_THROW(shape_island(grid_of(30, 30), {r, 7}), BadParameter) << r;
+        EXPECT_THROW(shape_island(frame(30, 30), {r, 7}), BadParameter) << r;
     }
 }
 
 // Laws: about two fifths of the grid are land; a margin of sea; no lagoon; no islet of less than a thousandth.
 TEST(ShapeIsland, laws) {
     ASSERT_TRUE(rc::check([] {
-        Grid const grid = grid_of(*rc::gen::inRange(16, 150), *rc::gen::inRange(16, 150));
+        Grid const grid = frame(*rc::gen::inRange(16, 150), *rc::gen::inRange(16, 150));
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         Mask const land = shape_island(grid, {*rc::gen::element(0.0, 0.3, 0.6, 1.0), seed});
         RC_ASSERT(land_cells(land) * 10 > 3 * grid.cells());
@@ -56,7 +61,7 @@ TEST(ShapeIsland, laws) {
 
 // The square of the coast's length over the area, which does not know how large an island is.
 TEST(ShapeIsland, ruggedness_makes_the_coast_longer) {
-    Grid const grid = grid_of(400, 400);
+    Grid const grid = frame(400, 400);
     double before = 0.0;
     for (double const r : {0.0, 0.5, 1.0}) {
         double length = 0.0;
@@ -72,12 +77,12 @@ TEST(ShapeIsland, ruggedness_makes_the_coast_longer) {
 
 // Law: no field of Run changes a result; the seed does.
 TEST(ShapeIsland, same_mask_for_any_number_of_threads) {
-    Grid const grid = grid_of(130, 90);
-    thalweg::Run one;
-    one.threads = 1;
-    thalweg::Run three;
-    three.threads = 3;
+    Grid const grid = frame(130, 90);
+    thalweg::Run const one = on_threads(1);
+    thalweg::Run const three = on_threads(3);
     auto const cells = [](Mask const& m) { return std::vector<std::uint8_t>(m.values().begin(), m.values().end()); };
     EXPECT_EQ(cells(shape_island(grid, {0.5, 7}, one)), cells(shape_island(grid, {0.5, 7}, three)));
     EXPECT_NE(cells(shape_island(grid, {0.5, 7})), cells(shape_island(grid, {0.5, 8})));
 }
+
+} // namespace shape_island_test

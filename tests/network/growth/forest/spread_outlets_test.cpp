@@ -15,22 +15,24 @@
 #include <limits>
 #include <vector>
 
+namespace spread_outlets_test {
+
 using namespace thalweg;
 using namespace thalweg::network;
-using thalweg::test::grid_of;
-using thalweg::test::mask_of;
-using thalweg::test::random_blob;
+using test::frame;
+using test::mask_of;
+using test::random_blob;
 
 TEST(SpreadOutlets, coast_touches_sea_or_border) {
     EXPECT_TRUE(coast_cells(mask_of({"..", ".."})).empty());
     EXPECT_EQ(coast_cells(mask_of({"#"})), (std::vector<Cell>{{0, 0}}));
-    EXPECT_EQ(coast_cells(Mask(grid_of(5, 4), 1)).size(), 14U);
+    EXPECT_EQ(coast_cells(Mask(frame(5, 4), 1)).size(), 14U);
     // A cell that meets the sea by a corner only is inland.
     EXPECT_EQ(coast_cells(mask_of({".......", ".#####.", ".#####.", ".####..", ".......", "......."})).size(), 11U);
 }
 
 TEST(SpreadOutlets, refuses_what_it_cannot_do) {
-    Mask const land(grid_of(9, 9), 1);
+    Mask const land(frame(9, 9), 1);
     EXPECT_THROW(spread_outlets(land, {}), BadInput);
     EXPECT_THROW(spread_outlets(land, coast_cells(land), {-1, 60.0, 7}), BadParameter);
     EXPECT_THROW(spread_outlets(land, coast_cells(land), {0, 0.0, 7}), BadParameter);
@@ -67,7 +69,7 @@ TEST(SpreadOutlets, laws) {
 
 // Distances are neither all alike nor independent: their deviation is a third to two thirds of their mean.
 TEST(SpreadOutlets, distances_are_natural) {
-    Mask const land(grid_of(3000, 1), 1);
+    Mask const land(frame(3000, 1), 1);
     std::vector<Cell> outlets = spread_outlets(land, coast_cells(land), {60, 60.0, 7});
     ASSERT_EQ(outlets.size(), 60U);
     std::ranges::sort(outlets, {}, &Cell::col);
@@ -86,7 +88,7 @@ TEST(SpreadOutlets, distances_are_natural) {
 
 // Mouths lie rather in bays than on capes: a bay and a cape of the same shape.
 TEST(SpreadOutlets, bays_have_more_than_capes) {
-    Mask land(grid_of(200, 120), 0);
+    Mask land(frame(200, 120), 0);
     auto const wedge = [](Cell c, std::int64_t tip) { return 40 - std::abs(c.col - tip); };
     for (std::int64_t i = 0; i < land.cells(); ++i) {
         Cell const c = land.grid().at(i);
@@ -106,3 +108,5 @@ TEST(SpreadOutlets, bays_have_more_than_capes) {
     EXPECT_GT(bay, 2 * cape);
     EXPECT_GT(cape, 0);
 }
+
+} // namespace spread_outlets_test

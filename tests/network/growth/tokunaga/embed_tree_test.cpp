@@ -12,10 +12,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/growth/tokunaga/internal/polygon.hpp>
 #include <thalweg/network/order/order.hpp>
+
+namespace embed_tree_test {
 
 using namespace thalweg;
 using network::embed_tree;
@@ -25,6 +28,9 @@ using network::grow_tokunaga;
 using network::TokunagaTree;
 
 namespace {
+
+using test::has;
+using test::message_of;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -37,16 +43,7 @@ EmbedParams in_square(double side_m) {
 }
 
 std::string refusal(EmbedParams const& params, TokunagaTree const& tree = grow_tokunaga({.order = 3})) {
-    try {
-        embed_tree(tree, params);
-    } catch (BadParameter const& e) {
-        return e.what();
-    }
-    return "taken";
-}
-
-bool has(std::string const& text, std::string const& part) {
-    return text.find(part) != std::string::npos;
+    return message_of<BadParameter>([&] { embed_tree(tree, params); });
 }
 
 struct PlacedLink {
@@ -223,7 +220,7 @@ TEST(EmbedTree, RefusesWhatIsNoRegion) {
     EXPECT_TRUE(
         has(refusal({.region = {{0, 0}, {9, 9}, {9, 0}, {0, 9}}, .mouth = {1, 1}}), "meets itself at (4.5, 4.5)"));
     EXPECT_TRUE(has(refusal({.region = {{5, 5}, {5, 5}, {5, 5}}, .mouth = {5, 5}}), "has no area"));
-    EXPECT_NE(refusal({.region = {{0, 0}, {5, 5}, {9, 9}}, .mouth = {5, 5}}), "taken");
+    EXPECT_NE(refusal({.region = {{0, 0}, {5, 5}, {9, 9}}, .mouth = {5, 5}}), "");
     EXPECT_TRUE(has(refusal({.region = {{0, 0}, {9, not_a_number}, {9, 9}}}), "vertex (9, nan) is not finite"));
     EXPECT_TRUE(has(refusal({.region = square(0.001)}), "21 links"));
 }
@@ -419,3 +416,5 @@ TEST(EmbedTree, WhereRoomIsShortTheHighestOrdersStay) {
     EXPECT_EQ(kept[1], 0.0);
     EXPECT_GE(kept[4] / all[4], kept[2] / all[2]);
 }
+
+} // namespace embed_tree_test

@@ -20,6 +20,8 @@
 #include <thalweg/network/growth/tokunaga/internal/stroke_lands.hpp>
 #include <thalweg/network/order/order.hpp>
 
+namespace grow_strokes_test {
+
 using namespace thalweg;
 using network::grow_strokes;
 using network::GrownStrokes;
@@ -512,3 +514,5 @@ RC_GTEST_PROP(GrowStrokes, KeepsEveryLawOrSaysWhereItCannot, ()) {
         }
     }
 }
+
+} // namespace grow_strokes_test

@@ -8,7 +8,10 @@
 #include <rapidcheck/gtest.h>
 
 #include <network/plain_streams.hpp>
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
+
+namespace lsystem_test {
 
 using namespace thalweg;
 using network::BankRule;
@@ -18,13 +21,10 @@ using network::write_lsystem;
 
 namespace {
 
+using test::full_message_of;
+
 std::string complaint(std::string const& word) {
-    try {
-        read_lsystem(word);
-    } catch (BadInput const& e) {
-        return std::string(e.where()) + ": " + e.what();
-    }
-    return "";
+    return full_message_of<BadInput>([&] { read_lsystem(word); });
 }
 
 /// The L-system itself: every sign replaced by its rule.
@@ -123,3 +123,5 @@ TEST(DrawTurtle, DrawsWhatTheWordSays) {
 }
 
 } // namespace
+
+} // namespace lsystem_test

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+namespace polygon_test {
+
 using namespace thalweg;
 
 namespace {
@@ -75,3 +77,5 @@ TEST(Polygon, OfStepsAgainstTheirColumns) {
         }
     }));
 }
+
+} // namespace polygon_test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/tokunaga/rewrite.hpp>
 
+#include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/growth/tokunaga/lsystem.hpp>
 
@@ -12,18 +13,17 @@
 #include <utility>
 #include <vector>
 
+namespace rewrite_test {
+
 using namespace thalweg;
 using namespace thalweg::network;
 
 namespace {
 
+using test::message_of;
+
 std::string refusal_of(std::string const& text) {
-    try {
-        read_rules(text, "r.txt");
-    } catch (BadInput const& fault) {
-        return fault.what();
-    }
-    return "";
+    return message_of<BadInput>([&] { read_rules(text, "r.txt"); });
 }
 
 } // namespace
@@ -100,3 +100,5 @@ TEST(Rewrite, TheTurtleDrawsAsThatOfTrees) {
     EXPECT_NEAR(gap[2][1].y, 1.0, 1e-12);
     EXPECT_TRUE(draw_word("+-[]!", 90.0).empty());
 }
+
+} // namespace rewrite_test

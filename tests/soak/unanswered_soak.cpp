@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-TEST(LongUnanswered, ServersAreGivenUpAfterTenSeconds) {
+TEST(Unanswered, ServersAreGivenUpAfterTenSeconds) {
     Listening const server; // nobody reads what is sent to it
     Workplace const place;
     std::string const base = "PG:host=127.0.0.1 port=" + server.port() + " dbname=x";

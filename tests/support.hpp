@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <thalweg/core/finding.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/run.hpp>
+
+/// What the tests of several modules need.
+namespace test {
+
+using namespace thalweg;
+
+/// Whether a text has these words in it; a check that fails shows the text.
+inline testing::AssertionResult has(std::string_view text, std::string_view words) {
+    return text.find(words) != std::string_view::npos ? testing::AssertionSuccess()
+                                                      : testing::AssertionFailure() << "'" << text << "'";
+}
+
+/// What an act that fails with Failure says; nothing where it does not fail.
+template <class Failure = Error> std::string message_of(auto&& act) {
+    try {
+        act();
+    } catch (Failure const& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// The same with the function that threw in front: "module.function: what is wrong".
+template <class Failure = Error> std::string full_message_of(auto&& act) {
+    try {
+        act();
+    } catch (Failure const& error) {
+        return std::string(error.where()) + ": " + error.what();
+    }
+    return "";
+}
+
+/// The bytes of a file; none where it cannot be read.
+inline std::string bytes_of(std::filesystem::path const& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Makes a file that holds the text.
+inline void write(std::filesystem::path const& path, std::string_view text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+/// A run on so many threads.
+inline Run on_threads(int threads) {
+    Run run;
+    run.threads = threads;
+    return run;
+}
+
+/// How many findings are of a kind.
+inline std::int64_t count(std::vector<Finding> const& findings, std::string_view kind) {
+    return std::ranges::count(findings, kind, &Finding::kind);
+}
+
+/// A file of features in GeoJSON, in EPSG:32631.
+inline std::string geojson(std::string const& features) {
+    return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32631"}},)"
+           R"("features":[)" +
+           features + "]}";
+}
+
+/// A grid with its south-west corner at (0, 0).
+inline Grid frame(std::int64_t width, std::int64_t height, double cell_m = 1.0) {
+    return {width, height, cell_m, 0.0, static_cast<double>(height) * cell_m, ""};
+}
+
+/// A grid with its north-west corner at (0, 0).
+inline Grid frame_below(std::int64_t width, std::int64_t height, double cell_m = 1.0) {
+    return {width, height, cell_m, 0.0, 0.0, ""};
+}
+
+/// A raster whose cells have the values z(cell).
+template <class T = float> Raster<T> raster_of(Grid const& grid, auto&& z) {
+    Raster<T> raster(grid);
+    for (std::int64_t i = 0; i < raster.cells(); ++i) {
+        raster[i] = static_cast<T>(z(grid.at(i)));
+    }
+    return raster;
+}
+
+/// Whether two numbers agree bit by bit.
+template <std::floating_point T> bool same_bits(T a, T b) {
+    return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+/// Whether two rasters have one grid, and values that agree bit by bit.
+template <class T> bool same_bits(Raster<T> const& a, Raster<T> const& b) {
+    return a.grid() == b.grid() && std::memcmp(a.values().data(), b.values().data(), a.values().size_bytes()) == 0;
+}
+
+} // namespace test
