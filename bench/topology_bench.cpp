@@ -3,10 +3,10 @@
 #include <benchmark/benchmark.h>
 
 #include <measure/faults.hpp>
+#include <measure/star.hpp>
 
 #include <thalweg/geometry/meetings.hpp>
 #include <thalweg/geometry/side_of_line.hpp>
-#include <thalweg/measure/topology/internal/topology_steps.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 
 // The whole check of a network's topology (goal: 100 000 arcs in a second), the part of it that is geometry, and beside
@@ -39,16 +39,9 @@ void BM_check_topology(benchmark::State& state) {
 
 /// Columns of arcs that end in one node: linear in their number.
 void BM_check_columns_star(benchmark::State& state) {
-    using namespace measure::topology_steps;
-    NetworkFile const file = faults::star_of(static_cast<int>(state.range(0)));
-    Findings findings;
-    auto const ambiguous = check_ids(file, findings);
-    Plans const plans = check_shapes(file, findings);
-    std::vector<char> const left_out(file.arcs.size(), 0);
-    Joints const joints = check_ends(file, plans, left_out, ambiguous, findings);
-    Graph const graph(joints.meant, left_out, joints.junctions.ids.size());
+    faults::Star const star(static_cast<int>(state.range(0)));
     for (auto _ : state) {
-        check_columns(file, joints, graph, findings);
+        benchmark::DoNotOptimize(star.check_columns());
     }
     state.SetComplexityN(state.range(0));
 }

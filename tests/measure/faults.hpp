@@ -539,19 +539,4 @@ inline std::vector<Fault> const& all() {
     return faults;
 }
 
-/// So many arcs that end in one node, and one from there to the outlet.
-inline NetworkFile star_of(int arcs) {
-    NetworkFile file;
-    file.nodes = {{1, {0.0, 0.0, 0.0}}, {2, {0.0, -1.0, -1.0}}};
-    file.arcs.push_back({1, 1, 2, 0, 1, arcs, 1, {{0.0, 0.0, 0.0}, {0.0, -1.0, -1.0}}});
-    file.arcs[0].columns.hack = 1.0;
-    for (int i = 0; i < arcs; ++i) {
-        Vec3 const at{static_cast<double>(i), 2.0 * arcs, 1.0};
-        file.nodes.push_back({i + 3, at});
-        file.arcs.push_back({i + 2, i + 3, 1, 1, 1, 1, 1, {at, {0.0, 0.0, 0.0}}});
-        file.arcs.back().columns.hack = i == arcs - 1 ? 1.0 : 2.0;
-    }
-    return file;
-}
-
 } // namespace faults

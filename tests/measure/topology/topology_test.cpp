@@ -15,6 +15,7 @@
 
 #include "dems.hpp"
 #include "faults.hpp"
+#include "star.hpp"
 
 namespace topology_test {
 
@@ -323,22 +324,14 @@ TEST(AsFile, NumbersFromOne) {
 
 // At a node any number of arcs may end: what is asked of each does not ask all others.
 TEST(CheckTopology, ColumnsOfAHundredThousandArcsThatEndInOneNode) {
-    NetworkFile file = faults::star_of(100'000);
-    using namespace measure::topology_steps;
-    Findings findings;
-    auto const ambiguous = check_ids(file, findings);
-    Plans const plans = check_shapes(file, findings);
-    std::vector<char> const left_out(file.arcs.size(), 0);
-    Joints const joints = check_ends(file, plans, left_out, ambiguous, findings);
-    Graph const graph(joints.meant, left_out, joints.junctions.ids.size());
-    ASSERT_TRUE(findings.empty());
-    check_columns(file, joints, graph, findings);
+    faults::Star star(100'000);
+    ASSERT_TRUE(star.before.empty());
     auto const of_arcs = [](Finding const& f) { return f.kind == "column_mismatch"; };
-    EXPECT_EQ(std::ranges::count_if(findings, of_arcs), 0) << findings.front().text;
-    file.arcs[7].columns.hack = 1.0;
-    findings.clear();
-    check_columns(file, joints, graph, findings);
-    EXPECT_GT(std::ranges::count_if(findings, of_arcs), 0);
+    auto const right = star.check_columns();
+    EXPECT_EQ(std::ranges::count_if(right, of_arcs), 0) << right.front().text;
+    star.file.arcs[7].columns.hack = 1.0;
+    auto const wrong = star.check_columns();
+    EXPECT_GT(std::ranges::count_if(wrong, of_arcs), 0);
 }
 
 } // namespace topology_test
