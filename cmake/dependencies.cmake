@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Every foreign library, all of them Debian packages. Included by the build and by find_package(thalweg), which say
 # how to look for one: macro thalweg_find(NAME VERSION).
+set(CMAKE_POLICY_DEFAULT_CMP0167 NEW) # CGAL asks for Boost in CMake's old way, and newer CMakes warn of it
 thalweg_find(PkgConfig)
 thalweg_find(Threads)
-thalweg_find(Boost 1.74)
+thalweg_find(Boost 1.74 CONFIG)
 thalweg_find(CGAL 5.5)
+unset(CMAKE_POLICY_DEFAULT_CMP0167)
 thalweg_find(GDAL 3.6)
 thalweg_find(PROJ CONFIG)
 thalweg_find(Eigen3 3.4 CONFIG)

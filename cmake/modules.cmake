@@ -4,13 +4,16 @@ add_library(thalweg_options INTERFACE)
 # No contraction, no fast-math, no -march: the same recipe gives the same bytes on every machine.
 target_compile_options(thalweg_options INTERFACE
   -Wall -Wextra -Wconversion -ffp-contract=off)
-if(THALWEG_WERROR)
-  target_compile_options(thalweg_options INTERFACE -Werror)
+# Held to: other versions warn of what is none.
+if(THALWEG_WERROR AND "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}" MATCHES "^(GNU 12|Clang 14)\\.")
+  set(THALWEG_STRICT -Werror)
 endif()
+target_compile_options(thalweg_options INTERFACE ${THALWEG_STRICT})
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Files that are compiled as one see one another's names, and g++ knows no main file whose types are its own;
-  # at -O3 it takes an inlined vector for memory that was never allocated.
-  target_compile_options(thalweg_options INTERFACE -Wshadow=local -Wno-subobject-linkage -Wno-free-nonheap-object)
+  # at -O3 it takes an inlined vector for memory that was never allocated (12) or for too small (14).
+  target_compile_options(thalweg_options INTERFACE -Wshadow=local -Wno-subobject-linkage -Wno-free-nonheap-object
+    -Wno-stringop-overflow)
 elseif(NOT CMAKE_UNITY_BUILD) # clang++ has no warning of local names alone
   target_compile_options(thalweg_options INTERFACE -Wshadow)
 endif()
@@ -116,6 +119,6 @@ function(thalweg_tests NAME)
     string(MAKE_C_IDENTIFIER "${CMAKE_MATCH_2}" PARAMS)
     add_test(NAME ${NAME}.${CMAKE_MATCH_1}.${PARAMS} COMMAND test_${NAME} --gtest_filter=${CMAKE_MATCH_1})
     set_tests_properties(${NAME}.${CMAKE_MATCH_1}.${PARAMS} PROPERTIES LABELS ${NAME} TIMEOUT 1800
-      ENVIRONMENT "RC_PARAMS=${CMAKE_MATCH_2}")
+      ENVIRONMENT "RC_PARAMS=${CMAKE_MATCH_2}" FAIL_REGULAR_EXPRESSION "Running 0 tests")
   endforeach()
 endfunction()

@@ -89,7 +89,8 @@ std::string renumber_ids(std::string const& svg) {
     for (std::size_t i = 0; i < svg.size();) {
         std::string_view const rest = std::string_view(svg).substr(i);
         std::string_view stem;
-        for (std::string_view const mark : {"\"surface", "#surface", "\"image", "#image", "\"mask", "#mask"}) {
+        for (std::string_view const mark :
+             {"\"surface", "#surface", "\"image", "#image", "\"mask", "#mask", "\"source-", "#source-"}) {
             if (rest.starts_with(mark)) {
                 stem = mark;
             }

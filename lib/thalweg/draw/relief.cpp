@@ -150,7 +150,10 @@ void draw_relief(Cairo* sheet, Relief const& relief, Box where, double px_per_ce
     cairo_scale(sheet, scale, scale);
     cairo_set_source_surface(sheet, image.get(), 0.0, 0.0);
     cairo_pattern_set_filter(cairo_get_source(sheet), CAIRO_FILTER_BEST);
-    cairo_pattern_set_extend(cairo_get_source(sheet), CAIRO_EXTEND_PAD);
+    bool const is_svg = cairo_surface_get_type(cairo_get_target(sheet)) == CAIRO_SURFACE_TYPE_SVG;
+    if (!is_svg) { // which has no such extension: Cairo 1.18 writes every pixel instead
+        cairo_pattern_set_extend(cairo_get_source(sheet), CAIRO_EXTEND_PAD);
+    }
     cairo_paint(sheet);
     cairo_restore(sheet);
     cairo_surface_finish(image.get());

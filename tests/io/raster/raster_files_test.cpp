@@ -19,6 +19,8 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/gdal/access.hpp>
+#include <thalweg/io/gdal/dataset_files.hpp>
 
 #include "full_disk.hpp"
 #include "scratch_folder.hpp"
@@ -335,6 +337,21 @@ TEST(ReadDem, StopsWhenAsked) {
     thalweg::Run run;
     run.progress = stop_at_once;
     EXPECT_THROW(io::read_dem(path, run), Cancelled);
+}
+
+TEST(DatasetFiles, WhatACompanionNamesElsewhereIsNoneOfThem) {
+    ScratchFolder const folder;
+    ScratchFolder const elsewhere;
+    std::string const secret = tiff(elsewhere, north_up, 7.0);
+    std::string const path = tiff(folder, north_up, 1.0);
+    folder.write("hand.tif.ovr", "<VRTDataset rasterXSize='2' rasterYSize='2'><VRTRasterBand dataType='Float32' "
+                                 "band='1'><SimpleSource><SourceFilename relativeToVRT='0'>" +
+                                     secret + "</SourceFilename></SimpleSource></VRTRasterBand></VRTDataset>");
+    EXPECT_TRUE(std::ranges::count(io::dataset_files(path), path));
+    io::RecipeFiles const confined;
+    for (std::string const& file : io::dataset_files(path)) {
+        EXPECT_TRUE(has(file, folder.path().string())) << file;
+    }
 }
 
 TEST(Hillshade, DegenerateRasters) {

@@ -300,7 +300,7 @@ std::string read_text(std::string const& path, std::int64_t max_bytes) {
     return text;
 }
 
-void write_text(std::string const& path, std::string const& text) {
+void write_text(std::string const& path, std::string_view text) {
     NewFile file(path, "io.write_text: " + path);
     file.append(text);
     file.close();

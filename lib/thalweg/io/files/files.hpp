@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace thalweg::io {
@@ -79,7 +80,7 @@ std::string read_text(std::string const& path, std::int64_t max_bytes);
 /// \param path path of the file
 /// \param text the text
 /// \throws IoError with the path and the system's reason, also when the file exists
-void write_text(std::string const& path, std::string const& text);
+void write_text(std::string const& path, std::string_view text);
 
 /// Copies a file's bytes into a new file.
 /// \param from the file to copy

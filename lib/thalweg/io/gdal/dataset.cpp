@@ -3,12 +3,14 @@
 #include <thalweg/io/gdal/internal/dataset.hpp>
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
@@ -122,6 +124,21 @@ Dataset open_file(std::string const& path, unsigned kinds, std::string const& wh
         throw BadInput(fmt::format("{} cannot be read: {}", what, words.empty() ? "its format is not known" : words));
     }
     return dataset;
+}
+
+MemoryFile::MemoryFile() {
+    static std::atomic<int> made{0};
+    path_ = fmt::format("/vsimem/thalweg{}/file", ++made);
+}
+
+MemoryFile::~MemoryFile() {
+    VSIRmdirRecursive(path_.substr(0, path_.rfind('/')).c_str());
+}
+
+std::string_view MemoryFile::bytes() const {
+    vsi_l_offset size = 0;
+    auto const* const data = reinterpret_cast<char const*>(VSIGetMemFileBuffer(path_.c_str(), &size, FALSE));
+    return data == nullptr ? std::string_view() : std::string_view(data, size);
 }
 
 void set_frame(GDALDataset& dataset, Grid const& grid) {

@@ -8,6 +8,7 @@
 #include <thalweg/io/gdal/internal/dataset.hpp>
 
 #include <cpl_string.h>
+#include <cpl_vsi.h>
 #include <gdal_priv.h>
 
 #include <algorithm>
@@ -26,7 +27,10 @@ std::vector<std::string> dataset_files(std::string const& path) {
     CPLStringList const list(source->GetFileList(), TRUE);
     std::vector<std::string> files;
     for (int i = 0; i < list.size(); ++i) {
-        files.emplace_back(list[i]);
+        // GDAL 3.7 lists what companions name, too, wherever it lies.
+        if (VSIStatBufL status; VSIStatL(list[i], &status) == 0) {
+            files.emplace_back(list[i]);
+        }
     }
     if (!files.empty() && source->GetDescription() != path) { // a copy was read, because changes stand beside the file
         files = {path, path + "-wal"};

@@ -10,6 +10,7 @@
 #include <gdal_utils.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
@@ -63,16 +64,20 @@ std::string plain_copy(std::string const& source, std::string const& layer, std:
     if (!data) {
         throw BadInput(fmt::format("io.plain_copy: {} cannot be read: {}", source, driver.take()));
     }
+    MemoryFile const raster;
     bool const is_raster = data->GetRasterCount() > 0 && data->GetLayerCount() == 0;
     std::string const path =
         (std::filesystem::path(folder) / (stem_of(source, layer) + (is_raster ? ".tif" : ".gpkg"))).string();
     Watch watch(run, "copy");
-    Dataset copy = is_raster ? copy_raster(*data, path, watch) : copy_layers(*data, layer, path, watch);
+    Dataset copy = is_raster ? copy_raster(*data, raster.path(), watch) : copy_layers(*data, layer, path, watch);
     watch.settle();
     bool const done = copy != nullptr;
     copy.reset();
     if (std::string const words = driver.take(); !done || !words.empty()) {
         throw BadInput(fmt::format("io.plain_copy: {} cannot be copied: {}", source, words));
+    }
+    if (is_raster) {
+        write_text(path, raster.bytes());
     }
     return path;
 }

@@ -48,6 +48,9 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
     require_few_levels(dem, interval_m);
     Driver const driver;
     Dataset const source = in_memory(dem, what);
+    if (std::ranges::all_of(dem.values(), [](float z) { return std::isnan(z); })) {
+        return {}; // GDAL 3.9 refuses such a raster
+    }
     Dataset const drawn(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
     OGRLayer* const layer = drawn->CreateLayer("contours", nullptr, wkbLineString, nullptr);
     OGRFieldDefn z_field("z", OFTReal);

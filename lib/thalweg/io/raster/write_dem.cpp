@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/raster/write_dem.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <gdal_priv.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/gdal/internal/watch.hpp>
@@ -40,6 +42,7 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<doubl
     require_new(path, what);
     require_size(raster.grid(), what);
     Driver const driver;
+    MemoryFile const file;
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
     options.SetNameValue("TILED", "YES");
@@ -49,27 +52,30 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<doubl
         options.SetNameValue("NUM_THREADS", run.threads > 0 ? fmt::format("{}", run.threads).c_str() : "ALL_CPUS");
     }
     Dataset target(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-        path.c_str(), static_cast<int>(raster.width()), static_cast<int>(raster.height()), 1, type, options.List()));
+        file.path().c_str(), static_cast<int>(raster.width()), static_cast<int>(raster.height()), 1, type,
+        options.List()));
     require(target != nullptr, driver, what);
     set_frame(*target, raster.grid());
     if (no_data) {
         target->GetRasterBand(1)->SetNoDataValue(*no_data);
     }
-    GDALRasterIOExtraArg extra;
-    INIT_RASTERIO_EXTRA_ARG(extra);
-    Watch watch(run, "write");
-    extra.pfnProgress = &Watch::step;
-    extra.pProgressData = &watch;
     int const width = target->GetRasterXSize();
     int const height = target->GetRasterYSize();
-    // GDAL's one call reads and writes and therefore takes no const buffer.
-    void* const cells = const_cast<T*>(raster.values().data());
-    CPLErr const error =
-        target->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, width, height, cells, width, height, type, 0, 0, &extra);
-    watch.settle();
-    require(error == CE_None, driver, what);
+    int tile_width = 0;
+    int tile_height = 0;
+    target->GetRasterBand(1)->GetBlockSize(&tile_width, &tile_height);
+    for (int row = 0; row < height; row += tile_height) {
+        run.at(static_cast<double>(row) / height, "write");
+        int const rows = std::min(tile_height, height - row);
+        // GDAL's one call reads and writes and therefore takes no const buffer.
+        void* const cells = const_cast<T*>(raster.values().data()) + static_cast<std::int64_t>(row) * width;
+        require(target->GetRasterBand(1)->RasterIO(GF_Write, 0, row, width, rows, cells, width, rows, type, 0, 0,
+                                                   nullptr) == CE_None,
+                driver, what);
+    }
     target.reset();
     driver.check(what);
+    write_text(path, file.bytes());
 }
 
 } // namespace
@@ -82,7 +88,8 @@ void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit uni
     std::string const what = "io.write_dem: " + path;
     require_new(path, what);
     Driver const driver;
-    Dataset const source = in_memory(dem, what);
+    MemoryFile const file;
+    Dataset source = in_memory(dem, what);
     source->GetRasterBand(1)->SetUnitType(name_of(unit));
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
@@ -92,12 +99,14 @@ void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit uni
     options.SetNameValue("OVERVIEW_RESAMPLING", "AVERAGE");
     options.SetNameValue("NUM_THREADS", run.threads > 0 ? fmt::format("{}", run.threads).c_str() : "ALL_CPUS");
     Watch watch(run, "write dem.tif");
-    Dataset target(GetGDALDriverManager()->GetDriverByName("COG")->CreateCopy(path.c_str(), source.get(), TRUE,
+    Dataset target(GetGDALDriverManager()->GetDriverByName("COG")->CreateCopy(file.path().c_str(), source.get(), TRUE,
                                                                               options.List(), &Watch::step, &watch));
     watch.settle();
     require(target != nullptr, driver, what);
     target.reset();
+    source.reset();
     driver.check(what);
+    write_text(path, file.bytes());
 }
 
 void write_mask(Mask const& mask, std::string const& path, Run const& run) {

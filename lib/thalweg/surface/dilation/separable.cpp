@@ -133,8 +133,8 @@ template <class Level>
 void sweep_up(Swept<Level> const& swept, Raster<float>& base, Raster<std::int32_t>& level, Lanes lanes,
               Run const& run) {
     Field<Level> const field = field_of(swept, base);
-    auto* const rows_up = lanes == Lanes::avx2 ? &avx2::rows_up_levels<Level> : &plain::rows_up_levels<Level>;
     strips_up(field, run, [&](std::int64_t begin, std::int64_t end, std::int64_t first, Carry const& carry) {
+        auto* const rows_up = lanes == Lanes::avx2 ? &avx2::rows_up_levels<Level> : &plain::rows_up_levels<Level>;
         rows_up(field, begin, end, first, carry, level.values().data());
     });
 }
@@ -144,8 +144,8 @@ void sweep_up(Swept<Level> const& swept, Raster<float>& base, std::vector<double
               Run const& run) {
     Field<Level> const field = field_of(swept, base);
     above_valley[0] = -0.0; // the one number that leaves every height its bits when added, -0 too
-    auto* const rows_up = lanes == Lanes::avx2 ? &avx2::rows_up_heights<Level> : &plain::rows_up_heights<Level>;
     strips_up(field, run, [&](std::int64_t begin, std::int64_t end, std::int64_t first, Carry const& carry) {
+        auto* const rows_up = lanes == Lanes::avx2 ? &avx2::rows_up_heights<Level> : &plain::rows_up_heights<Level>;
         rows_up(field, begin, end, first, carry, above_valley.data());
     });
 }

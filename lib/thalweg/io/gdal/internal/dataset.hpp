@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <thalweg/core/raster.hpp>
 
@@ -28,6 +29,22 @@ Dataset open_undisturbed(std::string const& path, unsigned kinds);
 
 /// Opens an existing file likewise. Throws: BadInput when there is none or no driver reads it.
 Dataset open_file(std::string const& path, unsigned kinds, std::string const& what);
+
+/// A file that GDAL writes in memory: on a full disk it may say nothing (3.10). Needs a Driver that outlives it.
+class MemoryFile {
+public:
+    MemoryFile();
+    ~MemoryFile();
+    MemoryFile(MemoryFile const&) = delete;
+    MemoryFile& operator=(MemoryFile const&) = delete;
+
+    /// The name that GDAL knows.
+    std::string const& path() const { return path_; }
+    std::string_view bytes() const;
+
+private:
+    std::string path_;
+};
 
 /// Sets position and CRS of a data set. Throws: BadInput when the CRS is none.
 void set_frame(GDALDataset& dataset, Grid const& grid);

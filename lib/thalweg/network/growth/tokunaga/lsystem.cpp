@@ -201,7 +201,7 @@ TokunagaTree read_lsystem(std::string_view word) {
 std::vector<std::vector<Vec2>> draw_turtle(TokunagaTree const& tree, TurtleParams const& params) {
     require_in("network.draw_turtle", "delta_deg", params.delta_deg, Range::between(0.0, 90.0));
     if (!(params.link_m > 0.0)) {
-        throw BadParameter(fmt::format("network.draw_turtle: link_m is {}, it must be above 0", params.link_m));
+        throw BadParameter(fmt::format("network.draw_turtle: link_m is {}, it must be above 0", double{params.link_m}));
     }
     double const delta = params.delta_deg / 180.0 * portable::pi;
     Indexed<LinkId, int> turns(tree.links.size(), 0);
