@@ -13,8 +13,8 @@ namespace steps = thalweg::measure::topology_steps;
 /// Many arcs that end in one node and one from there to the outlet, checked as far as their columns.
 struct Star {
     explicit Star(int arcs)
-        : file(file_of(arcs)), joints(joints_of(file, before)),
-          graph(joints.meant, std::vector<char>(file.arcs.size(), 0), joints.junctions.ids.size()) {}
+        : file(file_of(arcs)), joints(joints_of(file, before)), left_out(file.arcs.size(), 0),
+          graph(joints.meant, left_out, joints.junctions.ids.size()) {}
 
     steps::Findings check_columns() const {
         steps::Findings found;
@@ -25,7 +25,8 @@ struct Star {
     steps::Findings before; ///< of the steps before
     thalweg::NetworkFile file;
     steps::Joints joints;
-    steps::Graph graph;
+    std::vector<char> left_out;
+    steps::Graph graph; ///< refers to them
 
 private:
     static thalweg::NetworkFile file_of(int arcs) {

@@ -23,6 +23,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace land_in_equilibrium_test {
@@ -108,10 +109,10 @@ void expect_lawful(Made const& t) {
     }
 }
 
-Check const& check_of(Made const& t, std::string const& name) {
-    auto const found = std::ranges::find(t.assessment.checks, name, &Check::name);
+Check const& check_of(Made const& t, char const* name) {
+    auto const found = std::ranges::find(t.assessment.checks, std::string_view(name), &Check::name);
     if (found == t.assessment.checks.end()) {
-        throw BadInput("no check " + name);
+        throw BadInput(std::string("no check ") + name);
     }
     return *found;
 }
