@@ -72,8 +72,22 @@ class Packages(Stage):
 
 
 class Machine(Stage):
-    def machine(self):
-        return self.run_here(ROOT / "tests/fresh/machine", ROOT, "true")
+    def machine(self, *options):
+        return self.run_here(ROOT / "tests/fresh/machine", *options, ROOT, "true")
+
+    def test_another_release_has_the_hosts_sources(self):
+        """mmdebstrap's last word is the file of sources."""
+        self.program("bin/id", "echo 0")
+        self.program("bin/mmdebstrap", f'for word; do :; done; cp "$word" "{self.place}/sources"; exit 1')
+        texts = {}
+        for suite in ("bookworm", "trixie"):
+            os.environ["XDG_CACHE_HOME"] = str(self.place / suite)
+            self.addCleanup(os.environ.pop, "XDG_CACHE_HOME", None)
+            self.assertEqual(self.machine("-s", suite).returncode, 125)
+            texts[suite] = (self.place / "sources").read_text()
+        self.assertIn("trixie", texts["trixie"])
+        self.assertNotIn("bookworm", texts["trixie"])
+        self.assertEqual(texts["trixie"], texts["bookworm"].replace("bookworm", "trixie"))
 
     def test_needs_root(self):
         self.program("bin/id", "echo 1000")
