@@ -4,7 +4,7 @@ add_library(thalweg_options INTERFACE)
 # No contraction, no fast-math, no -march: the same recipe gives the same bytes on every machine.
 target_compile_options(thalweg_options INTERFACE
   -Wall -Wextra -Wconversion -ffp-contract=off)
-# Held to: other versions warn of what is none.
+# Other versions have false positives.
 if(THALWEG_WERROR AND "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}" MATCHES "^(GNU 12|Clang 14)\\.")
   set(THALWEG_STRICT -Werror)
 endif()
@@ -78,10 +78,11 @@ function(thalweg_module NAME)
   target_link_libraries(thalweg PRIVATE ${ARGN})
 endfunction()
 
-# thalweg_tests(MODULE [NOT_IN_GATE FILTER=LABEL ...]): one executable test_MODULE of tests/MODULE/*.cpp with ctest label MODULE;
-# tests that a filter of GoogleTest names have the label of a part of `scripts/test --full` instead.
+# thalweg_tests(MODULE [NOT_IN_GATE FILTER=LABEL ...] [NEED_LIBNOISE FILTER ...]): one executable test_MODULE of tests/MODULE/*.cpp
+# with ctest label MODULE; tests that a filter of GoogleTest names have the label of a part of `scripts/test --full` instead, or
+# are left out where libnoise is missing.
 function(thalweg_tests NAME)
-  cmake_parse_arguments(ARG "" "" "NOT_IN_GATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "NOT_IN_GATE;NEED_LIBNOISE" ${ARGN})
   file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp)
   list(FILTER SOURCES EXCLUDE REGEX "/spy/") # a library of its own
   if(THALWEG_TESTS_LEFT_OUT)
@@ -102,6 +103,11 @@ function(thalweg_tests NAME)
     thalweg_precompile(test_${NAME} tests <gtest/gtest.h> <rapidcheck.h>)
   endif()
   set(GATE -Soak*)
+  if(NOT TARGET libnoise::libnoise)
+    foreach(FILTER IN LISTS ARG_NEED_LIBNOISE)
+      string(APPEND GATE ":${FILTER}")
+    endforeach()
+  endif()
   foreach(OUT IN LISTS ARG_NOT_IN_GATE)
     string(REGEX MATCH "(.*)=(.*)" OUT "${OUT}")
     set(FILTER ${CMAKE_MATCH_1})

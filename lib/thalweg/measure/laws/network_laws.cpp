@@ -16,7 +16,8 @@ namespace thalweg::measure {
 NetworkLaws network_laws(ElevatedNetwork const& network, NetworkOrders const& orders,
                          flow::ContributingAreas const& areas, NetworkLawsParams const& params) {
     if (!(params.land_m2 > 0.0) || std::isinf(params.land_m2)) {
-        throw BadParameter(fmt::format("measure.network_laws: the land has {} m2; it must have some", double{params.land_m2}));
+        throw BadParameter(
+            fmt::format("measure.network_laws: the land has {} m2; it must have some", double{params.land_m2}));
     }
     NetworkLaws laws;
     laws.horton = horton(network.plan, orders, areas.ds_area_m2);
