@@ -119,6 +119,8 @@ export function fillReport(parent, data) {
     section('Network laws', ...laws(data.laws)),
     section('Statistics', data.statistics.length ? table(['', 'target', 'result', ''],
       data.statistics.map((s) => [s.name, s.asked === null ? '–' : number(s.asked, 5), number(s.got, 5), s.unit]), 'Statistics, target and result') : null),
+    section('Length of the given rivers', data.given.length ? table(['', 'length', ''],
+      data.given.map(([name, value, unit]) => [name, number(value, 4), unit]), 'Length of the given rivers') : null),
     section('Checks', data.checks.length ? make('details', { open: failed > 0 },
       make('summary', {}, failed ? `${failed} of ${data.checks.length} checks failed ` : `${data.checks.length} checks passed `, verdict(failed === 0)),
       table(['check', 'found', 'limit', ''], data.checks.map((c) => [words(c.name), number(c.value), `${c.bound === 'at_least' ? '≥' : '≤'} ${number(c.limit)}`, verdict(c.ok)]), 'Checks')) : null,

@@ -30,13 +30,25 @@ struct RiverLine {
     std::string name = {}; ///< the river's name, or ""
 };
 
+/// Why a line is left out of the network.
+enum class LeftOut : std::uint8_t {
+    filter,     ///< by its fields no natural watercourse
+    coast,      ///< a coastline by its fields
+    grid,       ///< beyond the grid
+    duplicate,  ///< another runs there
+    too_short,  ///< shorter than the distance at which ends are joined
+    divergence, ///< water runs another way
+    pruned,     ///< shorter than the recipe wants
+    head        ///< above where the river begins in the terrain
+};
+
 /// A line, or part of one, that is left out of the network.
 struct SecondaryLine {
     std::int64_t feature = 0;
     std::vector<Vec3> vertices; ///< [m] as RiverLine
     std::string reason;         ///< "minor channel", "FTYPE Coastline", ...
     std::int64_t record = 0;    ///< of its attributes, from 1; 0: none
-    bool is_coast = false;      ///< a coastline by its fields
+    LeftOut cause = LeftOut::divergence;
 };
 
 /// The river lines of a file.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include <thalweg/core/length_in_plan.hpp>
+
 namespace clip_lines_test {
 
 namespace {
@@ -51,6 +53,26 @@ TEST(ClipLines, CrossesWithoutAVertexInside) {
     RiverLines const out = network::clip_lines(one({{-10, 5, 30}, {20, 5, 0}}), ten);
     ASSERT_EQ(out.lines.size(), 1U);
     EXPECT_EQ(out.lines[0].vertices, (std::vector<Vec3>{{0, 5, 20}, {10, 5, 10}}));
+}
+
+// Law: every metre is inside or beyond.
+TEST(ClipLines, WhatLiesBeyondIsSecondary) {
+    auto const lines = one({{-10, 5, 30}, {2, 5, 8}, {12, 5, 6}, {12, 7, 4}, {2, 7, 2}, {2, 20, 0}});
+    RiverLines const out = network::clip_lines(lines, ten);
+    double inside = 0.0;
+    double beyond = 0.0;
+    for (RiverLine const& line : out.lines) {
+        inside += length_in_plan(line.vertices);
+    }
+    for (SecondaryLine const& line : out.secondary) {
+        EXPECT_EQ(line.cause, LeftOut::grid);
+        EXPECT_EQ(line.record, line.feature);
+        beyond += length_in_plan(line.vertices);
+    }
+    EXPECT_EQ(out.secondary.size(), 3U);
+    EXPECT_NEAR(inside + beyond, length_in_plan(lines.lines.front().vertices), 1e-9);
+    EXPECT_TRUE(network::clip_lines(one({{2, 5, 8}, {3, 5, 6}}), ten).secondary.empty());
+    EXPECT_EQ(network::clip_lines(one({{-5, 0, 1}, {0, -5, 0}}), ten).secondary.size(), 1U);
 }
 
 } // namespace clip_lines_test

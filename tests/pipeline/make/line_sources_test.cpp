@@ -120,6 +120,35 @@ ElevatedNetwork fans(std::uint64_t seed, std::size_t nodes, std::size_t most) {
 
 } // namespace
 
+TEST(LineSources, StretchesThatAreGoneAreFound) {
+    StreamNetwork const before =
+        test::network_of({{0, 40}, {40, 40}, {0, 20}, {0, 0}},
+                         {{.from = 0, .to = 2, .between = {{0, 30}}, .feature = 1}, {1, 2, {}, 2}, {2, 3, {}, 3}});
+    LineSources const sources(before, {{{1, 0.0, 20.0}}, {{2, 0.0, 44.72}}, {{3, 0.0, 20.0}}});
+    auto const gone = [&](StreamNetwork const& after) {
+        std::map<std::int64_t, std::vector<Vec2>> result;
+        for (SecondaryLine const& line : sources.missing(before, after, LeftOut::head, "cut")) {
+            EXPECT_EQ(line.record, line.feature);
+            EXPECT_EQ(line.cause, LeftOut::head);
+            EXPECT_EQ(line.reason, "cut");
+            for (Vec3 const v : line.vertices) {
+                result[line.feature].push_back(plan(v));
+            }
+        }
+        return result;
+    };
+    using Gone = std::map<std::int64_t, std::vector<Vec2>>;
+    EXPECT_EQ(gone(before), Gone{});
+    // One begins farther down, within a segment; the other is gone; a side valley has come in between two vertices.
+    EXPECT_EQ(gone(test::network_of({{0, 36}, {0, 0}, {0, 9}, {50, 9}},
+                                    {{0, 2, {{0, 30}, {0, 20}}, 1}, {2, 1, {}, 3}, {3, 2, {}, 0}})),
+              (Gone{{1, {{0, 40}, {0, 36}}}, {2, {{40, 40}, {0, 20}}}}));
+    EXPECT_EQ(gone(test::network_of({{0, 30}, {0, 0}}, {{0, 1, {{0, 20}}, 1}})),
+              (Gone{{1, {{0, 40}, {0, 30}}}, {2, {{40, 40}, {0, 20}}}}));
+    EXPECT_EQ(gone(StreamNetwork()),
+              (Gone{{1, {{0, 40}, {0, 30}, {0, 20}}}, {2, {{40, 40}, {0, 20}}}, {3, {{0, 20}, {0, 0}}}}));
+}
+
 TEST(LineSources, NothingIsKnownOfGrownRivers) {
     StreamNetwork const none;
     EXPECT_FALSE(LineSources().knows_any());

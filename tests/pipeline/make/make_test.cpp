@@ -45,7 +45,7 @@ void expect_rivers_serve_both(std::string const& one, std::string const& two) {
         Made const whole = make(recipe);
         Plan const plan = resolve(recipe);
         Terrain const terrain = make_terrain(plan, rivers);
-        Assessment const assessment = assess(plan, terrain);
+        Assessment const assessment = assess(plan, rivers, terrain);
         expect_same(heights(terrain), heights(whole.terrain));
         EXPECT_EQ(terrain.network.arc_z, whole.terrain.network.arc_z);
         EXPECT_EQ(write_recipe(recipe_of(plan, terrain)), write_recipe(whole.recipe));

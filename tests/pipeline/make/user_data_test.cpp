@@ -3,7 +3,6 @@
 #include <thalweg/pipeline/make/internal/user_data.hpp>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,7 +17,7 @@ using pipeline::Made;
 
 namespace {
 
-/// The rivers 1 and 2 of a file, which go on as 3; 4 is a minor channel, 5 is drawn far away.
+/// The rivers 1 and 2 of a file, which go on as 3.
 Made terrain() {
     Made t;
     t.terrain.network.plan =
@@ -36,11 +35,6 @@ Made terrain() {
     }
     t.rivers.file.sources =
         pipeline::LineSources(t.terrain.network.plan, {{{1, 0.0, 20.0}}, {{2, 0.0, 44.72}}, {{3, 0.0, 20.0}}});
-    t.rivers.file.secondary = {{4, {{5, 5, 0}, {6, 6, 0}}, "minor channel", 4}};
-    for (std::int64_t feature = 1; feature <= 5; ++feature) {
-        auto const x = static_cast<double>(feature);
-        t.rivers.file.drawn.push_back({feature, {{x, 0, 0}, {x, 9, 0}}, "", feature});
-    }
     return t;
 }
 
@@ -51,7 +45,6 @@ TEST(UserData, GrownRiversHaveNone) {
     t.rivers.file.sources = {};
     EXPECT_FALSE(pipeline::user_data(t, t.terrain.network.plan));
     EXPECT_TRUE(pipeline::shortened_names(t).empty());
-    EXPECT_TRUE(pipeline::secondary_of(Made{}).empty());
 }
 
 TEST(UserData, ArcsHaveTheRecordOfTheirFeature) {
@@ -68,25 +61,6 @@ TEST(UserData, ArcsHaveTheRecordOfTheirFeature) {
     ASSERT_TRUE(beside);
     EXPECT_EQ(beside->record, (std::vector<std::int64_t>{3, 0}));
     EXPECT_TRUE(beside->sources[1].empty());
-}
-
-// Law: every line of the file is on the arcs or secondary, once.
-TEST(UserData, WhatTheTerrainTookAwayIsSecondaryToo) {
-    Made t = terrain();
-    auto const reasons = [&] {
-        std::vector<std::pair<std::int64_t, std::string>> result;
-        for (SecondaryLine const& line : pipeline::secondary_of(t)) {
-            EXPECT_EQ(line.record, line.feature);
-            EXPECT_EQ(line.vertices.size(), 2U);
-            result.emplace_back(line.feature, line.reason);
-        }
-        return result;
-    };
-    using Reasons = std::vector<std::pair<std::int64_t, std::string>>;
-    EXPECT_EQ(reasons(), (Reasons{{4, "minor channel"}, {5, "pruned or shortened"}}));
-    // Pruned to the river that goes on from the first.
-    t.terrain.network.plan = test::network_of({{0, 40}, {0, 0}}, {{0, 1, {{0, 20}}, 1}});
-    EXPECT_EQ(reasons(), (Reasons{{4, "minor channel"}, {2, "pruned or shortened"}, {5, "pruned or shortened"}}));
 }
 
 TEST(UserData, ShortenedNamesAreThoseOfTheShapefile) {

@@ -144,6 +144,7 @@ std::map<std::string, Words> const values = {
     {"network.lines.type_field", {"kind"}},
     {"network.lines.rank_field", {"up"}},
     {"network.lines.snap", {"40"}},
+    {"network.lines.keep", {"0.5"}},
     {"skeleton.ridge_farthest", {"60"}},
     {"skeleton.ridge_noise", {"15"}},
     {"skeleton.midpoint_inverse", {"3"}},
@@ -256,7 +257,7 @@ void add_text(Fnv& hash, std::string const& text) {
     hash.add_all(std::vector<std::uint8_t>(text.begin(), text.end()));
 }
 
-/// dem.tif and the network, as values.
+/// dem.tif, the network and what it is held to, as values.
 std::string digest(Made const& t) {
     Fnv hash;
     hash.add(t.terrain.grid.width);
@@ -277,6 +278,9 @@ std::string digest(Made const& t) {
     hash.add_all(t.terrain.types.braided);
     if (t.terrain.surface) {
         hash.add_all(t.terrain.surface->dem.values());
+    }
+    for (Check const& check : t.assessment.checks) {
+        hash.add(check.limit);
     }
     return std::to_string(hash.hash());
 }

@@ -108,7 +108,7 @@ std::set<std::pair<std::int64_t, std::string>> beside(fs::path const& gpkg) {
     if (rows != nullptr) {
         for (auto const& row : *rows) {
             std::string const reason = row->GetFieldAsString("reason");
-            if (reason != "pruned or shortened") {
+            if (reason != "cut at its head" && reason != "pruned") {
                 found.emplace(row->GetFieldAsInteger64("feature"), reason);
             }
         }

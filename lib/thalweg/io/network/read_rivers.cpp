@@ -341,7 +341,8 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     }
     for (std::size_t k = 0; k < read.unnatural.size(); ++k) {
         rivers.secondary.push_back({read.unnatural[k].feature, std::move(read.unnatural[k].vertices),
-                                    std::move(read.reasons[k]), read.unnatural[k].feature, read.coasts[k]});
+                                    std::move(read.reasons[k]), read.unnatural[k].feature,
+                                    read.coasts[k] ? LeftOut::coast : LeftOut::filter});
     }
     bring(rivers.findings, metres);
     rivers.has_z = have_heights(rivers.lines);

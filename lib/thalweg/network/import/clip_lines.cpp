@@ -55,11 +55,24 @@ RiverLines clip_lines(RiverLines const& lines, Grid const& grid) {
     for (RiverLine const& line : lines.lines) {
         RiverLine piece = line;
         piece.vertices.clear();
+        SecondaryLine beyond{line.feature, {}, "beyond the grid", line.feature, LeftOut::grid};
         auto const finish = [&] {
             if (piece.vertices.size() > 1) {
                 out.lines.push_back(piece);
             }
             piece.vertices.clear();
+        };
+        auto const go_beyond = [&](Vec3 from, Vec3 to) {
+            if (beyond.vertices.empty()) {
+                beyond.vertices.push_back(from);
+            }
+            beyond.vertices.push_back(to);
+        };
+        auto const come_back = [&] {
+            if (!beyond.vertices.empty()) {
+                out.secondary.push_back(beyond);
+            }
+            beyond.vertices.clear();
         };
         for (std::size_t i = 1; i < line.vertices.size(); ++i) {
             Vec3 const a = line.vertices[i - 1];
@@ -67,17 +80,26 @@ RiverLines clip_lines(RiverLines const& lines, Grid const& grid) {
             auto const part = inside(a, b, box);
             if (!part) {
                 finish();
+                go_beyond(a, b);
                 continue;
             }
-            if (piece.vertices.empty()) {
-                piece.vertices.push_back(box.holds(a) ? a : on_edge(a, b, part->first, box));
+            Vec3 const entry = box.holds(a) ? a : on_edge(a, b, part->first, box);
+            Vec3 const exit = box.holds(b) ? b : on_edge(a, b, part->second, box);
+            if (!box.holds(a)) {
+                go_beyond(a, entry);
             }
-            piece.vertices.push_back(box.holds(b) ? b : on_edge(a, b, part->second, box));
+            come_back();
+            if (piece.vertices.empty()) {
+                piece.vertices.push_back(entry);
+            }
+            piece.vertices.push_back(exit);
             if (!box.holds(b)) {
                 finish();
+                go_beyond(exit, b);
             }
         }
         finish();
+        come_back();
     }
     return out;
 }

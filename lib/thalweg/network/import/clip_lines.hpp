@@ -11,7 +11,8 @@ namespace thalweg::network {
 /// \param lines polylines [m]
 /// \param grid clips at its outer edge
 /// \return the parts inside, in order; a line that leaves and returns becomes several with the same feature. Vertices
-/// inside are kept bit for bit; new ones lie exactly on the edge, with interpolated heights.
+/// inside are kept bit for bit; new ones lie exactly on the edge, with interpolated heights. What lies beyond the edge
+/// is added to `secondary`.
 RiverLines clip_lines(RiverLines const& lines, Grid const& grid);
 
 } // namespace thalweg::network

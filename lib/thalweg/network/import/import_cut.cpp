@@ -118,7 +118,8 @@ void leave_out(RiverLine const& line, Part const& part, RiverLine const& owner, 
         {line.feature,
          {begin + static_cast<std::ptrdiff_t>(part.first), begin + static_cast<std::ptrdiff_t>(part.last) + 1},
          "duplicate",
-         line.feature});
+         line.feature,
+         LeftOut::duplicate});
     left.repairs.push_back({"duplicate", line.feature, Vec2{from.x, from.y}, part.length,
                             fmt::format("river {} repeats river {} for {:.6g} m; that part is left out", line.feature,
                                         owner.feature, part.length)});

@@ -252,7 +252,7 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     import_steps::snap(lines, snap_m, left, run);
     for (RiverLine const& line : file.lines) { // as they were drawn
         if (std::ranges::find(left.too_short, line.feature) != left.too_short.end()) {
-            imported.secondary.push_back({line.feature, line.vertices, "too short", line.feature});
+            imported.secondary.push_back({line.feature, line.vertices, "too short", line.feature, LeftOut::too_short});
         }
     }
     if (lines.empty()) {

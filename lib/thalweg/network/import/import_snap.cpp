@@ -159,7 +159,8 @@ void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run c
                 left.repairs.push_back({"duplicate", lines[gone].feature, starts[gone], length,
                                         fmt::format("river {} repeats river {} within {:.3g} m; it is left out",
                                                     lines[gone].feature, lines[stays].feature, apart)});
-                left.secondary.push_back({lines[gone].feature, lines[gone].vertices, "duplicate", lines[gone].feature});
+                left.secondary.push_back(
+                    {lines[gone].feature, lines[gone].vertices, "duplicate", lines[gone].feature, LeftOut::duplicate});
                 break;
             }
         }

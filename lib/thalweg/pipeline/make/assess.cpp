@@ -174,17 +174,44 @@ Assessment with_topology(Plan const& plan, Terrain const& terrain, Assessment fo
     return found;
 }
 
+/// With what became of the lines that were given; with a word where much of them is not in the network.
+Assessment with_given_length(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Assessment found,
+                             Run const& run) {
+    constexpr double worth_a_word = 0.99;
+    found.given = given_length(plan, rivers, terrain);
+    if (!found.given) {
+        return found;
+    }
+    double const share = found.given->share();
+    double const least = plan.recipe.network->lines.keep;
+    found.checks.push_back({"given_length", share, least, share >= least, Bound::at_least});
+    run.tell("given", line_of(*found.given));
+    if (share < worth_a_word) {
+        double const gone_m = found.given->given_m() - found.given->kept_m;
+        double const short_m = found.given->left_out(LeftOut::too_short);
+        run.say(fmt::format("warning: {:.1f} of the {:.1f} km of rivers in {} are not in the network, {}. Layer "
+                            "secondary of network.gpkg has them.{}",
+                            gone_m / 1000.0, found.given->given_m() / 1000.0, plan.lines.name,
+                            short_m > 0.5 * gone_m ? "most of them too short" : "most of them cut at their heads",
+                            plan.recipe.network->heights == Heights::graded && short_m < gone_m
+                                ? " --set network.heights=soft keeps more of the heads."
+                                : ""));
+    }
+    return found;
+}
+
 } // namespace
 
 bool Assessment::passed() const {
     return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
 }
 
-Assessment assess(Plan const& plan, Terrain const& terrain, Run const& run) {
+Assessment assess(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Run const& run) {
     Diary diary(run);
     Assessment found = terrain.surface ? of_surface(plan, terrain, diary, run) : of_rivers_alone(terrain, run);
     found = with_requests(terrain, std::move(found));
     found = with_topology(plan, terrain, std::move(found), diary, run);
+    found = with_given_length(plan, rivers, terrain, std::move(found), run);
     found.timings_s = diary.take();
     return found;
 }

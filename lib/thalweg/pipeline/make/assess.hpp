@@ -14,6 +14,7 @@
 #include <thalweg/measure/drainage/extract_ridges.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/pipeline/make/given_length.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
@@ -30,7 +31,8 @@ struct WaterAreas {
 
 /// What is measured of land and rivers, and whether they are what the recipe sets.
 struct Assessment {
-    flow::ContributingAreas areas; ///< of the arcs
+    std::optional<GivenLength> given; ///< where rivers are read from lines
+    flow::ContributingAreas areas;    ///< of the arcs
     RiverLaws laws;
     std::vector<NodeId> sinks;                     ///< where rivers end inland, as they were asked to
     std::optional<measure::Statistics> statistics; ///< of the surface, like the rest
@@ -52,9 +54,10 @@ struct Assessment {
 
 /// Measures and checks land and rivers.
 /// \param plan the plan
-/// \param terrain what came of it
+/// \param rivers made of it
+/// \param terrain what came of them
 /// \param run progress, log, stop token and number of threads
 /// \return measures and checks
-Assessment assess(Plan const& plan, Terrain const& terrain, Run const& run = {});
+Assessment assess(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
+#include <unordered_set>
 
 namespace thalweg::pipeline {
 
@@ -88,6 +90,16 @@ std::vector<std::vector<Stretch>> LineSources::of(StreamNetwork const& network) 
     return result;
 }
 
+double LineSources::length_m(StreamNetwork const& network) const {
+    double sum = 0.0;
+    for (std::vector<Stretch> const& of_arc : of(network)) {
+        for (Stretch const& s : of_arc) {
+            sum += s.to_m - s.from_m;
+        }
+    }
+    return sum;
+}
+
 std::vector<std::vector<Stretch>> LineSources::redrawn(StreamNetwork const& network) const {
     std::vector<std::vector<Stretch>> result;
     for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
@@ -122,6 +134,76 @@ std::int64_t LineSources::replaced(Arc const& arc, std::size_t segment) const {
     }
     auto const begin = leaving_.find(arc.line[segment - 1]);
     return begin == leaving_.end() ? 0 : begin->second;
+}
+
+std::vector<SecondaryLine> LineSources::missing(StreamNetwork const& before, StreamNetwork const& after, LeftOut cause,
+                                                std::string const& reason) const {
+    std::unordered_set<Vec2, Hash> remembered;
+    for (Arc const& arc : before.arcs()) {
+        remembered.insert(arc.line.begin(), arc.line.end());
+    }
+    std::unordered_map<Vec2, Vec2, Hash> next;
+    for (Arc const& arc : after.arcs()) {
+        for (std::size_t i = 1; i < arc.line.size(); ++i) {
+            next.try_emplace(arc.line[i - 1], arc.line[i]);
+        }
+    }
+    // The remembered vertex that follows a place; the place itself where there is none.
+    auto const below = [&](Vec2 const p) {
+        for (auto step = next.find(p); step != next.end(); step = next.find(step->second)) {
+            if (remembered.contains(step->second)) {
+                return step->second;
+            }
+        }
+        return p;
+    };
+    std::unordered_multimap<Vec2, Vec2, Hash> heads; // where arcs begin within a segment, by its lower end
+    for (Arc const& arc : after.arcs()) {
+        if (!remembered.contains(arc.line.front())) {
+            heads.emplace(below(arc.line.front()), arc.line.front());
+        }
+    }
+    std::vector<SecondaryLine> gone;
+    SecondaryLine one{0, {}, reason, 0, cause};
+    auto const finish = [&] {
+        if (!one.vertices.empty()) {
+            one.record = one.feature;
+            gone.push_back(one);
+            one.vertices.clear();
+        }
+    };
+    auto const add = [&](std::int64_t feature, Vec2 from, Vec2 to) {
+        if (one.feature != feature) {
+            finish();
+        }
+        one.feature = feature;
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        if (one.vertices.empty()) {
+            one.vertices.push_back({from.x, from.y, none});
+        }
+        one.vertices.push_back({to.x, to.y, none});
+    };
+    for (Arc const& arc : before.arcs()) {
+        for (std::size_t i = 1; i < arc.line.size(); ++i) {
+            Vec2 const p = arc.line[i - 1];
+            Vec2 const q = arc.line[i];
+            auto const known = segments_.find({p, q});
+            if (known == segments_.end() || known->second <= 0 || below(p) == q) {
+                finish();
+                continue;
+            }
+            auto const [first, last] = heads.equal_range(q);
+            auto const begins = std::find_if(first, last, [&](auto const& head) {
+                return distance(p, head.second) + distance(head.second, q) <= distance(p, q) + 1e-6;
+            });
+            add(known->second, p, begins == last ? q : begins->second);
+            if (begins != last) {
+                finish();
+            }
+        }
+        finish();
+    }
+    return gone;
 }
 
 LineSources LineSources::bent(StreamNetwork const& before, StreamNetwork const& after) const {

@@ -4,11 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <thalweg/core/attributes.hpp>
+#include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 /// Which features a network's arcs are made of, whatever became of the arcs. Private to this module.
@@ -29,6 +31,9 @@ public:
     /// \param network the network
     /// \return the stretches of arcs that are made of the network's vertices.
     std::vector<std::vector<Stretch>> of(StreamNetwork const& network) const;
+    /// \param network the network
+    /// \return [m] of these stretches.
+    double length_m(StreamNetwork const& network) const;
     /// The stretches of arcs of which some are cut and some were redrawn, as split_confluences leaves them: what is
     /// redrawn came from the feature of what it replaced.
     /// \param network the network
@@ -40,6 +45,13 @@ public:
     /// \return the same for a network whose arcs are those of this one by number, of other shape: each stretch takes
     /// its share of the arc.
     LineSources bent(StreamNetwork const& before, StreamNetwork const& after) const;
+    /// \pre before is the network as it was remembered
+    /// \param before the state before
+    /// \param after the state after; vertices may have been added within segments, and arcs may begin within one
+    /// \param cause,reason of what is found
+    /// \return the stretches of features that are gone, in plan: heights are NaN
+    std::vector<SecondaryLine> missing(StreamNetwork const& before, StreamNetwork const& after, LeftOut cause,
+                                       std::string const& reason) const;
 
 private:
     /// A hash.

@@ -29,7 +29,7 @@ Made make(Recipe const& recipe, Run const& run) {
     made.plan = resolve(recipe, run);
     made.rivers = make_rivers(made.plan, run);
     made.terrain = make_terrain(made.plan, made.rivers, run);
-    made.assessment = assess(made.plan, made.terrain, run);
+    made.assessment = assess(made.plan, made.rivers, made.terrain, run);
     made.recipe = recipe_of(made.plan, made.terrain);
     return made;
 }

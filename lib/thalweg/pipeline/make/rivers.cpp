@@ -17,6 +17,7 @@
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/pipeline/make/internal/rivers_in_plan.hpp>
 #include <thalweg/pipeline/make/internal/type_rivers.hpp>
+#include <thalweg/pipeline/plan/internal/append.hpp>
 #include <thalweg/pipeline/plan/internal/plan_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/conversions.hpp>
 
@@ -74,7 +75,10 @@ RiversInPlan let_wander(Plan const& plan, RiversInPlan planned, Diary& diary, Ru
                    : network::meander(planned.network, planned.grid, areas.ds_area_m2, params, run);
     });
     diary.say(fmt::format("{} vertices, at most {:.0f} m aside", bent.vertices, bent.max_shift_m));
+    double const before_m = planned.file.sources.length_m(planned.network);
     planned.file.sources = planned.file.sources.bent(planned.network, bent.network);
+    planned.file.lengthened = before_m > 0.0 ? planned.file.sources.length_m(bent.network) / before_m : 1.0;
+    planned.file.adopted = bent.network;
     planned.network = std::move(bent.network);
     return planned;
 }
@@ -93,7 +97,7 @@ void warn_of_long_ways(std::vector<Finding> const& notes, StreamNetwork const& p
     }
     double length_m = 0.0;
     for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
-        length_m += length_of(plan.arc(arc).line);
+        length_m += plan.length_m(arc);
     }
     if (outlets >= many && carried_m > much * length_m) {
         run.say(fmt::format("warning: {} rivers end inside the grid and were extended by {:.3g} km in all, by the "
@@ -179,7 +183,10 @@ RiversInPlan pruned(Plan const& plan, RiversInPlan planned, Diary& diary, Run co
         std::vector<Finding> const gone = pruned_outlets(planned.network, kept.network);
         story.repairs.insert(story.repairs.end(), gone.begin(), gone.end());
     }
+    append(planned.file.secondary,
+           planned.file.sources.missing(planned.network, kept.network, LeftOut::pruned, "pruned"));
     planned.network = std::move(kept.network);
+    planned.file.adopted = planned.network;
     return planned;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/network/elevation/keep_heights.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
@@ -20,6 +21,9 @@ namespace {
 std::vector<Finding> left_out(RiverLines const& lines) {
     std::vector<Finding> findings = lines.findings;
     for (SecondaryLine const& one : lines.secondary) {
+        if (one.cause == LeftOut::grid) {
+            continue;
+        }
         std::vector<Vec2> plan;
         for (Vec3 const v : one.vertices) {
             plan.push_back({v.x, v.y});
@@ -70,7 +74,7 @@ Mask land_of_coastlines(Plan const& plan, Diary& diary, Run const& run) {
     }
     RiverLines coast;
     for (SecondaryLine const& line : plan.lines.secondary) {
-        if (line.is_coast) {
+        if (line.cause == LeftOut::coast) {
             RiverLine& one = coast.lines.emplace_back();
             one.feature = line.feature;
             one.vertices = line.vertices;
@@ -94,12 +98,13 @@ Mask land_of_coastlines(Plan const& plan, Diary& diary, Run const& run) {
 RiverFile file_of(RiverLines const& lines, network::Imported const& imported) {
     RiverFile file;
     file.secondary = lines.secondary;
-    for (RiverLine const& line : lines.lines) {
-        file.drawn.push_back({line.feature, line.vertices, "", line.feature});
-    }
     file.attributes = lines.attributes;
     file.sources = LineSources(imported.network, imported.stretches);
     file.secondary.insert(file.secondary.end(), imported.secondary.begin(), imported.secondary.end());
+    file.adopted = imported.network;
+    for (RiverLine const& line : lines.lines) {
+        file.taken_m += length_in_plan(line.vertices);
+    }
     return file;
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/internal/user_data.hpp>
 
-#include <set>
 #include <utility>
 
 namespace thalweg::pipeline {
@@ -16,26 +15,6 @@ std::optional<io::UserData> user_data(Made const& t, StreamNetwork const& plan) 
         user.record.push_back(arc.feature);
     }
     return user;
-}
-
-std::vector<SecondaryLine> secondary_of(Made const& t) {
-    std::vector<SecondaryLine> secondary = t.rivers.file.secondary;
-    std::set<std::int64_t> known;
-    for (SecondaryLine const& line : t.rivers.file.secondary) {
-        known.insert(line.feature);
-    }
-    for (auto const& of_arc : t.rivers.file.sources.of(t.terrain.network.plan)) {
-        for (Stretch const& s : of_arc) {
-            known.insert(s.feature);
-        }
-    }
-    for (SecondaryLine line : t.rivers.file.drawn) {
-        if (!known.contains(line.feature)) {
-            line.reason = "pruned or shortened";
-            secondary.push_back(std::move(line));
-        }
-    }
-    return secondary;
 }
 
 std::vector<io::ShortenedName> shortened_names(Made const& t) {

@@ -45,6 +45,27 @@ ordered_json grid_object(Grid const& grid) {
             {"west", grid.west},   {"north", grid.north},   {"crs", grid.crs}};
 }
 
+/// Rows of name, value and unit, those of nothing left out.
+ordered_json given_array(std::optional<GivenLength> const& given) {
+    ordered_json rows = ordered_json::array();
+    auto const add = [&](std::string const& name, double metres, double unit_m, char const* unit) {
+        if (metres > 0.0) {
+            rows.push_back({name, to_millimetres(metres) / unit_m, unit});
+        }
+    };
+    if (given) {
+        add("read", given->read_m, 1000.0, "km");
+        for (std::size_t i = 0; i < given->left_out_m.size(); ++i) {
+            add(fmt::format("left out: {}", words_of(static_cast<LeftOut>(i))), given->left_out_m[i], 1000.0, "km");
+        }
+        add("in the network", given->kept_m, 1000.0, "km");
+        add("of it turned round", given->turned_m, 1000.0, "km");
+        add("outlets extended by", given->carried_m, 1000.0, "km");
+        add("ends moved by up to", given->moved_m, 1.0, "m");
+    }
+    return rows;
+}
+
 ordered_json heights_object(std::optional<PageHeights> const& heights) {
     if (!heights) {
         return nullptr;
@@ -322,6 +343,7 @@ std::string page_data(Made const& t, PageParams const& params, std::optional<Pag
                             {"relief", t.assessment.relief ? ordered_json::parse(relief_json(*t.assessment.relief))
                                                            : ordered_json(nullptr)},
                             {"statistics", figures.take()},
+                            {"given", given_array(t.assessment.given)},
                             {"checks", ordered_json::parse(checks_json(t.assessment.checks))},
                             {"timings", timings_array(t)},
                             {"repairs", shown(repairs_of(t))},

@@ -246,10 +246,23 @@ ordered_json timings_object(Timings const& timings_s) {
     return out;
 }
 
+ordered_json given_object(GivenLength const& given) {
+    ordered_json left_out;
+    for (std::size_t i = 0; i < given.left_out_m.size(); ++i) {
+        left_out[key_of(static_cast<LeftOut>(i))] = given.left_out_m[i];
+    }
+    return {{"read_m", given.read_m},     {"left_out_m", left_out},      {"given_m", given.given_m()},
+            {"kept_m", given.kept_m},     {"turned_m", given.turned_m},  {"moved_max_m", given.moved_m},
+            {"closed_m", given.closed_m}, {"carried_m", given.carried_m}};
+}
+
 void add_rivers(Made const& t, ordered_json& report) {
     if (t.recipe.network) {
         report["network"] = network_object(t);
-        report["network"]["secondary"] = secondary_of(t).size();
+        report["network"]["secondary"] = t.assessment.given ? t.assessment.given->secondary.size() : 0;
+        if (t.assessment.given) {
+            report["given"] = given_object(*t.assessment.given);
+        }
         report["shortened_fields"] = ordered_json::array();
         for (io::ShortenedName const& one : shortened_names(t)) {
             report["shortened_fields"].push_back({{"field", one.name}, {"in_shapefile", one.in_shapefile}});

@@ -131,7 +131,7 @@ void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
                                                       {"area_from", t.assessment.areas.source},
                                                       {"height_unit", name_of(t.recipe.output.units)}};
     auto const user = user_data(t, t.terrain.network.plan);
-    auto const secondary = secondary_of(t);
+    auto const secondary = t.assessment.given ? t.assessment.given->secondary : std::vector<SecondaryLine>();
     io::NetworkTables const tables{t.terrain.network,
                                    t.terrain.orders,
                                    t.assessment.areas.us_area_m2,

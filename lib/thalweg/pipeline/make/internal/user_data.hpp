@@ -14,9 +14,6 @@ namespace thalweg::pipeline {
 /// What the file said of the lines that became these arcs; nothing for grown rivers.
 std::optional<io::UserData> user_data(Made const& t, StreamNetwork const& plan);
 
-/// Every line of the file that is not in the network, also those that pruning or the terrain took away.
-std::vector<SecondaryLine> secondary_of(Made const& t);
-
 /// The columns that have other names in the shapefiles.
 std::vector<io::ShortenedName> shortened_names(Made const& t);
 

@@ -70,6 +70,11 @@ Rows<LinesRecipe> adoption_keys() {
             .used(source_is("lines") && is("network.lines.filter", {"natural"}))
             .means("coastlines among the lines: sea, beyond them is the sea, where rivers end; none, they mean "
                    "nothing"),
+        number("keep", &LinesRecipe::keep)
+            .range({0, 1})
+            .used(source_is("lines"))
+            .means("least share of the given length that must be in the network (check given_length): without what "
+                   "filter, coastlines, divergences, duplicates, the grid and network.prune leave out"),
     };
 }
 

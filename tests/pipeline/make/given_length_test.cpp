@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/given_length.hpp>
+
+#include <numeric>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <io/scratch_folder.hpp>
+#include <pipeline/made.hpp>
+#include <thalweg/core/length_in_plan.hpp>
+
+namespace given_length_test {
+
+using namespace thalweg;
+using namespace thalweg::pipeline;
+
+namespace {
+
+std::string line(std::string const& vertices, std::string const& properties = "") {
+    return "{\"type\":\"Feature\",\"properties\":{" + properties +
+           "},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[" + vertices + "]}}";
+}
+
+/// One of each kind around a trunk of 3000 m that runs south, on 140 x 120 cells of 30 m.
+std::string const rivers =
+    test::geojson(line("[502000,5003000],[502000,5002000]") + "," + line("[502000,5002000],[502000,5000000]") + "," +
+                  line("[501000,5002500],[502000,5002000]", "\"waterway\":\"canal\"") + "," +    // 1118 m
+                  line("[500000,5001000],[500400,5001000]", "\"natural\":\"coastline\"") + "," + // 400 m
+                  line("[502000,5002000],[502000,5000000]") + "," +                              // 2000 m once more
+                  line("[502000,5001500],[502300,5001250],[502000,5001000]") + "," +             // a braid of 781 m
+                  line("[502000,5002000],[503000,5002800]") + "," + // drawn upstream, 1281 m
+                  line("[503500,5001000],[502040,5001000]") + "," + // ends 40 m beside the trunk
+                  line("[502000,5003000],[502000,5003010]") + "," + // 10 m
+                  line("[501000,5004600],[502000,5002500]"));       // 1107 m of it beyond the grid
+
+std::string const recipe = "[grid]\nwidth = 140\nheight = 120\norigin = [500000, 5003600]\ncell = 30\nclip = true\n"
+                           "crs = \"EPSG:32631\"\n[network]\nsource = \"lines\"\n";
+std::string const path = "[network.lines]\npath = \"rivers.geojson\"\ncoastlines = \"none\"\nsnap = 50\n";
+
+struct Files : ScratchFolder {
+    Files() { write("rivers.geojson", rivers); }
+    std::string folder() const { return path().string(); }
+};
+
+/// Law: nothing is lost on the way, and what is left out can be looked at.
+void expect_balanced(GivenLength const& given) {
+    double const out = std::accumulate(given.left_out_m.begin(), given.left_out_m.end(), 0.0);
+    EXPECT_NEAR(given.read_m + given.closed_m, given.kept_m + out, 1e-6);
+    for (std::size_t cause = 0; cause < given.left_out_m.size(); ++cause) {
+        double sum = 0.0;
+        for (SecondaryLine const& one : given.secondary) {
+            sum += static_cast<std::size_t>(one.cause) == cause ? length_in_plan(one.vertices) : 0.0;
+        }
+        EXPECT_NEAR(given.left_out_m[cause], sum, 1e-6) << key_of(static_cast<LeftOut>(cause));
+    }
+}
+
+double stretches_m(Made const& t) {
+    return t.rivers.file.sources.length_m(t.terrain.network.plan);
+}
+
+} // namespace
+
+TEST(GivenLength, EveryMetreIsAccountedFor) {
+    Files const files;
+    Made const t = test::made(recipe + path, files.folder());
+    GivenLength const& given = *t.assessment.given;
+    expect_balanced(given);
+    EXPECT_NEAR(given.kept_m, stretches_m(t), 1e-6);
+    EXPECT_NEAR(given.read_m, 1000.0 + 2000.0 + 1118.0 + 400.0 + 2000.0 + 781.0 + 1280.6 + 1460.0 + 10.0 + 2325.9, 1.0);
+    EXPECT_NEAR(given.left_out(LeftOut::filter), 1118.0, 0.1);
+    EXPECT_NEAR(given.left_out(LeftOut::coast), 400.0, 1e-6);
+    EXPECT_NEAR(given.left_out(LeftOut::duplicate), 2000.0, 1e-6);
+    EXPECT_NEAR(given.left_out(LeftOut::divergence), 781.0, 0.1);
+    EXPECT_NEAR(given.left_out(LeftOut::grid), 1107.6, 0.1);
+    EXPECT_NEAR(given.left_out(LeftOut::too_short), 10.0, 1e-6);
+    EXPECT_EQ(given.left_out(LeftOut::pruned), 0.0);
+    EXPECT_NEAR(given.turned_m, 1280.6, 0.1);
+    EXPECT_NEAR(given.moved_m, 40.0, 1e-6);
+    EXPECT_NEAR(given.closed_m, 40.0, 10.0); // and what was too short lengthens the trunk
+    EXPECT_NEAR(given.share(), given.kept_m / (given.kept_m + 10.0), 1e-12);
+}
+
+TEST(GivenLength, WhatIsPrunedWasAskedFor) {
+    Files const files;
+    Made const t = test::made(recipe + "prune = 46\n" + path, files.folder());
+    GivenLength const& given = *t.assessment.given;
+    expect_balanced(given);
+    EXPECT_NEAR(given.left_out(LeftOut::pruned), 1280.6, 100.0); // the shortest
+    EXPECT_GT(given.share(), 0.99);
+}
+
+TEST(GivenLength, HeadsThatTheTerrainCutsAreTold) {
+    Files files;
+    files.write(
+        "rivers.geojson", // beside a short river that leaves the map another comes from far
+        test::geojson(line("[500300,5000300],[500300,5003300]") + "," + line("[500400,5003300],[500450,5003590]")));
+    std::string const text = recipe + "[network.lines]\npath = \"rivers.geojson\"\n[surface]\n";
+    std::string const asked = recipe + "[network.lines]\npath = \"rivers.geojson\"\nkeep = 1\n[surface]\n";
+    Made const t = test::made(text, files.folder());
+    GivenLength const& given = *t.assessment.given;
+    expect_balanced(given);
+    EXPECT_NEAR(given.kept_m, stretches_m(t), 1e-6);
+    ASSERT_GT(given.left_out(LeftOut::head), 0.0);
+    EXPECT_TRUE(t.assessment.passed());
+    EXPECT_FALSE(test::made(asked, files.folder()).assessment.passed());
+}
+
+TEST(GivenLength, BendsAreNoLength) {
+    Files const files;
+    Made const t = test::made(recipe + "meander = 1\n" + path, files.folder());
+    Made const straight = test::made(recipe + path, files.folder());
+    EXPECT_NEAR(t.assessment.given->kept_m, straight.assessment.given->kept_m, 1e-6);
+    EXPECT_EQ(t.assessment.given->left_out(LeftOut::head), 0.0);
+}
+
+TEST(GivenLength, GrownRiversHaveNone) {
+    EXPECT_FALSE(
+        test::made("[grid]\nwidth = 64\nheight = 64\n[network]\n[network.dla]\nparticles = 400\n").assessment.given);
+}
+
+TEST(GivenLength, OneLineTellsAll) {
+    GivenLength given;
+    given.read_m = 5307000.0;
+    given.kept_m = 5000000.0;
+    EXPECT_EQ(line_of(given), "5307.0 km read, 5000.0 km kept");
+    given.left_out_m = {1000.0, 0.0, 0.0, 0.0, 0.0, 2000.0, 0.0, 304000.0};
+    given.turned_m = 1500.0;
+    given.moved_m = 12.5;
+    given.carried_m = 700.0;
+    EXPECT_EQ(
+        line_of(given),
+        "5307.0 km read, 5000.0 km kept; left out: 1.0 km no natural watercourses, 2.0 km divergences, 304.0 km cut at "
+        "heads; 1.5 km turned round; ends moved by up to 12.5 m; outlets extended by 0.7 km");
+}
+
+} // namespace given_length_test
