@@ -133,7 +133,7 @@ TEST(GivenLength, OneLineTellsAll) {
     EXPECT_EQ(
         line_of(given),
         "5307.0 km read, 5000.0 km kept; left out: 1.0 km no natural watercourses, 2.0 km divergences, 304.0 km cut at "
-        "heads; 1.5 km turned round; ends moved by up to 12.5 m; outlets extended by 0.7 km");
+        "heads; 1.5 km reversed; ends moved by up to 12.5 m; outlets extended by 0.7 km");
 }
 
 } // namespace given_length_test

@@ -174,7 +174,7 @@ Assessment with_topology(Plan const& plan, Terrain const& terrain, Assessment fo
     return found;
 }
 
-/// With what became of the lines that were given; with a word where much of them is not in the network.
+/// With the account of the input's length; warns where more than 1 % of it is missing.
 Assessment with_given_length(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Assessment found,
                              Run const& run) {
     constexpr double worth_a_word = 0.99;

@@ -97,7 +97,7 @@ std::string line_of(GivenLength const& given) {
             line += fmt::format("{}{} {}", std::exchange(before, ", "), km(given.left_out_m[i]), words[i].text);
         }
     }
-    line += given.turned_m > 0.0 ? fmt::format("; {} turned round", km(given.turned_m)) : "";
+    line += given.turned_m > 0.0 ? fmt::format("; {} reversed", km(given.turned_m)) : "";
     line += given.moved_m > 0.0 ? fmt::format("; ends moved by up to {:.3g} m", given.moved_m) : "";
     line += given.carried_m > 0.0 ? fmt::format("; outlets extended by {}", km(given.carried_m)) : "";
     return line;

@@ -14,20 +14,20 @@
 
 namespace thalweg::pipeline {
 
-/// What became of the length of a file's lines, in plan [m]: read_m + closed_m = kept_m + the sum of left_out_m.
+/// Account of the length of a file's lines, in plan [m]: read_m + closed_m = kept_m + the sum of left_out_m.
 struct GivenLength {
     double read_m = 0.0;
     std::array<double, 8> left_out_m = {}; ///< by LeftOut
     double kept_m = 0.0;                   ///< in the network
     double closed_m = 0.0;                 ///< added where ends were joined
     double carried_m = 0.0;                ///< added where outlets were carried on
-    double turned_m = 0.0;                 ///< against the drawn direction
+    double turned_m = 0.0;                 ///< reversed
     double moved_m = 0.0;                  ///< greatest distance by which an end was moved
-    std::vector<SecondaryLine> secondary;  ///< all that is left out
+    std::vector<SecondaryLine> secondary;  ///< everything left out
 
     /// \return [m] of one cause
     double left_out(LeftOut cause) const { return left_out_m[static_cast<std::size_t>(cause)]; }
-    /// \return [m] what the network was to have: without what fields, coastlines, divergences, duplicates, the grid
+    /// \return [m] that the network should have: all but what fields, coastlines, divergences, duplicates, the grid
     /// and pruning leave out
     double given_m() const { return kept_m + left_out(LeftOut::too_short) + left_out(LeftOut::head); }
     /// \return [0, 1] kept of what was given
@@ -49,7 +49,7 @@ char const* words_of(LeftOut cause);
 /// \return nothing where rivers are not read from lines
 std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, Terrain const& terrain);
 
-/// \param given what became of it
+/// \param given the account
 /// \return one line for the log: kilometres read, kept, left out by cause, turned, moved, added
 std::string line_of(GivenLength const& given);
 
