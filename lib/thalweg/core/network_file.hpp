@@ -67,6 +67,7 @@ struct NetworkFile {
         std::int64_t rank = 0;              ///< likewise
         std::string name = {};              ///< likewise
         std::string unnatural = {};         ///< why it is not a natural watercourse, or ""
+        bool is_channel = false;            ///< unnatural, but carries water: a canal, ditch, drain or pipe
         std::vector<Stretch> sources = {};  ///< the features it is made of, if the file names them
         std::string type = {};
         bool braided = false;

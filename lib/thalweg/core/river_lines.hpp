@@ -27,7 +27,8 @@ struct RiverLine {
     /// 0: unknown. The same fields for all lines of a file; compared one after another.
     std::vector<double> size = {};
     Channel channel = Channel::unknown;
-    std::string name = {}; ///< the river's name, or ""
+    std::string name = {};       ///< the river's name, or ""
+    std::string artificial = {}; ///< what kind of artificial channel it is ("waterway canal"), or ""
 };
 
 /// Why a line is left out of the network.
@@ -57,7 +58,8 @@ struct RiverLines {
     std::string crs;                           ///< of the coordinates
     std::string name;                          ///< file (and layer), for messages
     bool has_z = false;                        ///< every vertex has a height
-    std::vector<SecondaryLine> secondary = {}; ///< lines that are not natural watercourses
+    std::vector<RiverLine> channels = {};      ///< artificial ones, see network::keep_connectors
+    std::vector<SecondaryLine> secondary = {}; ///< other lines that are not natural watercourses
     std::vector<Finding> findings = {};        ///< left_out [vertices]: features without a line
     AttributeTable attributes = {};            ///< of the features, record = feature
 };

@@ -178,6 +178,7 @@ private:
             arc.name = std::move(line.name);
             arc.rank = key_;
             arc.unnatural = fields_.unnatural(feature);
+            arc.is_channel = RiverFields::is_channel(arc.unnatural);
         }
         arc.type = columns_.column(Q::type).text(feature);
         if (arc.type == "none") { // what stands for an empty text

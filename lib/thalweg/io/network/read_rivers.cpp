@@ -219,6 +219,7 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
         read.coasts.resize(read.unnatural.size(), !reason.empty() && fields.is_coast(*feature));
     }
     fields.link(read.lines);
+    fields.link(read.unnatural);
     std::vector<Finding> const of_fields = attributes.findings();
     read.findings.insert(read.findings.begin(), of_fields.begin(), of_fields.end());
     read.attributes = attributes.take();
@@ -340,6 +341,11 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         }
     }
     for (std::size_t k = 0; k < read.unnatural.size(); ++k) {
+        if (!read.coasts[k] && RiverFields::is_channel(read.reasons[k])) {
+            read.unnatural[k].artificial = std::move(read.reasons[k]);
+            rivers.channels.push_back(std::move(read.unnatural[k]));
+            continue;
+        }
         rivers.secondary.push_back({read.unnatural[k].feature, std::move(read.unnatural[k].vertices),
                                     std::move(read.reasons[k]), read.unnatural[k].feature,
                                     read.coasts[k] ? LeftOut::coast : LeftOut::filter});

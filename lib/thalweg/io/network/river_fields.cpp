@@ -194,6 +194,12 @@ std::string RiverFields::unnatural(OGRFeature const& feature) const {
     return "";
 }
 
+bool RiverFields::is_channel(std::string const& reason) {
+    constexpr std::array words{"canal", "ditch", "drain", "pressurised", "pipe", "flooded", "336", "428"};
+    std::string const kind = small_letters(reason);
+    return std::ranges::any_of(words, [&](char const* word) { return kind.find(word) != std::string::npos; });
+}
+
 bool RiverFields::is_coast(OGRFeature const& feature) const {
     std::string const type = small_letters(text(feature, ftype_));
     return type == "coastline" || type == "566" || kind_of_fcode(number(feature, fcode_)) == "Coastline" ||

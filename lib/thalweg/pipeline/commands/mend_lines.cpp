@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -12,7 +13,9 @@
 
 #include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/vec.hpp>
+#include <thalweg/network/import/keep_connectors.hpp>
 #include <thalweg/network/vectorise/cut_loops.hpp>
+#include <thalweg/pipeline/plan/internal/append.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -112,8 +115,15 @@ public:
             put_onto(to, line.back(), arc.id);
         }
         fill_heights(line, from, to);
+        if (arc.is_channel) {
+            RiverLine& channel = result_.rivers.channels.emplace_back();
+            channel = {arc.id, std::move(line), arc.type, arc.rank};
+            channel.artificial = arc.unnatural;
+            arc_of_channel_.try_emplace(arc.id, a);
+            return;
+        }
         if (!arc.unnatural.empty()) {
-            put_aside(arc, std::move(line), arc.unnatural);
+            put_aside(arc.id, std::move(line), arc.unnatural);
             return;
         }
         if (found_.upstream[a] != 0) {
@@ -124,7 +134,7 @@ public:
         if (looped_.contains(arc.id)) {
             network::CutLine cut = network::cut_loops(line, near_m_);
             if (length_in_plan(cut.line) <= 0.0) {
-                put_aside(arc, std::move(line), "closed ring");
+                put_aside(arc.id, std::move(line), "closed ring");
                 return;
             }
             line = std::move(cut.line);
@@ -138,6 +148,14 @@ public:
     }
 
     MendedLines finish() {
+        result_.rivers = network::keep_connectors(std::move(result_.rivers), near_m_);
+        for (std::size_t l = result_.arcs.size(); l < result_.rivers.lines.size(); ++l) {
+            result_.arcs.push_back(arc_of_channel_.at(result_.rivers.lines[l].feature));
+        }
+        for (SecondaryLine& line : std::exchange(result_.rivers.secondary, {})) {
+            put_aside(line.feature, std::move(line.vertices), line.reason);
+        }
+        append(result_.mended, std::exchange(result_.rivers.findings, {}));
         result_.rivers.crs = file_.crs;
         result_.rivers.name = "the network";
         result_.rivers.has_z = true;
@@ -149,10 +167,10 @@ private:
         result_.mended.push_back({kind, feature, at, amount, std::move(text)});
     }
 
-    void put_aside(NetworkFile::FileArc const& arc, std::vector<Vec3> line, std::string const& reason) {
-        say("secondary", arc.id, plan(line.front()), length_in_plan(line),
-            fmt::format("arc {}: is not a river: {}", arc.id, reason));
-        result_.secondary.push_back({arc.id, std::move(line), reason});
+    void put_aside(std::int64_t id, std::vector<Vec3> line, std::string const& reason) {
+        say("secondary", id, plan(line.front()), length_in_plan(line),
+            fmt::format("arc {}: is not a river: {}", id, reason));
+        result_.secondary.push_back({id, std::move(line), reason});
     }
 
     std::vector<Vec3> numbers_of(NetworkFile::FileArc const& arc) {
@@ -199,6 +217,7 @@ private:
     Nodes nodes_;
     double near_m_;
     std::set<std::int64_t> looped_ = {};
+    std::map<std::int64_t, std::size_t> arc_of_channel_ = {}; ///< by arc_id, the first that has it
     MendedLines result_ = {};
 };
 

@@ -83,6 +83,7 @@ std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, 
     std::vector<Finding> const& repairs = rivers.story.repairs;
     given.carried_m = sum_of(repairs, {"carried_outlet", "joined_outlet"});
     given.turned_m = sum_of(repairs, {"reversed"});
+    given.connector_m = sum_of(repairs, {"connector"});
     for (Finding const& f : repairs) {
         given.moved_m = std::max(given.moved_m, f.kind == "snapped" ? f.amount : 0.0);
     }
@@ -91,6 +92,7 @@ std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, 
 
 std::string line_of(GivenLength const& given) {
     std::string line = fmt::format("{} read, {} kept", km(given.read_m), km(given.kept_m));
+    line += given.connector_m > 0.0 ? fmt::format(", {} of it in artificial channels", km(given.connector_m)) : "";
     char const* before = "; left out: ";
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (given.left_out_m[i] > 0.0) {

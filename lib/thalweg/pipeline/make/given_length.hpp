@@ -19,6 +19,7 @@ struct GivenLength {
     double read_m = 0.0;
     std::array<double, 8> left_out_m = {}; ///< by LeftOut
     double kept_m = 0.0;                   ///< in the network
+    double connector_m = 0.0;              ///< of it artificial channels, without which rivers would end
     double closed_m = 0.0;                 ///< added where ends were joined
     double carried_m = 0.0;                ///< added where outlets were carried on
     double turned_m = 0.0;                 ///< reversed

@@ -7,6 +7,7 @@
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/network/import/choose_cell.hpp>
 #include <thalweg/network/import/fill_heights.hpp>
+#include <thalweg/network/import/keep_connectors.hpp>
 #include <thalweg/pipeline/plan/internal/stray_vertex.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
@@ -82,6 +83,7 @@ RiverLines read_lines(Recipe const& recipe, Run const& run) {
                                         .crs = crs,
                                         .filter = wanted.filter},
                                        run);
+    lines = network::keep_connectors(std::move(lines), wanted.snap_m, run);
     auto const count = lines.lines.size();
     network::FilledHeights filled = network::fill_heights(std::move(lines), recipe.network->slope);
     if (filled.filled > 0) {

@@ -59,6 +59,7 @@ ordered_json given_array(std::optional<GivenLength> const& given) {
             add(fmt::format("left out: {}", words_of(static_cast<LeftOut>(i))), given->left_out_m[i], 1000.0, "km");
         }
         add("in the network", given->kept_m, 1000.0, "km");
+        add("in artificial channels", given->connector_m, 1000.0, "km");
         add("reversed", given->turned_m, 1000.0, "km");
         add("outlets extended by", given->carried_m, 1000.0, "km");
         add("ends moved by up to", given->moved_m, 1.0, "m");

@@ -251,9 +251,9 @@ ordered_json given_object(GivenLength const& given) {
     for (std::size_t i = 0; i < given.left_out_m.size(); ++i) {
         left_out[key_of(static_cast<LeftOut>(i))] = given.left_out_m[i];
     }
-    return {{"read_m", given.read_m},     {"left_out_m", left_out},      {"given_m", given.given_m()},
-            {"kept_m", given.kept_m},     {"turned_m", given.turned_m},  {"moved_max_m", given.moved_m},
-            {"closed_m", given.closed_m}, {"carried_m", given.carried_m}};
+    return {{"read_m", given.read_m},       {"left_out_m", left_out},           {"given_m", given.given_m()},
+            {"kept_m", given.kept_m},       {"connector_m", given.connector_m}, {"turned_m", given.turned_m},
+            {"moved_max_m", given.moved_m}, {"closed_m", given.closed_m},       {"carried_m", given.carried_m}};
 }
 
 void add_rivers(Made const& t, ordered_json& report) {

@@ -25,6 +25,8 @@ public:
     void read(OGRFeature const& feature, RiverLine& line);
     /// Why a feature is no natural watercourse ("FTYPE Coastline"); "" where it is one, or no field says so.
     std::string unnatural(OGRFeature const& feature) const;
+    /// Whether something that unnatural() names carries water: a canal, ditch, drain or pipe.
+    static bool is_channel(std::string const& reason);
     /// Whether it is a coastline.
     bool is_coast(OGRFeature const& feature) const;
     /// Whether there are fields of links.
