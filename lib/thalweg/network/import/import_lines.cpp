@@ -11,6 +11,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/import/internal/import_steps.hpp>
+#include <thalweg/network/vectorise/cut_loops.hpp>
 
 namespace thalweg::network {
 namespace {
@@ -161,20 +162,59 @@ std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
     return result;
 }
 
-void add_stretch(std::vector<Stretch>& stretches, std::int64_t feature, double length_m) {
-    double const from_m = stretches.empty() ? 0.0 : stretches.back().to_m;
-    if (stretches.empty() || stretches.back().feature != feature) {
-        stretches.push_back({feature, from_m, from_m});
+/// An arc as it is put together; without spikes, since nothing else meets it between its ends.
+class Course {
+public:
+    Course(double near_m, std::vector<Finding>& repairs) : near_m_(near_m), repairs_(repairs) {}
+
+    /// Adds the vertex where a segment of a feature begins.
+    void add(Vec2 at, double z, std::int64_t feature) {
+        while (line_.size() > 1 && is_spike(line_[line_.size() - 2], line_.back(), at, near_m_)) {
+            double const back_m = std::min(distance(line_.back(), at), distance(line_.back(), line_[line_.size() - 2]));
+            repairs_.push_back({"cut", features_.back(), line_.back(), back_m,
+                                fmt::format("river {} steps back by {:.3g} m at ({:.6f}, {:.6f}); the step is removed",
+                                            features_.back(), back_m, line_.back().x, line_.back().y)});
+            line_.pop_back();
+            z_.pop_back();
+            features_.pop_back();
+        }
+        if (!line_.empty() && line_.back() == at) {
+            features_.back() = feature;
+            return;
+        }
+        line_.push_back(at);
+        z_.push_back(z);
+        features_.push_back(feature);
     }
-    stretches.back().to_m += length_m;
-}
+    std::vector<Vec2> const& line() const { return line_; }
+    std::vector<double> const& z() const { return z_; }
+    std::vector<Stretch> stretches() const {
+        std::vector<Stretch> stretches;
+        double along_m = 0.0;
+        for (std::size_t i = 1; i < line_.size(); ++i) {
+            if (stretches.empty() || stretches.back().feature != features_[i - 1]) {
+                stretches.push_back({features_[i - 1], along_m, along_m});
+            }
+            along_m += distance(line_[i - 1], line_[i]);
+            stretches.back().to_m = along_m;
+        }
+        return stretches;
+    }
+
+private:
+    double near_m_;
+    std::vector<Finding>& repairs_;
+    std::vector<Vec2> line_;
+    std::vector<double> z_;
+    std::vector<std::int64_t> features_;
+};
 
 // Of several as long the most upstream.
 std::int64_t longest_of(std::vector<Stretch> const& stretches) {
     return std::ranges::max_element(stretches, {}, [](Stretch const& s) { return s.to_m - s.from_m; })->feature;
 }
 
-void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& node_z, bool join) {
+void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& node_z, bool join, double near_m) {
     auto const inner = join ? vanishing(flow, imported.repairs) : std::vector<char>(flow.leaves.size(), 0);
     auto const heads = [&] {
         std::vector<std::size_t> by_piece; // arcs are numbered in the order of the file
@@ -197,28 +237,26 @@ void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& n
     };
     for (std::size_t const head : heads) {
         Arc arc;
-        std::vector<double> z;
-        std::vector<Stretch> stretches;
+        Course course(near_m, imported.repairs);
         std::size_t n = head;
         do {
-            auto const& piece = flow.pieces.pieces[flow.leaves[n]];
             arc.type = flow.line(n).type;
-            add_stretch(stretches, flow.line(n).feature, piece.length_m);
             auto const vertices = flow.vertices(n);
             for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
-                arc.line.push_back({vertices[i].x, vertices[i].y});
-                z.push_back(i == 0 && !node_z.empty() ? node_z[n] : vertices[i].z);
+                course.add({vertices[i].x, vertices[i].y}, i == 0 && !node_z.empty() ? node_z[n] : vertices[i].z,
+                           flow.line(n).feature);
             }
             n = flow.downstream(n);
         } while (inner[n] != 0);
-        arc.line.push_back(flow.pieces.nodes[n]);
+        course.add(flow.pieces.nodes[n], node_z.empty() ? 0.0 : node_z[n], 0);
+        arc.line = course.line();
+        auto stretches = course.stretches();
         arc.feature = longest_of(stretches);
         imported.stretches.push_back(std::move(stretches));
         NodeId const from = node(head);
         network.add_arc(from, node(n), std::move(arc));
         if (!node_z.empty()) {
-            z.push_back(node_z[n]);
-            imported.arc_z.push_back(std::move(z));
+            imported.arc_z.push_back(course.z());
         }
     }
     imported.network = std::move(network);
@@ -280,7 +318,8 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
         throw BadInput(
             fmt::format("network.import_lines: the lines of {} are closed rings: no river runs anywhere", file.name));
     }
-    add_arcs(imported, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join);
+    add_arcs(imported, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join,
+             std::min(snap_m, 1e-6 * diagonal_of(file.lines)));
     run.at(1.0, "adopt");
     return imported;
 }
