@@ -88,6 +88,14 @@ std::optional<Goal> nearest_foot(Ends const& ends, std::size_t own, Vec2 p, doub
     return best;
 }
 
+/// Another line ends here already, and has not had its turn.
+bool meets_an_end(Ends const& ends, std::size_t own, Vec2 p, std::vector<geometry::NearSegment> const& near) {
+    return std::ranges::any_of(near, [&](geometry::NearSegment const& s) {
+        auto const& v = ends.lines[s.line].vertices;
+        return s.line != own && (plan(v.front()) == p || plan(v.back()) == p);
+    });
+}
+
 } // namespace
 
 std::vector<std::vector<Vec2>> plan_of(std::vector<RiverLine> const& lines) {
@@ -187,7 +195,7 @@ void snap(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& r
     for (std::size_t e = 0; e < drawn.size(); ++e) {
         std::size_t const own = e / 2;
         auto goal = nearest_vertex(ends, own, drawn[e], snap_m, near[e]);
-        if (!goal) {
+        if (!goal && !meets_an_end(ends, own, drawn[e], near[e])) {
             goal = nearest_foot(ends, own, drawn[e], snap_m, near[e]);
         }
         ends.settled[e] = 1;
