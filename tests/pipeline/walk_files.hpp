@@ -14,6 +14,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 /// A folder with one small file for each key that names a file. All lie on or over the two places where recipes without
 /// `grid.origin` lie: south-east of (500000, 5000000), and around the rivers at (500900, 5000800).
@@ -24,6 +25,12 @@ public:
         std::string const other = line("[501500,5001600],[501200,5001100],[500910,5000700]", R"("kind":"B","up":1)");
         std::string const lower = line("[500900,5000700],[501000,5000010]", R"("kind":"C","up":2)");
         write("rivers.geojson", test::geojson(upper + "," + other + "," + lower));
+        write("links.geojson",
+              test::geojson(
+                  line("[500300,5001500],[500700,5001200],[500900,5000700]", R"("own":1,"alias":3,"to":3,"back":0)") +
+                  "," +
+                  line("[501500,5001600],[501200,5001100],[500900,5000700]", R"("own":2,"alias":2,"to":3,"back":1)") +
+                  "," + line("[500900,5000700],[501000,5000010]", R"("own":3,"alias":1,"to":0,"back":1)")));
         write("second.geojson", test::geojson(upper + "," + lower));
         write("heights.geojson", test::geojson(line("[500300,5001500,90],[500700,5001200,60],[500900,5000700,30]", "") +
                                                "," + line("[500900,5000700,30],[501000,5000010,5]", "")));
@@ -55,6 +62,7 @@ public:
         raster("other_patch.asc", 24, 30, 500600, 4998700, [&](int c, int r) { return 2.0 * hills(r, c); });
         two_layers("rivers.gpkg", "rivers", "second");
         two_layers("strokes.gpkg", "strokes", "one_stroke");
+        add_layer("no_crs.gpkg", "rivers", {"-a_srs", "NONE"});
     }
     std::string folder() const { return path().string(); }
 
@@ -92,20 +100,26 @@ private:
     }
     /// A GeoPackage whose layers are two of the GeoJSON files.
     void two_layers(std::string const& name, std::string const& first, std::string const& second) const {
+        add_layer(name, first, {});
+        add_layer(name, second, {"-update"});
+    }
+    void add_layer(std::string const& name, std::string const& of, std::vector<std::string> more) const {
         GDALAllRegister();
-        for (std::string const& of : {first, second}) {
-            GDALDatasetH source =
-                GDALOpenEx((*this / (of + ".geojson")).c_str(), GDAL_OF_VECTOR, nullptr, nullptr, nullptr);
-            char const* words[] = {"-f", "GPKG", "-nln", of.c_str(), of == second ? "-update" : nullptr, nullptr};
-            GDALVectorTranslateOptions* const options =
-                GDALVectorTranslateOptionsNew(const_cast<char**>(words), nullptr);
-            GDALDatasetH made = GDALVectorTranslate((*this / name).c_str(), nullptr, 1, &source, options, nullptr);
-            GDALVectorTranslateOptionsFree(options);
-            GDALClose(source);
-            if (made == nullptr) {
-                throw std::runtime_error("cannot write " + name);
-            }
-            GDALClose(made);
+        GDALDatasetH source =
+            GDALOpenEx((*this / (of + ".geojson")).c_str(), GDAL_OF_VECTOR, nullptr, nullptr, nullptr);
+        more.insert(more.begin(), {"-f", "GPKG", "-nln", of});
+        std::vector<char*> words;
+        for (std::string& word : more) {
+            words.push_back(word.data());
         }
+        words.push_back(nullptr);
+        GDALVectorTranslateOptions* const options = GDALVectorTranslateOptionsNew(words.data(), nullptr);
+        GDALDatasetH made = GDALVectorTranslate((*this / name).c_str(), nullptr, 1, &source, options, nullptr);
+        GDALVectorTranslateOptionsFree(options);
+        GDALClose(source);
+        if (made == nullptr) {
+            throw std::runtime_error("cannot write " + name);
+        }
+        GDALClose(made);
     }
 };

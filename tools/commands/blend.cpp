@@ -29,6 +29,7 @@ struct BlendOptions {
     std::vector<double> at;
     std::vector<std::int64_t> window;
     std::string file;
+    std::string source_crs;
     bool mixed = false;
     bool fills = false;
     bool overwrite = false;
@@ -136,10 +137,10 @@ int blend_meshes(BlendOptions const& options, Session const& session) {
     refuse_options_of_dems(options);
     auto const format = io::tin_format("", options.file);
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
-    pipeline::MadeBlendTin const made =
-        pipeline::make_blend_tin({options.params.target, options.params.source, options.params.at,
-                                  options.params.rotate_deg, options.params.scale, options.params.gain},
-                                 session.run);
+    pipeline::MadeBlendTin const made = pipeline::make_blend_tin(
+        {options.params.target, options.params.source, options.params.at, options.params.rotate_deg,
+         options.params.scale, options.params.gain, options.source_crs},
+        session.run);
     io::write_tin(made.fused.tin, made.crs, file.staging(), format, HeightUnit::metre, session.run);
     file.commit();
     session.run.tell("blend",
@@ -158,6 +159,10 @@ int blend_files(BlendOptions& options, Session const& session) {
     take_numbers(options);
     if (io::holds_tin(options.params.target) || io::holds_tin(options.params.source)) {
         return blend_meshes(options, session);
+    }
+    if (!options.source_crs.empty()) {
+        throw BadParameter(
+            "--source-crs is for meshes (.2dm, .obj, .off); assign a DEM its CRS by gdal_edit.py -a_srs");
     }
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     pipeline::MadeBlend const made = pipeline::make_blend(options.params, session.run);
@@ -216,6 +221,8 @@ Command add_blend(CLI::App& app, Session& session) {
     app.add_flag("--mixed", options->mixed, "Between neighbouring cells, use the steeper slope of patch and target.");
     app.add_flag("--fill-holes", options->fills,
                  "Also fill holes of the source. Default: holes keep the target's heights.");
+    app.add_option("--source-crs", options->source_crs, "Read meshes that name no CRS in this projected CRS in metres.")
+        ->type_name("EPSG:N");
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
     app.footer("Keeps the relief of the patch and matches the target's heights along its edge (Poisson blending), so "

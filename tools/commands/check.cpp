@@ -105,7 +105,8 @@ Command add_check(CLI::App& app, Session& session) {
         ->type_name("FILE(gpkg)");
     app.add_option(
            "--near", options->job.near_m,
-           "Report line ends closer than this that do not meet [m]. Default: a millionth of the network's extent.")
+           "Report line ends closer than this to a line that they do not meet [m]; --fix joins those that meet no "
+           "other line. Default: a millionth of the network's extent.")
         ->type_name("M")
         ->check(CLI::NonNegativeNumber);
     app.add_flag("--json", session.json, "Print one JSON object.");

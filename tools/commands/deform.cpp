@@ -29,6 +29,7 @@ struct DeformOptions {
     std::vector<double> axis;
     double rotate_deg = 0.0;
     std::string file;
+    std::string source_crs;
     bool overwrite = false;
 };
 
@@ -46,6 +47,7 @@ int deform_mesh(DeformOptions const& options, Session const& session) {
     pipeline::MakeDeformTinParams params{options.params.target, options.params.mask, options.params.scale,
                                          options.rotate_deg};
     params.handles = options.params.handles;
+    params.source_crs = options.source_crs;
     if (!options.axis.empty()) {
         if (options.axis.size() != 3) {
             throw BadParameter(fmt::format("--axis has {} numbers; it takes three, X,Y,Z", options.axis.size()));
@@ -77,6 +79,10 @@ int deform_file(DeformOptions& options, Session const& session) {
     if (options.rotate_deg != 0.0 || !options.axis.empty()) {
         throw BadParameter("--rotate and --axis turn meshes (.2dm, .obj, .off); a DEM has one height a cell. `thalweg "
                            "tin` makes a mesh of it, `thalweg blend --rotate` turns a patch about the vertical");
+    }
+    if (!options.source_crs.empty()) {
+        throw BadParameter(
+            "--source-crs is for meshes (.2dm, .obj, .off); assign a DEM its CRS by gdal_edit.py -a_srs");
     }
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     blend::Deformed const made = pipeline::make_deform(options.params, session.run);
@@ -126,6 +132,9 @@ Command add_deform(CLI::App& app, Session& session) {
         ->delimiter(',')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--source-crs", options->source_crs,
+                   "Read a mesh that names no CRS in this projected CRS in metres.")
+        ->type_name("EPSG:N");
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
     app.footer("Keeps or scales the relief of the region and pulls it smoothly to the given heights (Poisson's "

@@ -7,6 +7,7 @@
 #include "commands/verdict.hpp"
 #include "terminal/terminal.hpp"
 
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/plan/forecast.hpp>
@@ -22,9 +23,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace thalweg::tools {
@@ -37,6 +40,8 @@ struct MakeOptions {
     std::vector<std::string> set;
     std::optional<std::uint64_t> seed;
     std::string crs;
+    std::string source_crs;
+    std::vector<std::string> fields;
     std::string units;
     std::string schema;
     bool overwrite = false;
@@ -59,6 +64,24 @@ pipeline::Recipe recipe_without_file(MakeOptions const& options) {
     return pipeline::default_recipe_on(asked.grid.width, asked.grid.height);
 }
 
+/// The columns of a line file that have a role in the network: those of the same words in `thalweg check`.
+pipeline::Recipe with_fields(pipeline::Recipe recipe, std::vector<std::string> const& fields) {
+    static std::map<std::string, char const*> const keys{{"arc_id", "network.lines.id_field"},
+                                                         {"ds_arc", "network.lines.down_field"},
+                                                         {"key", "network.lines.rank_field"},
+                                                         {"type", "network.lines.type_field"}};
+    for (auto const& [quantity, name] : fields_by_quantity(fields)) {
+        auto const key = keys.find(quantity);
+        if (key == keys.end()) {
+            throw BadParameter(fmt::format("--field {}={}: make reads arc_id, ds_arc, key (a rank that falls "
+                                           "downstream) and type from fields that are named",
+                                           quantity, name));
+        }
+        pipeline::set_key(recipe, fmt::format("{}={}", key->second, name));
+    }
+    return recipe;
+}
+
 pipeline::Recipe recipe_of(MakeOptions const& options) {
     pipeline::Recipe recipe =
         options.input.empty() ? recipe_without_file(options) : pipeline::recipe_from(options.input);
@@ -71,6 +94,10 @@ pipeline::Recipe recipe_of(MakeOptions const& options) {
     if (!options.crs.empty()) {
         pipeline::set_key(recipe, "grid.crs=" + options.crs);
     }
+    if (!options.source_crs.empty()) {
+        pipeline::set_key(recipe, "network.lines.source_crs=" + options.source_crs);
+    }
+    recipe = with_fields(std::move(recipe), options.fields);
     if (!options.units.empty()) {
         pipeline::set_key(recipe, "output.units=" + options.units);
     }
@@ -144,6 +171,17 @@ Command add_make(CLI::App& app, Session& session) {
     app.add_option("--crs", options->crs,
                    "Make the terrain in this projected CRS in metres; the same as --set grid.crs=CRS.")
         ->type_name("EPSG:N");
+    app.add_option("--source-crs", options->source_crs,
+                   "Read rivers whose file has no CRS in this one; the same as --set network.lines.source_crs=CRS.")
+        ->type_name("EPSG:N");
+    app.add_option(
+           "--field", options->fields,
+           "Name the field of rivers that holds a quantity: arc_id and ds_arc (a line's id and that of the line "
+           "downstream), key (a rank that falls downstream) or type. May be repeated. The same as --set "
+           "network.lines.id_field=NAME, down_field, rank_field and type_field.")
+        ->type_name("QUANTITY=NAME")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--units", options->units,
                    "Write heights in metres or in international feet (dem.tif, networks, contours, TINs); the same as "
                    "--set output.units=UNIT. Lengths stay in m, areas in m2.")

@@ -10,20 +10,27 @@
 
 namespace thalweg::tools {
 
-io::ReadNetworkParams NetworkOptions::params() const {
-    io::ReadNetworkParams read;
-    if (!schema.empty()) {
-        read.schema = io::schema_named(schema);
-    }
+std::map<std::string, std::string> fields_by_quantity(std::vector<std::string> const& fields) {
+    std::map<std::string, std::string> named;
     for (std::string const& field : fields) {
         std::size_t const equals = field.find('=');
         if (equals == std::string::npos || equals == 0 || equals + 1 == field.size()) {
             throw BadParameter(fmt::format("--field {}: write QUANTITY=NAME, such as ds_arc=NEXT_DOWN", field));
         }
-        read.fields[field.substr(0, equals)] = field.substr(equals + 1);
+        named[field.substr(0, equals)] = field.substr(equals + 1);
     }
+    return named;
+}
+
+io::ReadNetworkParams NetworkOptions::params() const {
+    io::ReadNetworkParams read;
+    if (!schema.empty()) {
+        read.schema = io::schema_named(schema);
+    }
+    read.fields = fields_by_quantity(fields);
     read.arcs_layer = layer;
     read.nodes_layer = nodes_layer;
+    read.source_crs = source_crs;
     return read;
 }
 
@@ -42,6 +49,9 @@ void add_network_options(CLI::App& app, NetworkOptions& options, char const* sch
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--layer,--arcs-layer", options.layer, "Read arcs from this layer.")->type_name("NAME");
     app.add_option("--nodes-layer", options.nodes_layer, "Read nodes from this layer.")->type_name("NAME");
+    app.add_option("--source-crs", options.source_crs,
+                   "Read a NETWORK that has no CRS in this one. Default: its coordinates are metres.")
+        ->type_name("EPSG:N");
 }
 
 std::vector<std::string> schema_names() {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ class App;
 
 namespace thalweg::tools {
 
+/// What each --field names, by quantity. Throws: BadParameter when one is not QUANTITY=NAME.
+std::map<std::string, std::string> fields_by_quantity(std::vector<std::string> const& fields);
+
 /// Which network a command reads, and how it is understood: the same words for every command.
 struct NetworkOptions {
     std::string path;
@@ -20,12 +24,13 @@ struct NetworkOptions {
     std::vector<std::string> fields;
     std::string layer;
     std::string nodes_layer;
+    std::string source_crs; ///< of a file that has none
 
     /// Throws: BadParameter when a field is not given as QUANTITY=NAME.
     io::ReadNetworkParams params() const;
 };
 
-/// Adds NETWORK, --from (or the name or names of schema_flag), --field, --layer and --nodes-layer.
+/// Adds NETWORK, --from (or the name or names of schema_flag), --field, --layer, --nodes-layer and --source-crs.
 void add_network_options(CLI::App& app, NetworkOptions& options, char const* schema_flag = "--from");
 
 /// The names of all schemas.

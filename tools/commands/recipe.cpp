@@ -29,12 +29,15 @@ int print_keys(std::string const& word, Session const& session) {
     return Exit::done;
 }
 
-int print_for(std::string const& rivers, Session const& session) {
+int print_for(std::string const& rivers, std::string const& source_crs, Session const& session) {
     if (!is_utf8(std::filesystem::absolute(rivers).string())) {
         throw BadInput(fmt::format("the path of {} is not UTF-8, and recipes are: rename it", rivers));
     }
-    pipeline::Recipe const recipe = pipeline::settled_recipe(pipeline::rivers_recipe(rivers), session.run);
-    fmt::print("{}", pipeline::write_recipe(recipe));
+    pipeline::Recipe recipe = pipeline::rivers_recipe(rivers);
+    if (!source_crs.empty()) {
+        pipeline::set_key(recipe, "network.lines.source_crs=" + source_crs);
+    }
+    fmt::print("{}", pipeline::write_recipe(pipeline::settled_recipe(recipe, session.run)));
     return Exit::done;
 }
 
@@ -43,15 +46,20 @@ int print_for(std::string const& rivers, Session const& session) {
 Command add_recipe(CLI::App& app, Session& session) {
     auto const dump = std::make_shared<bool>(false);
     auto const rivers = std::make_shared<std::string>();
+    auto const source_crs = std::make_shared<std::string>();
     auto const key = std::make_shared<std::string>();
     app.add_option("KEY", *key,
                    "Show this key, such as network.prune, or the keys of this section. Default: every key.");
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--dump", *dump, "Print the default recipe as a TOML file.");
-    app.add_option("--for", *rivers,
-                   "Print the recipe that make uses for these rivers: a file of lines, or a folder written by make or "
-                   "convert.")
-        ->type_name("FILE(gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)");
+    CLI::Option* const of_rivers =
+        app.add_option("--for", *rivers,
+                       "Print the recipe that make uses for these rivers: a file of lines, or a folder written by make "
+                       "or convert.")
+            ->type_name("FILE(gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)");
+    app.add_option("--source-crs", *source_crs, "Read rivers whose file has no CRS in this one, as make does.")
+        ->type_name("EPSG:N")
+        ->needs(of_rivers);
     app.footer("Prints keys with their unit, range and default. thalweg-recipe(5) is the same as a manual page.\n\n"
                "Examples:\n"
                "  thalweg recipe\n"
@@ -59,9 +67,9 @@ Command add_recipe(CLI::App& app, Session& session) {
                "  thalweg recipe surface --json\n"
                "  thalweg recipe --dump > mine.toml\n"
                "  thalweg recipe --for samples/walker_nhdplus.gpkg > walker.toml\n");
-    return [dump, rivers, key, &session] {
+    return [dump, rivers, source_crs, key, &session] {
         if (!rivers->empty()) {
-            return print_for(*rivers, session);
+            return print_for(*rivers, *source_crs, session);
         }
         if (*dump) {
             fmt::print("{}", pipeline::write_recipe(pipeline::default_recipe()));

@@ -23,6 +23,7 @@ struct TinOptions {
     pipeline::MakeTinParams source;
     std::string file;
     std::string format;
+    std::string duplicates;
     bool overwrite = false;
 };
 
@@ -34,6 +35,8 @@ std::string as_json(pipeline::MadeTin const& made, std::string const& file) {
                                 {"triangles", made.tin.triangles.size()},
                                 {"merged", made.merged},
                                 {"merged_dz_m", made.merged_dz_m},
+                                {"averaged", made.averaged},
+                                {"averaged_dz_m", made.averaged_dz_m},
                                 {"crossings", made.crossings},
                                 {"crossings_dz_m", made.crossings_dz_m},
                                 {"left_out", made.left_out}};
@@ -52,8 +55,14 @@ std::string tin_in_words(pipeline::MadeTin const& made) {
         words += fmt::format("; {} isolated cells are left out", made.left_out);
     }
     if (made.merged > 0 && (made.source == "points" || made.merged_dz_m > 0.0)) { // arcs of a network meet anyway
-        words += fmt::format("; {} duplicate points, up to {:.3f} m apart in height: the first is kept", made.merged,
-                             made.merged_dz_m);
+        words += fmt::format("; {} duplicate point{} merged", made.merged, made.merged == 1 ? " is" : "s are");
+        if (made.averaged > 0) {
+            words += fmt::format(", at {} place{} into the mean of heights up to {:.3f} m apart", made.averaged,
+                                 made.averaged == 1 ? "" : "s", made.averaged_dz_m);
+        }
+        if (made.merged_dz_m > 0.0) {
+            words += fmt::format(", with lines up to {:.3f} m apart in height: the first is kept", made.merged_dz_m);
+        }
     }
     if (made.crossings > 0) {
         words += fmt::format("; {} line crossings, up to {:.3f} m apart in height: the first line is kept",
@@ -62,7 +71,11 @@ std::string tin_in_words(pipeline::MadeTin const& made) {
     return words;
 }
 
-int tin(TinOptions const& options, Session const& session) {
+int tin(TinOptions& options, Session const& session) {
+    if (!options.duplicates.empty()) {
+        options.source.duplicates =
+            options.duplicates == "error" ? io::DuplicatePoints::refused : io::DuplicatePoints::averaged;
+    }
     auto const format = io::tin_format(options.format, options.file);
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     pipeline::MadeTin const made = pipeline::make_tin(options.source, session.run);
@@ -90,6 +103,17 @@ Command add_tin(CLI::App& app, Session& session) {
                    "Use these lines with heights as edges, in addition to points.");
     app.add_option("--crs", options->source.crs,
                    "Set the CRS of text points, or reproject points and lines to this CRS.");
+    app.add_option("--source-crs", options->source.source_crs,
+                   "Read text points, and files that have no CRS, in this one; --crs is the CRS of the TIN.")
+        ->type_name("EPSG:N");
+    app.add_option("--columns", options->source.columns,
+                   "Take x, y and z of text points from these columns: names of the first line or numbers from 1, such "
+                   "as 3,2,4; or pnezd (number, northing, easting, height, description).")
+        ->type_name("X,Y,Z");
+    app.add_option("--duplicates", options->duplicates,
+                   "Merge points at one place but unequal heights into their mean, or refuse such a file and list the "
+                   "first of them. Default: mean.")
+        ->check(CLI::IsMember({"mean", "error"}));
     app.add_option("--format", options->format, formats + ". Default: by the file extension.");
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");

@@ -29,6 +29,10 @@ struct RiverLine {
     Channel channel = Channel::unknown;
     std::string name = {};       ///< the river's name, or ""
     std::string artificial = {}; ///< what kind of artificial channel it is ("waterway canal"), or ""
+    std::int64_t id_shift = 0;   ///< feature is the file's own number and this: networks whose ids begin at 0
+
+    /// The number by which the file itself calls it.
+    std::int64_t number() const { return feature - id_shift; }
 };
 
 /// Why a line is left out of the network.
@@ -60,8 +64,8 @@ struct RiverLines {
     bool has_z = false;                        ///< every vertex has a height
     std::vector<RiverLine> channels = {};      ///< artificial ones, see network::keep_connectors
     std::vector<SecondaryLine> secondary = {}; ///< other lines that are not natural watercourses
-    std::vector<Finding> findings = {};        ///< left_out [vertices]: features without a line
-    AttributeTable attributes = {};            ///< of the features, record = feature
+    std::vector<Finding> findings = {}; ///< left_out [vertices]: features without a line; not_a_line [shapes], by type
+    AttributeTable attributes = {};     ///< of the features, record = feature
 };
 
 } // namespace thalweg

@@ -84,8 +84,8 @@ TEST(ReadPoints, TextInEveryManner) {
     std::vector<Vec3> const wanted{{1.5, -2, 3e2}, {0.1, 4, 5}};
     EXPECT_EQ(points_of("a.csv", "x,y,z\n1.5,-2,3e2\n0.1,4,5\n"), wanted);
     EXPECT_EQ(points_of("a.csv", "\xEF\xBB\xBFid;Z;\"Y\";X\r\n7;3e2;-2;1.5\r\n8; 5 ;4;+0.1"), wanted);
-    EXPECT_EQ(points_of("a.csv", "1.5,-2,3e2\n\n# a remark\n0.1,4,5,9\n"), wanted);
-    EXPECT_EQ(points_of("a.xyz", "  1.5\t-2   300 17\n0.1 4 5\n"), wanted);
+    EXPECT_EQ(points_of("a.csv", "1.5,-2,3e2\n\n# a remark\n0.1,4,5\n"), wanted);
+    EXPECT_EQ(points_of("a.xyz", "  1.5\t-2   300 \n0.1 4 5\n"), wanted);
     EXPECT_EQ(points_of("a.TXT", "x y z\n1.5 -2 300\n0.1 4 5\n"), wanted);
 }
 
@@ -100,6 +100,59 @@ TEST(ReadPoints, BadTextNamesItsLine) {
     EXPECT_TRUE(has(refusal_of("1,2,3\n1,2\n"), "line 2: 2 of the columns, z is missing"));
     EXPECT_TRUE(has(refusal_of("1,2,3\n1,,3\n"), "line 2: y is ''"));
     EXPECT_TRUE(has(refusal({"nowhere.csv"}), "does not exist"));
+}
+
+TEST(ReadPoints, ColumnsWithoutNamesAreThree) {
+    std::string const surveyed = "1,5000000.0,500000.0,210.5\n2,5000100.0,500900.0,180.2\n";
+    EXPECT_TRUE(has(refusal_of(surveyed), "p.csv, line 1: 4 columns without names: which of them are x, y and z? Name "
+                                          "them in a first line"));
+    EXPECT_FALSE(has(refusal_of(surveyed), "--columns")); // no option of that caller
+    EXPECT_TRUE(has(refusal_of("1,2,3\n1,2,3,4\n"), "line 2: 4 columns without names"));
+    ScratchFolder const folder;
+    io::ReadPointsParams params{.path = text_file(folder, "p.csv", surveyed), .columns = ""};
+    EXPECT_TRUE(has(refusal(params), "or by number (--columns 3,2,4; --columns pnezd for"));
+    std::vector<Vec3> const wanted{{500000, 5000000, 210.5}, {500900, 5000100, 180.2}};
+    for (char const* const columns : {"3,2,4", "PNEZD", "3 2 4"}) {
+        params.columns = columns;
+        EXPECT_EQ(read_points(params).points, wanted) << columns;
+    }
+    params.path = text_file(folder, "q.csv",
+                            "Punkt;Hoch;Rechts;H;Art\n1;5000000;500000;210.5;Baum\n"
+                            "2;5000100;500900;180.2;\n");
+    EXPECT_EQ(read_points(params).points, wanted);
+    for (char const* const columns : {"Rechts,Hoch,H", "rechts,2,h", "pnezd"}) {
+        params.columns = columns;
+        EXPECT_EQ(read_points(params).points, wanted) << columns;
+    }
+    params.columns = "x,y,z";
+    EXPECT_TRUE(has(refusal(params), "q.csv, first line: no column 'x' (Punkt, Hoch, Rechts, H, Art)"));
+    params.columns = "3,2,9";
+    EXPECT_TRUE(has(refusal(params), "line 2: 5 of the columns, z is missing"));
+    params.columns = "3,2,5";
+    EXPECT_TRUE(has(refusal(params), "line 2: z is 'Baum'"));
+    for (char const* const columns : {"3,2", "1,2,3,4", "x,,z", "penz"}) {
+        params.columns = columns;
+        EXPECT_TRUE(has(message_of<BadParameter>([&] { read_points(params); }), "give three names or numbers"))
+            << columns;
+    }
+    params = {.path = text_file(folder, "n.txt", "7 5000000 500000 210.5 old oak\n"), .columns = "pnezd"};
+    EXPECT_EQ(read_points(params).points, (std::vector<Vec3>{{500000, 5000000, 210.5}}));
+    params.path = layer(folder, {{"POINT Z (1 2 3)", ""}}, 32631);
+    EXPECT_TRUE(has(message_of<BadParameter>([&] { read_points(params); }), "p.gpkg is not text of points"));
+}
+
+TEST(ReadPoints, DegreesNeedACrs) {
+    ScratchFolder const folder;
+    auto const text = text_file(folder, "p.csv", "x,y,z\n10.96,47.12,700\n11,47.05,650\n");
+    EXPECT_TRUE(has(refusal({.path = text, .source_crs = ""}),
+                    "the numbers of p.csv are longitudes and latitudes, by their size; name their CRS: --source-crs "
+                    "EPSG:4326. If they are metres"));
+    EXPECT_EQ(read_points({.path = text, .source_crs = "EPSG:4326"}).crs, "EPSG:32632");
+    EXPECT_EQ(read_points({.path = text, .crs = "EPSG:32632", .source_crs = ""}).points[0].x, 10.96);
+    EXPECT_EQ(read_points({.path = text}).points[0].x, 10.96); // the caller says what they are
+    for (char const* const metres : {"1,2,3\n0,1,2\n", "10.5,90.5,3\n", "180.5,45.5,1\n10.5,45.5,1\n"}) {
+        EXPECT_NO_THROW(read_points({.path = text_file(folder, "m.csv", metres), .source_crs = ""})) << metres;
+    }
 }
 
 TEST(ReadPoints, TextTakesTheCrsAsked) {
@@ -156,6 +209,37 @@ TEST(ReadPoints, BadLayersNameTheFeature) {
     EXPECT_TRUE(has(refusal({layer(folder, {}, 0), "other"}), "no layer of points named 'other' (spots)"));
 }
 
+TEST(ReadPoints, FeaturesAreCountedFromOne) {
+    ScratchFolder const folder;
+    std::string const head = R"({"type":"FeatureCollection","features":[)";
+    auto const feature = [](std::string const& z) {
+        return R"({"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[1,2)" + z + "]}}";
+    };
+    auto const path = text_file(folder, "p.geojson", head + feature(",3") + "," + feature("") + "]}");
+    EXPECT_TRUE(has(refusal({path}), "feature 2 of p.geojson has no height")) << refusal({path}); // which GDAL calls 1
+}
+
+TEST(ReadPoints, UnequalHeightsAtOnePlace) {
+    ScratchFolder const folder;
+    io::ReadPointsParams params{.path = text_file(folder, "p.csv", "5,5,1\n7,7,4\n5,5,2\n7,7,4\n5,5,6\n")};
+    EXPECT_TRUE(has(refusal(params), "points 1 and 3 of p.csv lie both at (5, 5), at heights of 1 and 2 m; keep one of "
+                                     "them"));
+    params.duplicates = io::DuplicatePoints::averaged;
+    FeaturePoints const read = read_points(params);
+    EXPECT_EQ(read.points, (std::vector<Vec3>{{5, 5, 3}, {7, 7, 4}, {5, 5, 3}, {7, 7, 4}, {5, 5, 3}}));
+    EXPECT_EQ(read.averaged, 1);
+    EXPECT_EQ(read.averaged_dz_m, 5.0);
+    std::string text;
+    for (int i = 0; i < 8; ++i) {
+        text += std::to_string(80 - i) + ",0,1\n" + std::to_string(80 - i) + ",0,2\n";
+    }
+    std::string const many = refusal({text_file(folder, "q.csv", text)});
+    EXPECT_TRUE(has(many, "q.csv has 8 places where points have unequal heights; keep one point at each. The first "
+                          "are: points 1 and 2 of q.csv lie both at (80, 0), at heights of 1 and 2 m; points 3 and 4"))
+        << many;
+    EXPECT_TRUE(has(many, "points 9 and 10") && !has(many, "points 11 and 12")) << many;
+}
+
 TEST(ReadPoints, InPlanTheyNeedNoHeights) {
     ScratchFolder const folder;
     thalweg::io::ReadPointsParams params;
@@ -176,6 +260,21 @@ TEST(ReadPoints, AFileWithoutCrsTakesTheOneAsked) {
     auto const read = read_points({layer(folder, {{"POINT Z (1 2 3)", ""}}, 0), {}, "z", "EPSG:32632"});
     EXPECT_EQ(read.crs, "EPSG:32632");
     EXPECT_EQ(read.points[0], (Vec3{1, 2, 3}));
+}
+
+TEST(ReadPoints, ACrsThatIsMissingCanBeNamed) {
+    ScratchFolder const folder;
+    auto const text = text_file(folder, "a.csv", "x,y,z\n9,0,100\n9.5,1,200\n");
+    auto const moved = read_points({.path = text, .source_crs = "EPSG:4326"});
+    EXPECT_EQ(moved.crs, "EPSG:32632"); // whose central meridian is 9 degrees east
+    EXPECT_NEAR(moved.points[0].x, 500000.0, 1e-3);
+    EXPECT_NEAR(moved.points[0].y, 0.0, 1e-3);
+    EXPECT_EQ(moved.points[1].z, 200.0);
+    EXPECT_EQ(read_points({.path = text, .crs = "EPSG:32631", .source_crs = "EPSG:4326"}).crs, "EPSG:32631");
+    auto const bare = layer(folder, {{"POINT Z (9 0 3)", ""}}, 0);
+    EXPECT_TRUE(has(refusal({.path = bare, .source_crs = ""}), "or name it (--source-crs EPSG:n)"));
+    EXPECT_NEAR(read_points({.path = bare, .source_crs = "EPSG:4326"}).points[0].x, 500000.0, 1e-3);
+    EXPECT_TRUE(has(refusal({.path = text, .source_crs = "here"}), "'here' is not a coordinate system"));
 }
 
 TEST(ContentOf, TellsWhatAFileHolds) {

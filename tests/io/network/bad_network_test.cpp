@@ -102,6 +102,31 @@ TEST(BadNetwork, CurvesBecomeLines) {
     EXPECT_EQ(finding_of(file, "curve").amount, static_cast<double>(file.arcs[1].line.size()));
 }
 
+TEST(BadNetwork, TypesOfCurvesAreLines) {
+    std::string const straight = "(150 200 3, 120 150 2.5, 100 100 2)";
+    for (std::string const& wkt : {"MULTICURVE Z (" + straight + ")", "COMPOUNDCURVE Z (" + straight + ")",
+                                   "MULTICURVE Z (COMPOUNDCURVE Z (" + straight + "))",
+                                   "GEOMETRYCOLLECTION Z (MULTICURVE Z (" + straight + "))"}) {
+        ForeignLayer layer = rivers();
+        layer.type = wkbUnknown;
+        layer.rows[1].first = wkt;
+        NetworkFile const file = read_back(layer);
+        ASSERT_EQ(file.arcs.size(), 3U) << wkt;
+        EXPECT_EQ(file.arcs[1].line, (std::vector<Vec3>{{150, 200, 3}, {120, 150, 2.5}, {100, 100, 2}})) << wkt;
+        EXPECT_EQ(count_of(file, "curve") + count_of(file, "not_a_line"), 0) << wkt;
+    }
+    for (std::string const wkt : {"MULTICURVE Z (CIRCULARSTRING Z (150 200 3, 140 130 2.5, 100 100 2))",
+                                  "COMPOUNDCURVE Z (CIRCULARSTRING Z (150 200 3, 140 130 2.5, 100 100 2))"}) {
+        ForeignLayer layer = rivers();
+        layer.type = wkbUnknown;
+        layer.rows[1].first = wkt;
+        NetworkFile const file = read_back(layer);
+        ASSERT_EQ(file.arcs.size(), 3U) << wkt;
+        EXPECT_GT(file.arcs[1].line.size(), 10U) << wkt;
+        EXPECT_EQ(count_of(file, "curve"), 1) << wkt;
+    }
+}
+
 TEST(BadNetwork, MeasuresAndMissingHeights) {
     ForeignLayer layer = rivers();
     layer.rows[0].first = "LINESTRING ZM (50 200 3 7, 100 100 2 8)";
@@ -200,6 +225,33 @@ TEST(BadNetwork, WhatIsNoLineIsPassedOver) {
     EXPECT_EQ(file.arcs[4].from_node, 0);
     EXPECT_EQ(finding_of(file, "not_a_line").amount, 1.0);
     EXPECT_EQ(file.nodes.size(), 4U);
+}
+
+TEST(BadNetwork, ACrsThatIsMissingCanBeNamed) {
+    ForeignLayer layer = rivers();
+    layer.epsg = 0;
+    ScratchFolder const folder;
+    std::string const path = written(folder, "r.gpkg", "GPKG", {layer});
+    NetworkFile const bare = io::read_network(path, io::ReadNetworkParams{});
+    EXPECT_EQ(bare.crs, "");
+    EXPECT_EQ(count_of(bare, "no_crs"), 1);
+    NetworkFile const named = io::read_network(path, {.source_crs = "EPSG:32631"});
+    EXPECT_EQ(named.crs, "EPSG:32631");
+    EXPECT_EQ(count_of(named, "no_crs"), 0);
+    EXPECT_EQ(named.arcs[0].line, bare.arcs[0].line);
+}
+
+TEST(BadNetwork, CollectionsGiveTheirLines) {
+    ForeignLayer layer = rivers();
+    layer.type = wkbUnknown;
+    std::size_t const before = read_back(layer).arcs.size();
+    layer.rows.push_back({"GEOMETRYCOLLECTION (POINT (0 0), LINESTRING (7 7, 8 8), POINT (1 1))", {"4", "0", "1"}});
+    layer.rows.push_back({"GEOMETRYCOLLECTION (POINT (0 0), POLYGON ((0 0, 1 0, 1 1, 0 0)))", {"5", "0", "1"}});
+    NetworkFile const file = read_back(layer);
+    ASSERT_EQ(file.arcs.size(), before + 1);
+    EXPECT_EQ(file.arcs.back().line.size(), 2U);
+    EXPECT_EQ(count_of(file, "not_a_line"), 2); // a note for each type
+    EXPECT_EQ(finding_of(file, "not_a_line").amount, 3.0);
 }
 
 TEST(BadNetwork, EmptyLayerIsAnEmptyNetwork) {

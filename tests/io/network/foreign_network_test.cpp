@@ -364,7 +364,31 @@ TEST(ForeignNetwork, GrassExtractIsLinkedByPlaces) {
     EXPECT_EQ(flow_of(file), (Flow{{1, 3}, {2, 3}, {3, 0}}));
     Finding const points = finding_of(file, "not_a_line");
     EXPECT_EQ(points.amount, 2.0);
-    EXPECT_TRUE(has(points.text, "feature 1 is not a line, but a POINT"));
+    EXPECT_TRUE(has(points.text, "2 shapes of type Point are not lines and are skipped; the first is in feature 1"));
+}
+
+TEST(ForeignNetwork, LinksWithoutLengthAreBridged) {
+    // TauDEM joins two streams at once: three of them by a link without length.
+    ForeignLayer layer{.name = "net",
+                       .fields = {{"LINKNO", OFTInteger}, {"DSLINKNO", OFTInteger}, {"strmOrder", OFTInteger}},
+                       .rows = {{"LINESTRING (0 0, 0 100)", {"0", "-1", "2"}},
+                                {"LINESTRING (0 100, 0 100)", {"1", "0", "2"}},
+                                {"LINESTRING (0 100, 50 200)", {"2", "0", "1"}},
+                                {"LINESTRING (0 100, 0 100)", {"3", "1", "1"}},
+                                {"LINESTRING (0 100, -50 200)", {"4", "3", "1"}}}};
+    ScratchFolder const folder;
+    std::string const path = written(folder, "net.gpkg", "GPKG", {layer});
+    EXPECT_EQ(io::read_network(path, io::ReadNetworkParams{}).arcs.size(), 5U);
+    NetworkFile const file = io::read_network(path, {.bridge = true});
+    EXPECT_EQ(flow_of(file), (Flow{{1, 0}, {3, 1}, {5, 1}})); // ids from 1: none is 0
+    EXPECT_EQ(count_of(file, "bridged"), 2);
+    EXPECT_EQ(finding_of(file, "bridged").feature, 1);
+    EXPECT_EQ(finding_of(file, "bridged").text, "arc 1 has no length: what flows into it flows into arc 0");
+    EXPECT_FALSE(file.says.strahler);
+    layer.rows[0].second[1] = "1"; // links without length in a circle
+    layer.rows[1].second[1] = "3";
+    NetworkFile const round = io::read_network(written(folder, "round.gpkg", "GPKG", {layer}), {.bridge = true});
+    EXPECT_EQ(flow_of(round), (Flow{{1, 0}, {3, 1}, {5, 0}}));
 }
 
 TEST(ForeignNetwork, FieldsThatAUserNamesAreEnough) {

@@ -243,7 +243,9 @@ TEST(ReadNetworkLinks, ALineInShuffledPiecesIsTheLine) {
             }
             shape.addGeometry(&line);
         }
-        auto const drawn = io::drawn_line(&shape);
+        io::OtherShapes others;
+        auto const drawn = io::drawn_line(&shape, 1, others);
+        RC_ASSERT(others.count() == 0);
         RC_ASSERT(drawn.parts.size() == 1U);
         RC_ASSERT(drawn.parts.front() == whole);
         RC_ASSERT(drawn.drawn_parts == pieces);

@@ -120,9 +120,33 @@ TEST_F(ReadRivers, NoLayerOfLines) {
     auto const points = write("a.gpkg", {{.name = "wells", .type = wkbPoint, .features = {{"POINT(1 2)"}}}});
     EXPECT_TRUE(has(refusal({.path = points}), "a.gpkg has no layer with lines (wells)"));
     EXPECT_TRUE(has(refusal({.path = points, .layer = "wells"}), "a.gpkg, layer wells: it holds Point, not lines"));
-    auto const mixed = write("b.gpkg", {{.type = wkbUnknown, .features = {{"LINESTRING(0 0,1 1)"}, {"POINT(1 2)"}}}});
-    EXPECT_TRUE(has(refusal({.path = mixed}), "feature 2 of b.gpkg is a Point, not a line"))
-        << refusal({.path = mixed});
+    auto const only = write("b.gpkg", {{.type = wkbUnknown, .features = {{"POINT(1 2)"}, {"POINT(1 3)"}}}});
+    EXPECT_TRUE(has(refusal({.path = only}), "b.gpkg has no layer with lines (rivers)")) << refusal({.path = only});
+    EXPECT_TRUE(has(refusal({.path = only, .layer = "rivers"}),
+                    "layer rivers of b.gpkg holds no line: 2 shapes of type Point are not lines and are skipped; the "
+                    "first is in feature 1"))
+        << refusal({.path = only, .layer = "rivers"});
+}
+
+TEST_F(ReadRivers, ShapesThatAreNotLinesAreCounted) {
+    auto const file = write("a.gpkg", {{.type = wkbUnknown,
+                                        .features = {{"POINT(1 2)"},
+                                                     {"POLYGON((0 0,1 0,1 1,0 0))"},
+                                                     {"LINESTRING(0 0,1 1)"},
+                                                     {"GEOMETRYCOLLECTION(POINT(3 3),LINESTRING(1 1,5 1))"},
+                                                     {"GEOMETRYCOLLECTION(POINT(4 4))"},
+                                                     {"LINESTRING(7 7,7 7)"}}}});
+    auto const read = io::read_rivers({.path = file});
+    ASSERT_EQ(read.lines.size(), 2U);
+    EXPECT_EQ(read.lines[0].feature, 3);
+    EXPECT_EQ(read.lines[1].feature, 4);
+    EXPECT_EQ(read.attributes.rows.size(), 6U);
+    ASSERT_EQ(read.findings.size(), 3U);
+    EXPECT_EQ(read.findings[0].kind, "not_a_line");
+    EXPECT_EQ(read.findings[0].amount, 3.0);
+    EXPECT_EQ(read.findings[0].where, (Vec2{1.0, 2.0}));
+    EXPECT_EQ(read.findings[1].text, "1 shape of type Polygon is not a line and is skipped; it is in feature 2");
+    EXPECT_EQ(read.findings[2].kind, "left_out");
 }
 
 TEST_F(ReadRivers, LayersByName) {
@@ -155,6 +179,59 @@ TEST_F(ReadRivers, NoCrs) {
     layer.epsg = 0;
     auto const refused = refusal({.path = write("a.shp", {layer}, "ESRI Shapefile")});
     EXPECT_TRUE(has(refused, "layer a of a.shp has no CRS")) << refused;
+    // A GeoPackage names what has no CRS "Undefined geographic SRS" or "Undefined Cartesian SRS".
+    layer.name = "rivers";
+    auto const file = write("b.gpkg", {layer});
+    for (char const* const id : {"0", "-1"}) {
+        GDALDatasetUniquePtr const data(GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));
+        for (char const* const table : {"gpkg_contents", "gpkg_geometry_columns"}) {
+            data->ExecuteSQL((std::string("UPDATE ") + table + " SET srs_id = " + id).c_str(), nullptr, nullptr);
+        }
+        data->FlushCache();
+        auto const words = refusal({.path = file, .crs = "EPSG:32633", .source_crs = ""});
+        EXPECT_TRUE(has(words, "layer rivers of b.gpkg has no CRS; assign one (ogr2ogr -a_srs EPSG:n) or name it "
+                               "(--source-crs EPSG:n)"))
+            << words;
+    }
+}
+
+TEST_F(ReadRivers, FieldsOfLinksCanBeNamed) {
+    auto layer = two_rivers;
+    layer.fields = {{"nummer", OFTInteger}, {"nach", OFTInteger}};
+    layer.features[0].fields = {{"nummer", "7"}, {"nach", "9"}};
+    layer.features[1].fields = {{"nummer", "9"}, {"nach", "0"}};
+    auto const file = write("a.gpkg", {layer});
+    EXPECT_EQ(io::read_rivers({.path = file}).lines[0].down, 0);
+    auto const named = io::read_rivers({.path = file, .id_field = "Nummer", .down_field = "nach"});
+    EXPECT_EQ(named.lines[0].down, 2);
+    EXPECT_EQ(named.lines[1].down, 0);
+    EXPECT_TRUE(has(refusal({.path = file, .id_field = "nummer", .down_field = "nah"}),
+                    "has no field 'nah'. Did you mean 'nach'?"));
+    EXPECT_THROW(io::read_rivers({.path = file, .id_field = "nummer"}), BadParameter);
+}
+
+TEST_F(ReadRivers, ACrsThatIsMissingCanBeNamed) {
+    auto layer = two_rivers;
+    layer.name = "a";
+    layer.epsg = 0;
+    auto const bare = write("a.shp", {layer}, "ESRI Shapefile");
+    auto const named = io::read_rivers({.path = bare, .source_crs = "EPSG:32633"});
+    EXPECT_EQ(named.crs, "EPSG:32633");
+    EXPECT_EQ(plan(named.lines[0]), (std::vector<Vec2>{{500000, 5000000}, {500100, 5000000.5}}));
+    auto const moved = io::read_rivers({.path = bare, .crs = "EPSG:32632", .source_crs = "EPSG:32633"});
+    EXPECT_EQ(moved.crs, "EPSG:32632");
+    EXPECT_GT(moved.lines[0].vertices[0].x, 900000.0);
+    layer.epsg = 32633;
+    auto const own = io::read_rivers({.path = write("b.gpkg", {layer}), .source_crs = "EPSG:32632"});
+    EXPECT_EQ(own.crs, "EPSG:32633");
+    EXPECT_TRUE(has(refusal({.path = bare, .source_crs = "EPSG:x"}), "'EPSG:x' is not a coordinate system"));
+    EXPECT_TRUE(has(refusal({.path = path("b.gpkg"), .source_crs = "EPSG:x"}), "'EPSG:x' is not a coordinate system"));
+    layer.epsg = 0;
+    layer.features = {{"LINESTRING Z(500000 5000000 100,500100 5000000 50)"}};
+    layer.type = wkbLineString25D;
+    auto const feet = io::read_rivers(
+        {.path = write("a.shp", {layer}, "ESRI Shapefile"), .source_crs = "EPSG:32633+6360"}); // NAVD88 in US feet
+    EXPECT_NEAR(feet.lines[0].vertices[0].z, 100.0 * 1200.0 / 3937.0, 1e-9);
 }
 
 TEST_F(ReadRivers, FeaturesWithoutALineAreLeftOut) {

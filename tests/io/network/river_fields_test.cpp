@@ -108,6 +108,11 @@ TEST(RiverFields, LinksNameLinesOfTheFile) {
     EXPECT_EQ(downs(read({{"HYRIV_ID", OFTInteger64}, {"NEXT_DOWN", OFTInteger64}},
                          {{"20000000001", "20000000002"}, {"20000000002", "0"}})),
               (std::vector<std::int64_t>{2, 0}));
+    // MERIT-Basins has the COMID of NHDPlus and a link of its own.
+    Lines const merit = read({{"COMID", OFTInteger}, {"NextDownID", OFTInteger}, {"uparea", OFTReal}},
+                             {{"27000001", "0", "500"}, {"27000002", "27000001", "300"}});
+    EXPECT_EQ(downs(merit), (std::vector<std::int64_t>{0, 1}));
+    EXPECT_EQ(merit.lines[0].size, (std::vector<double>{500.0}));
     // thalweg's own links come before those that a file kept from NHDPlus.
     EXPECT_EQ(
         downs(read(

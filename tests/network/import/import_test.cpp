@@ -603,6 +603,38 @@ TEST(AdoptLaws, AsDrawn) {
     ASSERT_TRUE(ok);
 }
 
+TEST(Import, OfOpenEndsNothingThatMeetsIsMoved) {
+    // A short sound reach between two confluences, and a river that misses another by 3 m.
+    auto const lines = flats({{{0, 500}, {0, 215}},
+                              {{-300, 500}, {0, 215}},
+                              {{0, 215}, {0, 200}},
+                              {{300, 500}, {0, 200}},
+                              {{0, 200}, {0, 0}},
+                              {{-300, 250}, {-3, 100}}});
+    auto const imported = import_lines(lines, {.snap_m = 20.0, .join = false, .snapped = network::SnappedEnds::open});
+    EXPECT_EQ(count(imported.repairs, "snapped"), 1);
+    EXPECT_EQ(first(imported, "snapped").feature, 6);
+    EXPECT_EQ(first(imported, "snapped").amount, 3.0);
+    EXPECT_EQ(imported.network.outlets().size(), 1U);
+    EXPECT_EQ(imported.network.arc_count(), 7U); // the last river divides the one it meets
+    EXPECT_TRUE(imported.secondary.empty());
+    // A head that lies near the river which its own mouth meets stays.
+    auto const brook = flats({{{0, 200}, {0, 100}}, {{0, 100}, {0, 0}}, {{14, 105}, {0, 100}}});
+    auto const kept = import_lines(brook, {.snap_m = 20.0, .snapped = network::SnappedEnds::open});
+    EXPECT_EQ(kept.network.arc_count(), 3U);
+    EXPECT_EQ(count(kept.repairs, "snapped"), 0);
+    EXPECT_EQ(import_lines(brook, {.snap_m = 20.0}).network.arc_count(), 1U); // all ends: it collapses
+    // A line on its own comes to the river with one end only.
+    auto const piece = flats({{{0, 200}, {0, 0}}, {{5, 110}, {5, 100}}});
+    auto const joined = import_lines(piece, {.snap_m = 20.0, .snapped = network::SnappedEnds::open});
+    EXPECT_EQ(count(joined.repairs, "snapped"), 1);
+    EXPECT_TRUE(joined.secondary.empty());
+    // Rivers side by side are no copies.
+    auto const beside = flats({{{0, 200}, {0, 0}}, {{6, 200}, {6, 0}}});
+    EXPECT_EQ(count(import_lines(beside, {.snap_m = 20.0, .snapped = network::SnappedEnds::open}).repairs, "duplicate"),
+              0);
+}
+
 // Law: ends moved by less than half of snap_m are found together again; no vertex moves further than snap_m.
 TEST(AdoptLaws, MovedEndsAreSnapped) {
     bool const ok = rc::check([] {

@@ -103,6 +103,32 @@ TEST(BlendMesh, IsMovedTurnedScaledAndRaised) {
     EXPECT_EQ(nlohmann::json::parse(far.out)["at"], nlohmann::json::parse("[50.0, 50.0]"));
 }
 
+TEST(BlendMesh, QuadrilateralsAreCutIntoTriangles) {
+    Workplace const place;
+    write_meshes(place);
+    std::string land = "MESH2D\n";
+    for (int i = 0; i < 36; ++i) {
+        land += "ND " + std::to_string(i + 1) + " " + std::to_string(20 * (i % 6)) + " " +
+                std::to_string(20 * (i / 6)) + " 50\n";
+    }
+    for (int i = 1; i <= 29; ++i) {
+        if (i % 6 != 0) {
+            land += "E4Q " + std::to_string(i) + " " + std::to_string(i) + " " + std::to_string(i + 1) + " " +
+                    std::to_string(i + 7) + " " + std::to_string(i + 6) + " 1\n";
+        }
+    }
+    place.write("land.2dm", land);
+    Outcome const o = blend(place, "land.2dm hill.obj -o both.obj --source-crs EPSG:32632");
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.err.find("land.2dm: 25 faces with more than three corners are cut into triangles"), std::string::npos)
+        << o.err;
+    io::TinFile const both = io::read_tin((place / "both.obj").string());
+    EXPECT_EQ(both.crs, "EPSG:32632");
+    for (Vec3 const& v : both.tin.vertices) {
+        EXPECT_NEAR(v.z, 50.0 + tent(v.x, v.y), 1e-6);
+    }
+}
+
 TEST(BlendMesh, TheExampleOfTheHelpRuns) {
     Workplace const place;
     place.write("land.obj", obj(10, 100.0, {511500, 4989500}, level));

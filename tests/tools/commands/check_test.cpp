@@ -64,6 +64,86 @@ std::vector<std::string> kinds(json const& findings) {
 
 } // namespace
 
+TEST(Check, TauDemsLinksWithoutLengthAreBridged) {
+    Workplace const place;
+    place.write("net.csv", "WKT,LINKNO,DSLINKNO,strmOrder\n"
+                           "\"LINESTRING (500000 5000000,500100 5002500,500000 5005000)\",0,-1,2\n"
+                           "\"LINESTRING (500000 5005000,500000 5005000)\",1,0,2\n"
+                           "\"LINESTRING (500000 5005000,502500 5007000,504000 5009000)\",2,0,1\n"
+                           "\"LINESTRING (500000 5005000,500100 5007500,500000 5010000)\",3,1,1\n"
+                           "\"LINESTRING (500000 5005000,497500 5007000,496000 5009000)\",4,1,1\n");
+    auto const packed = [&](std::string const& name) {
+        return std::system(("cd '" + place.path().string() + "' && ogr2ogr " + name +
+                            " net.csv -a_srs EPSG:32632 -oo AUTODETECT_TYPE=YES -nlt LINESTRING -nln net")
+                               .c_str());
+    };
+    ASSERT_EQ(packed("net.gpkg"), 0);
+    Outcome const o = thalweg_run("check net.gpkg", place.path());
+    EXPECT_EQ(o.code, 0) << o.out << o.err;
+    EXPECT_NE(o.out.find("note: arc 1 has no length: what flows into it flows into arc 0"), std::string::npos) << o.out;
+    Outcome const fixed = thalweg_run("check net.gpkg --fix mended.gpkg --json", place.path());
+    EXPECT_EQ(fixed.code, 0) << fixed.out << fixed.err;
+    EXPECT_EQ(json::parse(thalweg_run("check mended.gpkg --json", place.path()).out)["arcs"], 4);
+    Outcome const converted = thalweg_run("convert net.gpkg -o native.gpkg --json", place.path());
+    EXPECT_EQ(converted.code, 0) << converted.out << converted.err;
+    EXPECT_EQ(json::parse(converted.out)["arcs"], 4);
+    // Messages name the file's own ids, which begin at 0.
+    place.write("net.csv", "WKT,LINKNO,DSLINKNO\n\"LINESTRING (500000 5000000,500000 5005000)\",0,-1\n"
+                           "\"LINESTRING (500000 5005000,500000 5010000)\",1,-1\n");
+    ASSERT_EQ(packed("wrong.gpkg"), 0);
+    Outcome const refused = thalweg_run("convert wrong.gpkg -o a.gpkg", place.path());
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("arc 1 says that none is downstream of it, but its node"), std::string::npos)
+        << refused.err;
+    EXPECT_NE(refused.err.find("leads to 0;"), std::string::npos) << refused.err;
+}
+
+TEST(Check, FixMovesOpenEndsOnly) {
+    Workplace const place;
+    place.write("rivers.csv", "WKT\n"
+                              "\"LINESTRING (500000 5005000,500000 5002015)\"\n"
+                              "\"LINESTRING (497000 5005000,500000 5002015)\"\n"
+                              "\"LINESTRING (500000 5002015,500000 5002000)\"\n"
+                              "\"LINESTRING (503000 5005000,500000 5002000)\"\n"
+                              "\"LINESTRING (500000 5002000,500000 5000000)\"\n"
+                              "\"LINESTRING (497000 5002500,499997 5001000)\"\n");
+    ASSERT_EQ(std::system(("cd '" + place.path().string() +
+                           "' && ogr2ogr rivers.gpkg rivers.csv -a_srs EPSG:32632 -nlt LINESTRING -nln rivers")
+                              .c_str()),
+              0);
+    Outcome const o = thalweg_run("check rivers.gpkg --near 20 --fix mended.gpkg --json", place.path());
+    json const report = json::parse(o.out);
+    int moved = 0;
+    for (auto const& f : report["mended"]) {
+        moved += f["kind"] == "snapped" ? 1 : 0;
+        EXPECT_NE(f["kind"], "removed") << f;
+    }
+    EXPECT_EQ(moved, 1) << report["mended"];
+    Outcome const again = thalweg_run("check mended.gpkg --json", place.path());
+    EXPECT_EQ(again.code, 0) << again.out << again.err;
+    EXPECT_EQ(json::parse(again.out)["arcs"], 7);
+}
+
+TEST(Check, AMendedCopyKeepsEveryCurve) {
+    Workplace const place;
+    place.write("rivers.csv", "WKT\n"
+                              "\"CIRCULARSTRING (500000 5010000,500400 5007500,500000 5005000)\"\n"
+                              "\"COMPOUNDCURVE (CIRCULARSTRING (504000 5010000,503000 5008000,502000 5007000),"
+                              "(502000 5007000,500000 5005000))\"\n"
+                              "\"MULTICURVE ((500000 5005000,500100 5002000,500000 5000000))\"\n");
+    ASSERT_EQ(std::system(("cd '" + place.path().string() +
+                           "' && ogr2ogr rivers.gpkg rivers.csv -a_srs EPSG:32632 -nlt GEOMETRY -nln rivers")
+                              .c_str()),
+              0);
+    Outcome const o = thalweg_run("check rivers.gpkg --fix mended.gpkg --json", place.path());
+    ASSERT_EQ(o.code, 0) << o.out << o.err;
+    EXPECT_EQ(json::parse(o.out)["arcs"], 3);
+    Outcome const again = thalweg_run("check mended.gpkg --json", place.path());
+    EXPECT_EQ(again.code, 0) << again.out << again.err;
+    EXPECT_EQ(json::parse(again.out)["arcs"], 3);
+    EXPECT_EQ(json::parse(again.out)["nodes"], 4);
+}
+
 TEST(Check, ACleanFileIsOk) {
     Workplace const place;
     write_network(place);

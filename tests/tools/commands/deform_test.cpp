@@ -155,24 +155,23 @@ TEST(Deform, RotatesAPartOfAMeshOutOfThePlane) {
     place.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n");
     place.write("few.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
     place.write("zero.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n");
-    place.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n");
     place.write("short.off", "OFF\n99999999999 1 0\n0 0 0\n");
     place.write("none.2dm", "MESH2D\n");
-    place.write("quad.2dm", "MESH2D\nE4Q 1 1 2 3 4 1\n");
+    place.write("curved.2dm", "MESH2D\nE6T 1 1 2 3 4 5 6 1\n");
     std::string const rest = " -o out.obj --mask region.geojson --scale 2";
     refused("bad.obj" + rest, "bad.obj, line 3: 'nan' is not a coordinate");
-    refused("few.obj" + rest, "triangle 1 names a vertex that is not there");
-    refused("zero.obj" + rest, "triangle 1 names a vertex that is not there");
-    refused("quad.obj" + rest, "more than three corners");
+    refused("few.obj" + rest, "face 1 names a vertex that is not there");
+    refused("zero.obj" + rest, "face 1 names a vertex that is not there");
     refused("short.off" + rest, "ends after 1 of 99999999999 vertices");
     refused("none.2dm" + rest, "no triangles");
-    refused("quad.2dm" + rest, "E4Q is not a triangle");
+    refused("curved.2dm" + rest, "E6T is neither a triangle (E3T) nor a quadrilateral (E4Q)");
     refused("mesh.obj -o out.obj --mask region.geojson", "nothing to do");
     refused("mesh.obj -o out.obj --mask region.geojson --rotate 5 --axis 1,2", "it takes three");
     refused("mesh.obj -o out.obj --mask region.geojson --rotate 5 --axis 0,0,0", "has no direction");
     refused("mesh.obj -o out.txt --mask region.geojson --rotate 5", "2dm");
     write_lands(place);
     refused("land.tif -o out.tif --mask region.tif --rotate 5", "turn meshes");
+    refused("land.tif -o out.tif --mask region.tif --scale 2 --source-crs EPSG:32631", "--source-crs is for meshes");
 }
 
 } // namespace deform_test

@@ -348,4 +348,58 @@ TEST(GivenRivers, StrokesThatNearlyTouchPassAllChecksOnceTheAdviceIsTaken) {
     }
 }
 
+TEST(GivenRivers, FieldsOfLinksCanBeNamed) {
+    Workplace const place;
+    auto const river = [](std::string const& ids, std::string const& vertices) {
+        return R"({"type":"Feature","properties":{)" + ids + R"(},"geometry":{"type":"LineString","coordinates":[)" +
+               vertices + "]}}";
+    };
+    // Drawn from the mouth upward.
+    place.write(
+        "up.geojson",
+        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32632"}},"features":[)" +
+            river(R"("own":1,"next":0)", "[500000,5000000],[500200,5002500],[500000,5005000]") + "," +
+            river(R"("own":2,"next":1)", "[500000,5005000],[500300,5007500],[499000,5010000]") + "," +
+            river(R"("own":3,"next":1)", "[500000,5005000],[502000,5007000],[504000,5009500]") + "]}");
+    json const report = made(place, "up.geojson", coarse + " --field arc_id=own --field ds_arc=next", "out");
+    EXPECT_EQ(report["recipe"]["network"]["lines"]["down_field"], "next");
+    EXPECT_NEAR(report["given"]["turned_m"].get<double>(), report["given"]["kept_m"].get<double>(), 1.0);
+    expect_refused(place, "make up.geojson -o a --field ds_arc=next",
+                   "the field 'next' is named without its other half");
+    expect_refused(place, "make up.geojson -o a --field arc_id=own --field ds_arc=nxt", "Did you mean 'next'?");
+    expect_refused(place, "make up.geojson -o a --field strahler=own", "make reads arc_id, ds_arc, key");
+    expect_refused(place, "make up.geojson -o a --field next", "write QUANTITY=NAME");
+}
+
+TEST(GivenRivers, ALayerOfMixedShapesWithoutCrs) {
+    Workplace const place;
+    place.write("mixed.csv", "WKT,waterway\n"
+                             "POINT (500500 5004000),spring\n"
+                             "\"POLYGON ((0 0,1 0,1 1,0 0))\",\n"
+                             "\"LINESTRING (500000 5005000,500200 5002500,500000 5000000)\",river\n"
+                             "\"GEOMETRYCOLLECTION (POINT (1 1),LINESTRING (499000 5010000,500000 5005000))\",stream\n"
+                             "\"LINESTRING (504000 5009500,500000 5005000)\",stream\n");
+    run_gdal("ogr2ogr mixed.gpkg mixed.csv -nlt GEOMETRY -nln rivers -a_srs NONE", place);
+    expect_refused(
+        place, "make mixed.gpkg -o a",
+        "layer rivers of mixed.gpkg has no CRS; assign one (ogr2ogr -a_srs EPSG:n) or name it (--source-crs");
+    Outcome const o = thalweg_run("make mixed.gpkg --source-crs EPSG:32632 -o out" + coarse, place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.err.find("2 shapes of type Point are not lines and are skipped; the first is in feature 1"),
+              std::string::npos)
+        << o.err;
+    EXPECT_NE(o.err.find("1 shape of type Polygon is not a line and is skipped; it is in feature 2"), std::string::npos)
+        << o.err;
+    json const report = json::parse(file_bytes(place / "out/report.json"));
+    EXPECT_EQ(report["recipe"]["grid"]["crs"], "EPSG:32632");
+    EXPECT_EQ(thalweg_run("recipe --for mixed.gpkg", place.path()).code, 2);
+    Outcome const recipe = thalweg_run("recipe --for mixed.gpkg --source-crs EPSG:32632", place.path());
+    EXPECT_EQ(recipe.code, 0) << recipe.err;
+    EXPECT_NE(recipe.out.find("source_crs = 'EPSG:32632'"), std::string::npos) << recipe.out;
+    // The recipe of the folder makes the same again.
+    Outcome const again = thalweg_run("make out/recipe.toml -o again", place.path());
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(file_bytes(place / "out/dem.tif"), file_bytes(place / "again/dem.tif"));
+}
+
 } // namespace given_rivers_test

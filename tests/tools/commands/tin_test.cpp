@@ -97,6 +97,47 @@ TEST(Tin, OfAFolderKeepsItsRidges) {
               nlohmann::json::parse(arcs.out)["vertices"].get<int>() + 20);
 }
 
+TEST(Tin, TheCrsOfPointsCanBeNamed) {
+    Workplace const place;
+    place.write("p.csv", "x,y,z\n9,45,100\n9.01,45,120\n9,45.01,140\n");
+    Outcome const o = thalweg_run("tin p.csv --source-crs EPSG:4326 -o a.2dm --json", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(nlohmann::json::parse(o.out)["crs"], "EPSG:32632");
+    EXPECT_NE(file_bytes(place / "a.2dm").find(" 500000 49828"), std::string::npos) << file_bytes(place / "a.2dm");
+}
+
+TEST(Tin, ColumnsOfPointsCanBeNamed) {
+    Workplace const place;
+    place.write("p.csv", "1,5000000.0,500000.0,210.5\n2,5000100.0,500900.0,180.2\n3,5000800.0,500300.0,240.1\n");
+    refused(place, "p.csv -o a.xyz", "p.csv, line 1: 4 columns without names");
+    ASSERT_EQ(thalweg_run("tin p.csv -o a.xyz --columns pnezd", place.path()).code, 0);
+    EXPECT_EQ(file_bytes(place / "a.xyz"), "500000 5000000 210.5\n500900 5000100 180.2\n500300 5000800 240.1\n");
+    refused(place, "p.csv -o b.xyz --columns 1,2", "'1,2' does not name the columns of x, y and z");
+    write_dem(place);
+    refused(place, "dem.asc -o b.2dm --columns pnezd", "--columns applies to text with points; dem.asc holds a DEM");
+}
+
+TEST(Tin, DuplicatePointsTakeTheirMean) {
+    Workplace const place;
+    place.write("p.csv", "x,y,z\n500000,5000000,210\n500900,5000100,180\n500300,5000800,240\n500300,5000800,240.4\n"
+                         "500600,5000400,200\n500600,5000400,200\n");
+    Outcome const o = thalweg_run("tin p.csv -o a.2dm --json", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.err.find("2 duplicate points are merged, at 1 place into the mean of heights up to 0.400 m apart"),
+              std::string::npos)
+        << o.err;
+    auto const json = nlohmann::json::parse(o.out);
+    EXPECT_EQ(json["vertices"], 4);
+    EXPECT_EQ(json["merged"], 2);
+    EXPECT_EQ(json["averaged"], 1);
+    EXPECT_NE(file_bytes(place / "a.2dm").find(" 500300 5000800 240.2\n"), std::string::npos);
+    refused(place, "p.csv -o b.2dm --duplicates error",
+            "points 3 and 4 of p.csv lie both at (500300, 5000800), at heights of 240 and 240.4 m");
+    refused(place, "p.csv -o b.2dm --duplicates none", "--duplicates");
+    write_dem(place);
+    refused(place, "dem.asc -o b.2dm --duplicates mean", "--duplicates applies to points only; dem.asc holds a DEM");
+}
+
 TEST(Tin, NothingIsOverwrittenUnasked) {
     Workplace const place;
     place.write("p.csv", points);
@@ -133,6 +174,7 @@ TEST(Tin, BadInputIsRefused) {
     refused(place, "dem.asc -o a.2dm --error nan", "greater than 0");
     refused(place, "dem.asc -o a.2dm --error much", "--error");
     refused(place, "dem.asc -o a.2dm --breaklines flat.geojson", "not to a DEM");
+    refused(place, "dem.asc -o a.2dm --source-crs EPSG:32631", "not to a DEM");
     refused(place, "p.csv -o a.2dm --error 3", "--error applies to a DEM only");
     refused(place, "p.csv -o a.2dm --breaklines dem.asc", "holds no lines");
     refused(place, "p.csv -o a.2dm --breaklines flat.geojson", "have no heights");

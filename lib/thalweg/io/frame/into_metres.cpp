@@ -76,6 +76,11 @@ bool is_missing(OGRSpatialReference const* reference) {
            (reference->GetName() != nullptr && std::string_view(reference->GetName()).starts_with("Undefined"));
 }
 
+OGRSpatialReference crs_of_layer(OGRSpatialReference const* own, std::string const& source_crs) {
+    OGRSpatialReference const named = source_crs.empty() ? OGRSpatialReference() : read_reference(source_crs);
+    return is_missing(own) ? named : *own;
+}
+
 struct IntoMetres::Turn {
     Transformation into;
 };

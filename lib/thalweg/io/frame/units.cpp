@@ -12,6 +12,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/internal/simple_name.hpp>
+#include <thalweg/io/frame/internal/into_metres.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 
 namespace thalweg::io {
@@ -93,10 +94,11 @@ double height_unit_of(GDALDataset& dataset) {
     return vertical_unit(dataset.GetSpatialRef());
 }
 
-double height_unit_of(OGRLayer& layer) {
+double height_unit_of(OGRLayer& layer, std::string const& source_crs) {
     int const field = layer.GetLayerDefn()->GetFieldIndex("z_unit");
     if (field < 0 || layer.GetLayerDefn()->GetFieldDefn(field)->GetType() != OFTString) {
-        return vertical_unit(layer.GetSpatialRef());
+        OGRSpatialReference const reference = crs_of_layer(layer.GetSpatialRef(), source_crs);
+        return vertical_unit(&reference);
     }
     Driver const driver;
     layer.ResetReading();

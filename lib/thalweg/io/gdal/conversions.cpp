@@ -24,7 +24,7 @@ namespace thalweg::io {
 namespace {
 
 struct Units {
-    OGRSpatialReference const* crs = nullptr;
+    OGRSpatialReference crs;
     double height_m = 1.0;
     bool names_height = false; ///< the file says what its heights are in
     bool has_heights = false;
@@ -41,20 +41,20 @@ OGRLayer* layer_of(GDALDataset& data, std::string const& wanted, std::string con
     }
 }
 
-Units units_of(GDALDataset& data, std::string const& wanted, std::string const& path) {
+Units units_of(GDALDataset& data, std::string const& wanted, std::string const& path, std::string const& source_crs) {
     Units units;
     if (data.GetRasterCount() > 0) {
-        units.crs = data.GetSpatialRef();
+        units.crs = crs_of_layer(data.GetSpatialRef(), "");
         units.height_m = height_unit_of(data);
         units.names_height = unit_named(data.GetRasterBand(1)->GetUnitType()).has_value();
         units.has_heights = true;
     } else if (OGRLayer* const layer = layer_of(data, wanted, path)) {
-        units.crs = layer->GetSpatialRef();
-        units.height_m = height_unit_of(*layer);
+        units.crs = crs_of_layer(layer->GetSpatialRef(), source_crs);
+        units.height_m = height_unit_of(*layer, source_crs);
         units.names_height = layer->GetLayerDefn()->GetFieldIndex("z_unit") >= 0;
         units.has_heights = OGR_GT_HasZ(layer->GetGeomType()) != 0;
     }
-    units.names_height = units.names_height || has_vertical_unit(units.crs);
+    units.names_height = units.names_height || has_vertical_unit(&units.crs);
     return units;
 }
 
@@ -64,7 +64,8 @@ std::string unit_in_plan(OGRSpatialReference const& crs) {
 
 } // namespace
 
-std::vector<std::string> conversions_of(std::string const& path, std::string const& layer, std::string const& crs) {
+std::vector<std::string> conversions_of(std::string const& path, std::string const& layer, std::string const& crs,
+                                        std::string const& source_crs) {
     if (is_text_of_points(path) || crs.empty()) {
         return {};
     }
@@ -74,12 +75,12 @@ std::vector<std::string> conversions_of(std::string const& path, std::string con
     if (!data) {
         return {};
     }
-    Units const units = units_of(*data, layer, path);
+    Units const units = units_of(*data, layer, path, source_crs);
     std::string const name = std::filesystem::path(path).filename().string();
     std::vector<std::string> said;
     bool in_feet = false;
-    if (!is_missing(units.crs)) {
-        OGRSpatialReference plan(*units.crs);
+    if (units.crs.IsEmpty() == 0) {
+        OGRSpatialReference plan(units.crs);
         plan.StripVertical();
         in_feet = plan.IsProjected() != 0 && std::fabs(plan.GetLinearUnits() - 1.0) > 1e-9;
         OGRSpatialReference target = read_reference(crs);

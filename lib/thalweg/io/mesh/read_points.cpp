@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
@@ -62,7 +63,7 @@ std::vector<std::string_view> split_fields(std::string_view line) {
     return fields;
 }
 
-std::optional<double> number(std::string_view text) {
+std::optional<double> number_of_text(std::string_view text) {
     text = text.starts_with('+') ? text.substr(1) : text;
     double value = 0.0;
     auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -70,29 +71,127 @@ std::optional<double> number(std::string_view text) {
     return whole ? std::optional(value) : std::nullopt;
 }
 
-// Where x, y and z stand in a first line of names; nothing when it is one of numbers.
-std::optional<std::array<std::size_t, 3>> columns_of(std::vector<std::string_view> const& names, std::size_t wanted,
-                                                     std::string const& name) {
-    if (std::ranges::all_of(names, [](std::string_view f) { return number(f).has_value(); })) {
-        return std::nullopt;
-    }
-    std::array<std::size_t, 3> columns{};
-    for (std::size_t k = 0; k < wanted; ++k) {
-        auto const is_it = [&](std::string_view f) { return f.size() == 1 && lowered(f[0]) == "xyz"[k]; };
-        auto const at = std::ranges::find_if(names, is_it);
-        if (at == names.end()) {
-            refuse_points(fmt::format(
-                "{}, first line: no column '{}'; name them x, y and z, or begin with three numbers", name, "xyz"[k]));
-        }
-        columns[k] = static_cast<std::size_t>(at - names.begin());
-    }
-    return columns;
+/// Where x, y and z stand in a line, from 0.
+using PointColumns = std::array<std::size_t, 3>;
+
+std::string lowered_text(std::string_view text) {
+    std::string small(text);
+    std::ranges::transform(small, small.begin(), lowered);
+    return small;
 }
 
-std::vector<Vec3> parse(std::string const& text, PointHeights heights, std::string const& name, Run const& run) {
-    std::size_t const wanted = heights == PointHeights::wanted ? 3 : 2;
+/// Text of points, as far as it is understood.
+class PointText {
+public:
+    PointText(ReadPointsParams const& params, std::string const& name)
+        : name_(name), wanted_(params.heights == PointHeights::wanted ? 3 : 2), offered_(params.columns.has_value()) {
+        std::string const columns = params.columns.value_or("");
+        if (columns.empty()) {
+            return;
+        }
+        if (lowered_text(columns) == "pnezd") {
+            names_ = {"3", "2", "4"};
+        } else {
+            for (std::string_view const column : split_fields(columns)) {
+                names_.emplace_back(lowered_text(column));
+            }
+        }
+        bool const is_right = names_.size() == 3 || names_.size() == wanted_;
+        if (!is_right || std::ranges::any_of(names_, &std::string::empty)) {
+            throw BadParameter(fmt::format("io.read_points: '{}' does not name the columns of x, y and z: give three "
+                                           "names or numbers, such as 3,2,4, or pnezd",
+                                           columns));
+        }
+    }
+
+    /// Takes the first line. Gives: whether it holds names.
+    bool begin(std::vector<std::string_view> const& fields) {
+        return names_.empty() ? begin_unnamed(fields) : begin_named(fields);
+    }
+
+    Vec3 point(std::vector<std::string_view> const& fields, std::int64_t line) const {
+        std::array<double, 3> values{};
+        for (std::size_t k = 0; k < wanted_; ++k) {
+            if (columns_[k] >= fields.size()) {
+                refuse_points(
+                    fmt::format("{}, line {}: {} of the columns, {} is missing", name_, line, fields.size(), "xyz"[k]));
+            }
+            auto const value = number_of_text(fields[columns_[k]]);
+            if (!value || !std::isfinite(*value)) {
+                refuse_points(fmt::format("{}, line {}: {} is '{}': a finite number is required", name_, line, "xyz"[k],
+                                          fields[columns_[k]]));
+            }
+            values[k] = *value;
+        }
+        if (is_bare_ && fields.size() > 3) {
+            refuse_points(fmt::format("{}, line {}: {} columns without names: which of them are x, y and z? Name them "
+                                      "in a first line{}",
+                                      name_, line, fields.size(), offer()));
+        }
+        return {values[0], values[1], values[2]};
+    }
+
+private:
+    std::string offer() const {
+        return offered_ ? ", or by number (--columns 3,2,4; --columns pnezd for number, northing, easting, height, "
+                          "description)"
+                        : "";
+    }
+
+    bool begin_unnamed(std::vector<std::string_view> const& names) {
+        if (std::ranges::all_of(names, [](std::string_view f) { return number_of_text(f).has_value(); })) {
+            is_bare_ = true;
+            return false;
+        }
+        for (std::size_t k = 0; k < wanted_; ++k) {
+            auto const is_it = [&](std::string_view f) { return f.size() == 1 && lowered(f[0]) == "xyz"[k]; };
+            auto const at = std::ranges::find_if(names, is_it);
+            if (at == names.end()) {
+                refuse_points(
+                    fmt::format("{}, first line: no column '{}'; name them x, y and z, or begin with three numbers{}",
+                                name_, "xyz"[k], offer()));
+            }
+            columns_[k] = static_cast<std::size_t>(at - names.begin());
+        }
+        return true;
+    }
+
+    bool begin_named(std::vector<std::string_view> const& fields) {
+        bool by_name = false;
+        for (std::size_t k = 0; k < names_.size(); ++k) {
+            std::size_t number = 0;
+            std::string const& word = names_[k];
+            auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+            if (error == std::errc() && end == word.data() + word.size() && number > 0) {
+                columns_[k] = number - 1;
+                continue;
+            }
+            auto const at = std::ranges::find_if(fields, [&](std::string_view f) { return lowered_text(f) == word; });
+            if (at == fields.end()) {
+                refuse_points(fmt::format("{}, first line: no column '{}' ({})", name_, word, fmt::join(fields, ", ")));
+            }
+            columns_[k] = static_cast<std::size_t>(at - fields.begin());
+            by_name = true;
+        }
+        // With numbers alone a first line may hold names or not.
+        return by_name ||
+               std::ranges::none_of(columns_.begin(), columns_.begin() + static_cast<int>(wanted_), [&](std::size_t c) {
+                   return c < fields.size() && number_of_text(fields[c]).has_value();
+               });
+    }
+
+    std::string const& name_;
+    std::size_t wanted_;
+    bool offered_;
+    std::vector<std::string> names_;
+    PointColumns columns_{0, 1, 2};
+    bool is_bare_ = false; ///< neither named nor numbered
+};
+
+std::vector<Vec3> parse(std::string const& text, ReadPointsParams const& params, std::string const& name,
+                        Run const& run) {
+    PointText reader(params, name);
     std::vector<Vec3> points;
-    std::array<std::size_t, 3> columns{0, 1, 2};
     std::string_view rest = text;
     rest = rest.starts_with("\xEF\xBB\xBF") ? rest.substr(3) : rest;
     bool is_first = true;
@@ -107,29 +206,21 @@ std::vector<Vec3> parse(std::string const& text, PointHeights heights, std::stri
             continue;
         }
         auto const fields = split_fields(words);
-        if (is_first) {
-            is_first = false;
-            if (auto const named = columns_of(fields, wanted, name)) {
-                columns = *named;
-                continue;
-            }
+        bool const may_be_names = is_first;
+        is_first = false;
+        if (!may_be_names || !reader.begin(fields)) {
+            points.push_back(reader.point(fields, line));
         }
-        std::array<double, 3> values{};
-        for (std::size_t k = 0; k < wanted; ++k) {
-            if (columns[k] >= fields.size()) {
-                refuse_points(
-                    fmt::format("{}, line {}: {} of the columns, {} is missing", name, line, fields.size(), "xyz"[k]));
-            }
-            auto const value = number(fields[columns[k]]);
-            if (!value || !std::isfinite(*value)) {
-                refuse_points(fmt::format("{}, line {}: {} is '{}': a finite number is required", name, line, "xyz"[k],
-                                          fields[columns[k]]));
-            }
-            values[k] = *value;
-        }
-        points.push_back({values[0], values[1], values[2]});
     }
     return points;
+}
+
+/// Whether numbers can only be longitudes and latitudes.
+bool are_degrees(std::vector<Vec3> const& points) {
+    return !points.empty() && std::ranges::all_of(points, [](Vec3 const& p) {
+        bool const has_fraction = p.x != std::floor(p.x) || p.y != std::floor(p.y);
+        return has_fraction && std::fabs(p.x) <= 180.0 && std::fabs(p.y) <= 90.0;
+    });
 }
 
 bool may_hold_points(OGRwkbGeometryType type) {
@@ -182,29 +273,31 @@ std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::str
     bool const in_plan = params.heights == PointHeights::passed_over;
     int const field = in_plan ? -1 : layer.GetLayerDefn()->GetFieldIndex(z_field.c_str());
     std::vector<Vec3> points;
+    std::int64_t number = 0; // of the feature, from 1, as in other files: numbers of formats may begin with 0
     for (auto const& feature : layer) {
         run.check();
+        ++number;
         auto const* const geometry = feature->GetGeometryRef();
         if (geometry == nullptr) {
-            refuse_points(fmt::format("feature {} of {} has no point; remove it", feature->GetFID(), name));
+            refuse_points(fmt::format("feature {} of {} has no point; remove it", number, name));
         }
         bool const has_field = field >= 0 && feature->IsFieldSetAndNotNull(field) != 0;
         if (!has_field && !in_plan && geometry->Is3D() == 0) {
-            refuse_points(fmt::format("feature {} of {} has no height: neither Z nor a field '{}'", feature->GetFID(),
-                                      name, z_field));
+            refuse_points(
+                fmt::format("feature {} of {} has no height: neither Z nor a field '{}'", number, name, z_field));
         }
         std::optional<double> field_z = 0.0;
         if (has_field) {
-            field_z = number(trimmed(feature->GetFieldAsString(field)));
+            field_z = number_of_text(trimmed(feature->GetFieldAsString(field)));
             if (layer.GetLayerDefn()->GetFieldDefn(field)->GetType() == OFTReal) {
                 field_z = feature->GetFieldAsDouble(field); // its text is rounded
             }
         }
         if (!field_z) {
-            refuse_points(fmt::format("feature {} of {}: {} is '{}', not a number", feature->GetFID(), name, z_field,
+            refuse_points(fmt::format("feature {} of {}: {} is '{}', not a number", number, name, z_field,
                                       feature->GetFieldAsString(field)));
         }
-        add(*geometry, *field_z, feature->GetFID(), name, points);
+        add(*geometry, *field_z, number, name, points);
     }
     return points;
 }
@@ -213,6 +306,21 @@ FileBox extent_of(std::vector<Vec3> const& points) {
     auto const [west, east] = std::ranges::minmax_element(points, {}, &Vec3::x);
     auto const [south, north] = std::ranges::minmax_element(points, {}, &Vec3::y);
     return {{west->x, south->y}, {east->x, north->y}};
+}
+
+/// Reprojects points from their CRS.
+void bring_points(FeaturePoints& read, OGRSpatialReference const& own, std::string const& wanted,
+                  std::string const& name, Driver const& driver) {
+    IntoMetres const metres(own, wanted, extent_of(read.points), name);
+    read.crs = metres.crs();
+    auto const done = metres.apply(read.points);
+    for (std::size_t i = 0; i < done.size(); ++i) {
+        if (done[i] == 0) {
+            refuse_points(fmt::format("point {} of {}, ({}, {}), cannot be reprojected to {}: {}", i + 1, name,
+                                      read.points[i].x, read.points[i].y, read.crs, driver.take()));
+        }
+        read.points[i].z *= metres.height_unit_m();
+    }
 }
 
 FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name, Run const& run) {
@@ -225,45 +333,103 @@ FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name
     if (read.points.empty()) {
         return read;
     }
-    OGRSpatialReference const* const own = layer.GetSpatialRef();
-    if (is_missing(own)) {
-        if (params.crs.empty()) {
-            refuse_points(
-                fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
-        }
-        read.crs = projected_crs(params.crs);
+    OGRSpatialReference const own = crs_of_layer(layer.GetSpatialRef(), params.source_crs.value_or(""));
+    if (own.IsEmpty() == 0) {
+        bring_points(read, own, params.crs, name, driver);
         return read;
     }
-    IntoMetres const metres(*own, params.crs, extent_of(read.points), name);
-    read.crs = metres.crs();
-    auto const done = metres.apply(read.points);
-    for (std::size_t i = 0; i < done.size(); ++i) {
-        if (done[i] == 0) {
-            refuse_points(fmt::format("point {} of {}, ({}, {}), cannot be reprojected to {}: {}", i + 1, name,
-                                      read.points[i].x, read.points[i].y, read.crs, driver.take()));
-        }
-        read.points[i].z *= metres.height_unit_m();
+    if (params.crs.empty()) {
+        refuse_points(fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n){}", layer.GetName(),
+                                  name, params.source_crs ? " or name it (--source-crs EPSG:n)" : ""));
     }
+    read.crs = projected_crs(params.crs);
     return read;
 }
 
-/// One place has one height.
-void refuse_two_heights(std::vector<Vec3> const& points, std::string const& name) {
+FeaturePoints read_point_text(ReadPointsParams const& params, std::string const& name, Run const& run) {
+    constexpr std::int64_t most_bytes = std::int64_t{1} << 34;
+    Driver const driver;
+    FeaturePoints read;
+    read.points = parse(read_text(params.path, most_bytes), params, name, run);
+    OGRSpatialReference const own = crs_of_layer(nullptr, params.source_crs.value_or(""));
+    if (own.IsEmpty() == 0 && !read.points.empty()) {
+        bring_points(read, own, params.crs, name, driver);
+        return read;
+    }
+    if (params.source_crs && params.crs.empty() && are_degrees(read.points)) {
+        refuse_points(fmt::format("the numbers of {} are longitudes and latitudes, by their size; name their CRS: "
+                                  "--source-crs EPSG:4326. If they are metres, name it by --crs EPSG:n",
+                                  name));
+    }
+    read.crs = params.crs.empty() ? "" : projected_crs(params.crs);
+    return read;
+}
+
+/// Points at one place in plan, by number from 0.
+using SamePlace = std::vector<std::size_t>;
+
+/// The places where points have unequal heights, in the order of their first points.
+std::vector<SamePlace> places_of_two_heights(std::vector<Vec3> const& points) {
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return std::tie(points[a].x, points[a].y, a) < std::tie(points[b].x, points[b].y, b);
     });
-    for (std::size_t k = 1; k < order.size(); ++k) {
-        Vec3 const& p = points[order[k - 1]];
-        Vec3 const& q = points[order[k]];
-        if (plan(p) == plan(q) && p.z != q.z) {
-            refuse_points(
-                fmt::format("points {} and {} of {} lie both at ({:.10g}, {:.10g}), at heights of {:.10g} and "
-                            "{:.10g} m; keep one of them",
-                            order[k - 1] + 1, order[k] + 1, name, p.x, p.y, p.z, q.z));
+    std::vector<SamePlace> places;
+    for (auto first = order.begin(); first != order.end();) {
+        auto const last =
+            std::find_if(first, order.end(), [&](std::size_t i) { return plan(points[i]) != plan(points[*first]); });
+        if (std::any_of(first, last, [&](std::size_t i) { return points[i].z != points[*first].z; })) {
+            places.emplace_back(first, last);
         }
+        first = last;
     }
+    std::ranges::sort(places, {}, [](SamePlace const& place) { return place.front(); });
+    return places;
+}
+
+[[noreturn]] void refuse_two_heights(std::vector<SamePlace> const& places, std::vector<Vec3> const& points,
+                                     std::string const& name) {
+    constexpr std::size_t listed = 5;
+    std::string list;
+    for (std::size_t k = 0; k < std::min(listed, places.size()); ++k) {
+        Vec3 const& p = points[places[k].front()];
+        std::size_t const other = *std::ranges::find_if(places[k], [&](std::size_t i) { return points[i].z != p.z; });
+        list += fmt::format("{}points {} and {} of {} lie both at ({:.10g}, {:.10g}), at heights of {:.10g} and "
+                            "{:.10g} m",
+                            k == 0 ? "" : "; ", places[k].front() + 1, other + 1, name, p.x, p.y, p.z, points[other].z);
+    }
+    refuse_points(places.size() == 1
+                      ? list + "; keep one of them"
+                      : fmt::format("{} has {} places where points have unequal heights; keep one point at each. The "
+                                    "first are: {}",
+                                    name, places.size(), list));
+}
+
+/// One place has one height.
+void settle_duplicates(FeaturePoints& read, DuplicatePoints duplicates, std::string const& name) {
+    std::vector<SamePlace> const places = places_of_two_heights(read.points);
+    if (places.empty()) {
+        return;
+    }
+    if (duplicates == DuplicatePoints::refused) {
+        refuse_two_heights(places, read.points, name);
+    }
+    for (SamePlace const& place : places) {
+        double sum = 0.0;
+        double low = read.points[place.front()].z;
+        double high = low;
+        for (std::size_t const i : place) {
+            sum += read.points[i].z;
+            low = std::min(low, read.points[i].z);
+            high = std::max(high, read.points[i].z);
+        }
+        for (std::size_t const i : place) {
+            read.points[i].z = sum / static_cast<double>(place.size());
+        }
+        read.averaged_dz_m = std::max(read.averaged_dz_m, high - low);
+    }
+    read.averaged = static_cast<std::int64_t>(places.size());
 }
 
 } // namespace
@@ -276,12 +442,15 @@ bool is_text_of_points(std::string const& path) {
 
 FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
     auto const name = std::filesystem::path(params.path).filename().string();
+    if (!params.columns.value_or("").empty() && !is_text_of_points(params.path)) {
+        throw BadParameter(fmt::format("io.read_points: {} is not text of points (.csv, .txt, .xyz): it has no columns "
+                                       "to name",
+                                       name));
+    }
     FeaturePoints read;
     if (is_text_of_points(params.path)) {
         require_allowed(params.path);
-        constexpr std::int64_t most_bytes = std::int64_t{1} << 34;
-        read.points = parse(read_text(params.path, most_bytes), params.heights, name, run);
-        read.crs = params.crs.empty() ? "" : projected_crs(params.crs);
+        read = read_point_text(params, name, run);
     } else {
         read = read_layer(params, name, run);
     }
@@ -293,7 +462,7 @@ FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
             p.z = 0.0;
         }
     }
-    refuse_two_heights(read.points, name);
+    settle_duplicates(read, params.duplicates, name);
     return read;
 }
 

@@ -22,6 +22,7 @@ namespace thalweg::io {
 namespace {
 
 constexpr std::int64_t most_bytes = std::int64_t{1} << 30;
+constexpr std::uint64_t most_corners = 1000;
 constexpr std::string_view blanks = " \t\r";
 
 bool ends_in(std::string const& path, std::string_view ending) {
@@ -91,10 +92,20 @@ public:
         double const y = coordinate();
         return {x, y, coordinate()};
     }
-    std::array<std::uint64_t, 3> corners() {
-        std::uint64_t const a = index();
-        std::uint64_t const b = index();
-        return {a, b, index()};
+    std::vector<std::uint64_t> corners(std::size_t count) {
+        std::vector<std::uint64_t> face;
+        while (face.size() < count) {
+            face.push_back(index());
+        }
+        return face;
+    }
+    /// Those that the rest of the line names.
+    std::vector<std::uint64_t> corners() {
+        std::vector<std::uint64_t> face;
+        while (face.size() < 3 || !remainder().empty()) {
+            face.push_back(index());
+        }
+        return face;
     }
     /// Takes what comments of write_tin say.
     void comment(std::string_view text, TinFile& file) const {
@@ -117,9 +128,9 @@ private:
     Run const& run_;
 };
 
-using Corners = std::vector<std::array<std::uint64_t, 3>>;
+using FaceList = std::vector<std::vector<std::uint64_t>>; // corners, counted from 0
 
-void read_2dm(Words& words, TinFile& file, Corners& corners) {
+void read_2dm(Words& words, TinFile& file, FaceList& faces) {
     std::unordered_map<std::uint64_t, std::uint64_t> number; // of a node by its id
     while (words.next_line()) {
         std::string_view const word = words.word();
@@ -128,24 +139,24 @@ void read_2dm(Words& words, TinFile& file, Corners& corners) {
                 words.refuse("two nodes have this number");
             }
             file.tin.vertices.push_back(words.vertex());
-        } else if (word == "E3T") {
+        } else if (word == "E3T" || word == "E4Q") {
             words.index();
-            corners.push_back(words.corners());
+            faces.push_back(words.corners(word == "E3T" ? 3 : 4));
         } else if (word.size() == 3 && word[0] == 'E' && word[1] >= '2' && word[1] <= '9') {
-            words.refuse(fmt::format("{} is not a triangle (E3T)", word));
+            words.refuse(fmt::format("{} is neither a triangle (E3T) nor a quadrilateral (E4Q)", word));
         } else if (word == "MESHNAME") {
             words.comment(words.remainder(), file);
         }
     }
-    for (auto& triangle : corners) {
-        for (std::uint64_t& v : triangle) {
+    for (auto& face : faces) {
+        for (std::uint64_t& v : face) {
             auto const found = number.find(v);
             v = found == number.end() ? file.tin.vertices.size() : found->second;
         }
     }
 }
 
-void read_obj(Words& words, TinFile& file, Corners& corners) {
+void read_obj(Words& words, TinFile& file, FaceList& faces) {
     while (words.next_line()) {
         std::string_view const word = words.word();
         if (word == "#") {
@@ -153,11 +164,8 @@ void read_obj(Words& words, TinFile& file, Corners& corners) {
         } else if (word == "v") {
             file.tin.vertices.push_back(words.vertex());
         } else if (word == "f") {
-            corners.push_back(words.corners());
-            if (!words.remainder().empty()) {
-                words.refuse("a face with more than three corners");
-            }
-            for (std::uint64_t& v : corners.back()) {
+            faces.push_back(words.corners());
+            for (std::uint64_t& v : faces.back()) {
                 --v; // 0 becomes a number beyond any
             }
         }
@@ -179,27 +187,112 @@ bool next_of_off(Words& words, TinFile& file) {
     return false;
 }
 
-void read_off(Words& words, TinFile& file, Corners& corners) {
+void read_off(Words& words, TinFile& file, FaceList& faces) {
     if (!next_of_off(words, file) || words.word() != "OFF" || !next_of_off(words, file)) {
         words.refuse("an OFF file begins with OFF and three counts");
     }
     std::uint64_t const vertices = words.index();
-    std::uint64_t const faces = words.index();
+    std::uint64_t const announced = words.index();
     for (std::uint64_t i = 0; i < vertices; ++i) {
         if (!next_of_off(words, file)) {
             words.refuse(fmt::format("the file ends after {} of {} vertices", i, vertices));
         }
         file.tin.vertices.push_back(words.vertex());
     }
-    for (std::uint64_t i = 0; i < faces; ++i) {
+    for (std::uint64_t i = 0; i < announced; ++i) {
         if (!next_of_off(words, file)) {
-            words.refuse(fmt::format("the file ends after {} of {} faces", i, faces));
+            words.refuse(fmt::format("the file ends after {} of {} faces", i, announced));
         }
-        if (words.index() != 3) {
-            words.refuse("a face that is not a triangle");
+        std::uint64_t const count = words.index();
+        if (count < 3 || count > most_corners) {
+            words.refuse(fmt::format("a face with {} corners", count));
         }
-        corners.push_back(words.corners());
+        faces.push_back(words.corners(count));
     }
+}
+
+double squared_distance(std::vector<Vec3> const& vertices, std::uint32_t a, std::uint32_t b) {
+    Vec3 const d{vertices[a].x - vertices[b].x, vertices[a].y - vertices[b].y, vertices[a].z - vertices[b].z};
+    return d.x * d.x + d.y * d.y + d.z * d.z;
+}
+
+/// Twice the area of a triangle in plan, positive counterclockwise.
+double twice_area(std::vector<Vec3> const& vertices, std::array<std::uint32_t, 3> const& t) {
+    Vec3 const a = vertices[t[0]];
+    Vec3 const b = vertices[t[1]];
+    Vec3 const c = vertices[t[2]];
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Cuts a face with more than three corners into triangles: again and again the corner whose neighbours lie closest
+/// together, where the cut lies inside the face. So a quadrilateral is cut along its shorter diagonal.
+class FaceCutter {
+public:
+    FaceCutter(std::vector<std::uint32_t> face, std::vector<Vec3> const& vertices)
+        : face_(std::move(face)), vertices_(vertices) {
+        for (std::size_t k = 2; k < face_.size(); ++k) {
+            area_ += twice_area(vertices_, {face_[0], face_[k - 1], face_[k]});
+        }
+    }
+
+    void cut(std::vector<std::array<std::uint32_t, 3>>& triangles) {
+        while (face_.size() > 3) {
+            std::size_t const k = next();
+            triangles.push_back(ear(k));
+            face_.erase(face_.begin() + static_cast<std::ptrdiff_t>(k));
+        }
+        triangles.push_back({face_[0], face_[1], face_[2]});
+    }
+
+private:
+    using Triangle = std::array<std::uint32_t, 3>;
+
+    Triangle ear(std::size_t k) const {
+        std::size_t const n = face_.size();
+        return {face_[(k + n - 1) % n], face_[k % n], face_[(k + 1) % n]};
+    }
+    bool turns(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        return area_ < 0.0 ? twice_area(vertices_, {a, b, c}) < 0.0 : twice_area(vertices_, {a, b, c}) > 0.0;
+    }
+    /// Whether the third side of the triangle lies inside the face.
+    bool is_inside(Triangle const& t) const {
+        return turns(t[0], t[1], t[2]) && std::ranges::none_of(face_, [&](std::uint32_t v) {
+                   return v != t[0] && v != t[1] && v != t[2] && turns(t[0], t[1], v) && turns(t[1], t[2], v) &&
+                          !turns(t[0], t[2], v); // nor on the third side
+               });
+    }
+    std::size_t next() const {
+        std::size_t const n = face_.size();
+        std::size_t best = n;
+        std::size_t shortest = 0;
+        auto const side = [&](std::size_t k) { return squared_distance(vertices_, ear(k)[0], ear(k)[2]); };
+        for (std::size_t k = 0; k < n; ++k) {
+            shortest = side(k) < side(shortest) ? k : shortest;
+            if ((best == n || side(k) < side(best)) && is_inside(ear(k)) && (n > 4 || is_inside(ear(k + 2)))) {
+                best = k;
+            }
+        }
+        return best == n ? shortest : best; // an upright face, or one that crosses itself
+    }
+
+    std::vector<std::uint32_t> face_;
+    std::vector<Vec3> const& vertices_;
+    double area_ = 0.0; ///< twice, in plan
+};
+
+/// The corners of a face as numbers of vertices; of several in a row that are the same, one.
+std::vector<std::uint32_t> corners_of(std::vector<std::uint64_t> const& face) {
+    std::vector<std::uint32_t> corners;
+    for (std::uint64_t const v : face) {
+        auto const corner = static_cast<std::uint32_t>(v);
+        if (face.size() == 3 || corners.empty() || corners.back() != corner) {
+            corners.push_back(corner);
+        }
+    }
+    while (corners.size() > 3 && corners.front() == corners.back()) {
+        corners.pop_back();
+    }
+    return corners;
 }
 
 } // namespace
@@ -215,24 +308,24 @@ TinFile read_tin(std::string const& path, Run const& run) {
     std::string const text = read_text(path, most_bytes);
     Words words(path, text, run);
     TinFile file;
-    Corners corners;
+    FaceList faces;
     if (ends_in(path, ".2dm")) {
-        read_2dm(words, file, corners);
+        read_2dm(words, file, faces);
     } else if (ends_in(path, ".obj")) {
-        read_obj(words, file, corners);
+        read_obj(words, file, faces);
     } else {
-        read_off(words, file, corners);
+        read_off(words, file, faces);
     }
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        std::array<std::uint32_t, 3> triangle{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (corners[i][k] >= file.tin.vertices.size()) {
-                throw BadInput(
-                    fmt::format("io.read_tin: {}: triangle {} names a vertex that is not there", path, i + 1));
-            }
-            triangle[k] = static_cast<std::uint32_t>(corners[i][k]);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        if (std::ranges::any_of(faces[i], [&](std::uint64_t v) { return v >= file.tin.vertices.size(); })) {
+            throw BadInput(fmt::format("io.read_tin: {}: face {} names a vertex that is not there", path, i + 1));
         }
-        file.tin.triangles.push_back(triangle);
+        std::vector<std::uint32_t> corners = corners_of(faces[i]);
+        if (corners.size() < 3) {
+            throw BadInput(fmt::format("io.read_tin: {}: face {} has fewer than three corners", path, i + 1));
+        }
+        file.split += corners.size() > 3 ? 1 : 0;
+        FaceCutter(std::move(corners), file.tin.vertices).cut(file.tin.triangles);
     }
     if (file.tin.triangles.empty()) {
         throw BadInput(fmt::format("io.read_tin: {} has no triangles", path));

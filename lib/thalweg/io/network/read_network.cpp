@@ -38,7 +38,9 @@ Wish wish_of(ReadNetworkParams const& params) {
               .arcs_layer = params.arcs_layer,
               .nodes_layer = params.nodes_layer,
               .crs = params.crs,
-              .any_lines = params.any_lines};
+              .source_crs = params.source_crs,
+              .any_lines = params.any_lines,
+              .bridge = params.bridge};
     for (auto const& [quantity, field] : params.fields) {
         if (quantity == "node_id") {
             wish.node_id = field;
@@ -73,8 +75,8 @@ FileBox extent_of(NetworkFile const& file) {
 }
 
 /// Brings heights into metres, from the unit that the layer of arcs says.
-void convert_heights(NetworkFile& file, Layer const& arcs, bool told, Notes& notes) {
-    double const unit = height_unit_of(*arcs.layer);
+void convert_heights(NetworkFile& file, Layer const& arcs, Wish const& wish, Notes& notes) {
+    double const unit = height_unit_of(*arcs.layer, wish.source_crs);
     if (unit == 1.0) {
         return;
     }
@@ -89,7 +91,7 @@ void convert_heights(NetworkFile& file, Layer const& arcs, bool told, Notes& not
         node.at.z *= unit;
         node.columns.z_m *= unit;
     }
-    if (told) {
+    if (!wish.whole) {
         notes.add(arcs.what, {"heights_converted",
                               0,
                               {},
@@ -98,17 +100,18 @@ void convert_heights(NetworkFile& file, Layer const& arcs, bool told, Notes& not
     }
 }
 
-void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes, std::string const& wanted,
-                       Notes& notes, Run const& run) {
-    OGRSpatialReference const* const own = arcs.layer->GetSpatialRef();
+void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes, Wish const& wish, Notes& notes,
+                       Run const& run) {
+    OGRSpatialReference const own = crs_of_layer(arcs.layer->GetSpatialRef(), wish.source_crs);
+    bool const has_none = own.IsEmpty() != 0;
     if (nodes != nullptr) {
-        OGRSpatialReference const* const other = nodes->layer->GetSpatialRef();
-        if (!is_missing(own) && !is_missing(other) && own->IsSame(other) == FALSE && name_of(*own) != name_of(*other)) {
-            throw BadInput(fmt::format("{} is in {} and {} in {}: reproject both to one CRS", arcs.what, own->GetName(),
-                                       nodes->what, other->GetName()));
+        OGRSpatialReference const other = crs_of_layer(nodes->layer->GetSpatialRef(), wish.source_crs);
+        if (!has_none && other.IsEmpty() == 0 && own.IsSame(&other) == FALSE && name_of(own) != name_of(other)) {
+            throw BadInput(fmt::format("{} is in {} and {} in {}: reproject both to one CRS", arcs.what, own.GetName(),
+                                       nodes->what, other.GetName()));
         }
     }
-    if (is_missing(own)) {
+    if (has_none) {
         if (file.schema != "native") {
             notes.add(arcs.what, {"no_crs", 0, {}, 0.0, "no CRS: its coordinates are treated as metres"});
         }
@@ -116,10 +119,10 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes,
     }
     FileBox const box = extent_of(file);
     if (!std::isfinite(box.low.x)) { // nothing is anywhere
-        file.crs = name_of(*own);
+        file.crs = name_of(own);
         return;
     }
-    IntoMetres const metres(*own, wanted, box, arcs.what);
+    IntoMetres const metres(own, wish.crs, box, arcs.what);
     file.crs = metres.crs();
     auto const move = [&](std::span<Vec3> points) {
         auto const done = metres.apply(points);
@@ -150,7 +153,7 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes,
                0,
                {},
                0.0,
-               fmt::format("its coordinates were reprojected from {} to {}", own->GetName(), in_message(file.crs))});
+               fmt::format("its coordinates were reprojected from {} to {}", own.GetName(), in_message(file.crs))});
 }
 
 void take_nodes(NetworkFile& file, std::optional<Layer> const& nodes, Layer const& arcs, std::string const& source_name,
@@ -160,8 +163,8 @@ void take_nodes(NetworkFile& file, std::optional<Layer> const& nodes, Layer cons
     } else if (file.schema == "native") {
         notes.add(source_name, {"missing_nodes", 0, {}, 0.0, "has no layer nodes"});
     }
-    convert_heights(file, arcs, !wish.whole, notes);
-    bring_into_metres(file, arcs, nodes ? &*nodes : nullptr, wish.crs, notes, run);
+    convert_heights(file, arcs, wish, notes);
+    bring_into_metres(file, arcs, nodes ? &*nodes : nullptr, wish, notes, run);
 }
 
 NetworkFile read(std::string const& path, Wish const& wish, Run const& run) {
@@ -189,6 +192,9 @@ NetworkFile read(std::string const& path, Wish const& wish, Run const& run) {
     if (schema != Schema::native) {
         if (file.says.downstream) {
             drop_links_out(file, arcs.what, notes);
+            if (wish.bridge && !file.says.ends) {
+                bridge_points(file, arcs.what, notes);
+            }
         }
         turn_downstream(file, table.drawn_upstream, arcs.what, notes);
     }

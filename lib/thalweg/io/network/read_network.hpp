@@ -19,7 +19,10 @@ struct ReadNetworkParams {
     std::string arcs_layer = {};  ///< "" takes the layer arcs, else the only layer of lines that is understood
     std::string nodes_layer = {}; ///< "" takes the layer nodes of a network in the native schema, if it is there
     bool any_lines = false;       ///< lines of which neither schema nor fields are known are taken by their features
-    std::string crs = {};         ///< to reproject it to, projected in metres; "" for its own, or its UTM zone
+    bool bridge = false; ///< links without length, by which TauDEM joins three streams at one place, are left out: what
+                         ///< flows into one flows into the next downstream. Not of the native schema
+    std::string crs = {};        ///< to reproject it to, projected in metres; "" for its own, or its UTM zone
+    std::string source_crs = {}; ///< CRS of a file that has none; "": its coordinates are treated as metres
 };
 
 /// Reads anyone's network as it stands: ids may repeat, links lead nowhere, lines be empty or wrong.
@@ -38,16 +41,15 @@ struct ReadNetworkParams {
 /// an arc ends. What had to be bent or skipped is in NetworkFile::findings, each where its arc begins and by the number
 /// that the file has; whatever is wrong is left for a check to find. Kinds of finding (feature; amount), the first
 /// thousand of a kind and how many more there are: missing_field (none; fields), missing_nodes (none; 0), text_number
-/// (none; 0), null_number and not_a_number (arc; 0), which stand as 0; not_a_line (none; features skipped), multi_part
-/// (arc; parts: when they join end to end they are one line, else each is an arc of the same id), curve (arc; vertices
-/// of its line), measures (none; arcs whose M is left out), no_heights (none; arcs), no_crs (none; 0), reprojected
-/// (none; 0), heights_converted (none; metres of a unit), turned (none; arcs), by_feature (none; arcs of a file taken
-/// so under any_lines), as_text (none; columns of a type that is kept as texts), not_utf8 (none; texts of which bytes
-/// are kept as \\xNN), cut_below (arc; the number of the arc downstream, which the file does not hold: an outlet).
-/// \throws BadInput no such file or layer, several layers, a schema that is not recognised (lists what was looked for),
-/// no field of arc ids, a field without numbers, arcs and nodes in different CRS
-/// \throws IoError the file is damaged, locked, or left in the middle of a change
-/// \throws Cancelled
+/// (none; 0), null_number and not_a_number (arc; 0), which stand as 0; not_a_line (none; shapes of a type skipped),
+/// multi_part (arc; parts: when they join end to end they are one line, else each is an arc of the same id), curve
+/// (arc; vertices of its line), measures (none; arcs whose M is left out), no_heights (none; arcs), no_crs (none; 0),
+/// reprojected (none; 0), heights_converted (none; metres of a unit), turned (none; arcs), by_feature (none; arcs of a
+/// file taken so under any_lines), as_text (none; columns of a type that is kept as texts), not_utf8 (none; texts of
+/// which bytes are kept as \\xNN), cut_below (arc; the number of the arc downstream, which the file does not hold: an
+/// outlet). \throws BadInput no such file or layer, several layers, a schema that is not recognised (lists what was
+/// looked for), no field of arc ids, a field without numbers, arcs and nodes in different CRS \throws IoError the file
+/// is damaged, locked, or left in the middle of a change \throws Cancelled
 NetworkFile read_network(std::string const& path, ReadNetworkParams const& params, Run const& run = {});
 
 /// Reads a network in the native schema with all its layers and fields, lines with Z, numbers that are there and whole.

@@ -53,9 +53,8 @@ struct Drawn {
     std::int64_t flat = 0;
     std::int64_t raised = 0;
     std::int64_t measured = 0;
-    std::int64_t no_lines = 0;
     std::string first_flat;
-    std::string first_no_line;
+    OtherShapes others;
 };
 
 class ArcReader {
@@ -116,12 +115,8 @@ private:
     void add(NetworkFile& file, OGRFeature const& feature) {
         ++number_;
         attributes_.read(feature);
-        DrawnLine drawn = drawn_line(feature.GetGeometryRef());
+        DrawnLine drawn = drawn_line(feature.GetGeometryRef(), number_, drawn_.others);
         if (!drawn.is_line) {
-            if (drawn_.no_lines++ == 0) {
-                drawn_.first_no_line = fmt::format("feature {} is not a line, but a {}", number_,
-                                                   feature.GetGeometryRef()->getGeometryName());
-            }
             return;
         }
         FileArc arc = numbers_of(feature);
@@ -234,13 +229,9 @@ private:
     }
 
     void say_what_was_drawn(NetworkFile& file) {
-        if (drawn_.no_lines > 0) {
-            notes_.add(arcs_.what,
-                       {"not_a_line",
-                        0,
-                        {},
-                        static_cast<double>(drawn_.no_lines),
-                        fmt::format("{}; {} such features were skipped", drawn_.first_no_line, drawn_.no_lines)});
+        for (Finding& finding : drawn_.others.findings()) {
+            finding.where = {}; // in coordinates of the file
+            notes_.add(arcs_.what, std::move(finding));
         }
         if (drawn_.measured > 0) {
             notes_.add(arcs_.what, {"measures",

@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include <fmt/format.h>
 #include <ogr_geometry.h>
 
 namespace thalweg::io {
@@ -26,24 +27,23 @@ std::vector<Vec3> vertices_of(OGRLineString const& line) {
     return vertices;
 }
 
-// Adds the parts; false when there is something that is no line.
-bool add_parts(OGRGeometry const& shape, std::vector<std::vector<Vec3>>& parts) {
+// Adds the parts that are lines.
+void add_parts(OGRGeometry const& shape, std::int64_t feature, std::vector<std::vector<Vec3>>& parts,
+               OtherShapes& others) {
     auto const flat = wkbFlatten(shape.getGeometryType());
     if (flat == wkbLineString) {
         if (shape.IsEmpty() == 0) {
             parts.push_back(vertices_of(*shape.toLineString()));
         }
-        return true;
+        return;
     }
     if (flat != wkbMultiLineString && flat != wkbGeometryCollection) {
-        return false;
+        others.add(shape, feature);
+        return;
     }
     for (auto const* const part : *shape.toGeometryCollection()) {
-        if (!add_parts(*part, parts)) {
-            return false;
-        }
+        add_parts(*part, feature, parts, others);
     }
-    return true;
 }
 
 using Place = std::pair<double, double>;
@@ -99,7 +99,38 @@ void join(std::vector<std::vector<Vec3>>& parts) {
 
 } // namespace
 
-DrawnLine drawn_line(OGRGeometry const* shape) {
+void OtherShapes::add(OGRGeometry const& shape, std::int64_t feature) {
+    Type& type = types_[OGRGeometryTypeToName(wkbFlatten(shape.getGeometryType()))];
+    if (type.count++ == 0) {
+        OGREnvelope box;
+        shape.getEnvelope(&box);
+        type.first = feature;
+        type.where = box.IsInit() != 0 ? Vec2{box.MinX, box.MinY} : Vec2{};
+    }
+}
+
+std::int64_t OtherShapes::count() const {
+    std::int64_t count = 0;
+    for (auto const& [name, type] : types_) {
+        count += type.count;
+    }
+    return count;
+}
+
+std::vector<Finding> OtherShapes::findings() const {
+    std::vector<Finding> findings;
+    for (auto const& [name, type] : types_) {
+        findings.push_back(
+            {"not_a_line", 0, type.where, static_cast<double>(type.count),
+             type.count == 1
+                 ? fmt::format("1 shape of type {} is not a line and is skipped; it is in feature {}", name, type.first)
+                 : fmt::format("{} shapes of type {} are not lines and are skipped; the first is in feature {}",
+                               type.count, name, type.first)});
+    }
+    return findings;
+}
+
+DrawnLine drawn_line(OGRGeometry const* shape, std::int64_t feature, OtherShapes& others) {
     DrawnLine line;
     if (shape == nullptr) {
         line.parts.emplace_back();
@@ -107,13 +138,14 @@ DrawnLine drawn_line(OGRGeometry const* shape) {
     }
     std::unique_ptr<OGRGeometry> straight;
     line.curved = shape->hasCurveGeometry(TRUE) != 0;
-    if (line.curved) {
+    if (shape->hasCurveGeometry(FALSE) != 0) { // also of types for curves that hold straight parts alone
         straight.reset(shape->getLinearGeometry());
         shape = straight.get();
     }
-    line.is_line = add_parts(*shape, line.parts);
+    std::int64_t const before = others.count();
+    add_parts(*shape, feature, line.parts, others);
+    line.is_line = !line.parts.empty() || others.count() == before;
     if (!line.is_line) {
-        line.parts.clear();
         return line;
     }
     line.has_z = shape->Is3D() != 0 && !line.parts.empty();

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -81,6 +82,44 @@ void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes) {
         file.says.basin = false; // those of outlets beyond
         arc.ds_arc = 0;
     }
+}
+
+void bridge_points(NetworkFile& file, std::string const& what, Notes& notes) {
+    std::map<std::int64_t, std::int64_t> below; // of an arc without length the arc downstream
+    for (FileArc const& arc : file.arcs) {
+        bool const is_point = !arc.line.empty() && std::ranges::all_of(arc.line, [&](Vec3 const& p) {
+            return plan(p) == plan(arc.line.front());
+        });
+        if (is_point && arc.ds_arc != arc.id) {
+            below.emplace(arc.id, arc.ds_arc);
+        }
+    }
+    if (below.empty()) {
+        return;
+    }
+    auto const next_of = [&](std::int64_t id) {
+        std::size_t steps = 0;
+        for (auto at = below.find(id); at != below.end() && steps <= below.size(); at = below.find(id), ++steps) {
+            id = at->second;
+        }
+        return steps <= below.size() ? id : 0; // else they run in a circle
+    };
+    std::erase_if(file.arcs, [&](FileArc const& arc) { return below.contains(arc.id); });
+    for (FileArc& arc : file.arcs) {
+        arc.ds_arc = next_of(arc.ds_arc);
+    }
+    for (auto const& [id, down] : below) {
+        std::int64_t const next = next_of(down);
+        notes.add(what,
+                  {"bridged",
+                   id - file.id_shift,
+                   {},
+                   next == 0 ? 0.0 : static_cast<double>(next - file.id_shift),
+                   next == 0 ? fmt::format("arc {} has no length: what flows into it ends there", id - file.id_shift)
+                             : fmt::format("arc {} has no length: what flows into it flows into arc {}",
+                                           id - file.id_shift, next - file.id_shift)});
+    }
+    file.says.strahler = false;
 }
 
 void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& what, Notes& notes) {

@@ -26,6 +26,7 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/internal/read_attributes.hpp>
+#include <thalweg/io/network/internal/read_network_lines.hpp>
 #include <thalweg/io/network/internal/river_fields.hpp>
 #include <thalweg/io/network/internal/rivers_layer.hpp>
 
@@ -123,19 +124,19 @@ int lambda_of(OGRFeature const& feature, int field, RiverLine const& line, std::
     return static_cast<int>(value);
 }
 
-// One line for each part.
-void add_parts(OGRGeometry const& geometry, RiverLine const& feature, std::string const& name,
-               std::vector<RiverLine>& lines) {
+// One line for each part that is one.
+void add_lines(OGRGeometry const& geometry, RiverLine const& feature, std::string const& name,
+               std::vector<RiverLine>& lines, OtherShapes& others) {
     auto const flat = wkbFlatten(geometry.getGeometryType());
     if (OGR_GT_IsSubClassOf(flat, wkbGeometryCollection) != 0) {
         for (auto const* const part : *geometry.toGeometryCollection()) {
-            add_parts(*part, feature, name, lines);
+            add_lines(*part, feature, name, lines, others);
         }
         return;
     }
     if (flat != wkbLineString) {
-        refuse_rivers(
-            fmt::format("feature {} of {} is a {}, not a line", feature.feature, name, OGRGeometryTypeToName(flat)));
+        others.add(geometry, feature.feature);
+        return;
     }
     auto const& drawn = *geometry.toLineString();
     RiverLine line = feature;
@@ -176,6 +177,7 @@ struct Read {
     std::vector<RiverLine> unnatural;
     std::vector<std::string> reasons; ///< of these
     std::vector<bool> coasts;         ///< likewise
+    OtherShapes others;
     std::vector<Finding> findings;
     AttributeTable attributes;
 };
@@ -187,7 +189,10 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
     int const lambda_field = params.lambda_field.empty()
                                  ? -1
                                  : find_field(layer, params.lambda_field, params.lambda_field == "lambda", name);
-    RiverFields fields(layer);
+    auto const link_field = [&](std::string const& field) {
+        return field.empty() ? -1 : find_field(layer, field, false, name);
+    };
+    RiverFields fields(layer, link_field(params.id_field), link_field(params.down_field));
     AttributeReader attributes(layer);
     Read read;
     std::int64_t number = 0;
@@ -205,11 +210,12 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
         std::string const reason = params.filter == LineFilter::natural ? fields.unnatural(*feature) : "";
         auto& lines = reason.empty() ? read.lines : read.unnatural;
         std::size_t const first = lines.size();
+        std::int64_t const others = read.others.count();
         if (drawn != nullptr && drawn->IsEmpty() == 0) {
             std::unique_ptr<OGRGeometry> const straight(drawn->getLinearGeometry());
-            add_parts(*straight, line, name, lines);
+            add_lines(*straight, line, name, lines, read.others);
         }
-        if (lines.size() == first) {
+        if (lines.size() == first && read.others.count() == others) {
             read.findings.push_back(left_out(number, drawn));
         }
         for (std::size_t k = first; k < lines.size(); ++k) {
@@ -220,8 +226,9 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
     }
     fields.link(read.lines);
     fields.link(read.unnatural);
-    std::vector<Finding> const of_fields = attributes.findings();
-    read.findings.insert(read.findings.begin(), of_fields.begin(), of_fields.end());
+    for (std::vector<Finding> const& more : {read.others.findings(), attributes.findings()}) {
+        read.findings.insert(read.findings.begin(), more.begin(), more.end());
+    }
     read.attributes = attributes.take();
     return read;
 }
@@ -278,8 +285,10 @@ std::string nothing_left(Read const& read, std::string const& what) {
                            "network.lines.filter = \"none\" to take them all",
                            what, read.unnatural.size(), read.reasons.front());
     }
-    if (!read.findings.empty()) {
-        return fmt::format("{} holds no line: {}", what, read.findings.front().text);
+    auto const why = std::ranges::find_if(
+        read.findings, [](Finding const& f) { return f.kind == "not_a_line" || f.kind == "left_out"; });
+    if (why != read.findings.end()) {
+        return fmt::format("{} holds no line: {}", what, why->text);
     }
     return what + " is empty";
 }
@@ -302,6 +311,11 @@ bool have_heights(std::vector<RiverLine> const& lines) {
 } // namespace
 
 RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
+    if (params.id_field.empty() != params.down_field.empty()) {
+        throw BadParameter(fmt::format("io.read_rivers: the field '{}' is named without its other half: links need the "
+                                       "field of a line's id and that of the id downstream",
+                                       params.id_field.empty() ? params.down_field : params.id_field));
+    }
     Driver const driver;
     auto const name = std::filesystem::path(params.path).filename().string();
     Dataset const data = open_undisturbed(params.path, GDAL_OF_VECTOR);
@@ -324,14 +338,15 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     rivers.lines = std::move(read.lines);
     rivers.findings = std::move(read.findings);
     rivers.attributes = std::move(read.attributes);
-    OGRSpatialReference const* const own = layer.GetSpatialRef();
-    if (own == nullptr || own->IsEmpty()) {
-        refuse_rivers(
-            fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", layer.GetName(), name));
+    std::string const source_crs = params.source_crs.value_or("");
+    OGRSpatialReference const own = crs_of_layer(layer.GetSpatialRef(), source_crs);
+    if (own.IsEmpty() != 0) {
+        refuse_rivers(fmt::format("layer {} of {} has no CRS; assign one (ogr2ogr -a_srs EPSG:n){}", layer.GetName(),
+                                  name, params.source_crs ? " or name it (--source-crs EPSG:n)" : ""));
     }
-    IntoMetres const metres(*own, params.crs, extent_of(rivers.lines), name);
+    IntoMetres const metres(own, params.crs, extent_of(rivers.lines), name);
     rivers.crs = metres.crs();
-    double const unit = height_unit_of(layer);
+    double const unit = height_unit_of(layer, source_crs);
     for (auto* const lines : {&rivers.lines, &read.unnatural}) {
         bring(*lines, metres, name, driver, run);
         for (auto& line : *lines) {

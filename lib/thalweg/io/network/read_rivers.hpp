@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <thalweg/core/river_lines.hpp>
@@ -25,20 +26,26 @@ struct ReadRiversParams {
     std::string crs = {}; ///< of the result; "" takes the file's own when projected in metres, else its UTM zone
     std::string lambda_field = "lambda";  ///< [1, 50] generator; optional in the file when it has this default name
     LineFilter filter = LineFilter::none; ///< what it takes away is in RiverLines::secondary
+    std::string id_field = {};            ///< id of a line, and
+    std::string down_field = {};          ///< that of the line downstream; "" takes the known ones. Both or none
+    /// CRS of a file that has none ("": such a file is refused); nothing where the user has no option to name it
+    std::optional<std::string> source_crs = {};
 };
 
 /// Reads the lines of any OGR source, multi-part lines part by part, curves as OGR linearises them, reprojected and
 /// rounded to 1e-6 m. Heights are kept (in metres), measures ignored. Field names are found in any case of letters. The
 /// feature of a line is its number in the layer's order, from 1. Fields of NHDPlus, HydroRIVERS, EU-Hydro,
 /// OpenStreetMap and of networks say which line is downstream, which channel is a minor one and how great a river is.
-/// Features without a line of some length (null, empty, points that are all one) are left out: findings. has_z: every
-/// vertex has a height, and not all are the same (files that fill Z with 0 have none).
+/// Features without a line of some length (null, empty, points that are all one) are left out, shapes that are not
+/// lines are skipped: findings. has_z: every vertex has a height, and not all are the same (files that fill Z with 0
+/// have none).
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
 /// \return the lines
+/// \throws BadParameter one of id_field and down_field without the other
 /// \throws BadInput naming file, layer and feature: missing file, layer or named field, no or several line layers, no
-/// features, something that is not a line, no CRS, coordinates that are not finite or cannot be reprojected, nothing
-/// left, a lambda that is not a whole number from 1 to 50
+/// features, no CRS, coordinates that are not finite or cannot be reprojected, nothing left, a lambda that is not a
+/// whole number from 1 to 50
 /// \throws IoError when the file cannot be read to its end
 /// \throws Cancelled
 RiverLines read_rivers(ReadRiversParams const& params, Run const& run = {});

@@ -21,10 +21,11 @@ namespace {
 using LinkFields = std::pair<std::string_view, std::string_view>;
 
 // The fields of a line's own id and of the id downstream; the first pair that a layer has counts.
-constexpr std::array<LinkFields, 8> known_links{{
+constexpr std::array<LinkFields, 9> known_links{{
     {"arc_id", "ds_arc"},        // thalweg, before the columns of a user
     {"hydroseq", "dnhydroseq"},  // NHDPlus
     {"comid", "tocomid"},        // nhdplusTools
+    {"comid", "nextdownid"},     // MERIT-Basins
     {"hyriv_id", "next_down"},   // HydroRIVERS
     {"object_id", "nextdownid"}, // EU-Hydro
     {"linkno", "dslinkno"},      // TauDEM
@@ -34,9 +35,9 @@ constexpr std::array<LinkFields, 8> known_links{{
 
 // How great a river is, the most telling first: what a minor channel carries, areas, discharge, orders. Where one is
 // the same for two rivers, the next tells.
-constexpr std::array<std::string_view, 15> river_sizes{
-    "divdasqkm",   "upland_skm", "dis_av_cms", "ds_area",   "dscontarea", "totdasqkm", "streamcalc", "streamorde",
-    "streamorder", "ord_stra",   "strahler",   "strmorder", "stream_ord", "strord",    "horton"};
+constexpr std::array<std::string_view, 16> river_sizes{
+    "divdasqkm",  "upland_skm",  "uparea",   "dis_av_cms", "ds_area",   "dscontarea", "totdasqkm", "streamcalc",
+    "streamorde", "streamorder", "ord_stra", "strahler",   "strmorder", "stream_ord", "strord",    "horton"};
 
 // The same as classes, of which 1 is the greatest.
 constexpr std::array<std::string_view, 5> river_classes{"streamleve", "streamlevel", "ord_clas", "ord_flow", "hack"};
@@ -94,16 +95,24 @@ std::string kind_of_fcode(double code) {
 
 } // namespace
 
-RiverFields::RiverFields(OGRLayer& layer) {
+void RiverFields::find_links(OGRFeatureDefn& schema) {
+    for (auto const& [own, down] : known_links) {
+        id_ = schema.GetFieldIndex(std::string(own).c_str());
+        down_ = schema.GetFieldIndex(std::string(down).c_str());
+        if (id_ >= 0 && down_ >= 0) {
+            return;
+        }
+    }
+    id_ = down_ = -1;
+}
+
+RiverFields::RiverFields(OGRLayer& layer, int id, int down) {
     OGRFeatureDefn& schema = *layer.GetLayerDefn();
     auto const find = [&](char const* name) { return schema.GetFieldIndex(name); };
-    for (auto const& [own, down] : known_links) {
-        id_ = find(std::string(own).c_str());
-        down_ = find(std::string(down).c_str());
-        if (id_ >= 0 && down_ >= 0) {
-            break;
-        }
-        id_ = down_ = -1;
+    find_links(schema);
+    if (id >= 0 && down >= 0) {
+        id_ = id;
+        down_ = down;
     }
     auto const numeric = [&](int field) { return field >= 0 && is_number_field(schema, field) ? field : -1; };
     divergence_ = numeric(find("divergence"));

@@ -28,9 +28,9 @@ bool is_line(OGRwkbGeometryType type) {
     return OGR_GT_IsSubClassOf(flat, wkbCurve) != 0 || OGR_GT_IsSubClassOf(flat, wkbMultiCurve) != 0;
 }
 
-// A layer of any shapes holds lines when one of its first features is one.
+// A layer of any shapes holds lines when one of its first features is one: exports of OpenStreetMap begin with nodes.
 Holds content_of(OGRLayer& layer, std::string const& what) {
-    constexpr int most_features = 10000;
+    constexpr int most_features = 1000000;
     auto const type = wkbFlatten(layer.GetGeomType());
     if (type != wkbUnknown && !is_line(type)) {
         return type == wkbGeometryCollection ? Holds::lines : Holds::other;

@@ -25,8 +25,14 @@ constexpr char const* remedy = "run thalweg check on the file; its --fix writes 
     throw BadInput(fmt::format("network.from_file: {}; {}", fault, remedy));
 }
 
-/// Places of the items in ascending order of their ids. Throws where an id repeats.
-template <class Item> std::vector<std::size_t> by_id(std::vector<Item> const& items, char const* noun) {
+/// The number by which the file itself calls an arc.
+std::int64_t number_in(NetworkFile const& file, FileArc const& arc) {
+    return arc.id - file.id_shift;
+}
+
+/// Places of the items in ascending order of their ids. Throws where an id repeats. shift: of these in the file.
+template <class Item>
+std::vector<std::size_t> by_id(std::vector<Item> const& items, char const* noun, std::int64_t shift = 0) {
     std::vector<std::size_t> order(items.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         order[i] = i;
@@ -34,7 +40,7 @@ template <class Item> std::vector<std::size_t> by_id(std::vector<Item> const& it
     std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(items[i].id, i); });
     for (std::size_t i = 1; i < order.size(); ++i) {
         if (items[order[i]].id == items[order[i - 1]].id) {
-            refuse(fmt::format("several {}s have the id {}", noun, items[order[i]].id));
+            refuse(fmt::format("several {}s have the id {}", noun, items[order[i]].id - shift));
         }
     }
     return order;
@@ -83,7 +89,7 @@ private:
     std::size_t place_of(std::int64_t id, FileArc const& arc) const {
         auto const at = std::ranges::lower_bound(sorted_, id, {}, [&](std::size_t i) { return file_.nodes[i].id; });
         if (at == sorted_.end() || file_.nodes[*at].id != id) {
-            refuse(fmt::format("arc {} names node {}, which is missing", arc.id, id));
+            refuse(fmt::format("arc {} names node {}, which is missing", number_in(file_, arc), id));
         }
         return static_cast<std::size_t>(at - sorted_.begin());
     }
@@ -94,25 +100,27 @@ private:
     std::vector<std::size_t> order_;  ///< nodes of the file by their numbers
 };
 
-void require_line(FileArc const& arc, bool heights) {
+void require_line(NetworkFile const& file, FileArc const& arc) {
+    bool const heights = file.says.heights;
     double length = 0.0;
     for (std::size_t i = 0; i < arc.line.size(); ++i) {
         Vec3 const p = arc.line[i];
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || (heights && !std::isfinite(p.z))) {
-            refuse(fmt::format("vertex {} of arc {} is ({}, {}, {})", i + 1, arc.id, p.x, p.y, p.z));
+            refuse(fmt::format("vertex {} of arc {} is ({}, {}, {})", i + 1, number_in(file, arc), p.x, p.y, p.z));
         }
         length += i > 0 ? distance({arc.line[i - 1].x, arc.line[i - 1].y}, {p.x, p.y}) : 0.0;
     }
     if (!(length > 0.0)) {
-        refuse(fmt::format("arc {} has no length", arc.id));
+        refuse(fmt::format("arc {} has no length", number_in(file, arc)));
     }
 }
 
-void require_end(FileArc const& arc, NetworkFile::FileNode const& node, Vec3 end, bool own_height) {
+void require_end(NetworkFile const& file, FileArc const& arc, NetworkFile::FileNode const& node, Vec3 end) {
+    bool const own_height = file.says.heights && file.says.nodes;
     bool const meets = end.x == node.at.x && end.y == node.at.y && (!own_height || end.z == node.at.z);
     if (!meets) {
-        refuse(fmt::format("arc {} ends at ({}, {}, {}) but its node {} is at ({}, {}, {})", arc.id, end.x, end.y,
-                           end.z, node.id, node.at.x, node.at.y, node.at.z));
+        refuse(fmt::format("arc {} ends at ({}, {}, {}) but its node {} is at ({}, {}, {})", number_in(file, arc),
+                           end.x, end.y, end.z, node.id, node.at.x, node.at.y, node.at.z));
     }
 }
 
@@ -122,8 +130,11 @@ void require_downstream(NetworkFile const& file, std::vector<std::size_t> const&
         ArcId const below = network.out(network.to(a));
         std::int64_t const id = below == no_arc ? 0 : file.arcs[order[below]].id;
         if (FileArc const& arc = file.arcs[order[a]]; arc.ds_arc != id) {
-            refuse(fmt::format("arc {} says that {} is downstream of it, but its node {} leads to {}", arc.id,
-                               arc.ds_arc, arc.to_node, id));
+            auto const named = [&](std::int64_t of) {
+                return of == 0 ? std::string("none") : fmt::format("{}", of - file.id_shift);
+            };
+            refuse(fmt::format("arc {} says that {} is downstream of it, but its node {} leads to {}",
+                               number_in(file, arc), named(arc.ds_arc), arc.to_node, named(id)));
         }
     }
 }
@@ -132,12 +143,11 @@ void require_downstream(NetworkFile const& file, std::vector<std::size_t> const&
 void add_arc(FileArc const& arc, NetworkFile const& file, Nodes const& nodes, NetworkDraft& drawing,
              FileNetwork& made) {
     bool const heights = file.says.heights;
-    require_line(arc, heights);
+    require_line(file, arc);
     NodeId const from = nodes.of(arc.from_node, arc);
     NodeId const to = nodes.of(arc.to_node, arc);
-    bool const own_height = heights && file.says.nodes;
-    require_end(arc, file.nodes[nodes.order()[from]], arc.line.front(), own_height);
-    require_end(arc, file.nodes[nodes.order()[to]], arc.line.back(), own_height);
+    require_end(file, arc, file.nodes[nodes.order()[from]], arc.line.front());
+    require_end(file, arc, file.nodes[nodes.order()[to]], arc.line.back());
     Arc drawn{{}, arc.persistence, arc.feature, arc.type, arc.is_input};
     std::vector<double> z;
     for (Vec3 const p : arc.line) {
@@ -184,7 +194,7 @@ FileNetwork from_file(NetworkFile const& file) {
     }
     bool const heights = file.says.heights;
     Nodes nodes(file);
-    std::vector<std::size_t> const order = by_id(file.arcs, "arc");
+    std::vector<std::size_t> const order = by_id(file.arcs, "arc", file.id_shift);
     if (!file.says.ends) {
         nodes.number_by(order);
     }

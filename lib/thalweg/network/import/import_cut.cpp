@@ -120,9 +120,9 @@ void leave_out(RiverLine const& line, Part const& part, RiverLine const& owner, 
          "duplicate",
          line.feature,
          LeftOut::duplicate});
-    left.repairs.push_back({"duplicate", line.feature, Vec2{from.x, from.y}, part.length,
-                            fmt::format("river {} repeats river {} for {:.6g} m; that part is left out", line.feature,
-                                        owner.feature, part.length)});
+    left.repairs.push_back({"duplicate", line.number(), Vec2{from.x, from.y}, part.length,
+                            fmt::format("river {} repeats river {} for {:.6g} m; that part is left out", line.number(),
+                                        owner.number(), part.length)});
 }
 
 } // namespace
@@ -159,9 +159,9 @@ void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::st
                 }
             }
         }
-        std::vector<std::int64_t> features{lines[piece.line].feature};
+        std::vector<std::int64_t> features{lines[piece.line].number()};
         for (std::size_t n = piece.to; n != piece.from; n = other(came_by[n], n)) {
-            features.push_back(lines[p.pieces[came_by[n]].line].feature);
+            features.push_back(lines[p.pieces[came_by[n]].line].number());
         }
         std::ranges::sort(features);
         features.erase(std::unique(features.begin(), features.end()), features.end());
@@ -210,10 +210,10 @@ Pieces cut(std::vector<RiverLine> const& lines, Left& left) {
                 leave_out(lines[l], part, lines[owner], left);
             }
             if (i + 1 < v.size() && junctions.degree[v[i]] > 2) {
-                left.repairs.push_back({"split", lines[l].feature, at[v[i]],
+                left.repairs.push_back({"split", lines[l].number(), at[v[i]],
                                         static_cast<double>(junctions.degree[v[i]]),
                                         fmt::format("river {} is divided at ({:.6f}, {:.6f}), where rivers meet",
-                                                    lines[l].feature, at[v[i]].x, at[v[i]].y)});
+                                                    lines[l].number(), at[v[i]].x, at[v[i]].y)});
             }
         }
     }

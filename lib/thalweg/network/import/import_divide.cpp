@@ -280,8 +280,8 @@ private:
             fmt::format("network.import_lines: rivers {} and {} in {} both run away from ({:.6f}, {:.6f}) by {}, "
                         "one of them into ({:.6f}, {:.6f}), which no river leaves: correct the {} there, or "
                         "orient by something else",
-                        lines_[p_.pieces[k].line].feature, lines_[p_.pieces[main_[above(k)]].line].feature, file_.name,
-                        at.x, at.y, by.name, pit.x, pit.y, by.name));
+                        lines_[p_.pieces[k].line].number(), lines_[p_.pieces[main_[above(k)]].line].number(),
+                        file_.name, at.x, at.y, by.name, pit.x, pit.y, by.name));
     }
 
     /// Drawn directions that contradict one another say nothing.

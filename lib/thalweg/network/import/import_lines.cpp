@@ -32,14 +32,14 @@ void refuse_unusable(RiverLines const& file) {
                 throw BadInput(
                     fmt::format("network.import_lines: vertex {} of river {} in {} is not finite: ({}, {}, {}); "
                                 "correct the file",
-                                i + 1, line.feature, file.name, v[i].x, v[i].y, v[i].z));
+                                i + 1, line.number(), file.name, v[i].x, v[i].y, v[i].z));
             }
         }
         bool const is_point =
             std::ranges::all_of(v, [&](Vec3 const& p) { return p.x == v.front().x && p.y == v.front().y; });
         if (is_point) {
             throw BadInput(
-                fmt::format("network.import_lines: river {} in {} has no length{}; remove it", line.feature, file.name,
+                fmt::format("network.import_lines: river {} in {} has no length{}; remove it", line.number(), file.name,
                             v.empty() ? std::string() : fmt::format(" at ({:.6f}, {:.6f})", v.front().x, v.front().y)));
         }
     }
@@ -120,7 +120,7 @@ std::vector<double> node_heights(Flow const& flow, std::vector<Finding>& repairs
         if (high - low > import_steps::same_point_m) {
             auto const& piece = flow.pieces.pieces[flow.pieces.at_node[n].front()];
             Vec2 const at = flow.pieces.nodes[n];
-            repairs.push_back({"height", flow.lines[piece.line].feature, at, high - low,
+            repairs.push_back({"height", flow.lines[piece.line].number(), at, high - low,
                                fmt::format("rivers meet at ({:.6f}, {:.6f}) in heights from {:.7g} to {:.7g} m; "
                                            "{:.7g} m is taken",
                                            at.x, at.y, low, high, z[n])});
@@ -154,9 +154,9 @@ std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
         if (upper.feature != lower.feature) {
             auto const& piece = flow.pieces.pieces[flow.leaves[n]];
             Vec2 const at = flow.pieces.nodes[n];
-            repairs.push_back({"joined", upper.feature, at, piece.length_m,
-                               fmt::format("river {} goes on as river {} at ({:.6f}, {:.6f}): one arc", upper.feature,
-                                           lower.feature, at.x, at.y)});
+            repairs.push_back({"joined", upper.number(), at, piece.length_m,
+                               fmt::format("river {} goes on as river {} at ({:.6f}, {:.6f}): one arc", upper.number(),
+                                           lower.number(), at.x, at.y)});
         }
     }
     return result;
@@ -165,15 +165,17 @@ std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
 /// An arc as it is put together; without spikes, since nothing else meets it between its ends.
 class Course {
 public:
-    Course(double near_m, std::vector<Finding>& repairs) : near_m_(near_m), repairs_(repairs) {}
+    Course(double near_m, std::int64_t id_shift, std::vector<Finding>& repairs)
+        : near_m_(near_m), id_shift_(id_shift), repairs_(repairs) {}
 
     /// Adds the vertex where a segment of a feature begins.
     void add(Vec2 at, double z, std::int64_t feature) {
         while (line_.size() > 1 && is_spike(line_[line_.size() - 2], line_.back(), at, near_m_)) {
             double const back_m = std::min(distance(line_.back(), at), distance(line_.back(), line_[line_.size() - 2]));
-            repairs_.push_back({"cut", features_.back(), line_.back(), back_m,
+            std::int64_t const number = features_.back() - id_shift_;
+            repairs_.push_back({"cut", number, line_.back(), back_m,
                                 fmt::format("river {} steps back by {:.3g} m at ({:.6f}, {:.6f}); the step is removed",
-                                            features_.back(), back_m, line_.back().x, line_.back().y)});
+                                            number, back_m, line_.back().x, line_.back().y)});
             line_.pop_back();
             z_.pop_back();
             features_.pop_back();
@@ -203,6 +205,7 @@ public:
 
 private:
     double near_m_;
+    std::int64_t id_shift_;
     std::vector<Finding>& repairs_;
     std::vector<Vec2> line_;
     std::vector<double> z_;
@@ -237,7 +240,7 @@ void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& n
     };
     for (std::size_t const head : heads) {
         Arc arc;
-        Course course(near_m, imported.repairs);
+        Course course(near_m, flow.line(head).id_shift, imported.repairs);
         std::size_t n = head;
         do {
             arc.type = flow.line(n).type;
@@ -278,16 +281,18 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
             auto const& first = lines[l].vertices.front();
             repairs.push_back(
                 {"removed",
-                 lines[l].feature,
+                 lines[l].number(),
                  {first.x, first.y},
                  static_cast<double>(repeats[l]),
-                 fmt::format("{} repeated vertices of river {} are left out", repeats[l], lines[l].feature)});
+                 fmt::format("{} repeated vertices of river {} are left out", repeats[l], lines[l].number())});
         }
     }
     double const snap_m = params.snap_m > 0.0 ? params.snap_m : 1e-6 * diagonal_of(lines);
     import_steps::Left left{repairs, imported.secondary};
-    import_steps::drop_copies(lines, snap_m, left, run);
-    import_steps::snap(lines, snap_m, left, run);
+    bool const open = params.snapped == SnappedEnds::open;
+    double const same_m = open ? std::min(snap_m, 1e-6 * diagonal_of(lines)) : snap_m;
+    import_steps::drop_copies(lines, same_m, left, run);
+    import_steps::snap(lines, snap_m, params.snapped, left, run);
     for (RiverLine const& line : file.lines) { // as they were drawn
         if (std::ranges::find(left.too_short, line.feature) != left.too_short.end()) {
             imported.secondary.push_back({line.feature, line.vertices, "too short", line.feature, LeftOut::too_short});

@@ -31,12 +31,19 @@ enum class Divergences : std::uint8_t {
     error
 };
 
+/// Which ends are joined to lines within the snapping distance.
+enum class SnappedEnds : std::uint8_t {
+    all,
+    open ///< those that meet no other line, and not to a line that theirs meets at its other end: nothing collapses
+};
+
 /// Options of import_lines().
 struct ImportParams {
     double snap_m = 0.0; ///< [m] >= 0, closer ends are joined; 0: 1e-6 of the box's diagonal
     Orientation orientation = Orientation::automatic;
     bool join = true; ///< lines that meet end to end become one arc
     Divergences divergences = Divergences::main;
+    SnappedEnds snapped = SnappedEnds::all;
 };
 
 /// What import_lines() returns.

@@ -32,7 +32,7 @@ namespace {
         throw BadInput(
             fmt::format("network.import_lines: rivers {} and {} in {} both run away from ({:.6f}, {:.6f}) by {}; "
                         "water has one way down from every place: remove one, or orient by something else",
-                        lines[piece.line].feature, lines[next.line].feature, name, at.x, at.y, evidence));
+                        lines[piece.line].number(), lines[next.line].number(), name, at.x, at.y, evidence));
     }
     throw BadInput("network.import_lines: the rivers of " + name + " cannot be oriented by " + evidence);
 }
@@ -55,9 +55,9 @@ void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::ve
     }
     for (std::size_t l = 0; l < lines.size(); ++l) {
         if (length_m[l] > 0.0) {
-            repairs.push_back({"reversed", lines[l].feature, towards[l], length_m[l],
+            repairs.push_back({"reversed", lines[l].number(), towards[l], length_m[l],
                                fmt::format("river {} is turned round for {:.6g} m, to run towards ({:.6f}, {:.6f})",
-                                           lines[l].feature, length_m[l], towards[l].x, towards[l].y)});
+                                           lines[l].number(), length_m[l], towards[l].x, towards[l].y)});
         }
     }
 }

@@ -80,8 +80,8 @@ std::vector<SecondaryLine> secondary_lines(Pieces const& p, Divided const& divid
         one.vertices.assign(line.vertices.begin() + static_cast<std::ptrdiff_t>(first.first),
                             line.vertices.begin() + static_cast<std::ptrdiff_t>(p.pieces[end].last) + 1);
         Vec2 const at{one.vertices.front().x, one.vertices.front().y};
-        repairs.push_back({"secondary", line.feature, at, length_m,
-                           fmt::format("river {} is secondary for {:.6g} m from ({:.6f}, {:.6f}): {}", line.feature,
+        repairs.push_back({"secondary", line.number(), at, length_m,
+                           fmt::format("river {} is secondary for {:.6g} m from ({:.6f}, {:.6f}): {}", line.number(),
                                        length_m, at.x, at.y, one.reason)});
         secondary.push_back(std::move(one));
         k = end;

@@ -26,7 +26,7 @@ double greatest_distance(std::vector<Vec3> const& a, std::vector<Vec3> const& b,
 struct Goal {
     Vec2 at;
     double moved_m = 0.0;
-    std::int64_t onto = 0;             // feature
+    std::int64_t onto = 0;             // number of the river
     std::optional<Insertion> addition; // where it meets the line between two vertices
 };
 
@@ -55,7 +55,7 @@ std::optional<Goal> nearest_vertex(Ends const& ends, std::size_t own, Vec2 p, do
             Vec2 const q = plan(ends.lines[s.line].vertices[v]);
             double const d = distance(p, q);
             if (d <= snap_m && (!best || d < best->moved_m)) {
-                best = Goal{q, d, ends.lines[s.line].feature, std::nullopt};
+                best = Goal{q, d, ends.lines[s.line].number(), std::nullopt};
             }
         }
     }
@@ -83,7 +83,7 @@ std::optional<Goal> nearest_foot(Ends const& ends, std::size_t own, Vec2 p, doub
         }
         // An end that lies on the line stays where it is drawn; the line takes it up as a vertex.
         Vec2 const at = d <= same_point_m ? p : rounded(foot.at);
-        best = Goal{at, distance(p, at), ends.lines[s.line].feature, Insertion{s.line, s.segment, foot.along, at}};
+        best = Goal{at, distance(p, at), ends.lines[s.line].number(), Insertion{s.line, s.segment, foot.along, at}};
     }
     return best;
 }
@@ -94,6 +94,31 @@ bool meets_an_end(Ends const& ends, std::size_t own, Vec2 p, std::vector<geometr
         auto const& v = ends.lines[s.line].vertices;
         return s.line != own && (plan(v.front()) == p || plan(v.back()) == p);
     });
+}
+
+// The lines, but for one, that pass through a place.
+std::vector<std::size_t> lines_at(std::vector<RiverLine> const& lines, std::size_t own, Vec2 p,
+                                  std::vector<geometry::NearSegment> const& near) {
+    std::vector<std::size_t> found;
+    for (auto const& s : near) {
+        auto const& v = lines[s.line].vertices;
+        if (s.line != own &&
+            distance(p, geometry::foot_on(plan(v[s.segment]), plan(v[s.segment + 1]), p).at) <= same_point_m) {
+            found.push_back(s.line);
+        }
+    }
+    return found;
+}
+
+// The segments that an open end may go to: none of a line that its own meets at its other end.
+std::vector<geometry::NearSegment> goals_of_open(std::vector<RiverLine> const& lines, std::size_t e,
+                                                 std::vector<std::vector<geometry::NearSegment>> const& near) {
+    auto const& own = lines[e / 2].vertices;
+    auto const others = lines_at(lines, e / 2, plan(e % 2 == 0 ? own.back() : own.front()), near[e ^ 1U]);
+    std::vector<geometry::NearSegment> goals = near[e];
+    std::erase_if(goals,
+                  [&](geometry::NearSegment const& s) { return std::ranges::find(others, s.line) != others.end(); });
+    return goals;
 }
 
 } // namespace
@@ -164,9 +189,9 @@ void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run c
                 std::size_t const stays = other_goes ? l : s.line;
                 dropped[gone] = 1;
                 double const length = length_of(plan_of({lines[gone]}).front());
-                left.repairs.push_back({"duplicate", lines[gone].feature, starts[gone], length,
+                left.repairs.push_back({"duplicate", lines[gone].number(), starts[gone], length,
                                         fmt::format("river {} repeats river {} within {:.3g} m; it is left out",
-                                                    lines[gone].feature, lines[stays].feature, apart)});
+                                                    lines[gone].number(), lines[stays].number(), apart)});
                 left.secondary.push_back(
                     {lines[gone].feature, lines[gone].vertices, "duplicate", lines[gone].feature, LeftOut::duplicate});
                 break;
@@ -182,7 +207,7 @@ void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run c
     lines = std::move(kept);
 }
 
-void snap(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run) {
+void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Left& left, Run const& run) {
     std::vector<Vec2> drawn;
     for (auto const& line : lines) {
         drawn.push_back(plan(line.vertices.front()));
@@ -192,11 +217,20 @@ void snap(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& r
     auto const near = geometry::segments_near(drawn, plan_of(lines), 2.0 * snap_m, run);
     Ends ends{lines, std::vector<char>(drawn.size(), 0)};
     std::vector<Insertion> additions;
+    std::vector<char> meets(drawn.size(), 0); // another line, or itself: such ends stay where they are
+    for (std::size_t e = 0; e < drawn.size() && snapped == SnappedEnds::open; ++e) {
+        meets[e] = drawn[e] == drawn[e ^ 1U] || !lines_at(lines, e / 2, drawn[e], near[e]).empty() ? 1 : 0;
+        ends.settled[e] = meets[e];
+    }
     for (std::size_t e = 0; e < drawn.size(); ++e) {
         std::size_t const own = e / 2;
-        auto goal = nearest_vertex(ends, own, drawn[e], snap_m, near[e]);
+        double const reach_m = meets[e] != 0 ? same_point_m : snap_m;
+        bool const is_open = snapped == SnappedEnds::open && meets[e] == 0;
+        auto const of_open = is_open ? goals_of_open(lines, e, near) : std::vector<geometry::NearSegment>();
+        auto const& goals = is_open ? of_open : near[e];
+        auto goal = nearest_vertex(ends, own, drawn[e], reach_m, goals);
         if (!goal && !meets_an_end(ends, own, drawn[e], near[e])) {
-            goal = nearest_foot(ends, own, drawn[e], snap_m, near[e]);
+            goal = nearest_foot(ends, own, drawn[e], reach_m, goals);
         }
         ends.settled[e] = 1;
         if (!goal) {
@@ -210,9 +244,9 @@ void snap(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& r
         end.y = goal->at.y;
         if (goal->moved_m > 0.0) {
             left.repairs.push_back(
-                {"snapped", lines[own].feature, goal->at, goal->moved_m,
+                {"snapped", lines[own].number(), goal->at, goal->moved_m,
                  fmt::format("the {} of river {} is moved {:.3g} m onto river {}", e % 2 == 0 ? "start" : "end",
-                             lines[own].feature, goal->moved_m, goal->onto)});
+                             lines[own].number(), goal->moved_m, goal->onto)});
         }
     }
     insert(lines, std::move(additions));
@@ -222,9 +256,9 @@ void snap(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& r
             return false;
         }
         left.too_short.push_back(line.feature);
-        left.repairs.push_back({"removed", line.feature, plan(line.vertices.front()), 1.0,
+        left.repairs.push_back({"removed", line.number(), plan(line.vertices.front()), 1.0,
                                 fmt::format("river {} is shorter than the snapping distance {:.3g} m; it is left out",
-                                            line.feature, snap_m)});
+                                            line.number(), snap_m)});
         return true;
     });
 }

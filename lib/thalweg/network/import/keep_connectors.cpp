@@ -329,9 +329,10 @@ RiverLines keep_connectors(RiverLines rivers, double snap_m, Run const& run) {
     if (channels.empty()) {
         return rivers;
     }
-    std::vector<std::vector<std::int64_t>> needed_by(channels.size()); // by segment: the feature that ends there; 0
+    constexpr std::int64_t nobody = std::numeric_limits<std::int64_t>::min();
+    std::vector<std::vector<std::int64_t>> needed_by(channels.size()); // by segment: the river that ends there
     for (std::size_t l = 0; l < channels.size(); ++l) {
-        needed_by[l].assign(channels[l].vertices.size() - 1, 0);
+        needed_by[l].assign(channels[l].vertices.size() - 1, nobody);
     }
     if (!rivers.lines.empty()) {
         double const near_m = tolerance(rivers.lines, snap_m);
@@ -341,7 +342,7 @@ RiverLines keep_connectors(RiverLines rivers, double snap_m, Run const& run) {
             run.check();
             std::size_t into = nowhere;
             for (auto const& [line, segment] : graph.way_on(sink.at, sink.line, found.groups, into)) {
-                needed_by[line][segment] = rivers.lines[sink.line].feature;
+                needed_by[line][segment] = rivers.lines[sink.line].number();
             }
             if (into != nowhere) {
                 found.groups.join(sink.line, into);
@@ -352,7 +353,7 @@ RiverLines keep_connectors(RiverLines rivers, double snap_m, Run const& run) {
         RiverLine const& channel = channels[l];
         for (std::size_t first = 0; first < needed_by[l].size();) {
             std::size_t last = first;
-            auto const is_needed = [&](std::size_t segment) { return needed_by[l][segment] != 0; };
+            auto const is_needed = [&](std::size_t segment) { return needed_by[l][segment] != nobody; };
             while (last + 1 < needed_by[l].size() && is_needed(last + 1) == is_needed(first)) {
                 ++last;
             }
@@ -361,8 +362,8 @@ RiverLines keep_connectors(RiverLines rivers, double snap_m, Run const& run) {
             if (is_needed(first)) {
                 double const length_m = length_in_plan(part);
                 rivers.findings.push_back(
-                    {"connector", channel.feature, plan(part.front()), length_m,
-                     fmt::format("line {} ({}) is kept for {:.6g} m: river {} continues through it", channel.feature,
+                    {"connector", channel.number(), plan(part.front()), length_m,
+                     fmt::format("line {} ({}) is kept for {:.6g} m: river {} continues through it", channel.number(),
                                  channel.artificial, length_m, needed_by[l][first])});
                 RiverLine& kept = rivers.lines.emplace_back(channel);
                 kept.vertices = std::move(part);

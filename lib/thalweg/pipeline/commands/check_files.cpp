@@ -181,6 +181,7 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
     }
     io::ReadNetworkParams read = job.read;
     read.any_lines = !job.fix.empty();
+    read.bridge = true;
     NetworkFile const network = io::read_network(job.network, read, run);
     CheckedFiles checked;
     checked.arcs = static_cast<std::int64_t>(network.arcs.size());

@@ -241,7 +241,9 @@ private:
 
 Converted convert(ConvertParams const& params, std::string const& output, io::Existing existing, Run const& run) {
     ConvertOutput out(params, output, existing);
-    NetworkFile file = io::read_network(params.path, params.read, run);
+    io::ReadNetworkParams read = params.read;
+    read.bridge = true;
+    NetworkFile file = io::read_network(params.path, read, run);
     Converted converted;
     converted.schema = file.schema;
     converted.crs = file.crs;

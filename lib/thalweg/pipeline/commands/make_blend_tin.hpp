@@ -20,6 +20,7 @@ struct MakeBlendTinParams {
     double rotate_deg = 0.0;     ///< [-360, 360] counterclockwise about that middle
     double scale = 1.0;          ///< > 0, in plan
     double gain = 1.0;           ///< finite, of heights
+    std::string source_crs = {}; ///< of meshes that name none, projected, in metres; "" for none
 };
 
 /// A blended mesh and how it came about.

@@ -27,12 +27,13 @@ struct Breaklines {
     std::string crs;
 };
 
-Breaklines read_lines(std::string const& path, std::string const& crs, Run const& run) {
+Breaklines read_lines(std::string const& path, std::string const& crs, std::string const& source_crs, Run const& run) {
     io::FileContent const content = io::content_of(path);
     if (content.kind != Kind::lines) {
         throw BadInput(fmt::format("pipeline.make_tin: {} holds no lines", path));
     }
-    RiverLines rivers = io::read_rivers({content.path, content.layer, "rosgen", {}, crs}, run);
+    RiverLines rivers =
+        io::read_rivers({.path = content.path, .layer = content.layer, .crs = crs, .source_crs = source_crs}, run);
     if (!rivers.has_z) {
         throw BadInput(
             fmt::format("pipeline.make_tin: the lines of {} have no heights (or all the same): a TIN takes lines "
@@ -75,9 +76,18 @@ MadeTin of_points(std::vector<Vec3> const& points, Breaklines const& breaklines,
 
 MadeTin make_tin(MakeTinParams const& params, Run const& run) {
     io::FileContent const content = io::content_of(params.path);
+    if (params.duplicates && content.kind != Kind::points) {
+        throw BadParameter(fmt::format("pipeline.make_tin: --duplicates applies to points only; {} holds {}",
+                                       content.path, content.kind == Kind::raster ? "a DEM" : "lines"));
+    }
+    if (!params.columns.empty() && content.kind != Kind::points) {
+        throw BadParameter(fmt::format("pipeline.make_tin: --columns applies to text with points; {} holds {}",
+                                       content.path, content.kind == Kind::raster ? "a DEM" : "lines"));
+    }
     if (content.kind == Kind::raster) {
-        if (!params.breaklines.empty() || !params.crs.empty()) {
-            throw BadParameter("pipeline.make_tin: --breaklines and --crs apply to points and lines, not to a DEM");
+        if (!params.breaklines.empty() || !params.crs.empty() || !params.source_crs.empty()) {
+            throw BadParameter("pipeline.make_tin: --breaklines, --crs and --source-crs apply to points and lines, not "
+                               "to a DEM");
         }
         return of_dem(content.path, params.error_m.value_or(geometry::TinOfDemParams{}.error_m), run);
     }
@@ -86,22 +96,33 @@ MadeTin make_tin(MakeTinParams const& params, Run const& run) {
                                        content.kind == Kind::points ? "points" : "lines"));
     }
     if (content.kind == Kind::points) {
-        FeaturePoints const points = io::read_points({content.path, {}, "z", params.crs}, run);
+        FeaturePoints const points =
+
+            io::read_points({.path = content.path,
+                             .crs = params.crs,
+                             .duplicates = params.duplicates.value_or(io::DuplicatePoints::averaged),
+                             .columns = params.columns,
+                             .source_crs = params.source_crs},
+                            run);
         Breaklines breaklines{{}, points.crs};
         if (!params.breaklines.empty()) {
-            breaklines = read_lines(params.breaklines, points.crs, run);
+            breaklines = read_lines(params.breaklines, points.crs, params.source_crs, run);
         }
-        return of_points(points.points, breaklines, "points", run);
+        MadeTin made = of_points(points.points, breaklines, "points", run);
+        made.averaged = points.averaged;
+        made.averaged_dz_m = points.averaged_dz_m;
+        return made;
     }
-    Breaklines network = read_lines(content.path, params.crs, run);
+    Breaklines network = read_lines(content.path, params.crs, params.source_crs, run);
     if (content.layer == "arcs" && io::has_layer(content.path, "ridges")) {
-        RiverLines ridges = io::read_rivers({.path = content.path, .layer = "ridges", .crs = network.crs}, run);
+        RiverLines ridges = io::read_rivers(
+            {.path = content.path, .layer = "ridges", .crs = network.crs, .source_crs = params.source_crs}, run);
         for (RiverLine& line : ridges.lines) {
             network.lines.push_back(std::move(line.vertices));
         }
     }
     if (!params.breaklines.empty()) {
-        Breaklines more = read_lines(params.breaklines, network.crs, run);
+        Breaklines more = read_lines(params.breaklines, network.crs, params.source_crs, run);
         network.lines.insert(network.lines.end(), more.lines.begin(), more.lines.end());
     }
     return of_points({}, network, "network", run);

@@ -8,6 +8,7 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>
+#include <thalweg/io/mesh/read_points.hpp>
 
 namespace thalweg::pipeline {
 
@@ -17,6 +18,10 @@ struct MakeTinParams {
     std::string breaklines = {};        ///< lines with heights, for points and lines; "" for none
     std::string crs = {};               ///< of the result, projected, in metres; "" takes the file's own
     std::optional<double> error_m = {}; ///< [m] > 0, of a DEM; 1 without one
+    std::string source_crs = {};        ///< of points and lines whose file has no CRS; "" for none
+    /// points alone; averaged where nothing is said
+    std::optional<io::DuplicatePoints> duplicates = {};
+    std::string columns = {}; ///< of text with points, as io::ReadPointsParams; "" for none
 };
 
 /// A TIN and how it came about.
@@ -28,6 +33,8 @@ struct MadeTin {
     std::int64_t left_out = 0;     ///< cells of a DEM in no triangle
     std::int64_t merged = 0;       ///< as in geometry::Triangulation
     double merged_dz_m = 0.0;
+    std::int64_t averaged = 0; ///< as in FeaturePoints
+    double averaged_dz_m = 0.0;
     std::int64_t crossings = 0;
     double crossings_dz_m = 0.0;
 };

@@ -93,6 +93,7 @@ public:
 
     void mend(std::size_t a) {
         auto const& arc = file_.arcs[a];
+        std::int64_t const number = number_of(arc);
         auto line = numbers_of(arc);
         Vec3 const* from = nodes_.of(arc.from_node);
         Vec3 const* to = nodes_.of(arc.to_node);
@@ -102,23 +103,24 @@ public:
         }
         if (length_in_plan(line) <= 0.0) {
             if (from == nullptr || to == nullptr || plan(*from) == plan(*to)) {
-                say("left_out", arc.id, line.empty() ? Vec2{} : plan(line.front()), 0.0,
-                    fmt::format("arc {}: has no length and joins no two nodes; it is left out", arc.id));
+                say("left_out", number, line.empty() ? Vec2{} : plan(line.front()), 0.0,
+                    fmt::format("arc {}: has no length and joins no two nodes; it is left out", number));
                 return;
             }
             line = {*from, *to};
-            say("drawn", arc.id, plan(*from), length_in_plan(line),
-                fmt::format("arc {}: has no line; it is drawn straight from node {} to node {}", arc.id, arc.from_node,
+            say("drawn", number, plan(*from), length_in_plan(line),
+                fmt::format("arc {}: has no line; it is drawn straight from node {} to node {}", number, arc.from_node,
                             arc.to_node));
         } else {
-            put_onto(from, line.front(), arc.id);
-            put_onto(to, line.back(), arc.id);
+            put_onto(from, line.front(), number);
+            put_onto(to, line.back(), number);
         }
         fill_heights(line, from, to);
         if (arc.is_channel) {
             RiverLine& channel = result_.rivers.channels.emplace_back();
             channel = {arc.id, std::move(line), arc.type, arc.rank};
             channel.artificial = arc.unnatural;
+            channel.id_shift = file_.id_shift;
             arc_of_channel_.try_emplace(arc.id, a);
             return;
         }
@@ -128,22 +130,31 @@ public:
         }
         if (found_.upstream[a] != 0) {
             std::reverse(line.begin(), line.end());
-            say("turned", arc.id, plan(line.front()), length_in_plan(line),
-                fmt::format("arc {}: is reversed to run downstream", arc.id));
+            say("turned", number, plan(line.front()), length_in_plan(line),
+                fmt::format("arc {}: is reversed to run downstream", number));
         }
-        if (looped_.contains(arc.id)) {
+        if (looped_.contains(number)) {
             network::CutLine cut = network::cut_loops(line, near_m_);
             if (length_in_plan(cut.line) <= 0.0) {
                 put_aside(arc.id, std::move(line), "closed ring");
                 return;
             }
             line = std::move(cut.line);
-            say("cut", arc.id, plan(line.front()), cut.cut_m,
-                fmt::format("arc {}: loops and spikes of {} m are cut off", arc.id, cut.cut_m));
+            say("cut", number, plan(line.front()), cut.cut_m,
+                fmt::format("arc {}: loops and spikes of {} m are cut off", number, cut.cut_m));
         }
         std::int64_t const ds_arc = file_.says.downstream ? arc.ds_arc : 0; // else told by places alone
-        result_.rivers.lines.push_back(
-            {arc.id, std::move(line), arc.type, arc.rank, 0, ds_arc, arc.size, arc.channel, arc.name});
+        result_.rivers.lines.push_back({arc.id,
+                                        std::move(line),
+                                        arc.type,
+                                        arc.rank,
+                                        0,
+                                        ds_arc,
+                                        arc.size,
+                                        arc.channel,
+                                        arc.name,
+                                        {},
+                                        file_.id_shift});
         result_.arcs.push_back(a);
     }
 
@@ -167,9 +178,13 @@ private:
         result_.mended.push_back({kind, feature, at, amount, std::move(text)});
     }
 
+    /// By which the file itself calls an arc.
+    std::int64_t number_of(NetworkFile::FileArc const& arc) const { return arc.id - file_.id_shift; }
+
     void put_aside(std::int64_t id, std::vector<Vec3> line, std::string const& reason) {
-        say("secondary", id, plan(line.front()), length_in_plan(line),
-            fmt::format("arc {}: is not a river: {}", id, reason));
+        std::int64_t const number = id - file_.id_shift;
+        say("secondary", number, plan(line.front()), length_in_plan(line),
+            fmt::format("arc {}: is not a river: {}", number, reason));
         result_.secondary.push_back({id, std::move(line), reason});
     }
 
@@ -184,13 +199,13 @@ private:
         }
         std::size_t const lost = arc.line.size() - line.size();
         if (lost > 0) {
-            say("left_out", arc.id, line.empty() ? Vec2{} : plan(line.front()), static_cast<double>(lost),
-                fmt::format("arc {}: {} vertices without finite coordinates are left out", arc.id, lost));
+            say("left_out", number_of(arc), line.empty() ? Vec2{} : plan(line.front()), static_cast<double>(lost),
+                fmt::format("arc {}: {} vertices without finite coordinates are left out", number_of(arc), lost));
         }
         if (without_height > 0 && file_.says.heights) {
-            say("level", arc.id, plan(line.front()), static_cast<double>(without_height),
-                fmt::format("arc {}: {} vertices without a height are interpolated between their neighbours", arc.id,
-                            without_height));
+            say("level", number_of(arc), plan(line.front()), static_cast<double>(without_height),
+                fmt::format("arc {}: {} vertices without a height are interpolated between their neighbours",
+                            number_of(arc), without_height));
         }
         return line;
     }

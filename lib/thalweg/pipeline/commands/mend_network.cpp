@@ -140,14 +140,14 @@ void say_mended(measure::TopologyReport const& found, std::vector<Finding>& mend
     }
 }
 
-void say_lowered(network::Lowered const& lowered, std::vector<Finding>& mended) {
+void say_lowered(network::Lowered const& lowered, std::int64_t id_shift, std::vector<Finding>& mended) {
     std::size_t a = 0;
     for (ArcId arc = 0; arc < lowered.network.plan.arc_count(); ++arc) {
         Arc const& of = lowered.network.plan.arc(arc);
         if (double const by = lowered.by_m[a++]; by > 0.0) {
-            mended.push_back(
-                {"lowered", of.feature, of.line.front(), by,
-                 fmt::format("arc {}: is lowered by up to {} m so that it does not run uphill", of.feature, by)});
+            mended.push_back({"lowered", of.feature - id_shift, of.line.front(), by,
+                              fmt::format("arc {}: is lowered by up to {} m so that it does not run uphill",
+                                          of.feature - id_shift, by)});
         }
     }
 }
@@ -173,14 +173,15 @@ MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport cons
             lines.rivers,
             {.snap_m = near_m,
              .orientation = file.schema == "native" ? network::Orientation::least_turned : network::Orientation::links,
-             .join = false},
+             .join = false,
+             .snapped = network::SnappedEnds::open},
             run);
     } catch (BadInput const& cannot) {
         return give_up(cannot.what());
     }
     append(mended.mended, std::move(imported.repairs));
     network::Lowered lowered = network::lower_rises(imported.network, imported.arc_z);
-    say_lowered(lowered, mended.mended);
+    say_lowered(lowered, file.id_shift, mended.mended);
     if (!file.says.heights) {
         mended.mended.push_back(
             {"level", 0, {}, static_cast<double>(file.arcs.size()), "the file has no heights: all are 0"});

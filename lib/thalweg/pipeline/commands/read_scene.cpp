@@ -119,6 +119,11 @@ std::optional<ElevatedNetwork> rivers_on(Raster<float> const& dem, std::string c
     params.path = file;
     params.crs = dem.grid().crs;
     RiverLines const lines = network::clip_lines(io::read_rivers(params, run), dem.grid());
+    for (Finding const& finding : lines.findings) {
+        if (finding.kind == "not_a_line") {
+            notes.push_back(fmt::format("{}: {}", lines.name, finding.text));
+        }
+    }
     if (lines.lines.empty()) {
         notes.push_back(fmt::format("no river of {} runs on the DEM", lines.name));
         return std::nullopt;

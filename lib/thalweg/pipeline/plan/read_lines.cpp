@@ -81,8 +81,16 @@ RiverLines read_lines(Recipe const& recipe, Run const& run) {
                                         .type_field = wanted.type_field,
                                         .rank_field = wanted.rank_field,
                                         .crs = crs,
-                                        .filter = wanted.filter},
+                                        .filter = wanted.filter,
+                                        .id_field = wanted.id_field,
+                                        .down_field = wanted.down_field,
+                                        .source_crs = wanted.source_crs},
                                        run);
+    for (Finding const& finding : lines.findings) {
+        if (finding.kind == "not_a_line") {
+            run.tell("note", finding.text);
+        }
+    }
     lines = network::keep_connectors(std::move(lines), wanted.snap_m, run);
     auto const count = lines.lines.size();
     network::FilledHeights filled = network::fill_heights(std::move(lines), recipe.network->slope);

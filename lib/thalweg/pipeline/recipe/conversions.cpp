@@ -35,7 +35,10 @@ std::vector<Finding> warn_of_stretch(Grid const& grid, Run const& run) {
 std::vector<Finding> report_conversions(Recipe const& recipe, Grid const& grid, Run const& run) {
     std::vector<Finding> notes;
     for (NamedFile const& file : files_of(recipe)) {
-        for (std::string const& words : io::conversions_of(file_in(recipe, file.name), file.layer, grid.crs)) {
+        bool const is_lines = file.key->help.path == "network.lines.path";
+        std::string const source_crs = is_lines ? recipe.network->lines.source_crs : "";
+        for (std::string const& words :
+             io::conversions_of(file_in(recipe, file.name), file.layer, grid.crs, source_crs)) {
             run.say(fmt::format("{:<6} {}", "units", words));
             notes.push_back({"converted", 0, {}, 0.0, words});
         }

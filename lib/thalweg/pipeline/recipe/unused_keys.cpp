@@ -23,7 +23,8 @@ bool is_default(Key const& key, Value const& value, bool set_by_someone) {
                                            [&](Recipe const& recipe) { return key.take(recipe) == value; }));
 }
 
-std::string words_of(std::string const& path, Value const& value, std::string const& place, std::string const& lacks) {
+std::string words_for_unused(std::string const& path, Value const& value, std::string const& place,
+                             std::string const& lacks) {
     return fmt::format("{} = {}{} has no effect in this recipe: it needs {}. Remove it, or change that.", path,
                        toml_text(value), place.empty() ? "" : " (" + place + ")", lacks);
 }
@@ -40,7 +41,8 @@ std::vector<UnusedKey> unused_keys(Recipe const& recipe) {
             auto const place = recipe.set_at.find(path);
             bool const is_set = place != recipe.set_at.end();
             if (value && !is_default(key, *value, is_set)) {
-                found.push_back({path, words_of(path, *value, is_set ? place->second : "", key.use.lacks(recipe))});
+                found.push_back(
+                    {path, words_for_unused(path, *value, is_set ? place->second : "", key.use.lacks(recipe))});
             }
         }
     }

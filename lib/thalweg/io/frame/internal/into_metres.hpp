@@ -17,6 +17,11 @@ namespace thalweg::io {
 /// Whether a layer has no CRS, or one that says so (a GeoPackage without CRS has one that is named "Undefined").
 bool is_missing(OGRSpatialReference const* reference);
 
+/// The CRS that a layer's coordinates are in: its own, or where it has none the one that a user names ("" for none).
+/// Gives: an empty one where there is neither. Throws: BadInput where the user's is not a CRS, also where it is not
+/// needed.
+OGRSpatialReference crs_of_layer(OGRSpatialReference const* own, std::string const& source_crs);
+
 /// What is read of a file, in its coordinates.
 struct FileBox {
     Vec2 low;

@@ -27,9 +27,9 @@ std::string words_for_unit(double metres);
 double height_unit_of(GDALDataset& dataset);
 
 /// What 1 of the heights of a layer's lines or points is in metres: by the field z_unit of a network that thalweg
-/// wrote, else by the vertical part of its CRS, else 1. Throws: BadInput at a z_unit that is not known; IoError when
-/// the first feature cannot be read.
-double height_unit_of(OGRLayer& layer);
+/// wrote, else by the vertical part of its CRS, else 1. source_crs: of a layer without a CRS, "" for none. Throws:
+/// BadInput at a z_unit that is not known; IoError when the first feature cannot be read.
+double height_unit_of(OGRLayer& layer, std::string const& source_crs = {});
 
 /// Whether a CRS says in what unit heights are.
 bool has_vertical_unit(OGRSpatialReference const* reference);

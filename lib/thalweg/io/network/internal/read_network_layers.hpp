@@ -25,7 +25,9 @@ struct Wish {
     std::string arcs_layer = {};
     std::string nodes_layer = {};
     std::string crs = {};
+    std::string source_crs = {};
     bool any_lines = false;
+    bool bridge = false;
     bool whole = false; ///< every layer, field and value of the native schema, or an error
 };
 

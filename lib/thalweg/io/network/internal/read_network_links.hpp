@@ -19,6 +19,10 @@ void link_by_keys(NetworkFile& file, std::vector<std::int64_t> const& keys, std:
 /// Makes an outlet of each arc whose ds_arc the file does not hold: an extract ends there; its basins go by others.
 void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes);
 
+/// Leaves out arcs whose vertices all lie at one place: arcs that flow into one flow into what is downstream of it.
+/// Their Strahler numbers are then those of two streams after another, not of all that meet.
+void bridge_points(NetworkFile& file, std::string const& what, Notes& notes);
+
 /// Turns all lines when more linked arcs are drawn up than down; with as many of both, when drawn_upstream.
 void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& what, Notes& notes);
 

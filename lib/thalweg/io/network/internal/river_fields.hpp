@@ -10,6 +10,7 @@
 #include <thalweg/core/river_lines.hpp>
 
 class OGRFeature;
+class OGRFeatureDefn;
 class OGRLayer;
 
 /// What the fields of river files say: NHDPlus, HydroRIVERS, EU-Hydro, OpenStreetMap, and the schemas of networks.
@@ -18,8 +19,9 @@ namespace thalweg::io {
 
 class RiverFields {
 public:
-    /// Finds the known fields in any case of letters.
-    explicit RiverFields(OGRLayer& layer);
+    /// Finds the known fields in any case of letters. id, down: indices of the fields with a line's own id and that of
+    /// the line downstream, where a user names both; else -1.
+    explicit RiverFields(OGRLayer& layer, int id = -1, int down = -1);
 
     /// Sets channel, size and name, and remembers the links of the feature.
     void read(OGRFeature const& feature, RiverLine& line);
@@ -37,6 +39,7 @@ public:
     void link(std::vector<RiverLine>& lines) const;
 
 private:
+    void find_links(OGRFeatureDefn& schema);
     static std::string text(OGRFeature const& feature, int field);
     static double number(OGRFeature const& feature, int field);
 

@@ -48,7 +48,7 @@ struct Left {
 void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run);
 
 /// Joins ends to other lines within snap_m, and drops what shrinks to a point.
-void snap(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run);
+void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Left& left, Run const& run);
 
 /// Adds a vertex to every line wherever it meets another or itself, until lines meet in common vertices only.
 /// Throws BadInput naming the place where that comes to no end.

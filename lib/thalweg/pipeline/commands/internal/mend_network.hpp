@@ -36,9 +36,9 @@ struct MendedNetwork {
 /// numbers left out, an arc without a line drawn straight between its nodes or left out, ends put onto their node where
 /// no other lies in their place, arcs drawn against the flow turned, loops and spikes cut off,
 /// arcs that are no natural watercourse secondary; then network::adopt, which under a foreign schema is told the file's
-/// links (branches beside the main path secondary, ends joined, arcs split where they meet, copies left out, what still
-/// runs against the rest turned round) and network::lower_rises. Orders and basins are those of the result. Areas stay
-/// where an arc keeps its end, and are otherwise what flows in, which is the least; 0 where the file does not say.
+/// links (branches beside the main path secondary, open ends joined, arcs split where they meet, copies left out, what
+/// still runs against the rest turned round) and network::lower_rises. Orders and basins are those of the result. Areas
+/// stay where an arc keeps its end, and are otherwise what flows in, which is the least; 0 where the file does not say.
 /// Heights are 0 in a file without. Kinds of mended: left_out (vertices; arc: 0), drawn [m], moved [m], turned [m], cut
 /// [m], those of adopt, lowered [m], level (arcs), secondary [m], mended (findings of one kind), not_mended. A file
 /// without a fault keeps its arcs, nodes and vertices. Throws: Cancelled; BadParameter.

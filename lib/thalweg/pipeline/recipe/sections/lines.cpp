@@ -13,6 +13,11 @@ Use by_rank() {
             (is("network.lines.orientation", {"height", "as_drawn"}) && is("network.lines.divergences", {"main"})));
 }
 
+Use by_links() {
+    return source_is("lines") &&
+           (is("network.lines.orientation", {"auto"}) || is("network.lines.divergences", {"main"}));
+}
+
 /// What is read.
 Rows<LinesRecipe> field_keys() {
     return {
@@ -25,6 +30,10 @@ Rows<LinesRecipe> field_keys() {
             .form("name")
             .used(source_is("lines"))
             .means("layer of the lines; \"\": the only line layer"),
+        text("source_crs", &LinesRecipe::source_crs)
+            .form("EPSG code or WKT")
+            .used(source_is("lines"))
+            .means("coordinate system of a line file that has none; \"\": such a file is refused"),
         text("type_field", &LinesRecipe::type_field)
             .form("name")
             .used(source_is("lines"))
@@ -34,6 +43,14 @@ Rows<LinesRecipe> field_keys() {
             .used(by_rank())
             .means("integer field that decreases downstream, and is least on the main of several branches; \"\": "
                    "hydroseq where there is one"),
+        text("id_field", &LinesRecipe::id_field)
+            .form("name")
+            .used(by_links())
+            .means("field with the id of a line, for down_field; \"\": a known one (docs/river_files.md)"),
+        text("down_field", &LinesRecipe::down_field)
+            .form("name")
+            .used(by_links())
+            .means("field with the id of the line downstream; \"\": a known one (docs/river_files.md)"),
     };
 }
 

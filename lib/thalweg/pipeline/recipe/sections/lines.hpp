@@ -20,9 +20,12 @@ enum class Coastlines : std::uint8_t {
 struct LinesRecipe {
     std::string path;
     std::string layer;
+    std::string source_crs; ///< of a file that has none
     std::string type_field = "rosgen";
     std::string rank_field;
-    double snap_m = 0.0; ///< [m] 0 takes 1e-6 of the box's diagonal
+    std::string id_field;   ///< of a line, and
+    std::string down_field; ///< of the line downstream; both or none
+    double snap_m = 0.0;    ///< [m] 0 takes 1e-6 of the box's diagonal
     network::Orientation orientation = network::Orientation::automatic;
     network::Divergences divergences = network::Divergences::main;
     io::LineFilter filter = io::LineFilter::natural;
