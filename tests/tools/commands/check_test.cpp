@@ -100,13 +100,13 @@ TEST(Check, TauDemsLinksWithoutLengthAreBridged) {
 
 TEST(Check, FixMovesOpenEndsOnly) {
     Workplace const place;
-    place.write("rivers.csv", "WKT\n"
-                              "\"LINESTRING (500000 5005000,500000 5002015)\"\n"
-                              "\"LINESTRING (497000 5005000,500000 5002015)\"\n"
-                              "\"LINESTRING (500000 5002015,500000 5002000)\"\n"
-                              "\"LINESTRING (503000 5005000,500000 5002000)\"\n"
-                              "\"LINESTRING (500000 5002000,500000 5000000)\"\n"
-                              "\"LINESTRING (497000 5002500,499997 5001000)\"\n");
+    place.write("rivers.csv", "WKT,part\n"
+                              "\"LINESTRING (500000 5005000,500000 5002015)\",a\n"
+                              "\"LINESTRING (497000 5005000,500000 5002015)\",a\n"
+                              "\"LINESTRING (500000 5002015,500000 5002000)\",a\n"
+                              "\"LINESTRING (503000 5005000,500000 5002000)\",a\n"
+                              "\"LINESTRING (500000 5002000,500000 5000000)\",a\n"
+                              "\"LINESTRING (497000 5002500,499997 5001000)\",a\n");
     ASSERT_EQ(std::system(("cd '" + place.path().string() +
                            "' && ogr2ogr rivers.gpkg rivers.csv -a_srs EPSG:32632 -nlt LINESTRING -nln rivers")
                               .c_str()),
@@ -126,11 +126,11 @@ TEST(Check, FixMovesOpenEndsOnly) {
 
 TEST(Check, AMendedCopyKeepsEveryCurve) {
     Workplace const place;
-    place.write("rivers.csv", "WKT\n"
-                              "\"CIRCULARSTRING (500000 5010000,500400 5007500,500000 5005000)\"\n"
+    place.write("rivers.csv", "WKT,part\n"
+                              "\"CIRCULARSTRING (500000 5010000,500400 5007500,500000 5005000)\",a\n"
                               "\"COMPOUNDCURVE (CIRCULARSTRING (504000 5010000,503000 5008000,502000 5007000),"
-                              "(502000 5007000,500000 5005000))\"\n"
-                              "\"MULTICURVE ((500000 5005000,500100 5002000,500000 5000000))\"\n");
+                              "(502000 5007000,500000 5005000))\",a\n"
+                              "\"MULTICURVE ((500000 5005000,500100 5002000,500000 5000000))\",a\n");
     ASSERT_EQ(std::system(("cd '" + place.path().string() +
                            "' && ogr2ogr rivers.gpkg rivers.csv -a_srs EPSG:32632 -nlt GEOMETRY -nln rivers")
                               .c_str()),

@@ -292,7 +292,10 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     bool const open = params.snapped == SnappedEnds::open;
     double const same_m = open ? std::min(snap_m, 1e-6 * diagonal_of(lines)) : snap_m;
     import_steps::drop_copies(lines, same_m, left, run);
-    import_steps::snap(lines, snap_m, params.snapped, left, run);
+    import_steps::snap(lines, same_m, SnappedEnds::all, left, run);
+    if (open && snap_m > same_m) {
+        import_steps::snap(lines, snap_m, SnappedEnds::open, left, run);
+    }
     for (RiverLine const& line : file.lines) { // as they were drawn
         if (std::ranges::find(left.too_short, line.feature) != left.too_short.end()) {
             imported.secondary.push_back({line.feature, line.vertices, "too short", line.feature, LeftOut::too_short});

@@ -34,7 +34,8 @@ enum class Divergences : std::uint8_t {
 /// Which ends are joined to lines within the snapping distance.
 enum class SnappedEnds : std::uint8_t {
     all,
-    open ///< those that meet no other line, and not to a line that theirs meets at its other end: nothing collapses
+    open ///< all within 1e-6 of the box's diagonal; farther those that meet no other line, and not to a line that
+         ///< theirs meets at its other end: nothing collapses
 };
 
 /// Options of import_lines().
