@@ -35,6 +35,7 @@
 #include <thalweg/network/import/fill_heights.hpp>
 #include <thalweg/network/import/from_file.hpp>
 #include <thalweg/network/import/import_lines.hpp>
+#include <thalweg/network/import/keep_connectors.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/network/order/order.hpp>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.hpp"
+#include "commands/nodata_option.hpp"
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/output_file.hpp>
@@ -104,7 +105,7 @@ void refuse_options_of_dems(BlendOptions const& options) {
          {std::pair{"--window", !options.window.empty()}, std::pair{"--mask", !options.params.mask.empty()},
           std::pair{"--keep", !options.params.keep.empty()},
           std::pair{"--feather", options.params.feather_cells != 0.0}, std::pair{"--mixed", options.mixed},
-          std::pair{"--fill-holes", options.fills}}) {
+          std::pair{"--fill-holes", options.fills}, std::pair{"--nodata", options.params.nodata.has_value()}}) {
         if (given) {
             throw BadParameter(fmt::format("{} is for DEMs: a mesh is pasted whole, inside its outline", name));
         }
@@ -223,6 +224,7 @@ Command add_blend(CLI::App& app, Session& session) {
                  "Also fill holes of the source. Default: holes keep the target's heights.");
     app.add_option("--source-crs", options->source_crs, "Read meshes that name no CRS in this projected CRS in metres.")
         ->type_name("EPSG:N");
+    add_nodata_option(app, params.nodata);
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
     app.footer("Keeps the relief of the patch and matches the target's heights along its edge (Poisson blending), so "

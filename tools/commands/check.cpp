@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.hpp"
 #include "commands/network_options.hpp"
+#include "commands/nodata_option.hpp"
 #include "commands/verdict.hpp"
 #include "terminal/terminal.hpp"
 
@@ -109,6 +110,7 @@ Command add_check(CLI::App& app, Session& session) {
            "other line. Default: a millionth of the network's extent.")
         ->type_name("M")
         ->check(CLI::NonNegativeNumber);
+    add_nodata_option(app, options->job.nodata);
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->job.overwrite, "Replace existing --fix and --findings files.");
     app.footer("Every arc is checked: it runs from node to node and downhill, meets other arcs at its ends only, and "

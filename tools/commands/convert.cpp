@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.hpp"
 #include "commands/network_options.hpp"
+#include "commands/nodata_option.hpp"
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/schema.hpp>
@@ -115,6 +116,7 @@ Command add_convert(CLI::App& app, Session& session) {
     app.add_option("--table", params.table, "Name the database tables NAME or SCHEMA.NAME.")
         ->type_name("NAME")
         ->capture_default_str();
+    add_nodata_option(app, params.nodata);
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->overwrite, "Replace existing files, or the tables and view in a database.");
     app.footer(

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.hpp"
+#include "commands/nodata_option.hpp"
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/output_file.hpp>
@@ -44,6 +45,9 @@ void take_handles(DeformOptions& options) {
 }
 
 int deform_mesh(DeformOptions const& options, Session const& session) {
+    if (options.params.nodata) {
+        throw BadParameter("--nodata is for DEMs: a mesh has no cells");
+    }
     pipeline::MakeDeformTinParams params{options.params.target, options.params.mask, options.params.scale,
                                          options.rotate_deg};
     params.handles = options.params.handles;
@@ -135,6 +139,7 @@ Command add_deform(CLI::App& app, Session& session) {
     app.add_option("--source-crs", options->source_crs,
                    "Read a mesh that names no CRS in this projected CRS in metres.")
         ->type_name("EPSG:N");
+    add_nodata_option(app, options->params.nodata);
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
     app.footer("Keeps or scales the relief of the region and pulls it smoothly to the given heights (Poisson's "

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.hpp"
+#include "commands/nodata_option.hpp"
 
 #include <thalweg/pipeline/commands/draw_files.hpp>
 
@@ -81,6 +82,7 @@ Command add_draw(CLI::App& app, Session& session) {
                    "Multiply the wireframe's heights by this factor. Default: a suitable round number.")
         ->check(CLI::Range(0.001, 100000.0));
     app.add_flag("--overwrite", options->overwrite, "Replace pictures of the same names. Other files are kept.");
+    add_nodata_option(app, params.nodata);
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.footer("A folder is drawn from its dem.tif, network.gpkg and recipe. A raster gives a map, hypsometric curve, "
                "sections and wireframe, and with rivers their long profiles. A raster larger than 4000 cells a side is "

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.hpp"
 #include "commands/network_options.hpp"
+#include "commands/nodata_option.hpp"
 
 #include <thalweg/pipeline/commands/make_measures.hpp>
 
@@ -85,6 +86,7 @@ Command add_measure(CLI::App& app, Session& session) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_flag("--overwrite", options->overwrite, "Replace files of the same names. Other files are kept.");
+    add_nodata_option(app, options->params.nodata);
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.footer("Writes area_d8.tif and area_dinf.tif (contributing areas in m2, by D8 and D-infinity), "
                "direction_d8.tif (1 to 128 clockwise from east, 0 at outlets), direction_dinf.tif (radians "

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.hpp"
+#include "commands/nodata_option.hpp"
 
 #include <thalweg/io/files/output_file.hpp>
 #include <thalweg/io/mesh/write_points.hpp>
@@ -57,6 +58,7 @@ Command add_points(CLI::App& app, Session& session) {
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()));
     app.add_flag("--skeleton", options->skeleton, "Take only river and ridge cells of a folder written by make.");
     app.add_option("--format", options->format, "Write this format: " + formats + ". Default: by the file extension.");
+    add_nodata_option(app, options->source.nodata);
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
     app.footer("Writes one point per cell, at its centre; cells without data are left out. LAS is version 1.2, point "

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.hpp"
+#include "commands/nodata_option.hpp"
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/printable.hpp>
@@ -39,6 +40,7 @@ std::string length(solver::CorrelationLength const& l) {
 
 struct StatsOptions {
     std::string path;
+    std::optional<double> nodata;
     bool recipe = false;
     bool laws = false;
     bool relief = false;
@@ -93,8 +95,10 @@ int stats(StatsOptions const& options, Session const& session) {
         throw BadParameter("thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
     }
     // A recipe has cells of its own: recipe_of_dem says how large.
-    pipeline::MetricDem const read = options.recipe ? pipeline::MetricDem{io::read_dem(options.path, session.run), {}}
-                                                    : pipeline::dem_in_metres(options.path, session.run);
+    io::ReadDemParams const reading{.nodata = options.nodata};
+    pipeline::MetricDem const read = options.recipe
+                                         ? pipeline::MetricDem{io::read_dem(options.path, reading, session.run), {}}
+                                         : pipeline::dem_in_metres(options.path, reading, session.run);
     Raster<float> const& dem = read.dem;
     for (std::string const& words : read.notes) {
         session.run.say("note   " + words);
@@ -148,6 +152,7 @@ int stats(StatsOptions const& options, Session const& session) {
 Command add_stats(CLI::App& app, Session& session) {
     auto const options = std::make_shared<StatsOptions>();
     app.add_option("DEM", options->path, "Any height raster GDAL reads.")->type_name("FILE")->required();
+    add_nodata_option(app, options->nodata);
     app.add_flag("--json", session.json, "Print one JSON object.");
     CLI::Option* const recipe = app.add_flag("--recipe", options->recipe,
                                              "Print a recipe of other terrain with the same statistics, for make.");

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/commands.hpp"
+#include "commands/nodata_option.hpp"
 
 #include <thalweg/io/files/output_file.hpp>
 #include <thalweg/io/mesh/write_tin.hpp>
@@ -115,6 +116,7 @@ Command add_tin(CLI::App& app, Session& session) {
                    "first of them. Default: mean.")
         ->check(CLI::IsMember({"mean", "error"}));
     app.add_option("--format", options->format, formats + ". Default: by the file extension.");
+    add_nodata_option(app, options->source.nodata);
     app.add_flag("--json", session.json, "Print one JSON object.");
     app.add_flag("--overwrite", options->overwrite, "Replace an existing file.");
     return [options, &session] { return tin(*options, session); };

@@ -190,6 +190,17 @@ TEST(ReadPoints, GeographicOnesAreProjected) {
     EXPECT_EQ(read_points({path, {}, "z", "EPSG:32632"}).crs, "EPSG:32632");
 }
 
+TEST(ReadPoints, WebMercatorIsProjected) {
+    ScratchFolder const folder;
+    std::string const path =
+        layer(folder, {{"POINT Z (333958.4724 5621521.486 7)", ""}, {"POINT Z (333958.4724 5622521.486 8)", ""}}, 3857);
+    auto const read = read_points({path});
+    EXPECT_EQ(read.crs, "EPSG:32631");
+    EXPECT_NEAR(read.points[0].x, 500000.0, 0.01);
+    EXPECT_NEAR(read.points[1].y - read.points[0].y, 707.0, 2.0); // at 45 degrees north
+    EXPECT_EQ(read_points({path, {}, "z", "EPSG:3857"}).points[0].x, 333958.4724);
+}
+
 TEST(ReadPoints, BadLayersNameTheFeature) {
     using Shapes = std::vector<std::pair<std::string, std::string>>;
     auto const why = [](Shapes const& shapes, int epsg = 32631, char const* field = nullptr,

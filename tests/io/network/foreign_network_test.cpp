@@ -315,6 +315,26 @@ TEST(ForeignNetwork, HydroRiversInDegreesComesIntoItsZone) {
     EXPECT_TRUE(file.says.basin);
 }
 
+TEST(ForeignNetwork, HydroRiversInWebMercatorComesIntoItsZone) {
+    ForeignLayer layer = hydrorivers();
+    layer.epsg = 3857;
+    layer.rows[0].first = "LINESTRING (1057535 5975000, 1063101 5960000)";
+    layer.rows[1].first = "LINESTRING (1068667 5975000, 1063101 5960000)";
+    layer.rows[2].first = "LINESTRING (1063101 5960000, 1063101 5943639)";
+    ScratchFolder const folder;
+    std::string const path = written(folder, "rivers.gpkg", "GPKG", {layer});
+    NetworkFile const file = io::read_network(path, io::ReadNetworkParams{});
+    EXPECT_EQ(file.crs, "EPSG:32632");
+    EXPECT_EQ(count_of(file, "reprojected"), 1);
+    EXPECT_TRUE(hangs_together(file));
+    Vec3 const up = file.arcs[2].line.front();
+    Vec3 const down = file.arcs[2].line.back();
+    EXPECT_NEAR(distance({up.x, up.y}, {down.x, down.y}), 0.680 * 16361.0, 10.0);
+    io::ReadNetworkParams named;
+    named.crs = "EPSG:3857";
+    EXPECT_EQ(io::read_network(path, named).crs, "EPSG:3857");
+}
+
 TEST(ForeignNetwork, AnExtractEndsAtOutlets) {
     ForeignLayer layer = hydrorivers();
     layer.rows.pop_back();

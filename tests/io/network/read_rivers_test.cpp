@@ -362,6 +362,20 @@ TEST_F(ReadRivers, WideExtentsGoToAnEqualAreaProjection) {
     EXPECT_TRUE(has(refused, "over 359 degrees of longitude") && has(refused, "--crs")) << refused;
 }
 
+TEST_F(ReadRivers, MetresThatAreNoneGoToTheUtmZone) {
+    // Some 10 km of the meridian at 47 degrees north, where a metre of Web Mercator is 0.68 m.
+    auto const file = write(
+        "a.gpkg", {{.epsg = 3857, .features = {{"LINESTRING(1001875.417 5934492.151,1001875.417 5949180.027)"}}}});
+    auto const rivers = io::read_rivers({.path = file});
+    EXPECT_EQ(rivers.crs, "EPSG:32632");
+    auto const& v = rivers.lines[0].vertices;
+    EXPECT_NEAR(v[0].x, 500000.0, 0.1);
+    EXPECT_NEAR(distance({v[0].x, v[0].y}, {v[1].x, v[1].y}), 10000.0, 40.0);
+    auto const kept = io::read_rivers({.path = file, .crs = "EPSG:3857"});
+    EXPECT_EQ(kept.crs, "EPSG:3857");
+    EXPECT_EQ(kept.lines[0].vertices[1].y, 5949180.027);
+}
+
 TEST_F(ReadRivers, FeetGoToTheUtmZone) {
     auto const file = write("a.gpkg", {{.epsg = 2225, .features = {{"LINESTRING(6561666 1640416,6561966 1640416)"}}}});
     auto const rivers = io::read_rivers({.path = file});

@@ -251,7 +251,7 @@ TEST(ReadDem, FramesThatAreNotSquareAndNorthUpAreRefused) {
     EXPECT_TRUE(has(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.5}, 1.0)), "cells of 2 x 2.5"));
     EXPECT_TRUE(has(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, 2.0}, 1.0)), "not north-up"));
     EXPECT_TRUE(has(refusal(tiff(folder, {0.0, -2.0, 0.0, 0.0, 0.0, -2.0}, 1.0)), "not north-up"));
-    EXPECT_TRUE(has(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.0001}, 1.0)), "2.0001"));
+    EXPECT_TRUE(has(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.01}, 1.0)), "2.01"));
     EXPECT_EQ(io::read_dem(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.000001}, 1.0)).grid().cell_m, 2.0);
 }
 

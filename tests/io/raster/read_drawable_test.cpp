@@ -84,7 +84,7 @@ TEST(ReadDrawable, RefusesWhatIsNoRaster) {
     made.nodata = 100.0;
     made.width = 1;
     EXPECT_THROW(read_drawable(make(folder, "empty.tif", made)), BadInput);
-    EXPECT_THROW(read_drawable(make(folder, "dem.tif", {}), 3), BadParameter);
+    EXPECT_THROW(read_drawable(make(folder, "dem.tif", {}), {.most_side = 3}), BadParameter);
 }
 
 TEST(ReadDrawable, WhatReadDemTakesIsReadAlike) {
@@ -105,7 +105,7 @@ TEST(ReadDrawable, LargeOnesBecomeMeansOfTheirKnownCells) {
     made.width = 65;
     made.height = 40;
     made.nodata = 105.0;
-    Drawable const read = read_drawable(make(folder, "dem.tif", made), 16);
+    Drawable const read = read_drawable(make(folder, "dem.tif", made), {.most_side = 16});
     EXPECT_TRUE(notes_say(read, "means of 5x5 cells"));
     EXPECT_EQ(read.dem.width(), 13);
     EXPECT_EQ(read.dem.height(), 8);
@@ -136,6 +136,21 @@ TEST(ReadDrawable, GeographicOnesAreWarped) {
     feet.frame = {6500000.0, 100.0, 0.0, 1900000.0, 0.0, -100.0};
     Drawable const metres = read_drawable(make(folder, "feet.tif", feet));
     EXPECT_NEAR(metres.dem.grid().cell_m, 30.48, 0.05);
+}
+
+TEST(ReadDrawable, MetresThatAreNoneAreWarped) {
+    ScratchFolder const folder;
+    Made made;
+    made.epsg = 3857;
+    made.frame = {1000000.0, 30.0, 0.0, 5950000.0, 0.0, -30.0};
+    std::string const path = make(folder, "mercator.tif", made);
+    Drawable const read = read_drawable(path);
+    EXPECT_EQ(read.dem.grid().crs, "EPSG:32632");
+    EXPECT_NEAR(read.dem.grid().cell_m, 30.0 * 0.681, 0.2);
+    EXPECT_TRUE(notes_say(read, "warped from WGS 84 / Pseudo-Mercator into WGS 84 / UTM zone 32N"));
+    Drawable const kept = read_drawable(path, {.metres = io::MetresOf::any_crs});
+    EXPECT_TRUE(kept.notes.empty());
+    EXPECT_EQ(kept.dem.grid().crs, "EPSG:3857");
 }
 
 TEST(ReadDrawable, OddFramesBecomeNorthUpSquares) {

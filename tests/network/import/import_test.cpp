@@ -254,12 +254,18 @@ TEST(Import, StepsBackAreRemoved) {
     EXPECT_EQ(joined.stretches[0][0].feature, 1);
     EXPECT_NEAR(joined.stretches[0][0].to_m, 9000.0, 0.1);
     EXPECT_EQ(joined.stretches[0][1].feature, 2);
-    // A bend is none, however sharp; nor is the tip where another river joins.
+    // A bend is not a step back, however sharp; the tip where another river joins stays.
     EXPECT_EQ(count(import_lines(with_heights({{{0, 0, 9}, {500, 0, 8}, {0, 20, 7}}})).repairs, "cut"), 0U);
     Imported const confluence =
         import_lines(test::lines_of({{{0, 0, no_z}, {9000.03, 0, no_z}, {9000, 0.001, no_z}, {20000, 0, no_z}},
                                      {{9000, 5000, no_z}, {9000.03, 0, no_z}}}));
-    EXPECT_EQ(count(confluence.repairs, "cut"), 0U);
+    EXPECT_EQ(count(confluence.repairs, "cut"), 1U);
+    ASSERT_EQ(confluence.network.arc_count(), 3U);
+    EXPECT_EQ(confluence.network.arc(1).line, (std::vector<Vec2>{{9000.03, 0}, {20000, 0}}));
+    // What goes back for more than a slip of the hand stays, and the check says so.
+    EXPECT_EQ(
+        count(import_lines(with_heights({{{0, 0, 9}, {9000, 0, 8}, {8000, 0.001, 7}, {20000, 0, 6}}})).repairs, "cut"),
+        0U);
 }
 
 TEST(Import, SeveralBasins) {

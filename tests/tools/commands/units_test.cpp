@@ -293,6 +293,54 @@ TEST(Units, DegreesAreSaid) {
                 foot * static_cast<double>(*std::max_element(piece.z.begin(), piece.z.end())), 0.1);
 }
 
+TEST(Units, MetresOfWebMercatorAreNone) {
+    Workplace const place;
+    run_gdal("ogr2ogr -t_srs EPSG:3857 w.gpkg '" + walker + "'", place);
+    Outcome const o = thalweg_run("make w.gpkg --set grid.cell=90 -o out", place.path());
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(
+        o.err.find("coordinates in WGS 84 / Pseudo-Mercator (metres of 0.786 m on the ground) are reprojected into "
+                   "EPSG:32610"),
+        std::string::npos)
+        << o.err;
+    json const own = made(place, "'" + walker + "' --set grid.cell=90", "own");
+    double const length = own["network"]["length_m"];
+    EXPECT_NEAR(report_of(place / "out")["network"]["length_m"].get<double>(), length, 0.03 * length);
+    // A CRS that is named stays, with a warning, and the folder is read as it was made.
+    Outcome const named = thalweg_run("make w.gpkg --crs EPSG:3857 --set grid.cell=115 -o named", place.path());
+    EXPECT_EQ(named.code, 0) << named.err;
+    EXPECT_NE(named.err.find("warning: metres of the grid's CRS, EPSG:3857, are 0.786 m on the ground"),
+              std::string::npos)
+        << named.err;
+    EXPECT_EQ(thalweg_run("check named --dem named/dem.tif", place.path()).code, 0);
+    EXPECT_EQ(thalweg_run("replay named --verify", place.path()).code, 0);
+    EXPECT_EQ(thalweg_run("draw named -o pictures", place.path()).code, 0);
+
+    // A DEM is warped where the cells are not returned, else refused with the command that warps it.
+    run_gdal("gdalwarp -t_srs EPSG:3857 -dstnodata -9999 out/dem.tif w.tif", place);
+    Outcome const stats = thalweg_run("stats w.tif --json", place.path());
+    ASSERT_EQ(stats.code, 0) << stats.err;
+    EXPECT_NE(stats.err.find("EPSG:3857, whose metres are 0.79 m on the ground, are reprojected into EPSG:32610"),
+              std::string::npos)
+        << stats.err;
+    double const slope = json::parse(thalweg_run("stats out/dem.tif --json", place.path()).out)["slope_true_deg"];
+    EXPECT_NEAR(json::parse(stats.out)["slope_true_deg"].get<double>(), slope, 0.15 * slope);
+    Outcome const recipe = thalweg_run("stats w.tif --recipe", place.path());
+    EXPECT_EQ(recipe.out.find("3857"), std::string::npos) << recipe.out;
+    for (std::string const arguments :
+         {"measure w.tif -o m", "points w.tif -o p.xyz", "tin w.tif -o t.obj", "check out --dem w.tif"}) {
+        Outcome const refused = thalweg_run(arguments, place.path());
+        EXPECT_EQ(refused.code, 2) << arguments;
+        EXPECT_NE(refused.err.find("gdalwarp -t_srs EPSG:32610 w.tif"), std::string::npos) << refused.err;
+    }
+    // Pasted it is warped to the target, which tells where it lies; laid elsewhere its size would be unknown.
+    EXPECT_EQ(thalweg_run("blend out/dem.tif w.tif -o b.tif --window 20,20,30,30", place.path()).code, 0);
+    Outcome const far =
+        thalweg_run("blend w.tif '" THALWEG_SOURCE_DIR "/samples/bigtujunga_srtm1_utm11.tif' -o c.tif", place.path());
+    EXPECT_EQ(far.code, 2);
+    EXPECT_NE(far.err.find("gdalwarp -t_srs EPSG:32610"), std::string::npos) << far.err;
+}
+
 TEST(Units, ACrsWithoutACodeIsKeptWithoutAWord) {
     Workplace const place;
     // Albers as R writes it: no code, and a transformation to WGS 84 beside it.

@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <string_view>
 
+#include <fmt/format.h>
+
 namespace thalweg::io {
 
 std::string in_message(std::string const& crs) {
     constexpr std::size_t most = 60;
-    return crs.empty() ? "no CRS" : crs.size() <= most ? crs : crs.substr(0, most) + "...";
+    return crs.empty()          ? "no CRS"
+           : crs.size() <= most ? crs
+                                : fmt::format("{}...", std::string_view(crs).substr(0, most));
 }
 
 int epsg_code(std::string const& crs) {

@@ -3,13 +3,17 @@
 #include <thalweg/io/frame/ground_cell.hpp>
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/frame/internal/ground_scale.hpp>
 #include <thalweg/io/frame/internal/spatial_reference.hpp>
+#include <thalweg/io/gdal/driver.hpp>
 
 namespace thalweg::io {
 
@@ -33,6 +37,11 @@ double side_of_geographic(Grid const& grid, OGRSpatialReference const& reference
     return grid.cell_m * unit * radius * std::sqrt(portable::cos(latitude));
 }
 
+std::optional<std::string> crs_instead_of(OGRSpatialReference const& reference, Grid const& grid) {
+    Driver const driver;
+    return less_distorted(reference, {{grid.west, grid.south()}, {grid.east(), grid.north}}, "the grid");
+}
+
 } // namespace
 
 GroundCell ground_cell(Grid const& grid) {
@@ -45,9 +54,24 @@ GroundCell ground_cell(Grid const& grid) {
         return {GridUnit::degrees, side_of_geographic(grid, reference), ""};
     }
     if (is_projected_in_metres(reference)) {
+        if (auto other = crs_instead_of(reference, grid)) {
+            Driver const driver;
+            auto const middle =
+                GroundScale(reference).at({0.5 * (grid.west + grid.east()), 0.5 * (grid.south() + grid.north)});
+            return {GridUnit::distorted, grid.cell_m * (middle ? middle->side_m : 1.0), std::move(*other)};
+        }
         return {GridUnit::metres, grid.cell_m, name_of(reference)};
     }
     return {GridUnit::other, grid.cell_m * reference.GetLinearUnits(), ""};
+}
+
+bool is_distorted(Grid const& grid) {
+    if (grid.crs.empty()) {
+        return false;
+    }
+    OGRSpatialReference reference = read_reference(grid.crs);
+    reference.StripVertical();
+    return is_projected_in_metres(reference) && crs_instead_of(reference, grid).has_value();
 }
 
 } // namespace thalweg::io

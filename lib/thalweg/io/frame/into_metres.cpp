@@ -11,6 +11,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
+#include <thalweg/io/frame/internal/ground_scale.hpp>
 #include <thalweg/io/frame/internal/spatial_reference.hpp>
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/gdal/driver.hpp>
@@ -39,7 +40,13 @@ std::optional<DegreeBox> degrees_of(FileBox const& box, OGRCoordinateTransformat
     return degrees;
 }
 
-// The UTM zone of the middle, or of wide extents an equal-area projection.
+} // namespace
+
+bool is_missing(OGRSpatialReference const* reference) {
+    return reference == nullptr || reference->IsEmpty() ||
+           (reference->GetName() != nullptr && std::string_view(reference->GetName()).starts_with("Undefined"));
+}
+
 std::string zone_of(FileBox const& box, OGRSpatialReference const& from, std::string const& name) {
     Vec2 const at{0.5 * (box.low.x + box.high.x), 0.5 * (box.low.y + box.high.y)};
     OGRSpatialReference const geographic = read_reference("EPSG:4326");
@@ -68,14 +75,6 @@ std::string zone_of(FileBox const& box, OGRSpatialReference const& from, std::st
     return name_of(equal_area_around(std::round(turned.x), std::round(turned.y)));
 }
 
-// PROJ's last bits differ between machines: a millionth of a metre does not.
-} // namespace
-
-bool is_missing(OGRSpatialReference const* reference) {
-    return reference == nullptr || reference->IsEmpty() ||
-           (reference->GetName() != nullptr && std::string_view(reference->GetName()).starts_with("Undefined"));
-}
-
 OGRSpatialReference crs_of_layer(OGRSpatialReference const* own, std::string const& source_crs) {
     OGRSpatialReference const named = source_crs.empty() ? OGRSpatialReference() : read_reference(source_crs);
     return is_missing(own) ? named : *own;
@@ -86,15 +85,20 @@ struct IntoMetres::Turn {
 };
 
 IntoMetres::IntoMetres(OGRSpatialReference const& own, std::string const& wanted, FileBox const& box,
-                       std::string const& name)
+                       std::string const& name, OwnMetres metres)
     : turn_(std::make_unique<Turn>()) {
     OGRSpatialReference from(own);
     height_unit_m_ = from.IsCompound() != 0 ? from.GetTargetLinearUnits("VERT_CS") : 1.0;
     from.StripVertical();
     from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    crs_ = !wanted.empty()                ? projected_crs(wanted)
-           : is_projected_in_metres(from) ? name_of(from)
-                                          : zone_of(box, from, name);
+    if (!wanted.empty()) {
+        crs_ = projected_crs(wanted);
+    } else if (!is_projected_in_metres(from)) {
+        crs_ = zone_of(box, from, name);
+    } else {
+        auto const other = metres == OwnMetres::judged ? less_distorted(from, box, name) : std::nullopt;
+        crs_ = other.value_or(name_of(from));
+    }
     if (crs_ == name_of(from)) {
         return;
     }

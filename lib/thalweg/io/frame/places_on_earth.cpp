@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/io/frame/internal/spatial_reference.hpp>
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/gdal/driver.hpp>
@@ -68,7 +70,8 @@ double zone_stretch(Grid const& grid) {
 
 std::string metric_crs(Grid const& grid, std::string const& what) {
     if (is_projected_in_metres(read_reference(grid.crs))) {
-        return grid.crs;
+        GroundCell ground = ground_cell(grid);
+        return ground.unit == GridUnit::distorted ? std::move(ground.crs) : grid.crs;
     }
     Degrees const box = box_of(grid, what);
     return utm_zone(0.5 * (box.west + box.east), 0.5 * (box.south + box.north));

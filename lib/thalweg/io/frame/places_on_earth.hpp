@@ -20,8 +20,8 @@ bool overlap_on_earth(Grid const& a, Grid const& b, std::string const& of_a, std
 /// \pre a grid with a CRS.
 /// \param grid the grid
 /// \param what what it is, for messages
-/// \return the CRS in which a grid's land is measured in metres: its own where that is projected in metres, else the
-/// UTM zone of its middle.
+/// \return the CRS in which a grid's land is measured in metres: its own where that is projected in metres and lengths
+/// are not off by more than 1 % there, else the UTM zone of its middle.
 /// \throws BadInput when the middle is in no UTM zone
 std::string metric_crs(Grid const& grid, std::string const& what);
 

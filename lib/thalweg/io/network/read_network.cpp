@@ -122,7 +122,9 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes,
         file.crs = name_of(own);
         return;
     }
-    IntoMetres const metres(own, wish.crs, box, arcs.what);
+    // A network in the native schema has the CRS that its maker chose.
+    OwnMetres const own_metres = file.schema == "native" ? OwnMetres::kept : OwnMetres::judged;
+    IntoMetres const metres(own, wish.crs, box, arcs.what, own_metres);
     file.crs = metres.crs();
     auto const move = [&](std::span<Vec3> points) {
         auto const done = metres.apply(points);

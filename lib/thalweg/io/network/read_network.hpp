@@ -35,7 +35,8 @@ struct ReadNetworkParams {
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
 /// \return arcs drawn downstream (where the lines of most linked arcs are drawn up, all are turned), in metres (what is
-/// not in a projected CRS in metres is reprojected to its UTM zone, to 1e-6 m), areas in m2; NetworkFile::says tells
+/// not in a projected CRS in metres, or in one whose lengths are off by more than 1 % and that is not the choice of
+/// a network in the native schema, is reprojected to its UTM zone, to 1e-6 m), areas in m2; NetworkFile::says tells
 /// which columns there were. Without a layer of nodes a node is made for each id of an end, at the place that most of
 /// these ends have, or, where ends have no ids, for each place in plan. Without ds_arc it is the arc that begins where
 /// an arc ends. What had to be bent or skipped is in NetworkFile::findings, each where its arc begins and by the number

@@ -23,7 +23,9 @@ struct ReadRiversParams {
     std::string layer = {};            ///< "" takes the only line layer
     std::string type_field = "rosgen"; ///< river type; optional in the file when it has this default name
     std::string rank_field = {};       ///< number that falls downstream; "" takes hydroseq (NHDPlus) where there is one
-    std::string crs = {}; ///< of the result; "" takes the file's own when projected in metres, else its UTM zone
+    /// Of the result; "" takes the file's own when projected in metres whose lengths are off by 1 % at most, else
+    /// its UTM zone.
+    std::string crs = {};
     std::string lambda_field = "lambda";  ///< [1, 50] generator; optional in the file when it has this default name
     LineFilter filter = LineFilter::none; ///< what it takes away is in RiverLines::secondary
     std::string id_field = {};            ///< id of a line, and

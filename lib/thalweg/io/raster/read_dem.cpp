@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/raster/internal/plausible.hpp>
+#include <thalweg/io/raster/internal/undeclared_nodata.hpp>
 
 namespace thalweg::io {
 
@@ -42,8 +44,9 @@ Grid frame_of(GDALDataset& dataset, std::string const& what) {
     if (!(dx > 0.0) || !(dy < 0.0)) {
         throw BadInput(what + " is not north-up: warp it (gdalwarp)");
     }
-    if (!(std::fabs(dx + dy) <= square_within * dx)) {
-        throw BadInput(fmt::format("{} has cells of {} x {}, not squares: warp it (gdalwarp -tr)", what, dx, -dy));
+    if (!are_squares(dx, -dy, dataset.GetRasterXSize(), dataset.GetRasterYSize())) {
+        throw BadInput(
+            fmt::format("{} has cells of {} x {}, not squares: warp it (gdalwarp -tr {} {})", what, dx, -dy, dx, dx));
     }
     grid.west = west;
     grid.north = north;
@@ -61,7 +64,23 @@ void require_memory(Grid const& grid, std::string const& what) {
 
 enum class Unit : std::uint8_t { metre, stored };
 
-Raster<float> read(std::string const& path, Unit wanted, Run const& run) {
+/// What became of cells that the file does not declare as no-data.
+struct TakenAway {
+    std::int64_t named = 0; ///< of the value that params names
+    std::int64_t nan = 0;
+};
+
+void tell_of(TakenAway const& taken, ReadDemParams const& params, std::string const& path, Run const& run) {
+    std::string const name = std::filesystem::path(path).filename().string();
+    if (params.nodata && !std::isnan(*params.nodata)) {
+        run.tell("note", fmt::format("{}: {} cells of {:g} are no-data", name, taken.named, *params.nodata));
+    }
+    if (taken.nan > 0) {
+        run.tell("note", fmt::format("{}: {} cells are NaN and count as no-data", name, taken.nan));
+    }
+}
+
+Raster<float> read(std::string const& path, Unit wanted, ReadDemParams const& params, Run const& run) {
     std::string const what = "io.read_dem: " + path;
     Driver const driver;
     Dataset const dataset = open_file(path, GDAL_OF_RASTER, what);
@@ -83,6 +102,8 @@ Raster<float> read(std::string const& path, Unit wanted, Run const& run) {
     Raster<float> dem(grid);
     std::vector<double> heights(static_cast<std::size_t>(width));
     std::vector<std::uint8_t> valid(static_cast<std::size_t>(width));
+    UndeclaredNodata undeclared(width, params, declares_nodata(band));
+    TakenAway taken;
     bool empty = true;
     for (int row = 0; row < dataset->GetRasterYSize(); ++row) {
         run.at(static_cast<double>(row) / static_cast<double>(grid.height), "read");
@@ -95,32 +116,55 @@ Raster<float> read(std::string const& path, Unit wanted, Run const& run) {
         read_row(band, heights.data(), GDT_Float64);
         read_row(*band.GetMaskBand(), valid.data(), GDT_Byte);
         for (std::size_t col = 0; float& z : dem.row(row)) {
-            double const height = scaled ? heights[col] * scale + offset : heights[col]; // -0 stays -0
-            bool const known = valid[col] != 0 && !std::isnan(height);
+            double const stored = heights[col];
+            double const height = scaled ? stored * scale + offset : stored; // -0 stays -0
+            bool const is_named = valid[col] != 0 && params.nodata && stands_for(stored, *params.nodata);
+            bool const is_nan = valid[col] != 0 && std::isnan(height);
+            bool const known = valid[col] != 0 && !is_nan && !is_named;
+            taken.named += is_named ? 1 : 0;
+            taken.nan += is_nan ? 1 : 0;
             if (known && !(std::fabs(height) <= implausible_height)) {
-                throw BadInput(fmt::format("{}: the height at column {}, row {} is {}: is the file damaged?", what, col,
-                                           row, height));
+                throw BadInput(
+                    fmt::format("{}: {}", what, implausible_words(static_cast<std::int64_t>(col), row, stored)));
             }
+            heights[col] = known ? stored : std::numeric_limits<double>::quiet_NaN();
             z = known ? static_cast<float>(height) : std::numeric_limits<float>::quiet_NaN();
             empty = empty && !known;
             ++col;
         }
+        undeclared.add_row(heights);
     }
     driver.check(what);
     if (empty) {
         throw BadInput(what + " holds no heights, only no-data");
     }
+    undeclared.require_none(what, path);
+    tell_of(taken, params, path, run);
     return dem;
 }
 
 } // namespace
 
-Raster<float> read_dem(std::string const& path, Run const& run) {
-    return read(path, Unit::metre, run);
+Raster<float> read_dem(std::string const& path, ReadDemParams const& params, Run const& run) {
+    return read(path, Unit::metre, params, run);
 }
 
-Raster<float> read_stored_dem(std::string const& path, Run const& run) {
-    return read(path, Unit::stored, run);
+Raster<float> read_dem(std::string const& path, Run const& run) {
+    return read(path, Unit::metre, {}, run);
+}
+
+Raster<float> read_stored_dem(std::string const& path, ReadDemParams const& params, Run const& run) {
+    return read(path, Unit::stored, params, run);
+}
+
+bool has_square_cells(std::string const& path) {
+    Driver const driver;
+    Dataset const dataset = open_file(path, GDAL_OF_RASTER, "io.read_dem: " + path);
+    std::array<double, 6> place{};
+    bool const is_placed = dataset->GetGeoTransform(place.data()) == CE_None;
+    auto const [west, dx, skew_x, north, skew_y, dy] = place;
+    bool const is_north_up = skew_x == 0.0 && skew_y == 0.0 && dx > 0.0 && dy < 0.0;
+    return !is_placed || !is_north_up || are_squares(dx, -dy, dataset->GetRasterXSize(), dataset->GetRasterYSize());
 }
 
 } // namespace thalweg::io

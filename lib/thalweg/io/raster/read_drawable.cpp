@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gdal_alg.h>
@@ -17,6 +18,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
+#include <thalweg/io/frame/internal/ground_scale.hpp>
 #include <thalweg/io/frame/internal/spatial_reference.hpp>
 #include <thalweg/io/frame/internal/units.hpp>
 #include <thalweg/io/frame/projection.hpp>
@@ -24,6 +26,7 @@
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/gdal/internal/watch.hpp>
 #include <thalweg/io/raster/internal/plausible.hpp>
+#include <thalweg/io/raster/internal/undeclared_nodata.hpp>
 
 namespace thalweg::io {
 
@@ -43,9 +46,9 @@ std::optional<Frame> frame_of(GDALDataset& dataset) {
     return dataset.GetGeoTransform(frame.data()) == CE_None ? std::optional(frame) : std::nullopt;
 }
 
-bool is_square_and_north_up(Frame const& frame) {
+bool is_square_and_north_up(Frame const& frame, int width, int height) {
     return frame[2] == 0.0 && frame[4] == 0.0 && frame[1] > 0.0 && frame[5] < 0.0 &&
-           std::fabs(frame[1] + frame[5]) <= square_within * frame[1];
+           are_squares(frame[1], -frame[5], width, height);
 }
 
 /// The projection in which a raster on the globe is drawn.
@@ -78,6 +81,29 @@ OGRSpatialReference projection_for(GDALDataset& dataset, Frame const& frame, std
         return read_reference(utm_zone(middle.x, middle.y));
     }
     return equal_area_around(middle.x, middle.y);
+}
+
+/// The same for a raster in metres by which lengths are off; nothing where no other projection is better.
+std::optional<OGRSpatialReference> less_distorted_for(GDALDataset& dataset, Frame const& frame,
+                                                      std::string const& what) {
+    OGRSpatialReference const& own = *reference_of(dataset);
+    double const wide = dataset.GetRasterXSize();
+    double const high = dataset.GetRasterYSize();
+    auto const ends = [&](double at, double by_col, double by_row) {
+        return std::minmax({at, at + wide * by_col, at + high * by_row, at + wide * by_col + high * by_row});
+    };
+    auto const [west, east] = ends(frame[0], frame[1], frame[2]);
+    auto const [south, north] = ends(frame[3], frame[4], frame[5]);
+    FileBox const box{{west, south}, {east, north}};
+    if (!is_distorted(own, box)) {
+        return std::nullopt;
+    }
+    try {
+        OGRSpatialReference other = projection_for(dataset, frame, what);
+        return is_better(other, own, box) ? std::optional(std::move(other)) : std::nullopt;
+    } catch (BadInput const&) { // a corner lies off the globe, as on maps of all of it
+        return std::nullopt;
+    }
 }
 
 using Target = OGRSpatialReference const*; ///< the projection to warp into; null: only onto north-up squares
@@ -143,10 +169,14 @@ CPLStringList warp_arguments(Squares const& squares, Target target) {
 }
 
 /// Older GDAL warps every band: a virtual copy of the first one leaves the others out.
-Dataset first_band_of(GDALDataset& source, std::string const& what, Driver const& driver) {
+Dataset first_band_of(GDALDataset& source, std::string const& what, Driver const& driver,
+                      std::vector<std::string> const& more = {}) {
     CPLStringList first;
     for (char const* word : {"-of", "VRT", "-b", "1"}) {
         first.AddString(word);
+    }
+    for (std::string const& word : more) {
+        first.AddString(word.c_str());
     }
     std::unique_ptr<GDALTranslateOptions, decltype(&GDALTranslateOptionsFree)> const options(
         GDALTranslateOptionsNew(first.List(), nullptr), &GDALTranslateOptionsFree);
@@ -232,8 +262,10 @@ Raster<float> read_means(GDALDataset& dataset, Grid const& grid, std::int64_t k,
             double const z = raw * scale + offset;
             bool const known = !is_nodata && !(masked && valid[i] == 0) && !std::isnan(z);
             if (known && !(std::fabs(z) <= implausible_height)) {
-                throw BadInput(fmt::format("{}: a height of {} near row {}: is the file damaged?", what, z,
-                                           (row + static_cast<std::int64_t>(i) / grid.width) * k));
+                throw BadInput(
+                    fmt::format("{}: {}", what,
+                                implausible_words(static_cast<std::int64_t>(i) % grid.width * k,
+                                                  (row + static_cast<std::int64_t>(i) / grid.width) * k, raw)));
             }
             dem[row * grid.width + static_cast<std::int64_t>(i)] =
                 known ? static_cast<float>(z) : std::numeric_limits<float>::quiet_NaN();
@@ -247,6 +279,63 @@ Raster<float> read_means(GDALDataset& dataset, Grid const& grid, std::int64_t k,
     return dem;
 }
 
+/// What the first band holds of cells that the file does not declare as no-data.
+struct StoredNodata {
+    std::int64_t named = 0;      ///< cells of the value that params names
+    std::optional<double> value; ///< this value as it is stored
+    std::int64_t nan = 0;
+};
+
+/// Reads all of the first band: means and warped heights no longer tell.
+StoredNodata stored_nodata_in(GDALDataset& source, ReadDrawableParams const& params, std::string const& path,
+                              std::string const& what, Driver const& driver, Run const& run) {
+    GDALRasterBand& band = *source.GetRasterBand(1);
+    int const width = source.GetRasterXSize();
+    UndeclaredNodata undeclared(width, {.nodata = params.nodata}, declares_nodata(band));
+    StoredNodata found;
+    std::vector<double> stored(static_cast<std::size_t>(width));
+    std::vector<std::uint8_t> valid(stored.size());
+    for (int row = 0; row < source.GetRasterYSize(); ++row) {
+        run.at(static_cast<double>(row) / source.GetRasterYSize(), "read");
+        if (band.RasterIO(GF_Read, 0, row, width, 1, stored.data(), width, 1, GDT_Float64, 0, 0, nullptr) != CE_None ||
+            band.GetMaskBand()->RasterIO(GF_Read, 0, row, width, 1, valid.data(), width, 1, GDT_Byte, 0, 0, nullptr) !=
+                CE_None) {
+            driver.check(what);
+            throw IoError(fmt::format("{}: row {} cannot be read", what, row));
+        }
+        for (std::size_t col = 0; col < stored.size(); ++col) {
+            double& z = stored[col];
+            bool const is_named = valid[col] != 0 && params.nodata && stands_for(z, *params.nodata);
+            if (is_named) {
+                found.value = found.value.value_or(z);
+                ++found.named;
+            }
+            found.nan += valid[col] != 0 && std::isnan(z) ? 1 : 0;
+            z = valid[col] != 0 && !is_named ? z : std::numeric_limits<double>::quiet_NaN();
+            if (std::fabs(z) > implausible_height) {
+                throw BadInput(fmt::format("{}: {}", what, implausible_words(static_cast<std::int64_t>(col), row, z)));
+            }
+        }
+        undeclared.add_row(stored);
+    }
+    driver.check(what);
+    undeclared.require_none(what, path);
+    return found;
+}
+
+/// The same raster with a no-data value of the first band.
+Dataset with_nodata(GDALDataset& source, double stored, std::string const& what, Driver const& driver) {
+    int is_declared = 0;
+    double const declared = source.GetRasterBand(1)->GetNoDataValue(&is_declared);
+    if (is_declared != 0 && declared != stored) {
+        throw BadInput(
+            fmt::format("{}: the file declares {:g} as no-data, --nodata names {:g}: draw takes one of them. "
+                        "Join them first (gdal_calc.py, gdalwarp -srcnodata)",
+                        what, declared, stored));
+    }
+    return first_band_of(source, what, driver, {"-a_nodata", fmt::format("{:.17g}", stored)});
+}
+
 void require_heights(GDALDataset& source, std::string const& what) {
     if (source.GetRasterCount() < 1) {
         throw BadInput(what + " has no bands of its own: name one of its subdatasets (gdalinfo lists them)");
@@ -257,20 +346,26 @@ void require_heights(GDALDataset& source, std::string const& what) {
 }
 
 /// The raster as north-up squares of metres, where it is not that already; null where it is. Notes what was done.
-Dataset made_drawable(GDALDataset& source, std::int64_t most_side, std::vector<std::string>& notes,
+Dataset made_drawable(GDALDataset& source, ReadDrawableParams const& params, std::vector<std::string>& notes,
                       std::string const& what, Driver const& driver, Run const& run) {
+    std::int64_t const most_side = params.most_side;
     std::optional<Frame> const placed = frame_of(source);
     OGRSpatialReference const* const reference = placed ? reference_of(source) : nullptr;
     Dataset warped;
+    std::optional<OGRSpatialReference> target;
     if (placed && reference != nullptr && !is_projected_in_metres(*reference)) {
-        OGRSpatialReference const target = projection_for(source, *placed, what);
-        Warped done = warp(source, &target, most_side, what, driver, run);
-        char const* const name = target.GetName();
+        target = projection_for(source, *placed, what);
+    } else if (placed && reference != nullptr && params.metres == MetresOf::the_ground) {
+        target = less_distorted_for(source, *placed, what);
+    }
+    if (target) {
+        Warped done = warp(source, &*target, most_side, what, driver, run);
+        char const* const name = target->GetName();
         notes.push_back(fmt::format("warped from {} into {}, cells of {:.4g} m",
                                     reference->GetName() == nullptr ? "its CRS" : reference->GetName(),
                                     name == nullptr ? "metres" : name, done.cell));
         warped = std::move(done.dataset);
-    } else if (placed && !is_square_and_north_up(*placed)) {
+    } else if (placed && !is_square_and_north_up(*placed, source.GetRasterXSize(), source.GetRasterYSize())) {
         Frame const& f = *placed;
         Warped done = warp(source, nullptr, most_side, what, driver, run);
         bool const turned = f[2] != 0.0 || f[4] != 0.0 || f[1] < 0.0 || f[5] > 0.0;
@@ -309,8 +404,9 @@ Grid grid_of_means(GDALDataset& ready, std::int64_t k, bool is_placed) {
 
 } // namespace
 
-Drawable read_drawable(std::string const& path, std::int64_t most_side, Run const& run) {
+Drawable read_drawable(std::string const& path, ReadDrawableParams const& params, Run const& run) {
     std::string const what = "io.read_drawable: " + path;
+    std::int64_t const most_side = params.most_side;
     require_in("io.read_drawable", "most_side", most_side, Range::between(16, 30000));
     Driver const driver;
     Dataset source = open_file(path, GDAL_OF_RASTER, what);
@@ -326,8 +422,17 @@ Drawable read_drawable(std::string const& path, std::int64_t most_side, Run cons
     GDALRasterBand& band = *source->GetRasterBand(1);
     double const scale = band.GetScale() * unit;
     double const offset = band.GetOffset() * unit;
-    Dataset const warped = made_drawable(*source, most_side, out.notes, what, driver, run);
-    GDALDataset& ready = warped ? *warped : *source;
+    StoredNodata const found = stored_nodata_in(*source, params, path, what, driver, run);
+    if (params.nodata && !std::isnan(*params.nodata)) {
+        out.notes.push_back(fmt::format("{} cells of {:g} are no-data", found.named, *params.nodata));
+    }
+    if (found.nan > 0) {
+        out.notes.push_back(fmt::format("{} cells are NaN and count as no-data", found.nan));
+    }
+    Dataset const declared = found.value ? with_nodata(*source, *found.value, what, driver) : nullptr;
+    GDALDataset& known = declared ? *declared : *source;
+    Dataset const warped = made_drawable(known, params, out.notes, what, driver, run);
+    GDALDataset& ready = warped ? *warped : known;
     std::int64_t const longest = std::max(ready.GetRasterXSize(), ready.GetRasterYSize());
     std::int64_t const k = (longest + most_side - 1) / most_side;
     Grid const grid = grid_of_means(ready, k, frame_of(*source).has_value());

@@ -13,7 +13,7 @@
 namespace thalweg::io {
 
 Mask read_mask(std::string const& path, Grid const& grid, Run const& run) {
-    Raster<float> const values = read_dem(path, run);
+    Raster<float> const values = read_dem(path, {.values = CellValues::numbers}, run);
     std::string const what = "io.read_mask: " + path;
     Grid const& own = values.grid();
     if (!same_cells(own, grid)) {

@@ -165,17 +165,27 @@ std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
 /// An arc as it is put together; without spikes, since nothing else meets it between its ends.
 class Course {
 public:
-    Course(double near_m, std::int64_t id_shift, std::vector<Finding>& repairs)
-        : near_m_(near_m), id_shift_(id_shift), repairs_(repairs) {}
+    Course(double near_m, std::int64_t id_shift, import_steps::Left& left)
+        : near_m_(near_m), id_shift_(id_shift), left_(left) {}
 
     /// Adds the vertex where a segment of a feature begins.
     void add(Vec2 at, double z, std::int64_t feature) {
+        constexpr double slip = 20.0; // near_m: farther back is no slip of the hand
         while (line_.size() > 1 && is_spike(line_[line_.size() - 2], line_.back(), at, near_m_)) {
-            double const back_m = std::min(distance(line_.back(), at), distance(line_.back(), line_[line_.size() - 2]));
-            std::int64_t const number = features_.back() - id_shift_;
-            repairs_.push_back({"cut", number, line_.back(), back_m,
-                                fmt::format("river {} steps back by {:.3g} m at ({:.6f}, {:.6f}); the step is removed",
-                                            number, back_m, line_.back().x, line_.back().y)});
+            Vec2 const tip = line_.back();
+            Vec2 const before = line_[line_.size() - 2];
+            double const back_m = std::min(distance(tip, at), distance(tip, before));
+            if (back_m > slip * near_m_) {
+                break;
+            }
+            std::int64_t const of_tip = features_.back();
+            std::int64_t const number = of_tip - id_shift_;
+            left_.repairs.push_back(
+                {"cut", number, tip, back_m,
+                 fmt::format("river {} steps back by {:.3g} m at ({:.6f}, {:.6f}); the step is removed", number, back_m,
+                             tip.x, tip.y)});
+            left_.secondary.push_back(
+                {of_tip, {{tip.x, tip.y, z_.back()}, {at.x, at.y, z}}, "steps back", of_tip, LeftOut::too_short});
             line_.pop_back();
             z_.pop_back();
             features_.pop_back();
@@ -206,7 +216,7 @@ public:
 private:
     double near_m_;
     std::int64_t id_shift_;
-    std::vector<Finding>& repairs_;
+    import_steps::Left& left_;
     std::vector<Vec2> line_;
     std::vector<double> z_;
     std::vector<std::int64_t> features_;
@@ -217,7 +227,8 @@ std::int64_t longest_of(std::vector<Stretch> const& stretches) {
     return std::ranges::max_element(stretches, {}, [](Stretch const& s) { return s.to_m - s.from_m; })->feature;
 }
 
-void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& node_z, bool join, double near_m) {
+void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& node_z, bool join, double near_m,
+              import_steps::Left& left) {
     auto const inner = join ? vanishing(flow, imported.repairs) : std::vector<char>(flow.leaves.size(), 0);
     auto const heads = [&] {
         std::vector<std::size_t> by_piece; // arcs are numbered in the order of the file
@@ -240,7 +251,7 @@ void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& n
     };
     for (std::size_t const head : heads) {
         Arc arc;
-        Course course(near_m, flow.line(head).id_shift, imported.repairs);
+        Course course(near_m, flow.line(head).id_shift, left);
         std::size_t n = head;
         do {
             arc.type = flow.line(n).type;
@@ -327,7 +338,7 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
             fmt::format("network.import_lines: the lines of {} are closed rings: no river runs anywhere", file.name));
     }
     add_arcs(imported, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join,
-             std::min(snap_m, 1e-6 * diagonal_of(file.lines)));
+             std::min(snap_m, 1e-6 * diagonal_of(file.lines)), left);
     run.at(1.0, "adopt");
     return imported;
 }

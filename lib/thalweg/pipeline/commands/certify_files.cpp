@@ -40,7 +40,7 @@ Mask cells_in(std::string const& raster, Grid const& grid) {
     if (raster.empty()) {
         return {};
     }
-    Raster<float> const values = io::read_stored_dem(raster);
+    Raster<float> const values = io::read_stored_dem(raster, {.values = io::CellValues::numbers});
     if (values.grid() != grid) {
         return {};
     }
@@ -53,13 +53,16 @@ Mask cells_in(std::string const& raster, Grid const& grid) {
 
 } // namespace
 
-measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, RiverRasters const& rasters,
+measure::Certificate certify_files(NetworkFile const& network, DemFile const& file, RiverRasters const& rasters,
                                    Run const& run) {
-    Raster<float> const land = io::read_stored_dem(dem); // in feet or metres its water runs alike
+    std::string const& dem = file.path;
+    Raster<float> const land =
+        io::read_stored_dem(dem, {.nodata = file.nodata}, run); // in feet or metres its water runs alike
     if (!io::same_crs(network.crs, land.grid().crs, "the network", dem)) {
+        std::string const lines = network.crs.substr(0, 60);
         throw BadInput(fmt::format("pipeline.certify_files: the network is in {}, {} in {}; reproject one of them "
-                                   "(ogr2ogr -t_srs, gdalwarp -t_srs)",
-                                   network.crs.substr(0, 60), dem, land.grid().crs.substr(0, 60)));
+                                   "(ogr2ogr -t_srs, gdalwarp -t_srs {} {} OUT.tif)",
+                                   lines, dem, land.grid().crs.substr(0, 60), lines, dem));
     }
     FileReaches const found = reaches_of_file(network, land.grid());
     measure::Claims claims;

@@ -195,7 +195,7 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
 
     if (!job.dem.empty() && has_direction(topology)) {
         RiverRasters const rasters = rasters_beside(job.network);
-        checked.certificate = certify_files(network, job.dem, rasters, run);
+        checked.certificate = certify_files(network, {job.dem, job.nodata}, rasters, run);
         if (checked.certificate->waived_cells > 0) {
             checked.notes.push_back({"not_honoured",
                                      0,

@@ -16,13 +16,14 @@ namespace thalweg::pipeline {
 
 /// What `thalweg check` is asked to look at, and what to leave.
 struct CheckJob {
-    std::string network = {};        ///< as io::read_network takes it
-    io::ReadNetworkParams read = {}; ///< how it is understood
-    std::string dem = {};            ///< a DEM that the network drains; "" for none
-    std::string fix = {};            ///< NAME.gpkg or NAME.shp: a mended copy; "" for none
-    std::string findings = {};       ///< NAME.gpkg: the findings as points; "" for none
-    double near_m = 0.0;             ///< [m] >= 0: as measure::TopologyParams
-    bool overwrite = false;          ///< replace fix and findings where they are there
+    std::string network = {};          ///< as io::read_network takes it
+    io::ReadNetworkParams read = {};   ///< how it is understood
+    std::string dem = {};              ///< a DEM that the network drains; "" for none
+    std::string fix = {};              ///< NAME.gpkg or NAME.shp: a mended copy; "" for none
+    std::string findings = {};         ///< NAME.gpkg: the findings as points; "" for none
+    double near_m = 0.0;               ///< [m] >= 0: as measure::TopologyParams
+    bool overwrite = false;            ///< replace fix and findings where they are there
+    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
 };
 
 /// What check_files() returns.

@@ -48,10 +48,10 @@ bool is_known(std::vector<double> const& areas) {
 }
 
 Raster<float> read_dem(ConvertParams const& params, std::string const& crs, Run const& run) {
-    Raster<float> dem = io::read_dem(params.dem, run);
+    Raster<float> dem = io::read_dem(params.dem, {.nodata = params.nodata}, run);
     if (!io::same_crs(dem.grid().crs, crs, "pipeline.convert: " + params.dem, params.path)) {
-        throw BadInput(fmt::format("pipeline.convert: {} is in {:.60}, {} in {:.60}: warp it (gdalwarp -t_srs)",
-                                   params.dem, dem.grid().crs, params.path, crs));
+        throw BadInput(fmt::format("pipeline.convert: {} is in {:.60}, {} in {:.60}: warp it (gdalwarp -t_srs {:.60})",
+                                   params.dem, dem.grid().crs, params.path, crs, crs));
     }
     return dem;
 }

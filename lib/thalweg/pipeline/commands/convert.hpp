@@ -19,12 +19,13 @@ struct ConvertParams {
     std::string path = {}; ///< whatever io::read_network reads
     io::ReadNetworkParams read = {};
     io::Schema schema = io::Schema::native;
-    std::string format = {};       ///< a name of io::network_formats(); "" goes by the output's ending
-    int max_upstream = 0;          ///< [2, ...] arcs that may end in one node; 0 for any number
-    double split_distance_m = 0.0; ///< [m] how far confluences are moved; 0: median length of the segments
-    std::string dem = {};          ///< heights and areas where the file has none; frame of the mask
-    double cell_m = 0.0;           ///< [m] cell of the mask without a DEM
-    std::string table = "network"; ///< in a database, NAME or SCHEMA.NAME
+    std::string format = {};           ///< a name of io::network_formats(); "" goes by the output's ending
+    int max_upstream = 0;              ///< [2, ...] arcs that may end in one node; 0 for any number
+    double split_distance_m = 0.0;     ///< [m] how far confluences are moved; 0: median length of the segments
+    std::string dem = {};              ///< heights and areas where the file has none; frame of the mask
+    double cell_m = 0.0;               ///< [m] cell of the mask without a DEM
+    std::string table = "network";     ///< in a database, NAME or SCHEMA.NAME
+    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
 };
 
 /// What became of a network.

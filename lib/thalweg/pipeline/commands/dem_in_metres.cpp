@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/commands/dem_in_metres.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <utility>
 
@@ -10,25 +11,40 @@
 #include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/io/raster/read_drawable.hpp>
 #include <thalweg/io/raster/warp_to_grid.hpp>
 
 namespace thalweg::pipeline {
 
-MetricDem dem_in_metres(std::string const& path, Run const& run) {
-    MetricDem out{io::read_dem(path, run), {}};
+MetricDem dem_in_metres(std::string const& path, io::ReadDemParams const& params, Run const& run) {
+    std::string const name = std::filesystem::path(path).filename().string();
+    if (!io::has_square_cells(path)) {
+        constexpr std::int64_t most_side = 30000;
+        io::Drawable read = io::read_drawable(path, {.most_side = most_side, .nodata = params.nodata}, run);
+        for (std::string& note : read.notes) {
+            note = name + ": " + note;
+        }
+        return {std::move(read.dem), std::move(read.notes)};
+    }
+    MetricDem out{io::read_dem(path, params, run), {}};
     Grid const own = out.dem.grid();
     io::GroundCell const ground = io::ground_cell(own);
-    if (ground.unit != io::GridUnit::degrees) {
+    bool const is_distorted = ground.unit == io::GridUnit::distorted;
+    if (ground.unit != io::GridUnit::degrees && !is_distorted) {
         return out;
     }
     Grid lattice;
     lattice.cell_m = ground.side_m;
-    lattice.crs = io::utm_zone(0.5 * (own.west + own.east()), 0.5 * (own.south() + own.north));
+    lattice.crs =
+        is_distorted ? ground.crs : io::utm_zone(0.5 * (own.west + own.east()), 0.5 * (own.south() + own.north));
     lattice.west = 0.0;
     lattice.north = 0.0;
     out.dem = io::warp_to_grid(out.dem, lattice, "pipeline.dem_in_metres: " + path, run);
-    out.notes.push_back(fmt::format("{}: coordinates in degrees are reprojected into {}, onto cells of {:.2f} m",
-                                    std::filesystem::path(path).filename().string(), lattice.crs, ground.side_m));
+    out.notes.push_back(fmt::format("{}: coordinates in {} are reprojected into {}, onto cells of {:.2f} m", name,
+                                    is_distorted ? fmt::format("{:.60}, whose metres are {:.2f} m on the ground,",
+                                                               own.crs, ground.side_m / own.cell_m)
+                                                 : "degrees",
+                                    fmt::format("{:.60}", lattice.crs), ground.side_m));
     return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/raster/read_dem.hpp>
 
 namespace thalweg::pipeline {
 
@@ -16,13 +17,15 @@ struct MetricDem {
     std::vector<std::string> notes; ///< what was done, in words
 };
 
-/// Reads a DEM; one in degrees is warped into the UTM zone of its middle, onto cells as large as its own there.
+/// Reads a DEM; one in degrees, or in metres whose lengths are off by more than 1 % (Web Mercator), is warped into
+/// the UTM zone of its middle, onto cells as large as its own there; one with cells that are not square onto squares.
 /// \param path path of the file
+/// \param params as of io::read_dem
 /// \param run progress, log, stop token and number of threads
 /// \return the DEM, and the cell size it had
 /// \throws BadInput like read_dem, and where a geographic DEM lies in no UTM zone
 /// \throws IoError
 /// \throws Cancelled
-MetricDem dem_in_metres(std::string const& path, Run const& run = {});
+MetricDem dem_in_metres(std::string const& path, io::ReadDemParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -186,7 +186,7 @@ std::string command_of(std::string const& source, std::string const& output, Dra
 Drawn draw_files(std::string const& source, std::string const& output, DrawParams const& params, io::Existing existing,
                  Run const& run) {
     Order const order = order_of(output, params);
-    SceneRead read = read_scene(source, params.network, run);
+    SceneRead read = read_scene({source, params.nodata}, params.network, run);
     if (!params.title.empty()) {
         read.scene.title = params.title;
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,12 @@ namespace thalweg::pipeline {
 
 /// Options of draw_files().
 struct DrawParams {
-    std::vector<std::string> what;    ///< names of kinds, or page; none takes all pictures that can be drawn
-    std::vector<std::string> formats; ///< png, svg, pdf; none takes the ending of the output, else png
-    std::string network;              ///< file of river lines over a DEM; "" for none
-    std::string title;                ///< "" takes the scene's own
-    Look look;                        ///< its format is not used
+    std::vector<std::string> what;     ///< names of kinds, or page; none takes all pictures that can be drawn
+    std::vector<std::string> formats;  ///< png, svg, pdf; none takes the ending of the output, else png
+    std::string network;               ///< file of river lines over a DEM; "" for none
+    std::string title;                 ///< "" takes the scene's own
+    Look look;                         ///< its format is not used
+    std::optional<double> nodata = {}; ///< of a raster, as in io::ReadDemParams
 };
 
 /// What draw_files() returns.

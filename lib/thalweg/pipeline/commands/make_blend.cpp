@@ -8,7 +8,7 @@
 namespace thalweg::pipeline {
 
 MadeBlend make_blend(MakeBlendParams const& params, Run const& run) {
-    Raster<float> const target = io::read_dem(params.target, run);
+    Raster<float> const target = io::read_dem(params.target, {.nodata = params.nodata}, run);
     return blend_into(target, read_kept(params.keep, target.grid(), run), params, run);
 }
 

@@ -14,7 +14,7 @@ blend::Deformed make_deform(MakeDeformParams const& params, Run const& run) {
     if (params.scale == 1.0 && params.handles.empty()) {
         throw BadParameter("pipeline.make_deform: nothing to do: give a scale or heights to pull to");
     }
-    Raster<float> const target = io::read_dem(params.target, run);
+    Raster<float> const target = io::read_dem(params.target, {.nodata = params.nodata}, run);
     Grid const& grid = target.grid();
     Mask const region = read_part(params.mask, grid, run);
     std::vector<blend::Handle> handles;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,11 @@ namespace thalweg::pipeline {
 
 /// Options of make_deform().
 struct MakeDeformParams {
-    std::string target = {};        ///< a DEM
-    std::string mask = {};          ///< the region: a raster on the target's grid, or polygons
-    double scale = 1.0;             ///< as in blend::DeformParams
-    std::vector<Vec3> handles = {}; ///< [m] places in the region and the heights to which they are pulled
+    std::string target = {};           ///< a DEM
+    std::string mask = {};             ///< the region: a raster on the target's grid, or polygons
+    double scale = 1.0;                ///< as in blend::DeformParams
+    std::vector<Vec3> handles = {};    ///< [m] places in the region and the heights to which they are pulled
+    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
 };
 
 /// Reads a DEM and bends a region of it.

@@ -198,7 +198,7 @@ MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& 
     Measured const source = source_of(params);
     auto const wanted = wanted_of(params, source);
     Writer out(output, wanted, existing);
-    Raster<float> const dem = io::read_dem(source.dem, run);
+    Raster<float> const dem = io::read_dem(source.dem, {.nodata = params.nodata}, run);
     require_metres(dem.grid(), source.dem, "pipeline.make_measures");
     NetworkFile network;
     if (wanted.contains(outlines)) {

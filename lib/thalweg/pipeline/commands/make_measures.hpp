@@ -16,10 +16,11 @@ namespace thalweg::pipeline {
 
 /// Options of make_measures().
 struct MakeMeasuresParams {
-    std::string dem;               ///< a folder written by make, or any raster of heights
-    std::string network;           ///< "" takes that of the folder, if there is one
-    io::ReadNetworkParams read;    ///< how the network is understood; it is reprojected to the DEM's CRS
-    std::vector<std::string> what; ///< names of measures; none takes d8, dinf and, with a network, catchments
+    std::string dem;                   ///< a folder written by make, or any raster of heights
+    std::string network;               ///< "" takes that of the folder, if there is one
+    io::ReadNetworkParams read;        ///< how the network is understood; it is reprojected to the DEM's CRS
+    std::vector<std::string> what;     ///< names of measures; none takes d8, dinf and, with a network, catchments
+    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
 };
 
 /// \return the measures that can be asked for: d8, dinf, directions, catchments.

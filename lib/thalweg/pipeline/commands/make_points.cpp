@@ -62,7 +62,8 @@ MadePoints make_points(MakePointsParams const& params, std::string const& output
             fmt::format("pipeline.make_points: --skeleton needs a folder written by make; {} is not one", params.path));
     }
     fs::path const folder(params.path);
-    Raster<float> land = io::read_dem(is_folder ? (folder / "dem.tif").string() : params.path, run);
+    Raster<float> land =
+        io::read_dem(is_folder ? (folder / "dem.tif").string() : params.path, {.nodata = params.nodata}, run);
     require_metres(land.grid(), params.path, "pipeline.make_points");
     MadePoints made{0, land.grid().crs};
     if (params.of == PointsOf::skeleton) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <thalweg/core/run/run.hpp>
@@ -21,6 +22,7 @@ struct MakePointsParams {
     std::string path = {}; ///< a DEM, or a folder that make wrote
     PointsOf of = PointsOf::land;
     io::WritePointsParams write = {};
+    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
 };
 
 /// What was written.

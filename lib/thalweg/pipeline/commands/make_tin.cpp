@@ -10,11 +10,13 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
+#include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/io/gdal/content_of.hpp>
 #include <thalweg/io/gdal/has_layer.hpp>
 #include <thalweg/io/mesh/read_points.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/pipeline/commands/internal/require_metres.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -47,8 +49,12 @@ Breaklines read_lines(std::string const& path, std::string const& crs, std::stri
     return read;
 }
 
-MadeTin of_dem(std::string const& path, double error_m, Run const& run) {
-    auto const dem = io::read_dem(path, run);
+MadeTin of_dem(std::string const& path, MakeTinParams const& params, Run const& run) {
+    double const error_m = params.error_m.value_or(geometry::TinOfDemParams{}.error_m);
+    auto const dem = io::read_dem(path, {.nodata = params.nodata}, run);
+    if (io::is_distorted(dem.grid())) {
+        require_metres(dem.grid(), path, "pipeline.make_tin");
+    }
     auto simplified = geometry::tin_of_dem(dem, {error_m}, run);
     MadeTin made;
     made.tin = std::move(simplified.tin);
@@ -89,11 +95,14 @@ MadeTin make_tin(MakeTinParams const& params, Run const& run) {
             throw BadParameter("pipeline.make_tin: --breaklines, --crs and --source-crs apply to points and lines, not "
                                "to a DEM");
         }
-        return of_dem(content.path, params.error_m.value_or(geometry::TinOfDemParams{}.error_m), run);
+        return of_dem(content.path, params, run);
     }
-    if (params.error_m) {
-        throw BadParameter(fmt::format("pipeline.make_tin: --error applies to a DEM only; {} holds {}", content.path,
-                                       content.kind == Kind::points ? "points" : "lines"));
+    for (auto const& [option, given] :
+         {std::pair{"--error", params.error_m.has_value()}, std::pair{"--nodata", params.nodata.has_value()}}) {
+        if (given) {
+            throw BadParameter(fmt::format("pipeline.make_tin: {} applies to a DEM only; {} holds {}", option,
+                                           content.path, content.kind == Kind::points ? "points" : "lines"));
+        }
     }
     if (content.kind == Kind::points) {
         FeaturePoints const points =

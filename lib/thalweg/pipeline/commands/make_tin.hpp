@@ -21,7 +21,8 @@ struct MakeTinParams {
     std::string source_crs = {};        ///< of points and lines whose file has no CRS; "" for none
     /// points alone; averaged where nothing is said
     std::optional<io::DuplicatePoints> duplicates = {};
-    std::string columns = {}; ///< of text with points, as io::ReadPointsParams; "" for none
+    std::string columns = {};          ///< of text with points, as io::ReadPointsParams; "" for none
+    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
 };
 
 /// A TIN and how it came about.

@@ -161,7 +161,8 @@ void read_increments(Scene& scene, Recipe const& recipe, std::string const& repo
     }
 }
 
-SceneRead read_folder(fs::path const& folder, std::string const& network, Run const& run) {
+SceneRead read_folder(SceneSource const& source, std::string const& network, Run const& run) {
+    fs::path const folder = source.path;
     SceneRead out;
     Scene& scene = out.scene;
     std::string const dem = (folder / "dem.tif").string();
@@ -174,7 +175,8 @@ SceneRead read_folder(fs::path const& folder, std::string const& network, Run co
                                    folder.string()));
     }
     if (fs::exists(dem)) {
-        io::Drawable read = io::read_drawable(dem, 4000, run);
+        io::Drawable read = io::read_drawable(dem, {.metres = io::MetresOf::any_crs, .nodata = source.nodata},
+                                              run); // its maker's choice
         scene.dem = std::move(read.dem);
         out.notes = std::move(read.notes);
     }
@@ -199,15 +201,16 @@ SceneRead read_folder(fs::path const& folder, std::string const& network, Run co
 
 } // namespace
 
-SceneRead read_scene(std::string const& source, std::string const& network, Run const& run) {
+SceneRead read_scene(SceneSource const& from, std::string const& network, Run const& run) {
+    std::string const& source = from.path;
     SceneRead out;
     std::error_code ignored;
     if (fs::is_directory(source, ignored) &&
         (fs::exists(fs::path(source) / "dem.tif") || fs::exists(fs::path(source) / "report.json") ||
          fs::exists(fs::path(source) / "network.gpkg") || fs::path(source).extension().empty())) {
-        out = read_folder(source, network, run);
+        out = read_folder(from, network, run);
     } else {
-        io::Drawable read = io::read_drawable(source, 4000, run);
+        io::Drawable read = io::read_drawable(source, {.nodata = from.nodata}, run);
         out.scene.dem = std::move(read.dem);
         out.notes = std::move(read.notes);
         out.scene.title = fs::path(source).stem().string();

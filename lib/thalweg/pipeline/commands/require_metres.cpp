@@ -10,7 +10,13 @@
 namespace thalweg::pipeline {
 
 void require_metres(Grid const& grid, std::string const& path, char const* who) {
-    io::GridUnit const unit = io::ground_cell(grid).unit;
+    io::GroundCell const ground = io::ground_cell(grid);
+    io::GridUnit const unit = ground.unit;
+    if (unit == io::GridUnit::distorted) {
+        throw BadInput(fmt::format("{}: the coordinates of {} are in {:.60}, whose metres are {:.3g} m on the ground "
+                                   "there: reproject it first (gdalwarp -t_srs {:.60} {} OUT.tif)",
+                                   who, path, grid.crs, ground.side_m / grid.cell_m, ground.crs, path));
+    }
     if (unit == io::GridUnit::degrees || unit == io::GridUnit::other) {
         throw BadInput(fmt::format("{}: the coordinates of {} are {}: reproject it to a CRS in metres first "
                                    "(gdalwarp -t_srs)",

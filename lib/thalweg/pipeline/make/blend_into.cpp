@@ -51,9 +51,15 @@ struct PastedSource {
 Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& params, PastedSource& as) {
     std::string const whose = "pipeline.make_blend: " + params.source;
     std::string const target_words = "the target " + params.target;
-    if (io::same_crs(source.crs, target.crs, whose, target_words) ||
-        io::overlap_on_earth(source, target, whose, target_words)) {
+    bool const is_same = io::same_crs(source.crs, target.crs, whose, target_words);
+    bool const is_distorted = io::is_distorted(target); // a metre is as long as its place has it
+    if ((is_same && !is_distorted) || io::overlap_on_earth(source, target, whose, target_words)) {
         return target;
+    }
+    if (is_distorted) {
+        throw BadInput(fmt::format("{} does not overlap {}, whose CRS {:.60} has metres of another length there: warp "
+                                   "the target first (gdalwarp -t_srs {:.60})",
+                                   whose, target_words, target.crs, io::ground_cell(target).crs));
     }
     if (io::ground_cell(target).unit != io::GridUnit::metres) {
         throw BadInput(fmt::format("{} does not overlap {}, whose cells are not in metres, so its size there is "
@@ -68,7 +74,7 @@ Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& pa
 }
 
 PastedSource read_source(MakeBlendParams const& params, Grid const& grid, Run const& run) {
-    Raster<float> dem = io::read_dem(params.source, run);
+    Raster<float> dem = io::read_dem(params.source, {.nodata = params.nodata}, run);
     PastedSource source;
     Grid const frame = frame_for(dem.grid(), grid, params, source);
     std::string const what = "pipeline.make_blend: " + params.source;

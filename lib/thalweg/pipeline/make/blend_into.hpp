@@ -26,6 +26,7 @@ struct MakeBlendParams {
     double feather_cells = 0.0;                     ///< [cells] as in blend::PasteParams
     blend::Relief relief = blend::Relief::source;
     blend::Holes holes = blend::Holes::leave;
+    std::optional<double> nodata = {}; ///< of both DEMs, as in io::ReadDemParams
 };
 
 /// How the place of a patch was found.

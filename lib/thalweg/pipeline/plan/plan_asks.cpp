@@ -12,7 +12,8 @@ bool has_coastlines(Plan const& plan) {
     NetworkRecipe const& rivers = *plan.recipe.network;
     std::vector<SecondaryLine> const& lines = plan.lines.secondary;
     return rivers.source == Source::lines && rivers.lines.coastlines == Coastlines::sea &&
-           std::any_of(lines.begin(), lines.end(), [](SecondaryLine const& line) { return line.cause == LeftOut::coast; });
+           std::any_of(lines.begin(), lines.end(),
+                       [](SecondaryLine const& line) { return line.cause == LeftOut::coast; });
 }
 
 bool grown_for_land(Plan const& plan) {

@@ -72,7 +72,7 @@ Mask read_mask_of_land(std::string const& path, Grid const& grid) {
     if (path.empty()) {
         return {};
     }
-    Raster<float> const given = io::read_dem(path);
+    Raster<float> const given = io::read_dem(path, {.values = io::CellValues::numbers});
     if (given.width() != grid.width || given.height() != grid.height) {
         throw BadInput(fmt::format("surface.mask = \"{}\" has {}x{} cells, the grid {}x{}", path, given.width(),
                                    given.height(), grid.width, grid.height));
@@ -107,8 +107,8 @@ Raster<float> read_field(std::string const& path, Grid const& grid, std::string 
     if (io::holds_polygons(path)) {
         field = valued_polygons(io::read_polygons(path, grid.crs, "erodibility", run), grid);
     } else {
-        Raster<float> const given =
-            io::warp_to_grid(io::read_dem(path, run), grid, fmt::format("{} = \"{}\"", what, path), run);
+        Raster<float> const given = io::warp_to_grid(io::read_dem(path, {.values = io::CellValues::numbers}, run), grid,
+                                                     fmt::format("{} = \"{}\"", what, path), run);
         field = Raster<float>(grid, std::numeric_limits<float>::quiet_NaN());
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             Cell const at = given.grid().cell_of(grid.centre(grid.at(i)));

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/recipe/internal/conversions.hpp>
 
+#include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/io/frame/places_on_earth.hpp>
+#include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/gdal/conversions.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
@@ -14,10 +16,20 @@ namespace thalweg::pipeline {
 
 namespace {
 
-/// Far from its central meridian a UTM zone measures other lengths than the ground has.
+/// Far from its central meridian a UTM zone measures other lengths than the ground has, as other projections do.
 std::vector<Finding> warn_of_stretch(Grid const& grid, Run const& run) {
     constexpr double much = 0.01;
     constexpr double percent = 100.0;
+    if (io::is_distorted(grid) && !io::utm_number(grid.crs)) {
+        io::GroundCell const ground = io::ground_cell(grid);
+        double const metre = ground.side_m / grid.cell_m;
+        std::string const words =
+            fmt::format("metres of the grid's CRS, {:.60}, are {:.3g} m on the ground there. Name another CRS: --crs "
+                        "{:.60}",
+                        grid.crs, metre, ground.crs);
+        run.say("warning: " + words);
+        return {{"stretched", 0, {}, 1.0 / metre - 1.0, words}};
+    }
     double const stretch = io::zone_stretch(grid);
     if (!(stretch > much)) {
         return {};

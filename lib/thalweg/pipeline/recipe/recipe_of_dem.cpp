@@ -47,6 +47,12 @@ void put_grid(DemRecipe& made, Grid const& grid) {
             put(made, "grid.origin", Pair{grid.west, grid.north});
         }
         break;
+    case io::GridUnit::distorted:
+        made.notes.push_back(
+            fmt::format("Its metres are {:.3g} m on the ground: cells here are squares of {:.2f} m, as "
+                        "large as in its middle, at the default origin.",
+                        cell.side_m / grid.cell_m, cell.side_m));
+        break;
     case io::GridUnit::degrees:
         made.notes.push_back(fmt::format("Its coordinates are geographic: cells here are squares of {:.2f} m, as large "
                                          "as in its middle row, at the default origin.",

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -28,14 +29,21 @@ struct FileBox {
     Vec2 high;
 };
 
+/// What becomes of a file's own CRS that is projected in metres.
+enum class OwnMetres : std::uint8_t {
+    judged, ///< it is left where lengths are off by more than 1 % and another CRS is better: Web Mercator
+    kept
+};
+
 /// A projection from a file's CRS into one in metres. Needs a Driver that outlives it.
 class IntoMetres {
 public:
-    /// Takes: the file's CRS; the one wanted, "" for the file's own when it is projected in metres, else the UTM zone
-    /// of the middle of what is read, in the file's coordinates; where that lengthens lines by more than 4 %, Lambert's
-    /// azimuthal equal-area projection around the middle. Throws: BadInput when there is none, or more than 180 degrees
-    /// of longitude are read: "io.into_metres: name ...".
-    IntoMetres(OGRSpatialReference const& own, std::string const& wanted, FileBox const& box, std::string const& name);
+    /// Takes: the file's CRS; the one wanted, "" for the file's own when it is projected in metres and these are metres
+    /// on the ground (OwnMetres), else the UTM zone of the middle of what is read, in the file's coordinates; where
+    /// that lengthens lines by more than 4 %, Lambert's azimuthal equal-area projection around the middle. Throws:
+    /// BadInput when there is none, or more than 180 degrees of longitude are read: "io.into_metres: name ...".
+    IntoMetres(OGRSpatialReference const& own, std::string const& wanted, FileBox const& box, std::string const& name,
+               OwnMetres metres = OwnMetres::judged);
     ~IntoMetres();
     IntoMetres(IntoMetres const&) = delete;
     IntoMetres& operator=(IntoMetres const&) = delete;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <thalweg/core/network_file.hpp>
@@ -18,12 +19,18 @@ struct RiverRasters {
     bool waive = false;     ///< only drawn cells are to be honoured: patches took the place of others
 };
 
+/// A DEM.
+struct DemFile {
+    std::string path;
+    std::optional<double> nodata = {}; ///< as in io::ReadDemParams
+};
+
 /// The drainage certificate of a DEM file and a network, anyone's. Parts of the network beside the DEM are findings
 /// (outside_dem), and do not count otherwise. Parts of rivers that are drawn level stand as lakes do; nodes of the kind
 /// "sink" end their rivers.
 /// Throws: BadInput when a raster cannot be read, the network and the DEM have different CRS or only one has any, or no
 /// arc lies on the DEM; what reaches_of_file throws for a network without direction; IoError; Cancelled.
-measure::Certificate certify_files(NetworkFile const& network, std::string const& dem, RiverRasters const& rasters = {},
+measure::Certificate certify_files(NetworkFile const& network, DemFile const& file, RiverRasters const& rasters = {},
                                    Run const& run = {});
 
 } // namespace thalweg::pipeline

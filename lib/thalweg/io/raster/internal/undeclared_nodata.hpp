@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/io/raster/read_dem.hpp>
+
+class GDALRasterBand;
+
+/// Values that stand for cells without height and that the file does not declare. Private to this module.
+namespace thalweg::io {
+
+/// Whether a stored value is the one that a user names: floats of files have more digits than people type.
+bool stands_for(double stored, double named);
+
+/// Whether a file says which of a band's cells have data: by a no-data value, a mask or alpha.
+bool declares_nodata(GDALRasterBand& band);
+
+/// Why a value beyond implausible_height is not read.
+std::string implausible_words(std::int64_t col, std::int64_t row, double stored);
+
+/// Reads a raster's values row by row and finds those that no terrain has: -9999 and the like; among heights also the
+/// lowest or highest value when it is not 0, fills a block of 3 x 3 cells, and lies farther from the next one than the
+/// others are apart.
+class UndeclaredNodata {
+public:
+    /// Nothing is searched where params names a no-data value; no blocks where the file declares one.
+    UndeclaredNodata(int width, ReadDemParams const& params, bool is_declared);
+
+    /// Takes the next row: stored values, NaN where the file declares that there is none.
+    void add_row(std::span<double const> stored);
+    /// what: "io.read_dem: FILE". Throws: BadInput naming the value, its first cell and the remedy.
+    void require_none(std::string const& what, std::string const& path) const;
+
+private:
+    /// The lowest value so far, or of negated ones the highest.
+    struct Extreme {
+        double value = std::numeric_limits<double>::infinity();
+        double next = std::numeric_limits<double>::infinity();
+        std::vector<std::int32_t> run;                    ///< by column, how many cells above each other have the value
+        std::optional<std::array<std::int64_t, 2>> block; ///< column and row of its middle
+
+        void add(std::size_t col, double z);
+        void end_row(std::int64_t row);
+    };
+    struct Sentinel {
+        double value = 0.0;
+        std::int64_t count = 0;
+        std::array<std::int64_t, 2> first{};
+        bool is_depth = false; ///< other cells are a little deeper: the sea
+    };
+
+    void note_sentinel(std::int64_t col, double z);
+
+    bool searches_ = true;
+    bool searches_blocks_ = true;
+    std::int64_t row_ = 0;
+    Extreme low_;
+    Extreme high_;
+    std::array<Sentinel, 4> sentinels_;
+};
+
+} // namespace thalweg::io
