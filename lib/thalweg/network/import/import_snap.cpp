@@ -88,14 +88,6 @@ std::optional<Goal> nearest_foot(Ends const& ends, std::size_t own, Vec2 p, doub
     return best;
 }
 
-/// Another line ends here already, and has not had its turn.
-bool meets_an_end(Ends const& ends, std::size_t own, Vec2 p, std::vector<geometry::NearSegment> const& near) {
-    return std::ranges::any_of(near, [&](geometry::NearSegment const& s) {
-        auto const& v = ends.lines[s.line].vertices;
-        return s.line != own && (plan(v.front()) == p || plan(v.back()) == p);
-    });
-}
-
 // The lines, but for one, that pass through a place.
 std::vector<std::size_t> lines_at(std::vector<RiverLine> const& lines, std::size_t own, Vec2 p,
                                   std::vector<geometry::NearSegment> const& near) {
@@ -229,7 +221,7 @@ void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Lef
         auto const of_open = is_open ? goals_of_open(lines, e, near) : std::vector<geometry::NearSegment>();
         auto const& goals = is_open ? of_open : near[e];
         auto goal = nearest_vertex(ends, own, drawn[e], reach_m, goals);
-        if (!goal && !meets_an_end(ends, own, drawn[e], near[e])) {
+        if (!goal) {
             goal = nearest_foot(ends, own, drawn[e], reach_m, goals);
         }
         ends.settled[e] = 1;
