@@ -108,6 +108,19 @@ TEST(GivenLength, HeadsThatTheTerrainCutsAreTold) {
     EXPECT_FALSE(test::made(asked, files.folder()).assessment.passed());
 }
 
+TEST(GivenLength, OfAFeatureInSeveralPartsOnlyTheShortOneIsLeftOut) {
+    Files files;
+    files.write(
+        "rivers.geojson",
+        test::geojson("{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"MultiLineString\","
+                      "\"coordinates\":[[[502000,5003000],[502000,5000010]],[[502000,5003000],[502000,5003010]]]}}"));
+    Made const t = test::made(recipe + path, files.folder());
+    GivenLength const& given = *t.assessment.given;
+    expect_balanced(given);
+    EXPECT_NEAR(given.left_out(LeftOut::too_short), 10.0, 1e-6);
+    EXPECT_NEAR(given.kept_m, 2990.0, 10.0);
+}
+
 TEST(GivenLength, BendsAreNoLength) {
     Files const files;
     Made const t = test::made(recipe + "meander = 1\n" + path, files.folder());

@@ -307,11 +307,6 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     if (open && snap_m > same_m) {
         import_steps::snap(lines, snap_m, SnappedEnds::open, left, run);
     }
-    for (RiverLine const& line : file.lines) { // as they were drawn
-        if (std::ranges::find(left.too_short, line.feature) != left.too_short.end()) {
-            imported.secondary.push_back({line.feature, line.vertices, "too short", line.feature, LeftOut::too_short});
-        }
-    }
     if (lines.empty()) {
         throw BadInput(fmt::format("network.import_lines: every river in {} is shorter than the snapping distance {} m",
                                    file.name, snap_m));

@@ -201,9 +201,11 @@ void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run c
 
 void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Left& left, Run const& run) {
     std::vector<Vec2> drawn;
+    std::vector<std::vector<Vec3>> as_drawn;
     for (auto const& line : lines) {
         drawn.push_back(plan(line.vertices.front()));
         drawn.push_back(plan(line.vertices.back()));
+        as_drawn.push_back(line.vertices);
     }
     // Twice the distance: what an end shall join may itself have moved here.
     auto const near = geometry::segments_near(drawn, plan_of(lines), 2.0 * snap_m, run);
@@ -243,16 +245,22 @@ void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Lef
     }
     insert(lines, std::move(additions));
     drop_repeats(lines);
-    std::erase_if(lines, [&](RiverLine const& line) {
+    std::size_t kept = 0;
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        RiverLine& line = lines[l];
         if (line.vertices.size() > 1) {
-            return false;
+            if (kept != l) {
+                lines[kept] = std::move(line);
+            }
+            ++kept;
+            continue;
         }
-        left.too_short.push_back(line.feature);
+        left.secondary.push_back({line.feature, std::move(as_drawn[l]), "too short", line.feature, LeftOut::too_short});
         left.repairs.push_back({"removed", line.number(), plan(line.vertices.front()), 1.0,
                                 fmt::format("river {} is shorter than the snapping distance {:.3g} m; it is left out",
                                             line.number(), snap_m)});
-        return true;
-    });
+    }
+    lines.resize(kept);
 }
 
 } // namespace thalweg::network::import_steps

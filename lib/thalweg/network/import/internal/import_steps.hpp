@@ -41,7 +41,6 @@ std::vector<std::int64_t> drop_repeats(std::vector<RiverLine>& lines);
 struct Left {
     std::vector<Finding>& repairs;
     std::vector<SecondaryLine>& secondary;
-    std::vector<std::int64_t> too_short = {}; ///< features that shrank to a point
 };
 
 /// Drops every line whose vertices all lie within snap_m of those of an earlier one, in either direction.
