@@ -25,6 +25,7 @@ using Rows = std::vector<std::vector<std::string>>; ///< "" for NULL
 struct Lines {
     std::vector<RiverLine> lines;
     std::vector<std::string> unnatural;
+    std::vector<int> channels; ///< 1: unnatural, but carries water
 };
 
 Lines read(Fields const& fields, Rows const& rows) {
@@ -44,7 +45,9 @@ Lines read(Fields const& fields, Rows const& rows) {
         line.feature = static_cast<std::int64_t>(read.lines.size()) + 1;
         known.read(*feature, line);
         read.lines.push_back(std::move(line));
-        read.unnatural.push_back(known.unnatural(*feature));
+        auto const [reason, is_channel] = known.unnatural(*feature);
+        read.unnatural.push_back(reason);
+        read.channels.push_back(is_channel ? 1 : 0);
     }
     known.link(read.lines);
     return read;
@@ -149,6 +152,23 @@ TEST(RiverFields, WhatIsNoNaturalWatercourseSaysWhy) {
                          {"", "56700"}})
                   .unnatural,
               (std::vector<std::string>{"", "FTYPE Coastline", "FTYPE 428", "FCODE 33600 CanalDitch", "", ""}));
+}
+
+TEST(RiverFields, CanalsDitchesDrainsAndPipesCarryWater) {
+    Fields const osm{{"waterway", OFTString}, {"tunnel", OFTString}, {"man_made", OFTString}, {"barrier", OFTString}};
+    Lines const lines = read(osm, {{"river", "", "", ""},
+                                   {"canal", "", "", ""},
+                                   {"Ditch", "", "", ""},
+                                   {"drain", "", "", ""},
+                                   {"weir", "", "", ""},
+                                   {"stream", "flooded", "", ""},
+                                   {"", "", "pipeline", ""},
+                                   {"", "", "", "ditch"}}); // a dry one, which keeps people out
+    EXPECT_EQ(lines.channels, (std::vector<int>{0, 1, 1, 1, 0, 1, 1, 0}));
+    EXPECT_EQ(lines.unnatural.back(), "barrier ditch");
+    Fields const nhd{{"FTYPE", OFTString}, {"FCODE", OFTInteger}};
+    EXPECT_EQ(read(nhd, {{"Coastline", ""}, {"CanalDitch", ""}, {"428", ""}, {"", "33600"}, {"", "56600"}}).channels,
+              (std::vector<int>{0, 1, 1, 1, 0}));
 }
 
 } // namespace river_fields_test

@@ -172,8 +172,9 @@ private:
             arc.channel = line.channel;
             arc.name = std::move(line.name);
             arc.rank = key_;
-            arc.unnatural = fields_.unnatural(feature);
-            arc.is_channel = RiverFields::is_channel(arc.unnatural);
+            RiverFields::Unnatural unnatural = fields_.unnatural(feature);
+            arc.unnatural = std::move(unnatural.reason);
+            arc.is_channel = unnatural.is_channel;
         }
         arc.type = columns_.column(Q::type).text(feature);
         if (arc.type == "none") { // what stands for an empty text

@@ -175,8 +175,8 @@ Finding left_out(std::int64_t feature, OGRGeometry const* drawn) {
 struct Read {
     std::vector<RiverLine> lines;
     std::vector<RiverLine> unnatural;
-    std::vector<std::string> reasons; ///< of these
-    std::vector<bool> coasts;         ///< likewise
+    std::vector<RiverFields::Unnatural> why; ///< of these
+    std::vector<bool> coasts;                ///< likewise
     OtherShapes others;
     std::vector<Finding> findings;
     AttributeTable attributes;
@@ -207,8 +207,9 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
         fields.read(*feature, line);
         attributes.read(*feature);
         OGRGeometry const* const drawn = feature->GetGeometryRef();
-        std::string const reason = params.filter == LineFilter::natural ? fields.unnatural(*feature) : "";
-        auto& lines = reason.empty() ? read.lines : read.unnatural;
+        RiverFields::Unnatural const why =
+            params.filter == LineFilter::natural ? fields.unnatural(*feature) : RiverFields::Unnatural();
+        auto& lines = why.reason.empty() ? read.lines : read.unnatural;
         std::size_t const first = lines.size();
         std::int64_t const others = read.others.count();
         if (drawn != nullptr && drawn->IsEmpty() == 0) {
@@ -221,8 +222,8 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
         for (std::size_t k = first; k < lines.size(); ++k) {
             lines[k].lambda = lambda_of(*feature, lambda_field, lines[first], name);
         }
-        read.reasons.resize(read.unnatural.size(), reason);
-        read.coasts.resize(read.unnatural.size(), !reason.empty() && fields.is_coast(*feature));
+        read.why.resize(read.unnatural.size(), why);
+        read.coasts.resize(read.unnatural.size(), !why.reason.empty() && fields.is_coast(*feature));
     }
     fields.link(read.lines);
     fields.link(read.unnatural);
@@ -283,7 +284,7 @@ std::string nothing_left(Read const& read, std::string const& what) {
     if (!read.unnatural.empty()) {
         return fmt::format("{} holds no natural watercourse: {} lines are left out, the first of them for its {}; set "
                            "network.lines.filter = \"none\" to take them all",
-                           what, read.unnatural.size(), read.reasons.front());
+                           what, read.unnatural.size(), read.why.front().reason);
     }
     auto const why = std::ranges::find_if(
         read.findings, [](Finding const& f) { return f.kind == "not_a_line" || f.kind == "left_out"; });
@@ -356,13 +357,13 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         }
     }
     for (std::size_t k = 0; k < read.unnatural.size(); ++k) {
-        if (!read.coasts[k] && RiverFields::is_channel(read.reasons[k])) {
-            read.unnatural[k].artificial = std::move(read.reasons[k]);
+        if (!read.coasts[k] && read.why[k].is_channel) {
+            read.unnatural[k].artificial = std::move(read.why[k].reason);
             rivers.channels.push_back(std::move(read.unnatural[k]));
             continue;
         }
         rivers.secondary.push_back({read.unnatural[k].feature, std::move(read.unnatural[k].vertices),
-                                    std::move(read.reasons[k]), read.unnatural[k].feature,
+                                    std::move(read.why[k].reason), read.unnatural[k].feature,
                                     read.coasts[k] ? LeftOut::coast : LeftOut::filter});
     }
     bring(rivers.findings, metres);

@@ -49,6 +49,9 @@ constexpr std::array<std::string_view, 6> river_names{"name",       "gnis_name",
 constexpr std::array<std::string_view, 8> natural_waterways{"river", "stream", "tidal_channel", "brook",
                                                             "creek", "wadi",   "rapids",        "waterfall"};
 
+// Values that name artificial channels.
+constexpr std::array<std::string_view, 5> artificial_waterways{"canal", "ditch", "drain", "pressurised", "pipeline"};
+
 // What lines of OpenStreetMap are besides; its extracts hold them all in one layer.
 constexpr std::array<std::string_view, 6> osm_ways{"highway", "railway", "aerialway", "barrier", "power", "route"};
 
@@ -169,44 +172,40 @@ void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
     }
 }
 
-std::string RiverFields::unnatural(OGRFeature const& feature) const {
+RiverFields::Unnatural RiverFields::unnatural(OGRFeature const& feature) const {
     if (std::string const kind = small_letters(text(feature, waterway_));
         !kind.empty() && std::ranges::find(natural_waterways, kind) == natural_waterways.end()) {
-        return "waterway " + kind;
+        return {"waterway " + kind, std::ranges::find(artificial_waterways, kind) != artificial_waterways.end()};
     }
     if (text(feature, waterway_).empty()) {
         for (int const way : ways_) {
             if (std::string const kind = small_letters(text(feature, way)); !kind.empty()) {
-                return fmt::format("{} {}", small_letters(feature.GetFieldDefnRef(way)->GetNameRef()), kind);
+                return {fmt::format("{} {}", small_letters(feature.GetFieldDefnRef(way)->GetNameRef()), kind)};
             }
         }
     }
     if (small_letters(text(feature, natural_)) == "coastline") {
-        return "natural coastline";
+        return {"natural coastline"};
     }
     if (std::string const tunnel = small_letters(text(feature, tunnel_)); tunnel == "flooded") {
-        return "tunnel " + tunnel;
+        return {"tunnel " + tunnel, true};
     }
     if (std::string const made = small_letters(text(feature, man_made_)); made == "pipeline") {
-        return "man_made " + made;
+        return {"man_made " + made, true};
     }
     // NHD gives its types in words, or by their numbers.
     std::string const type = text(feature, ftype_);
     std::string const kind = small_letters(type);
-    if (kind == "coastline" || kind == "pipeline" || kind == "canalditch" || kind == "566" || kind == "428" ||
-        kind == "336") {
-        return "FTYPE " + type;
+    if (kind == "coastline" || kind == "566") {
+        return {"FTYPE " + type};
+    }
+    if (kind == "pipeline" || kind == "canalditch" || kind == "428" || kind == "336") {
+        return {"FTYPE " + type, true};
     }
     if (std::string const of_code = kind_of_fcode(number(feature, fcode_)); !of_code.empty()) {
-        return fmt::format("FCODE {} {}", text(feature, fcode_), of_code);
+        return {fmt::format("FCODE {} {}", text(feature, fcode_), of_code), of_code != "Coastline"};
     }
-    return "";
-}
-
-bool RiverFields::is_channel(std::string const& reason) {
-    constexpr std::array words{"canal", "ditch", "drain", "pressurised", "pipe", "flooded", "336", "428"};
-    std::string const kind = small_letters(reason);
-    return std::ranges::any_of(words, [&](char const* word) { return kind.find(word) != std::string::npos; });
+    return {};
 }
 
 bool RiverFields::is_coast(OGRFeature const& feature) const {

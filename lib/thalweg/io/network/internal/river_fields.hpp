@@ -25,10 +25,12 @@ public:
 
     /// Sets channel, size and name, and remembers the links of the feature.
     void read(OGRFeature const& feature, RiverLine& line);
-    /// Why a feature is no natural watercourse ("FTYPE Coastline"); "" where it is one, or no field says so.
-    std::string unnatural(OGRFeature const& feature) const;
-    /// Whether something that unnatural() names carries water: a canal, ditch, drain or pipe.
-    static bool is_channel(std::string const& reason);
+    /// Why a feature is not a natural watercourse.
+    struct Unnatural {
+        std::string reason = {}; ///< "FTYPE Coastline"; "" where it is one, or no field says so
+        bool is_channel = false; ///< it carries water: a canal, ditch, drain or pipe
+    };
+    Unnatural unnatural(OGRFeature const& feature) const;
     /// Whether it is a coastline.
     bool is_coast(OGRFeature const& feature) const;
     /// Whether there are fields of links.
