@@ -38,7 +38,8 @@ double sum_of(std::vector<Finding> const& findings, std::initializer_list<char c
 }
 
 std::string km(double m) {
-    return fmt::format("{:.1f} km", m / 1000.0);
+    constexpr double least_m = 50.0; // less would be 0.0 km
+    return m < least_m ? fmt::format("{:.2g} m", m) : fmt::format("{:.1f} km", m / 1000.0);
 }
 
 } // namespace
