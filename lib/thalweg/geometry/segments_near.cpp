@@ -21,6 +21,16 @@ Foot foot_on(Vec2 a, Vec2 b, Vec2 p) {
     return t >= 1.0 ? Foot{1.0, b} : Foot{t, {a.x + t * dx, a.y + t * dy}};
 }
 
+bool is_spike(Vec2 before, Vec2 tip, Vec2 after, double near_m) {
+    Vec2 base = before;
+    Vec2 other = after;
+    if (distance(tip, other) < distance(tip, base)) {
+        std::swap(base, other);
+    }
+    double const turn = (base.x - tip.x) * (other.x - tip.x) + (base.y - tip.y) * (other.y - tip.y);
+    return turn > 0.0 && distance(tip, base) > near_m && distance(base, foot_on(tip, other, base).at) <= near_m;
+}
+
 std::vector<std::vector<NearSegment>> segments_near(std::vector<Vec2> const& points,
                                                     std::vector<std::vector<Vec2>> const& lines, double distance_m,
                                                     Run const& run) {

@@ -25,6 +25,12 @@ struct Foot {
 };
 Foot foot_on(Vec2 a, Vec2 b, Vec2 p);
 
+/// Tests three successive vertices of a line for a spike.
+/// \param before,tip,after positions [m]
+/// \param near_m [m] >= 0
+/// \return the line turns back at the tip by more than near_m and runs within near_m of itself
+bool is_spike(Vec2 before, Vec2 tip, Vec2 after, double near_m);
+
 /// Finds the segments within a distance of every point.
 /// \param points [m]
 /// \param lines [m]

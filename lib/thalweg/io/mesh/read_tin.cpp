@@ -330,6 +330,10 @@ TinFile read_tin(std::string const& path, Run const& run) {
     if (file.tin.triangles.empty()) {
         throw BadInput(fmt::format("io.read_tin: {} has no triangles", path));
     }
+    if (file.split > 0) {
+        run.tell("note",
+                 fmt::format("{}: {} faces with more than three corners are cut into triangles", path, file.split));
+    }
     return file;
 }
 

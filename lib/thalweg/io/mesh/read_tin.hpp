@@ -22,7 +22,7 @@ struct TinFile {
 bool holds_tin(std::string const& path);
 
 /// Reads a mesh: 2DM (E3T, E4Q, ND), Wavefront OBJ (v, f) or OFF; other words of 2DM and OBJ are skipped. Faces with
-/// more than three corners are cut into triangles, quadrilaterals along the shorter diagonal.
+/// more than three corners are cut into triangles, quadrilaterals along the shorter diagonal; the log says how many.
 /// \param path path of the file
 /// \param run progress, log, stop token and number of threads
 /// \return vertices and triangles in the file's order; of what write_tin writes in these formats the same TIN.

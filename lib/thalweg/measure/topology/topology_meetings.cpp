@@ -28,17 +28,9 @@ struct Spike {
 /// Where the line turns back at its inner vertex i, and comes within near_m of where it was, or exactly onto it.
 bool turns_back(std::vector<Vec2> const& line, std::size_t i, double near_m, bool exactly, Spike& spike) {
     Vec2 const tip = line[i];
-    Vec2 base = line[i - 1];
-    Vec2 other = line[i + 1];
-    if (distance(tip, other) < distance(tip, base)) {
-        std::swap(base, other);
-    }
+    Vec2 const base = distance(tip, line[i + 1]) < distance(tip, line[i - 1]) ? line[i + 1] : line[i - 1];
     spike = {tip, base, distance(tip, base)};
-    if (exactly) {
-        return true;
-    }
-    double const turn = (base.x - tip.x) * (other.x - tip.x) + (base.y - tip.y) * (other.y - tip.y);
-    return turn > 0.0 && spike.length_m > near_m && distance(base, geometry::foot_on(tip, other, base).at) <= near_m;
+    return exactly || geometry::is_spike(line[i - 1], tip, line[i + 1], near_m);
 }
 
 class MeetingCheck {

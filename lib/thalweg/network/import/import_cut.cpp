@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -128,20 +127,10 @@ void leave_out(RiverLine const& line, Part const& part, RiverLine const& owner, 
 } // namespace
 
 void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::string const& name) {
-    std::vector<std::size_t> root(p.nodes.size());
-    std::iota(root.begin(), root.end(), std::size_t{0});
-    auto const find = [&](std::size_t n) {
-        while (root[n] != n) {
-            n = root[n] = root[root[n]];
-        }
-        return n;
-    };
+    Sets sets(p.nodes.size());
     for (std::size_t closing = 0; closing < p.pieces.size(); ++closing) {
         auto const& piece = p.pieces[closing];
-        std::size_t const a = find(piece.from);
-        std::size_t const b = find(piece.to);
-        if (a != b) {
-            root[std::max(a, b)] = std::min(a, b);
+        if (sets.join(piece.from, piece.to)) {
             continue;
         }
         // The way round: breadth first through the pieces before the closing one.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -23,27 +22,6 @@ constexpr char const* minor_channel = "minor channel";
 constexpr char const* closes_loop = "closes a loop";
 constexpr char const* circle = "runs in a circle";
 constexpr char const* ring = "closed ring";
-
-class Sets {
-public:
-    explicit Sets(std::size_t count) : root_(count) { std::iota(root_.begin(), root_.end(), std::size_t{0}); }
-    std::size_t of(std::size_t n) {
-        while (root_[n] != n) {
-            n = root_[n] = root_[root_[n]];
-        }
-        return n;
-    }
-    /// False when they were one already.
-    bool join(std::size_t a, std::size_t b) {
-        a = of(a);
-        b = of(b);
-        root_[std::max(a, b)] = std::min(a, b);
-        return a != b;
-    }
-
-private:
-    std::vector<std::size_t> root_;
-};
 
 /// Pieces and nodes that hang together, both ascending.
 struct Component {

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/geometry/segments_near.hpp>
 #include <thalweg/network/import/internal/import_steps.hpp>
-#include <thalweg/network/vectorise/cut_loops.hpp>
 
 namespace thalweg::network {
 namespace {
@@ -43,18 +43,6 @@ void refuse_unusable(RiverLines const& file) {
                             v.empty() ? std::string() : fmt::format(" at ({:.6f}, {:.6f})", v.front().x, v.front().y)));
         }
     }
-}
-
-double diagonal_of(std::vector<RiverLine> const& lines) {
-    Vec3 low = lines.front().vertices.front();
-    Vec3 high = low;
-    for (auto const& line : lines) {
-        for (auto const& v : line.vertices) {
-            low = {std::min(low.x, v.x), std::min(low.y, v.y), 0.0};
-            high = {std::max(high.x, v.x), std::max(high.y, v.y), 0.0};
-        }
-    }
-    return distance({low.x, low.y}, {high.x, high.y});
 }
 
 // The pieces, each with the direction in which it runs.
@@ -171,7 +159,7 @@ public:
     /// Adds the vertex where a segment of a feature begins.
     void add(Vec2 at, double z, std::int64_t feature) {
         constexpr double slip = 20.0; // near_m: farther back is no slip of the hand
-        while (line_.size() > 1 && is_spike(line_[line_.size() - 2], line_.back(), at, near_m_)) {
+        while (line_.size() > 1 && geometry::is_spike(line_[line_.size() - 2], line_.back(), at, near_m_)) {
             Vec2 const tip = line_.back();
             Vec2 const before = line_[line_.size() - 2];
             double const back_m = std::min(distance(tip, at), distance(tip, before));
@@ -298,10 +286,10 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
                  fmt::format("{} repeated vertices of river {} are left out", repeats[l], lines[l].number())});
         }
     }
-    double const snap_m = params.snap_m > 0.0 ? params.snap_m : 1e-6 * diagonal_of(lines);
+    double const snap_m = params.snap_m > 0.0 ? params.snap_m : 1e-6 * import_steps::diagonal_of(lines);
     import_steps::Left left{repairs, imported.secondary};
     bool const open = params.snapped == SnappedEnds::open;
-    double const same_m = open ? std::min(snap_m, 1e-6 * diagonal_of(lines)) : snap_m;
+    double const same_m = open ? std::min(snap_m, 1e-6 * import_steps::diagonal_of(lines)) : snap_m;
     import_steps::drop_copies(lines, same_m, left, run);
     import_steps::snap(lines, same_m, SnappedEnds::all, left, run);
     if (open && snap_m > same_m) {
@@ -333,7 +321,7 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
             fmt::format("network.import_lines: the lines of {} are closed rings: no river runs anywhere", file.name));
     }
     add_arcs(imported, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join,
-             std::min(snap_m, 1e-6 * diagonal_of(file.lines)), left);
+             std::min(snap_m, 1e-6 * import_steps::diagonal_of(file.lines)), left);
     run.at(1.0, "adopt");
     return imported;
 }

@@ -115,6 +115,18 @@ std::vector<geometry::NearSegment> goals_of_open(std::vector<RiverLine> const& l
 
 } // namespace
 
+double diagonal_of(std::vector<RiverLine> const& lines) {
+    Vec3 low = lines.front().vertices.front();
+    Vec3 high = low;
+    for (auto const& line : lines) {
+        for (auto const& v : line.vertices) {
+            low = {std::min(low.x, v.x), std::min(low.y, v.y), 0.0};
+            high = {std::max(high.x, v.x), std::max(high.y, v.y), 0.0};
+        }
+    }
+    return distance({low.x, low.y}, {high.x, high.y});
+}
+
 std::vector<std::vector<Vec2>> plan_of(std::vector<RiverLine> const& lines) {
     std::vector<std::vector<Vec2>> plans(lines.size());
     for (std::size_t l = 0; l < lines.size(); ++l) {

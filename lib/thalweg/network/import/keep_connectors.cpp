@@ -17,9 +17,13 @@
 #include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/network/import/internal/import_steps.hpp>
 
 namespace thalweg::network {
 namespace {
+
+using import_steps::plan_of;
+using import_steps::Sets;
 
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
@@ -37,47 +41,6 @@ private:
     std::map<std::pair<double, double>, std::size_t> known_;
 };
 
-class Groups {
-public:
-    explicit Groups(std::size_t count) : into_(count) { std::iota(into_.begin(), into_.end(), std::size_t{0}); }
-    std::size_t root(std::size_t i) {
-        while (into_[i] != i) {
-            i = into_[i] = into_[into_[i]];
-        }
-        return i;
-    }
-    void join(std::size_t a, std::size_t b) { into_[root(a)] = root(b); }
-
-private:
-    std::vector<std::size_t> into_;
-};
-
-std::vector<std::vector<Vec2>> plans_of(std::vector<RiverLine> const& lines) {
-    std::vector<std::vector<Vec2>> plans;
-    for (RiverLine const& line : lines) {
-        auto& one = plans.emplace_back();
-        for (Vec3 const& v : line.vertices) {
-            one.push_back(plan(v));
-        }
-    }
-    return plans;
-}
-
-double tolerance(std::vector<RiverLine> const& lines, double snap_m) {
-    if (snap_m > 0.0) {
-        return snap_m;
-    }
-    Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    Vec2 high{-low.x, -low.y};
-    for (RiverLine const& line : lines) {
-        for (Vec3 const& v : line.vertices) {
-            low = {std::min(low.x, v.x), std::min(low.y, v.y)};
-            high = {std::max(high.x, v.x), std::max(high.y, v.y)};
-        }
-    }
-    return 1e-6 * distance(low, high);
-}
-
 /// Ends of lines, two a line.
 std::vector<Vec2> ends_of(std::vector<RiverLine> const& lines) {
     std::vector<Vec2> ends;
@@ -90,7 +53,7 @@ std::vector<Vec2> ends_of(std::vector<RiverLine> const& lines) {
 
 /// Rivers, in groups that touch, and where they end.
 struct Rivers {
-    Groups groups; ///< of lines
+    Sets groups; ///< of lines
     struct Sink {
         Vec3 at;
         std::size_t line;
@@ -99,7 +62,7 @@ struct Rivers {
 };
 
 Rivers rivers_in(std::vector<RiverLine> const& lines, double snap_m, Run const& run) {
-    Rivers rivers{Groups(lines.size()), {}};
+    Rivers rivers{Sets(lines.size()), {}};
     Places places;
     std::vector<std::size_t> first_at; // by place: a line that has it
     std::vector<char> inside;          // by place: whether a line passes
@@ -116,7 +79,7 @@ Rivers rivers_in(std::vector<RiverLine> const& lines, double snap_m, Run const& 
         }
     }
     std::vector<Vec2> const ends = ends_of(lines);
-    auto const near = geometry::segments_near(ends, plans_of(lines), snap_m, run);
+    auto const near = geometry::segments_near(ends, plan_of(lines), snap_m, run);
     std::vector<char> meets(ends.size(), 0); // something else than an end of its own place, within snap_m
     for (std::size_t e = 0; e < ends.size(); ++e) {
         for (geometry::NearSegment const& s : near[e]) {
@@ -151,13 +114,13 @@ Rivers rivers_in(std::vector<RiverLine> const& lines, double snap_m, Run const& 
     count();
     std::vector<int> more_ends(lines.size(), 0); // by group: ends less sources
     for (std::size_t at = 0; at < places.size(); ++at) {
-        int& of_group = more_ends[rivers.groups.root(first_at[at])];
+        int& of_group = more_ends[rivers.groups.of(first_at[at])];
         of_group += inside[at] == 0 && arriving[at] > 0 && leaving[at] == 0 ? 1 : 0;
         of_group -= inside[at] == 0 && arriving[at] == 0 && leaving[at] > 0 ? 1 : 0;
     }
     int const in_all = std::accumulate(more_ends.begin(), more_ends.end(), 0); // tells where a group does not
     for (std::size_t l = 0; l < lines.size(); ++l) {
-        int const of_group = more_ends[rivers.groups.root(l)];
+        int const of_group = more_ends[rivers.groups.of(l)];
         if (by_height[l] == 0 && (of_group > 0 || (of_group == 0 && in_all > 0))) {
             runs[l] = -1;
         }
@@ -194,7 +157,7 @@ public:
         }
         // Ends that nearly meet another channel, then those that nearly meet a river.
         std::vector<Vec2> const ends = ends_of(channels);
-        auto const near = geometry::segments_near(ends, plans_of(channels), snap_m, run);
+        auto const near = geometry::segments_near(ends, plan_of(channels), snap_m, run);
         for (std::size_t e = 0; e < ends.size(); ++e) {
             std::size_t const own = end(e);
             for (geometry::NearSegment const& s : near[e]) {
@@ -207,7 +170,7 @@ public:
                 }
             }
         }
-        auto const rivers_near = geometry::segments_near(ends, plans_of(rivers), snap_m, run);
+        auto const rivers_near = geometry::segments_near(ends, plan_of(rivers), snap_m, run);
         for (std::size_t e = 0; e < ends.size(); ++e) {
             for (geometry::NearSegment const& s : rivers_near[e]) {
                 rivers_at_[end(e)].push_back(s.line);
@@ -220,7 +183,7 @@ public:
                 }
             }
         }
-        auto const back = geometry::segments_near(ends_of(rivers), plans_of(channels), snap_m, run);
+        auto const back = geometry::segments_near(ends_of(rivers), plan_of(channels), snap_m, run);
         for (std::size_t e = 0; e < back.size(); ++e) {
             Vec3 const& of = e % 2 == 0 ? rivers[e / 2].vertices.front() : rivers[e / 2].vertices.back();
             if (std::size_t const at = nearest(of, back[e], snap_m); at != nowhere) {
@@ -231,7 +194,7 @@ public:
     }
 
     /// The segments from the end of a river to another group; none where there is no way.
-    std::vector<std::pair<std::size_t, std::size_t>> way_on(Vec3 const& from, std::size_t own, Groups& groups,
+    std::vector<std::pair<std::size_t, std::size_t>> way_on(Vec3 const& from, std::size_t own, Sets& groups,
                                                             std::size_t& into) const {
         auto const begin = by_end_.find({from.x, from.y});
         if (begin == by_end_.end()) {
@@ -254,7 +217,7 @@ public:
                 continue;
             }
             auto const other = std::ranges::find_if(
-                rivers_at_[at], [&](std::size_t river) { return groups.root(river) != groups.root(own); });
+                rivers_at_[at], [&](std::size_t river) { return groups.of(river) != groups.of(own); });
             if (other != rivers_at_[at].end()) {
                 into = *other;
                 std::vector<std::pair<std::size_t, std::size_t>> way;
@@ -335,7 +298,7 @@ RiverLines keep_connectors(RiverLines rivers, double snap_m, Run const& run) {
         needed_by[l].assign(channels[l].vertices.size() - 1, nobody);
     }
     if (!rivers.lines.empty()) {
-        double const near_m = tolerance(rivers.lines, snap_m);
+        double const near_m = snap_m > 0.0 ? snap_m : 1e-6 * import_steps::diagonal_of(rivers.lines);
         Rivers found = rivers_in(rivers.lines, near_m, run);
         Channels const graph(channels, rivers.lines, near_m, run);
         for (Rivers::Sink const& sink : found.sinks) {

@@ -26,7 +26,8 @@ std::vector<Vec2> plan_of(std::vector<Vec3> const& line) {
 std::vector<Vec3> without_spikes(std::vector<Vec3> const& line, double near_m) {
     std::vector<Vec3> result;
     for (Vec3 const p : line) {
-        while (result.size() > 1 && is_spike(plan(result[result.size() - 2]), plan(result.back()), plan(p), near_m)) {
+        while (result.size() > 1 &&
+               geometry::is_spike(plan(result[result.size() - 2]), plan(result.back()), plan(p), near_m)) {
             result.pop_back();
         }
         if (result.empty() || plan(result.back()) != plan(p)) {
@@ -71,17 +72,6 @@ std::vector<Vec3> without_returns(std::vector<Vec3> const& line) {
 }
 
 } // namespace
-
-bool is_spike(Vec2 before, Vec2 tip, Vec2 after, double near_m) {
-    Vec2 base = before;
-    Vec2 other = after;
-    if (distance(tip, other) < distance(tip, base)) {
-        std::swap(base, other);
-    }
-    double const turn = (base.x - tip.x) * (other.x - tip.x) + (base.y - tip.y) * (other.y - tip.y);
-    return turn > 0.0 && distance(tip, base) > near_m &&
-           distance(base, geometry::foot_on(tip, other, base).at) <= near_m;
-}
 
 CutLine cut_loops(std::vector<Vec3> const& line, double near_m) {
     CutLine cut{without_spikes(line, near_m), 0.0};

@@ -8,12 +8,6 @@
 
 namespace thalweg::network {
 
-/// Tests three successive vertices of a line for a spike.
-/// \param before,tip,after positions [m]
-/// \param near_m [m] >= 0
-/// \return the line turns back at the tip by more than near_m and runs within near_m of itself
-bool is_spike(Vec2 before, Vec2 tip, Vec2 after, double near_m);
-
 /// A line without loops and spikes.
 struct CutLine {
     std::vector<Vec3> line;

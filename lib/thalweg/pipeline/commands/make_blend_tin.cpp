@@ -13,7 +13,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/frame/same_frame.hpp>
-#include <thalweg/pipeline/commands/internal/read_mesh.hpp>
+#include <thalweg/io/mesh/read_tin.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -79,8 +79,8 @@ void place_mesh(Tin& patch, MakeBlendTinParams const& params, Vec2 from, Vec2 to
 
 MadeBlendTin make_blend_tin(MakeBlendTinParams const& params, Run const& run) {
     check(params);
-    io::TinFile target = read_mesh(params.target, run);
-    io::TinFile patch = read_mesh(params.source, run);
+    io::TinFile target = io::read_tin(params.target, run);
+    io::TinFile patch = io::read_tin(params.source, run);
     for (std::string* const crs : {&target.crs, &patch.crs}) {
         if (crs->empty() && !params.source_crs.empty()) {
             *crs = io::projected_crs(params.source_crs);

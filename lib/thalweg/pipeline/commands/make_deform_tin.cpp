@@ -13,8 +13,8 @@
 #include <thalweg/blend/paste_tin.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/frame/projection.hpp>
+#include <thalweg/io/mesh/read_tin.hpp>
 #include <thalweg/io/raster/read_polygons.hpp>
-#include <thalweg/pipeline/commands/internal/read_mesh.hpp>
 
 namespace thalweg::pipeline {
 
@@ -65,7 +65,7 @@ DeformedTin make_deform_tin(MakeDeformTinParams const& params, Run const& run) {
     if (params.scale == 1.0 && params.rotate_deg == 0.0 && params.handles.empty()) {
         throw BadParameter("pipeline.make_deform_tin: nothing to do: give a scale, a rotation or heights to pull to");
     }
-    io::TinFile file = read_mesh(params.target, run);
+    io::TinFile file = io::read_tin(params.target, run);
     if (file.crs.empty() && !params.source_crs.empty()) {
         file.crs = io::projected_crs(params.source_crs);
     }

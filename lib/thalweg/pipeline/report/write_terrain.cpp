@@ -131,7 +131,6 @@ void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
                                                       {"area_from", t.assessment.areas.source},
                                                       {"height_unit", name_of(t.recipe.output.units)}};
     auto const user = user_data(t, t.terrain.network.plan);
-    auto const secondary = t.assessment.given ? t.assessment.given->secondary : std::vector<SecondaryLine>();
     io::NetworkTables const tables{t.terrain.network,
                                    t.terrain.orders,
                                    t.assessment.areas.us_area_m2,
@@ -141,7 +140,7 @@ void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
                                    about,
                                    t.terrain.types.braided.empty() ? nullptr : &t.terrain.types.braided,
                                    &t.terrain.ridges,
-                                   &secondary,
+                                   t.assessment.given ? &t.assessment.given->secondary : nullptr,
                                    user ? &*user : nullptr,
                                    t.recipe.output.units,
                                    true,

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,31 @@ namespace thalweg::network::import_steps {
 
 /// [m] Points closer than this are the same point: the step to which coordinates are rounded when they are read.
 inline constexpr double same_point_m = 1e-6;
+
+/// Which of some things hang together; a set is named by its first.
+class Sets {
+public:
+    explicit Sets(std::size_t count) : root_(count) { std::iota(root_.begin(), root_.end(), std::size_t{0}); }
+    std::size_t of(std::size_t n) {
+        while (root_[n] != n) {
+            n = root_[n] = root_[root_[n]];
+        }
+        return n;
+    }
+    /// False when they were one already.
+    bool join(std::size_t a, std::size_t b) {
+        a = of(a);
+        b = of(b);
+        root_[std::max(a, b)] = std::min(a, b);
+        return a != b;
+    }
+
+private:
+    std::vector<std::size_t> root_;
+};
+
+/// [m] of the box around all vertices.
+double diagonal_of(std::vector<RiverLine> const& lines);
 
 /// The plan of the lines.
 std::vector<std::vector<Vec2>> plan_of(std::vector<RiverLine> const& lines);
