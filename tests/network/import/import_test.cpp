@@ -14,6 +14,7 @@
 
 #include <network/rivers.hpp>
 #include <support.hpp>
+#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace import_test {
@@ -245,6 +246,16 @@ TEST(Import, StepsBackAreRemoved) {
     EXPECT_EQ(imported.arc_z, (std::vector<std::vector<double>>{{40, 29, 20}}));
     EXPECT_NEAR(first(imported, "cut").amount, 0.03, 1e-3);
     EXPECT_NEAR(imported.stretches[0][0].to_m, 20000.0, 1e-3);
+    // The step is what is left out, whether the river goes back before it turns or after.
+    Imported const before_turn =
+        import_lines(with_heights({{{0, 0, 9}, {9000, 0, 8}, {9000, -0.03, 7}, {9000.005, 11000, 6}}}));
+    ASSERT_EQ(before_turn.network.arc_count(), 1U);
+    EXPECT_EQ(before_turn.network.arc(0).line, (std::vector<Vec2>{{0, 0}, {9000, 0}, {9000.005, 11000}}));
+    for (Imported const* const one : {&imported, &before_turn}) {
+        ASSERT_EQ(one->secondary.size(), 1U);
+        EXPECT_EQ(one->secondary[0].cause, LeftOut::too_short);
+        EXPECT_NEAR(length_in_plan(one->secondary[0].vertices), 0.03, 2e-3);
+    }
     // A bend is not a step back, however sharp; the tip where another river joins stays.
     EXPECT_EQ(count(import_lines(with_heights({{{0, 0, 9}, {500, 0, 8}, {0, 20, 7}}})).repairs, "cut"), 0U);
     Imported const confluence =

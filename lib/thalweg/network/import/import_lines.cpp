@@ -162,18 +162,25 @@ public:
         while (line_.size() > 1 && geometry::is_spike(line_[line_.size() - 2], line_.back(), at, near_m_)) {
             Vec2 const tip = line_.back();
             Vec2 const before = line_[line_.size() - 2];
-            double const back_m = std::min(distance(tip, at), distance(tip, before));
+            bool const comes_back = distance(tip, at) <= distance(tip, before); // else it has gone back already
+            Vec2 const base = comes_back ? at : before;
+            double const back_m = distance(tip, base);
             if (back_m > slip * near_m_) {
                 break;
             }
-            std::int64_t const of_tip = features_.back();
-            std::int64_t const number = of_tip - id_shift_;
+            std::int64_t& of_before = features_[features_.size() - 2]; // of the segment that leads to the tip
+            std::int64_t const of_step = comes_back ? features_.back() : of_before;
+            of_before = comes_back ? of_before : features_.back();
+            std::int64_t const number = of_step - id_shift_;
             left_.repairs.push_back(
                 {"cut", number, tip, back_m,
                  fmt::format("river {} steps back by {:.3g} m at ({:.6f}, {:.6f}); the step is removed", number, back_m,
                              tip.x, tip.y)});
-            left_.secondary.push_back(
-                {of_tip, {{tip.x, tip.y, z_.back()}, {at.x, at.y, z}}, "steps back", of_tip, LeftOut::too_short});
+            left_.secondary.push_back({of_step,
+                                       {{tip.x, tip.y, z_.back()}, {base.x, base.y, z_.back()}},
+                                       "steps back",
+                                       of_step,
+                                       LeftOut::too_short});
             line_.pop_back();
             z_.pop_back();
             features_.pop_back();
