@@ -201,6 +201,14 @@ TEST(ReadPoints, WebMercatorIsProjected) {
     EXPECT_EQ(read_points({path, {}, "z", "EPSG:3857"}).points[0].x, 333958.4724);
 }
 
+TEST(ReadPoints, OnBothSidesOf180DegreesTheyLieNear) {
+    ScratchFolder const folder;
+    std::string const path = layer(folder, {{"POINT Z (179.99 -16 7)", ""}, {"POINT Z (-179.99 -16 8)", ""}}, 4326);
+    auto const read = read_points({path});
+    EXPECT_EQ(read.crs, "EPSG:32701");
+    EXPECT_NEAR(read.points[1].x - read.points[0].x, 2140.0, 5.0); // 0.02 degrees at 16 degrees south
+}
+
 TEST(ReadPoints, BadLayersNameTheFeature) {
     using Shapes = std::vector<std::pair<std::string, std::string>>;
     auto const why = [](Shapes const& shapes, int epsg = 32631, char const* field = nullptr,

@@ -356,10 +356,12 @@ TEST_F(ReadRivers, WideExtentsGoToAnEqualAreaProjection) {
     // As far at 70 degrees north is less far.
     auto const north = write("c.gpkg", {{.epsg = 4326, .features = {{"LINESTRING(-5 70,35 70)"}}}});
     EXPECT_EQ(io::read_rivers({.path = north}).crs, "EPSG:32633");
-    auto const across = write(
-        "d.gpkg", {{.epsg = 4326, .features = {{"LINESTRING(179 60,179.5 61)"}, {"LINESTRING(-179 60,-179.5 61)"}}}});
-    std::string const refused = refusal({.path = across});
-    EXPECT_TRUE(has(refused, "over 359 degrees of longitude") && has(refused, "--crs")) << refused;
+    auto const globe = write(
+        "d.gpkg",
+        {{.epsg = 4326,
+          .features = {{"LINESTRING(-170 60,-169 61)"}, {"LINESTRING(-50 60,-51 61)"}, {"LINESTRING(70 60,71 61)"}}}});
+    std::string const refused = refusal({.path = globe});
+    EXPECT_TRUE(has(refused, "over 240 degrees of longitude") && has(refused, "--crs")) << refused;
 }
 
 TEST_F(ReadRivers, MetresThatAreNoneGoToTheUtmZone) {
@@ -503,6 +505,26 @@ RiverLines walker() {
 }
 
 } // namespace
+
+TEST_F(ReadRivers, AcrossTheMeridianOf180Degrees) {
+    auto const file =
+        write("a.gpkg",
+              {{.epsg = 4326,
+                .features = {{"LINESTRING (179.98 -16, -179.99 -16)"}, {"LINESTRING (-179.99 -16, -179.97 -16.01)"}}}});
+    RiverLines const lines = io::read_rivers({.path = file, .type_field = ""});
+    EXPECT_EQ(lines.crs, "EPSG:32701");
+    auto const& first = lines.lines[0].vertices;
+    EXPECT_NEAR(first[1].x - first[0].x, 3210.0, 8.0);
+}
+
+TEST_F(ReadRivers, ACrsThatDoesNotExist) {
+    std::string const file = path("a.geojson");
+    std::ofstream(file) << R"({"type":"FeatureCollection","crs":{"type":"name","properties":)"
+                        << R"({"name":"urn:ogc:def:crs:EPSG::99999"}},"features":[{"type":"Feature","properties":{},)"
+                        << R"("geometry":{"type":"LineString","coordinates":[[500000,5000000],[501000,5001000]]}}]})";
+    EXPECT_TRUE(has(test::message_of<BadInput>([&] { io::read_rivers({.path = file, .type_field = ""}); }),
+                    "it names a CRS that does not exist"));
+}
 
 TEST(Walker, IsReadWhole) {
     auto const rivers = walker(); // ogrinfo: 62 features, 206 vertices, no Z

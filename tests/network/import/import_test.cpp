@@ -384,6 +384,24 @@ TEST(AdoptDropsDuplicates, APartThatOverlaps) {
     expect_kept(imported.network, lines.lines);
 }
 
+TEST(AdoptCuts, EndsThatPassARiverByCentimetres) {
+    // Over the last 5 cm of the third river the first one crosses it, and ends 3 cm beyond.
+    auto const file = flats({{{0, 20000}, {100, 15000}, {0.05, 9999.97}},
+                             {{0, 10000}, {-100, 5000}, {0, 0}},
+                             {{10000, 18000}, {0, 10000}}});
+    Imported const imported = import_lines(file);
+    EXPECT_EQ(imported.network.arc_count(), 3U);
+    EXPECT_EQ(count(imported.repairs, "cut"), 1);
+    EXPECT_NEAR(first(imported, "cut").amount, 0.07, 0.005);
+    ASSERT_EQ(imported.secondary.size(), 1U);
+    EXPECT_EQ(imported.secondary[0].cause, LeftOut::too_short);
+
+    auto const longer = flats({{{0, 20000}, {100, 15000}, {5, 9995}}, // 6 m are no slip of the hand
+                               {{0, 10000}, {-100, 5000}, {0, 0}},
+                               {{10000, 18000}, {0, 10000}}});
+    EXPECT_EQ(import_lines(longer).network.arc_count(), 4U);
+}
+
 TEST(AdoptOrients, ByHeight) {
     auto const imported =
         import_lines(with_heights({{{0, 0, 1}, {5, 0, 4}}, {{5, 0, 4}, {9, 0, 7}}, {{5, 0, 4}, {5, 9, 8}}}));

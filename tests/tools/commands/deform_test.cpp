@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.hpp"
 
+#include <support.hpp>
 #include <thalweg/io/mesh/read_tin.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
 #include <thalweg/io/raster/write_dem.hpp>
@@ -147,6 +148,13 @@ TEST(Deform, RotatesAPartOfAMeshOutOfThePlane) {
         EXPECT_EQ(tent[i].x, before[i].x);
         EXPECT_GE(tent[i].z, 5.0 - 1e-9);
     }
+    obj.erase(0, obj.find('\n') + 1); // without its CRS it has the mask's
+    place.write("bare.obj", obj);
+    Outcome const bare = deform(place, "bare.obj -o bare_pulled.obj --mask region.geojson --pull 40,40,25");
+    ASSERT_EQ(bare.code, 0) << bare.err;
+    EXPECT_TRUE(test::has(bare.err, "bare.obj has no CRS: it is taken to be in EPSG:32631, as region.geojson"));
+    EXPECT_EQ(heights("bare_pulled.obj"), tent);
+
     auto const refused = [&](std::string const& arguments, std::string const& words) {
         Outcome const o = deform(place, arguments);
         EXPECT_EQ(o.code, 2) << arguments << o.err;

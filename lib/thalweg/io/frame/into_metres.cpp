@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/frame/internal/into_metres.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -42,12 +43,29 @@ std::optional<DegreeBox> degrees_of(FileBox const& box, OGRCoordinateTransformat
 
 } // namespace
 
+void FilePlaces::add(double x, double y) {
+    low_ = {std::min(low_.x, x), std::min(low_.y, y)};
+    high_ = {std::max(high_.x, x), std::max(high_.y, y)};
+    double const turned = x < 0.0 ? x + 360.0 : x;
+    turned_ = {std::min(turned_.x, turned), std::max(turned_.y, turned)};
+}
+
+FileBox FilePlaces::box() const {
+    return {low_, high_, turned_};
+}
+
 bool is_missing(OGRSpatialReference const* reference) {
     return reference == nullptr || reference->IsEmpty() ||
            (reference->GetName() != nullptr && std::string_view(reference->GetName()).starts_with("Undefined"));
 }
 
-std::string zone_of(FileBox const& box, OGRSpatialReference const& from, std::string const& name) {
+std::string zone_of(FileBox const& given, OGRSpatialReference const& from, std::string const& name) {
+    FileBox box = given;
+    if (from.IsGeographic() != 0 && box.across_180 && box.high.x - box.low.x > 180.0 &&
+        box.across_180->y - box.across_180->x < box.high.x - box.low.x) {
+        box.low.x = box.across_180->x;
+        box.high.x = box.across_180->y;
+    }
     Vec2 const at{0.5 * (box.low.x + box.high.x), 0.5 * (box.low.y + box.high.y)};
     OGRSpatialReference const geographic = read_reference("EPSG:4326");
     Transformation const turn(OGRCreateCoordinateTransformation(&from, &geographic));

@@ -97,6 +97,11 @@ void Driver::check(std::string const& what) const {
                                        "of the file ({})",
                                        what, words));
         }
+        if (words.find("crs not found") != std::string::npos) {
+            throw BadInput(fmt::format("{}: it names a CRS that does not exist ({}); correct it, or assign another "
+                                       "(ogr2ogr or gdal_edit.py -a_srs EPSG:n)",
+                                       what, words));
+        }
         throw IoError(what + ": " + words);
     }
 }

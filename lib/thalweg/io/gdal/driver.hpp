@@ -18,7 +18,7 @@ public:
     Driver& operator=(Driver const&) = delete;
     /// \param what what was done, for messages
     /// \throws IoError with GDAL's words when an error came since the last call, BadInput when a file wanted a
-    /// connection. what: "io.write_dem: out/dem.tif"
+    /// connection or names a CRS that does not exist. what: "io.write_dem: out/dem.tif"
     void check(std::string const& what) const;
     /// \return GDAL's words for the errors since the last call, "" for none: for messages of one's own.
     std::string take() const;

@@ -303,9 +303,11 @@ std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::str
 }
 
 FileBox extent_of(std::vector<Vec3> const& points) {
-    auto const [west, east] = std::ranges::minmax_element(points, {}, &Vec3::x);
-    auto const [south, north] = std::ranges::minmax_element(points, {}, &Vec3::y);
-    return {{west->x, south->y}, {east->x, north->y}};
+    FilePlaces places;
+    for (Vec3 const p : points) {
+        places.add(p.x, p.y);
+    }
+    return places.box();
 }
 
 /// Reprojects points from their CRS.

@@ -60,18 +60,16 @@ Wish wish_of(ReadNetworkParams const& params) {
     return wish;
 }
 
-FileBox extent_of(NetworkFile const& file) {
-    Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    Vec2 high{-low.x, -low.y};
+FilePlaces places_of(NetworkFile const& file) {
+    FilePlaces places;
     for (FileArc const& arc : file.arcs) {
         for (Vec3 const& p : arc.line) {
             if (std::isfinite(p.x) && std::isfinite(p.y)) {
-                low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-                high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+                places.add(p.x, p.y);
             }
         }
     }
-    return {low, high};
+    return places;
 }
 
 /// Brings heights into metres, from the unit that the layer of arcs says.
@@ -117,14 +115,14 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes,
         }
         return;
     }
-    FileBox const box = extent_of(file);
-    if (!std::isfinite(box.low.x)) { // nothing is anywhere
+    FilePlaces const places = places_of(file);
+    if (!places.any()) {
         file.crs = name_of(own);
         return;
     }
     // A network in the native schema has the CRS that its maker chose.
     OwnMetres const own_metres = file.schema == "native" ? OwnMetres::kept : OwnMetres::judged;
-    IntoMetres const metres(own, wish.crs, box, arcs.what, own_metres);
+    IntoMetres const metres(own, wish.crs, places.box(), arcs.what, own_metres);
     file.crs = metres.crs();
     auto const move = [&](std::span<Vec3> points) {
         auto const done = metres.apply(points);

@@ -234,27 +234,14 @@ Read read_lines(OGRLayer& layer, ReadRiversParams const& params, std::string con
     return read;
 }
 
-struct Box {
-    double west = std::numeric_limits<double>::infinity();
-    double south = west;
-    double east = -west;
-    double north = -west;
-};
-
-Box box_of(std::vector<RiverLine> const& lines) {
-    Box box;
+FileBox extent_of(std::vector<RiverLine> const& lines) {
+    FilePlaces places;
     for (auto const& line : lines) {
         for (auto const& v : line.vertices) {
-            box = {std::min(box.west, v.x), std::min(box.south, v.y), std::max(box.east, v.x),
-                   std::max(box.north, v.y)};
+            places.add(v.x, v.y);
         }
     }
-    return box;
-}
-
-FileBox extent_of(std::vector<RiverLine> const& lines) {
-    Box const box = box_of(lines);
-    return {{box.west, box.south}, {box.east, box.north}};
+    return places.box();
 }
 
 void bring(std::vector<RiverLine>& lines, IntoMetres const& metres, std::string const& name, Driver const& driver,

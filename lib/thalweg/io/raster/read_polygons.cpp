@@ -192,6 +192,15 @@ std::string crs_for_polygons(std::string const& path) {
     return IntoMetres(*layer.GetSpatialRef(), "", {{box.MinX, box.MinY}, {box.MaxX, box.MaxY}}, name).crs();
 }
 
+PolygonsCrs crs_of_polygons(std::string const& path) {
+    auto const name = std::filesystem::path(path).filename().string();
+    Driver const driver;
+    Dataset const data = open_file(path, GDAL_OF_VECTOR, "io.read_polygons: " + path);
+    OGRSpatialReference own = crs_of_layer(choose_layer(*data, name).GetSpatialRef(), "");
+    own.StripVertical();
+    return own.IsEmpty() != 0 ? PolygonsCrs() : PolygonsCrs{name_of(own), is_projected_in_metres(own)};
+}
+
 Polygons read_polygons(std::string const& path, std::string const& crs, Run const& run) {
     return read_polygons(path, crs, "", run);
 }
@@ -206,13 +215,9 @@ Polygons read_polygons(std::string const& path, std::string const& crs, std::str
     if (read.polygons.empty()) {
         refuse_polygons(fmt::format("layer {} of {} is empty", layer.GetName(), name));
     }
-    OGRSpatialReference const* const own = layer.GetSpatialRef();
-    OGRSpatialReference from;
-    if (own != nullptr && own->IsEmpty() == 0) {
-        from = *own;
-        from.StripVertical();
-        from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    }
+    OGRSpatialReference from = crs_of_layer(layer.GetSpatialRef(), "");
+    from.StripVertical();
+    from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     std::string const own_crs = from.IsEmpty() != 0 ? "" : name_of(from);
     std::string const whose = fmt::format("io.read_polygons: layer {} of {}", layer.GetName(), name);
     if (!same_crs(own_crs, crs, whose, "the grid")) {

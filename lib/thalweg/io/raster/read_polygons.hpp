@@ -20,6 +20,17 @@ bool holds_polygons(std::string const& path);
 /// \throws BadInput as read_polygons, and for a file without CRS
 std::string crs_for_polygons(std::string const& path);
 
+/// What a file's polygons are in.
+struct PolygonsCrs {
+    std::string crs;        ///< "EPSG:n" or WKT; "": none
+    bool in_metres = false; ///< projected, in metres
+};
+
+/// \param path path of the file
+/// \return the CRS of the file's layer of polygons
+/// \throws BadInput as read_polygons
+PolygonsCrs crs_of_polygons(std::string const& path);
+
 /// Reads the polygons of any OGR source, multi-part ones part by part, curves as OGR linearises them.
 /// \pre the CRS of the result as in Grid, "" for none.
 /// \param path path of the file

@@ -124,7 +124,45 @@ void leave_out(RiverLine const& line, Part const& part, RiverLine const& owner, 
                                         owner.number(), part.length)});
 }
 
+/// Drops the end at the front of a line where it passes the first river that it meets by most_m or less.
+void drop_overshoot(RiverLine& line, std::vector<std::size_t>& numbers, Junctions const& j, double most_m, Left& left) {
+    std::size_t i = 0;
+    double length_m = 0.0;
+    while (i + 1 < numbers.size() && j.degree[numbers[i]] == (i == 0 ? 1 : 2)) {
+        length_m += distance(j.numbering.at[numbers[i]], j.numbering.at[numbers[i + 1]]);
+        ++i;
+    }
+    if (i == 0 || i + 1 >= numbers.size() || length_m > most_m) {
+        return;
+    }
+    Vec2 const at = j.numbering.at[numbers[i]];
+    auto const begin = line.vertices.begin();
+    auto const end = static_cast<std::ptrdiff_t>(i);
+    left.repairs.push_back({"cut", line.number(), at, length_m,
+                            fmt::format("river {} passes the river that it meets at ({:.6f}, {:.6f}) by {:.3g} m; that "
+                                        "end is removed",
+                                        line.number(), at.x, at.y, length_m)});
+    left.secondary.push_back(
+        {line.feature, {begin, begin + end + 1}, "passes the river that it meets", line.feature, LeftOut::too_short});
+    line.vertices.erase(begin, begin + end);
+    numbers.erase(numbers.begin(), numbers.begin() + end);
+}
+
 } // namespace
+
+void drop_overshoots(std::vector<RiverLine>& lines, double most_m, Left& left) {
+    Junctions j = junctions_of(lines);
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        auto& vertices = lines[l].vertices;
+        auto& numbers = j.numbering.of_line[l];
+        drop_overshoot(lines[l], numbers, j, most_m, left);
+        std::ranges::reverse(vertices);
+        std::ranges::reverse(numbers);
+        drop_overshoot(lines[l], numbers, j, most_m, left);
+        std::ranges::reverse(vertices);
+        std::ranges::reverse(numbers);
+    }
+}
 
 void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::string const& name) {
     Sets sets(p.nodes.size());

@@ -150,6 +150,8 @@ std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
     return result;
 }
 
+constexpr double slip_in_near = 20.0; // what is longer is no slip of the hand
+
 /// An arc as it is put together; without spikes, since nothing else meets it between its ends.
 class Course {
 public:
@@ -158,14 +160,13 @@ public:
 
     /// Adds the vertex where a segment of a feature begins.
     void add(Vec2 at, double z, std::int64_t feature) {
-        constexpr double slip = 20.0; // near_m: farther back is no slip of the hand
         while (line_.size() > 1 && geometry::is_spike(line_[line_.size() - 2], line_.back(), at, near_m_)) {
             Vec2 const tip = line_.back();
             Vec2 const before = line_[line_.size() - 2];
             bool const comes_back = distance(tip, at) <= distance(tip, before); // else it has gone back already
             Vec2 const base = comes_back ? at : before;
             double const back_m = distance(tip, base);
-            if (back_m > slip * near_m_) {
+            if (back_m > slip_in_near * near_m_) {
                 break;
             }
             std::int64_t& of_before = features_[features_.size() - 2]; // of the segment that leads to the tip
@@ -309,6 +310,8 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     run.at(0.2, "adopt");
     import_steps::split(lines, run);
     run.at(0.7, "adopt");
+    double const near_m = std::min(snap_m, 1e-6 * import_steps::diagonal_of(file.lines));
+    import_steps::drop_overshoots(lines, slip_in_near * near_m, left);
     auto pieces = import_steps::cut(lines, left);
     std::vector<PieceId> leaves;
     if (params.divergences == Divergences::error) {
@@ -327,8 +330,8 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
         throw BadInput(
             fmt::format("network.import_lines: the lines of {} are closed rings: no river runs anywhere", file.name));
     }
-    add_arcs(imported, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join,
-             std::min(snap_m, 1e-6 * import_steps::diagonal_of(file.lines)), left);
+    add_arcs(imported, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join, near_m,
+             left);
     run.at(1.0, "adopt");
     return imported;
 }

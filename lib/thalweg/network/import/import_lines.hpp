@@ -54,7 +54,8 @@ struct Imported {
     /// vertex downstream
     std::vector<std::vector<double>> arc_z;
     /// snapped [m], duplicate [m], removed [vertices], split [rivers that meet], reversed [m], joined [m], secondary
-    /// [m], height [m between rivers that meet], cut [m that a river steps back]
+    /// [m], height [m between rivers that meet], cut [m that a river steps back or
+    /// passes the one it meets]
     std::vector<Finding> repairs;
     std::vector<std::vector<Stretch>> stretches = {}; ///< by arc, downstream: the features it is made of
     std::vector<SecondaryLine> secondary = {}; ///< left out of the network: duplicates, lines too short, branches
@@ -76,7 +77,8 @@ struct Imported {
 /// \param params options, each with its default, unit and range
 /// \param run progress, log, stop token and number of threads
 /// \return a forest; every vertex of a kept line stays, in order and within 1e-6 m (snapped ends within snap_m, each
-/// reported); only crossings are added, only tips where a line turns back onto itself are removed ("cut")
+/// reported); only crossings are added, only tips where a line turns back onto itself or passes another are removed
+/// ("cut")
 /// \throws BadInput naming the feature and position: NaN; a line of length 0; heights or ranks by which a river runs
 /// away from both ends; no line left; orientation by data that the file lacks; under Divergences::error a cycle or a
 /// bifurcation (automatic: by height or rank only)

@@ -59,6 +59,21 @@ std::uint32_t nearest_inside(Tin const& tin, std::vector<char> const& inside, Ve
     return static_cast<std::uint32_t>(best);
 }
 
+/// The CRS of a mesh that names none: its mask's; "" where that has none either.
+std::string crs_of_mask(MakeDeformTinParams const& params, Run const& run) {
+    io::PolygonsCrs mask = io::crs_of_polygons(params.mask);
+    if (!mask.crs.empty() && !mask.in_metres) {
+        throw BadInput(fmt::format("pipeline.make_deform_tin: {} is in {:.60}, {} has no CRS: name it (--source-crs "
+                                   "EPSG:n)",
+                                   params.mask, mask.crs, params.target));
+    }
+    if (!mask.crs.empty()) {
+        run.say(fmt::format("note: {} has no CRS: it is taken to be in {:.60}, as {}.", params.target, mask.crs,
+                            params.mask));
+    }
+    return std::move(mask.crs);
+}
+
 } // namespace
 
 DeformedTin make_deform_tin(MakeDeformTinParams const& params, Run const& run) {
@@ -66,8 +81,8 @@ DeformedTin make_deform_tin(MakeDeformTinParams const& params, Run const& run) {
         throw BadParameter("pipeline.make_deform_tin: nothing to do: give a scale, a rotation or heights to pull to");
     }
     io::TinFile file = io::read_tin(params.target, run);
-    if (file.crs.empty() && !params.source_crs.empty()) {
-        file.crs = io::projected_crs(params.source_crs);
+    if (file.crs.empty()) {
+        file.crs = params.source_crs.empty() ? crs_of_mask(params, run) : io::projected_crs(params.source_crs);
     }
     Tin const& tin = file.tin;
     std::vector<char> const inside = vertices_inside(tin, io::read_polygons(params.mask, file.crs, run));

@@ -20,7 +20,7 @@ struct MakeDeformTinParams {
     double rotate_deg = 0.0;        ///< [degrees] counterclockwise about the axis
     Vec3 axis = {0.0, 0.0, 1.0};    ///< of the rotation; any that is not upright turns the region out of the plane
     std::vector<Vec3> handles = {}; ///< [m] places whose nearest vertex in the region is pulled to the height
-    std::string source_crs = {};    ///< of a mesh that names none, projected, in metres; "" for none
+    std::string source_crs = {};    ///< of a mesh that names none, projected, in metres; "": the mask's
 };
 
 /// What make_deform_tin() returns.

@@ -48,8 +48,9 @@ bool is_distorted(OGRSpatialReference const& own, FileBox const& box);
 bool is_better(OGRSpatialReference const& other, OGRSpatialReference const& own, FileBox const& box);
 
 /// The UTM zone of the middle of a box whose coordinates are in `from`; where that lengthens lines by more than 4 %,
-/// Lambert's azimuthal equal-area projection around the middle. Throws: BadInput where the middle has no longitude and
-/// latitude or the box spans more than 180 degrees of longitude: "io.into_metres: name ...".
+/// Lambert's azimuthal equal-area projection around the middle. Longitudes on both sides of 180 degrees are one box
+/// where that is narrower. Throws: BadInput where the middle has no longitude and latitude or the box spans more than
+/// 180 degrees of longitude: "io.into_metres: name ...".
 std::string zone_of(FileBox const& box, OGRSpatialReference const& from, std::string const& name);
 
 /// The CRS into which what fills a box is brought because lengths in its own, projected in metres, are off by more than

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +29,22 @@ OGRSpatialReference crs_of_layer(OGRSpatialReference const* own, std::string con
 struct FileBox {
     Vec2 low;
     Vec2 high;
+    std::optional<Vec2> across_180 = {}; ///< [degrees] low.x and high.x if these are longitudes, from 0 to 360
+};
+
+/// The box of places, as they are added.
+class FilePlaces {
+public:
+    void add(double x, double y);
+    /// Whether there are any.
+    bool any() const { return low_.x <= high_.x; }
+    FileBox box() const;
+
+private:
+    static constexpr double far = std::numeric_limits<double>::infinity();
+    Vec2 low_{far, far};
+    Vec2 high_{-far, -far};
+    Vec2 turned_{far, -far};
 };
 
 /// What becomes of a file's own CRS that is projected in metres.

@@ -100,6 +100,9 @@ struct Pieces {
     std::vector<std::vector<std::size_t>> at_node; ///< pieces that end in the node, ascending
 };
 
+/// Drops ends of split lines that pass the river they meet by most_m or less: no slip of the hand is a river.
+void drop_overshoots(std::vector<RiverLine>& lines, double most_m, Left& left);
+
 /// Cuts split lines into pieces; what lies on an earlier line is dropped.
 Pieces cut(std::vector<RiverLine> const& lines, Left& left);
 
