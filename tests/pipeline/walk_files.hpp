@@ -62,7 +62,8 @@ public:
         raster("other_patch.asc", 24, 30, 500600, 4998700, [&](int c, int r) { return 2.0 * hills(r, c); });
         two_layers("rivers.gpkg", "rivers", "second");
         two_layers("strokes.gpkg", "strokes", "one_stroke");
-        add_layer("no_crs.gpkg", "rivers", {"-a_srs", "NONE"});
+        add_layer("no_crs.gpkg", "rivers", {});
+        take_crs("no_crs.gpkg");
     }
     std::string folder() const { return path().string(); }
 
@@ -102,6 +103,15 @@ private:
     void two_layers(std::string const& name, std::string const& first, std::string const& second) const {
         add_layer(name, first, {});
         add_layer(name, second, {"-update"});
+    }
+    void take_crs(std::string const& name) const {
+        GDALDatasetH data =
+            GDALOpenEx((*this / name).c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE, nullptr, nullptr, nullptr);
+        for (char const* const table : {"gpkg_geometry_columns", "gpkg_contents"}) {
+            std::string const sql = std::string("UPDATE ") + table + " SET srs_id = 0";
+            GDALDatasetReleaseResultSet(data, GDALDatasetExecuteSQL(data, sql.c_str(), nullptr, nullptr));
+        }
+        GDALClose(data);
     }
     void add_layer(std::string const& name, std::string const& of, std::vector<std::string> more) const {
         GDALAllRegister();

@@ -100,6 +100,19 @@ TEST(Shorten, AnArmThatGoesLeavesOneRiver) {
     EXPECT_EQ(out.notes.size(), 1U);
 }
 
+TEST(Shorten, AHeadInTheCellOfAnotherRiverGoesWithTheCellsBelowIt) {
+    StreamNetwork const net =
+        test::network_of({{0.5, 25.5}, {30.5, 25.5}, {5.6, 25.4}, {5.5, 0.5}}, {{0, 1}, {2, 3}});
+    ChannelsOfArcs const drawn = channels(net, test::frame(31, 31));
+    auto const& cells = drawn.of_arc[1];
+    ASSERT_GE(cells.size(), 4U);
+    ASSERT_NE(drawn.channels.receiver[static_cast<std::size_t>(cells[0])], cells[1]); // that is the other river's
+    Shortened const out = shorten(net, drawn, {cells.begin() + 1, cells.begin() + 3});
+    ASSERT_EQ(out.network.arc_count(), 2U);
+    EXPECT_LT(out.network.arc(1).line.front().y, 23.0);
+    EXPECT_EQ(out.notes.size(), 1U);
+}
+
 TEST(Shorten, AllMayGo) {
     ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
     Shortened const out = shorten(fork(), drawn, some_tips(drawn.channels, 1, 1.0));

@@ -92,11 +92,11 @@ TEST(GivenLength, WhatIsPrunedWasAskedFor) {
     EXPECT_GT(given.share(), 0.99);
 }
 
-TEST(GivenLength, HeadsThatTheTerrainCutsAreTold) {
+TEST(GivenLength, HeadsBesideAnotherRiverAreCut) {
     Files files;
-    // One begins at the edge of the map, where another leaves it.
+    // One begins in a cell beside another's.
     files.write("rivers.geojson", test::geojson(line("[502000,5003590],[502000,5000010]") + "," +
-                                                line("[502200,5003000],[502200,5003590]")));
+                                                line("[502030,5003000],[502400,5003100],[502400,5003590]")));
     std::string const text = recipe + "[network.lines]\npath = \"rivers.geojson\"\n[surface]\n";
     std::string const asked = recipe + "[network.lines]\npath = \"rivers.geojson\"\nkeep = 1\n[surface]\n";
     Made const t = test::made(text, files.folder());
@@ -106,6 +106,15 @@ TEST(GivenLength, HeadsThatTheTerrainCutsAreTold) {
     ASSERT_GT(given.left_out(LeftOut::head), 0.0);
     EXPECT_TRUE(t.assessment.passed());
     EXPECT_FALSE(test::made(asked, files.folder()).assessment.passed());
+}
+
+TEST(GivenLength, HeadsNearTheEdgeAndLowerValleysAreKept) {
+    Files files;
+    files.write("rivers.geojson", test::geojson(line("[502000,5003590],[502000,5000010]") + "," +
+                                                line("[502200,5003000],[502200,5003590]")));
+    Made const t = test::made(recipe + "[network.lines]\npath = \"rivers.geojson\"\n[surface]\n", files.folder());
+    EXPECT_EQ(t.assessment.given->share(), 1.0);
+    EXPECT_TRUE(t.assessment.passed());
 }
 
 TEST(GivenLength, OfAFeatureInSeveralPartsOnlyTheShortOneIsLeftOut) {

@@ -30,6 +30,7 @@ using surface::equilibrium;
 using surface::EquilibriumFields;
 using surface::EquilibriumParams;
 using surface::EquilibriumTerrain;
+using surface::Heads;
 using surface::RiverHeights;
 
 namespace {
@@ -157,9 +158,10 @@ Scene any_scene() {
     if (scene.room == Room::apart && *rc::gen::arbitrary<bool>().as("lakes")) {
         add_lakes(scene.rivers, seed);
     }
-    scene.params.heights =
-        *rc::gen::element(RiverHeights::graded, RiverHeights::graded, RiverHeights::soft, RiverHeights::fixed)
-             .as("heights");
+    scene.params.heights = *rc::gen::element(RiverHeights::graded, RiverHeights::graded, RiverHeights::soft,
+                                             RiverHeights::fixed, RiverHeights::yielding)
+                                .as("heights");
+    scene.params.heads = *rc::gen::element(Heads::cut, Heads::kept).as("heads");
     if (scene.params.heights != RiverHeights::graded) {
         add_heights(scene.rivers, seed);
     }
@@ -355,6 +357,52 @@ TEST(Equilibrium, RiversKeepTheirWater) {
     }));
 }
 
+namespace {
+
+/// A river of many cells that leaves to the south, and beside its head a short one that leaves to the north.
+Channels long_and_short(std::int64_t apart) {
+    Channels rivers{test::frame(96, 160, 30.0), {}, {}, {}, {}};
+    auto const draw = [&](std::int64_t col, std::int64_t from, std::int64_t to, std::int64_t step) {
+        for (std::int64_t row = from; row != to; row += step) {
+            bool const is_end = row == from;
+            rivers.receiver.push_back(is_end ? -1 : static_cast<ChannelId>(rivers.cell.size()) - 1);
+            rivers.cell.push_back(rivers.grid.index({col, row}));
+        }
+    };
+    draw(40, 159, 9, -1);
+    draw(40 + apart, 0, 20, 1);
+    return rivers;
+}
+
+EquilibriumTerrain with_heads(Channels const& rivers, Heads heads) {
+    EquilibriumParams params;
+    params.heads = heads;
+    params.region = 1.0;
+    return equilibrium(rivers, {}, params);
+}
+
+} // namespace
+
+TEST(Equilibrium, YieldingHeightsGiveWayAtWallsAlone) {
+    Channels rivers = long_and_short(12);
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        rivers.z.push_back(n < 150 ? 20.0F + 3.0F * static_cast<float>(n) : static_cast<float>(n - 150));
+    }
+    EquilibriumParams params;
+    params.heights = RiverHeights::fixed;
+    params.heads = Heads::kept;
+    EXPECT_FALSE(equilibrium(rivers, {}, params).walled.empty());
+    params.heights = RiverHeights::yielding;
+    EquilibriumTerrain const land = equilibrium(rivers, {}, params);
+    EXPECT_TRUE(land.walled.empty());
+    std::int64_t kept = 0;
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        EXPECT_LE(land.dem[rivers.cell[n]], rivers.z[n] + 0.01F);
+        kept += land.dem[rivers.cell[n]] >= rivers.z[n] - 1.0F ? 1 : 0;
+    }
+    EXPECT_GE(kept, 60); // all below the place where it had to yield, and the other river
+}
+
 // Fixed: given heights are kept, but for the least rise that water needs. Soft: they are upper bounds, and what lies
 // below them is told.
 TEST(Equilibrium, GivenHeightsHold) {
@@ -427,6 +475,27 @@ TEST(Equilibrium, RiversAreGradedBetweenGivenHeights) {
 }
 
 // The same bytes for any number of threads, and others for another seed.
+TEST(Equilibrium, HeadsAreKeptByFirmerRock) {
+    Channels const rivers = long_and_short(12);
+    EXPECT_GE(with_heads(rivers, Heads::cut).shortened.size(), 5U);
+    EquilibriumTerrain const land = with_heads(rivers, Heads::kept);
+    EXPECT_TRUE(land.shortened.empty());
+    EXPECT_TRUE(land.walled.empty());
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        if (rivers.receiver[n] >= 0) {
+            std::int64_t const below = rivers.cell[static_cast<std::size_t>(rivers.receiver[n])];
+            EXPECT_EQ(next(rivers.grid, rivers.cell[n], plain_d8(land.dem, rivers.cell[n])), below) << n;
+        }
+    }
+}
+
+TEST(Equilibrium, OnlyHeadsBesideAnotherRiverAreCut) {
+    Channels const rivers = long_and_short(1); // twelve rows side by side
+    EquilibriumTerrain const land = with_heads(rivers, Heads::kept);
+    EXPECT_GE(land.shortened.size(), 11U);
+    EXPECT_LE(land.shortened.size(), 24U);
+}
+
 TEST(Equilibrium, ThreadsDoNotMatterSeedsDo) {
     Scene scene = square(90);
     auto const bytes = [&](int threads) {

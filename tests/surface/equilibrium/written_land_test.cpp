@@ -128,7 +128,8 @@ void require_steepest(Raster<float> const& dem, Cell c, flow::Direction directio
 
 TEST(WrittenLand, OneCell) {
     SolvedLand const land = solved_land(1, 1, 0, 7);
-    EquilibriumTerrain const out = written_land(land.level, land.rivers, land.window(), {10.0, -1.0, 0.5}, {}, {});
+    EquilibriumTerrain const out =
+        written_land(land.level, land.rivers, land.window(), {10.0, -1.0, 0.5}, {}, Heads::cut, {});
     ASSERT_EQ(out.dem.cells(), 1);
     EXPECT_NEAR(out.dem[0], 0.0, 1e-6); // 0.1 of 10 m, less 1 m
     EXPECT_TRUE(out.direction[0] == flow::Direction::leaves);
@@ -155,7 +156,8 @@ TEST(WrittenLand, DrainsDownItsOwnFloats) {
         rc::check("rivers go to their receivers, land down the steepest slope, and nothing is a depression", [] {
             SolvedLand const land = any_solved_land();
             Raise const raise = raise_for(land.level, land.rivers, land.window(), with_relief(100.0));
-            EquilibriumTerrain const out = written_land(land.level, land.rivers, land.window(), raise, {}, {});
+            EquilibriumTerrain const out =
+                written_land(land.level, land.rivers, land.window(), raise, {}, Heads::cut, {});
             RC_ASSERT(out.dem.grid() == land.grid);
             RC_ASSERT(std::is_sorted(out.shortened.begin(), out.shortened.end()));
             std::vector<bool> river(static_cast<std::size_t>(land.grid.cells()), false);
@@ -182,7 +184,8 @@ TEST(WrittenLand, TheSeaHasNoHeight) {
     SolvedLand land = solved_land(6, 5, 1, 3);
     land.land = Mask(land.grid, 1);
     land.land[Cell{5, 4}] = 0;
-    EquilibriumTerrain const out = written_land(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, {}, {});
+    EquilibriumTerrain const out =
+        written_land(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, {}, Heads::cut, {});
     for (std::int64_t i = 0; i < land.grid.cells(); ++i) {
         EXPECT_EQ(std::isnan(out.dem[i]), land.land[i] == 0);
         EXPECT_EQ(out.direction[i] == flow::Direction::no_data, land.land[i] == 0);

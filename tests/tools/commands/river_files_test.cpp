@@ -379,9 +379,7 @@ TEST(RiverFiles, OutletsOfAFileWithoutCoastlinesAreCarriedWithAWarningOrMakeACoa
     Outcome const coast = thalweg_run(without + "coast --set network.inland=coast", place.path());
     EXPECT_EQ(coast.code, 0) << coast.err;
     EXPECT_EQ(coast.err.find("were extended by"), std::string::npos) << coast.err;
-    EXPECT_NE(coast.err.find("of the 792.7 km of rivers in coastal_nhdplus.gpkg are not in the network"),
-              std::string::npos)
-        << coast.err;
+    EXPECT_EQ(coast.err.find("are not in the network"), std::string::npos) << coast.err;
     EXPECT_NEAR(share_without_data(place / "coast/dem.tif"), 0.37, 0.04); // as the coastlines say
     EXPECT_EQ(thalweg_run("check coast/network.gpkg --dem coast/dem.tif", place.path()).code, 0);
     EXPECT_EQ(thalweg_run("replay coast --verify", place.path()).code, 0);

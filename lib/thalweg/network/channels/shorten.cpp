@@ -220,10 +220,21 @@ private:
         return line.size() > 1 ? line : std::vector<Vec2>{};
     }
 
+    /// The first of an arc's cells that flows to the next one: those before are another river's.
+    auto first_own(std::size_t a) const {
+        auto const& cells = drawn_.of_arc[a];
+        return std::adjacent_find(cells.begin(), cells.end(), [&](std::int64_t i, std::int64_t next) {
+            return drawn_.channels.receiver[i] == next;
+        });
+    }
+
     void visit(std::size_t a) {
         auto const& cells = drawn_.of_arc[a];
         bool const goes_on = has_water_above(a);
-        if (cells.empty() || goes_on || (is_gone_[cells.front()] == 0 && !lost_its_node(a))) {
+        auto const own = first_own(a);
+        bool const is_dry =
+            !cells.empty() && (is_gone_[cells.front()] != 0 || (own != cells.end() && is_gone_[*own] != 0));
+        if (cells.empty() || goes_on || (!is_dry && !lost_its_node(a))) {
             has_water_[a] = goes_on || !cells.empty() ? 1 : 0;
             return;
         }
@@ -235,7 +246,8 @@ private:
         mark(stays_, drawn_.channels, cells, is_gone_, 0, 1);
         std::vector<Vec2> rest = rest_of(line, drawn_.channels.grid, goes_, stays_);
         auto const own_end = cells.end() - (network_.out(network_.to(a)) != no_arc ? 1 : 0);
-        auto const stays = std::find_if(cells.begin(), own_end, [&](std::int64_t i) { return is_gone_[i] == 0; });
+        auto const stays =
+            std::find_if(std::min(own, own_end), own_end, [&](std::int64_t i) { return is_gone_[i] == 0; });
         if (rest.empty() && stays != own_end) { // its cells lie beside the line
             rest = rest_from_nearest(line, centre_of(*stays));
             if (rest.empty() || distance(rest.front(), centre_of(*stays)) > 1.5 * drawn_.channels.grid.cell_m) {

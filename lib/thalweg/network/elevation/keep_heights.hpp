@@ -6,13 +6,12 @@
 
 namespace thalweg::network {
 
-/// Copies heights between networks with the same vertices; new vertices, downstream of the known ones, descend by a
-/// slope.
+/// Copies heights between networks with the same vertices; new vertices, downstream of the known ones, go on with the
+/// slope of their river's last kilometre, or less where it is shorter.
 /// \param network has every vertex of `known`, and may continue downstream (carry_outlets)
 /// \param known a network with heights
-/// \param slope [m/m] > 0
 /// \return `network` with heights
 /// \throws BadInput when a vertex without a height has none upstream either
-ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const& known, double slope);
+ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const& known);
 
 } // namespace thalweg::network

@@ -192,10 +192,26 @@ Assessment with_given_length(Plan const& plan, Rivers const& rivers, Terrain con
         run.say(fmt::format("warning: {:.1f} of the {:.1f} km of rivers in {} are not in the network, {}. Layer "
                             "secondary of network.gpkg has them.{}",
                             gone_m / 1000.0, found.given->given_m() / 1000.0, plan.lines.name,
-                            short_m > 0.5 * gone_m ? "most of them too short" : "most of them cut at their heads",
-                            plan.recipe.network->heights == Heights::graded && short_m < gone_m
-                                ? " --set network.heights=soft keeps more of the heads."
-                                : ""));
+                            short_m > 0.5 * gone_m ? "most of them too short"
+                                                   : "most of them cut at heads that lie beside other rivers",
+                            short_m < gone_m ? fmt::format(" Finer cells keep them apart: --set grid.cell={}.",
+                                                           terrain.grid.cell_m / 2.0)
+                                             : ""));
+    }
+    return found;
+}
+
+/// With the heights of the input beside those of the DEM; warns where it misses them.
+Assessment with_given_heights(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Assessment found,
+                              Run const& run) {
+    found.given_heights = given_heights(plan, rivers, terrain);
+    if (found.given_heights && found.given_heights->missed > 0) {
+        GivenHeights const& given = *found.given_heights;
+        run.say(
+            fmt::format("warning: at {} of the {} vertices with heights in {} dem.tif is off by more than {:g} m: by "
+                        "{:.3g} m on average, by {:.3g} m at most.",
+                        given.missed, given.vertices, plan.lines.name, plan.recipe.network->heights_tolerance_m,
+                        given.mean_m, given.largest_m));
     }
     return found;
 }
@@ -212,6 +228,7 @@ Assessment assess(Plan const& plan, Rivers const& rivers, Terrain const& terrain
     found = with_requests(terrain, std::move(found));
     found = with_topology(plan, terrain, std::move(found), diary, run);
     found = with_given_length(plan, rivers, terrain, std::move(found), run);
+    found = with_given_heights(plan, rivers, terrain, std::move(found), run);
     found.timings_s = diary.take();
     return found;
 }

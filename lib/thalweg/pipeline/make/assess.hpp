@@ -31,8 +31,9 @@ struct WaterAreas {
 
 /// What is measured of land and rivers, and whether they are what the recipe sets.
 struct Assessment {
-    std::optional<GivenLength> given; ///< where rivers are read from lines
-    flow::ContributingAreas areas;    ///< of the arcs
+    std::optional<GivenLength> given;          ///< where rivers are read from lines
+    std::optional<GivenHeights> given_heights; ///< where the DEM is to have heights of these
+    flow::ContributingAreas areas;             ///< of the arcs
     RiverLaws laws;
     std::vector<NodeId> sinks;                     ///< where rivers end inland, as they were asked to
     std::optional<measure::Statistics> statistics; ///< of the surface, like the rest

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <utility>
 
 namespace thalweg::pipeline {
@@ -88,6 +90,48 @@ std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, 
     for (Finding const& f : repairs) {
         given.moved_m = std::max(given.moved_m, f.kind == "snapped" ? f.amount : 0.0);
     }
+    return given;
+}
+
+std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers, Terrain const& terrain) {
+    bool const taken = plan.recipe.network && plan.recipe.network->source == Source::lines && plan.lines.has_z;
+    if (!taken || rivers.network.arc_z.empty() || !terrain.surface) {
+        return std::nullopt;
+    }
+    std::set<std::pair<double, double>> of_file; // without those of outlets that were carried on
+    for (ArcId a = 0; a < rivers.file.adopted.arc_count(); ++a) {
+        for (Vec2 const v : rivers.file.adopted.arc(a).line) {
+            of_file.insert({v.x, v.y});
+        }
+    }
+    Raster<float> const& dem = terrain.surface->dem;
+    double const cell_m = dem.grid().cell_m;
+    GivenHeights given;
+    double sum_m = 0.0;
+    for (ArcId a = 0; a < rivers.network.plan.arc_count(); ++a) {
+        std::vector<Vec2> const& line = rivers.network.plan.arc(a).line;
+        std::vector<double> const& z = rivers.network.arc_z[a];
+        auto const fall_in_cell = [&](std::size_t i) { // between vertices i and i + 1
+            double const way_m = distance(line[i], line[i + 1]);
+            return std::fabs(z[i] - z[i + 1]) * std::min(1.0, cell_m / std::max(way_m, 1e-9));
+        };
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            Cell const cell = dem.grid().cell_of(line[i]);
+            if (!of_file.contains({line[i].x, line[i].y}) || !dem.grid().contains(cell) || std::isnan(dem[cell])) {
+                continue;
+            }
+            double const fall_m =
+                std::max(i > 0 ? fall_in_cell(i - 1) : 0.0, i + 1 < line.size() ? fall_in_cell(i) : 0.0);
+            double const off_m = std::fabs(static_cast<double>(dem[cell]) - z[i]);
+            ++given.vertices;
+            if (off_m > plan.recipe.network->heights_tolerance_m + fall_m) {
+                ++given.missed;
+                sum_m += off_m;
+                given.largest_m = std::max(given.largest_m, off_m);
+            }
+        }
+    }
+    given.mean_m = given.missed > 0 ? sum_m / static_cast<double>(given.missed) : 0.0;
     return given;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,21 @@ char const* words_of(LeftOut cause);
 /// \param terrain made of them
 /// \return nothing where rivers are not read from lines
 std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, Terrain const& terrain);
+
+/// Heights that a file's lines have at their vertices, beside the DEM.
+struct GivenHeights {
+    std::int64_t vertices = 0; ///< with heights, in the network
+    std::int64_t missed = 0;   ///< of them, by more than the tolerance and what the river falls within a cell
+    double largest_m = 0.0;    ///< greatest difference of these
+    double mean_m = 0.0;       ///< mean difference of these
+};
+
+/// Compares the heights of a plan's lines with the DEM.
+/// \param plan the plan
+/// \param rivers made of it
+/// \param terrain made of them
+/// \return nothing where the network does not take heights from a file, or there is no DEM
+std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers, Terrain const& terrain);
 
 /// \param given the account
 /// \return one line for the log: kilometres read, kept, left out by cause, turned, moved, added

@@ -81,7 +81,9 @@ surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface:
     params.grain = wanted.grain;
     params.strike_deg = wanted.strike_deg;
     bool const by_file = recipe.network->source == Source::lines; // which has all rivers that enter
-    params.region = wanted.region.value_or(by_file ? 1.0 : params.region);
+    params.region = wanted.region.value_or(params.region);
+    params.inflow = !by_file;
+    params.heads = by_file ? surface::Heads::kept : surface::Heads::cut;
     params.edge = edge;
     params.seed = recipe.seed;
     return params;
@@ -135,15 +137,16 @@ bool too_walled(surface::EquilibriumTerrain const& land, Channels const& channel
 
 /// River cells that only walls hold up.
 Terrain with_walls_checked(Terrain terrain, surface::EquilibriumTerrain const& land, Channels const& channels,
-                           Run const& run) {
+                           bool given, Run const& run) {
     constexpr std::size_t listed = 1000;
     bool const ok = !too_walled(land, channels);
     terrain.checks.push_back(
         {"walled_cells", static_cast<double>(land.walled.size()), std::floor(most_walled(channels)), ok});
     if (!ok) {
-        run.say(fmt::format("warning: {} of {} river cells stand on walls above the terrain. network.heights = "
-                            "\"graded\" or \"soft\" lets rivers follow it.",
-                            land.walled.size(), channels.cell.size()));
+        run.say(fmt::format("warning: {} of {} river cells stand on walls above the terrain. {}", land.walled.size(),
+                            channels.cell.size(),
+                            given ? "network.heights = \"graded\" or \"soft\" lets rivers follow it."
+                                  : "A smaller grid.cell gives slopes room between rivers."));
     }
     for (std::size_t i = 0; i < std::min(listed, land.walled.size()); ++i) {
         std::int64_t const cell = channels.cell[static_cast<std::size_t>(land.walled[i])];
@@ -207,16 +210,16 @@ Solved solve(Plan const& plan, Terrain const& terrain, Channels const& channels,
     surface::EquilibriumFields const fields = equilibrium_fields(plan, terrain, channels, run);
     run.at(0.0, fmt::format("fill {} cells", terrain.grid.cells()).c_str());
     surface::Edge const edge = edge_of(plan, terrain, fields.land);
-    auto const solved_with = [&](Heights heights) {
-        surface::EquilibriumParams const params = params_of(plan, heights, edge);
+    auto const solved_with = [&](surface::EquilibriumParams const& params) {
         return Solved{diary.stage("fill", [&] { return surface::equilibrium(channels, fields, params, run); }), params};
     };
-    Solved solved = solved_with(plan.recipe.network->heights);
+    Solved solved = solved_with(params_of(plan, plan.recipe.network->heights, edge));
     if (plan.heights_of_file && too_walled(solved.land, channels)) {
         run.say(fmt::format("warning: the heights in {} would put {} of {} river cells on walls above the terrain. "
-                            "Rivers are lowered there: network.heights = \"soft\"; \"file\" keeps their heights.",
+                            "Rivers are lowered there; network.heights = \"file\" keeps their heights.",
                             plan.recipe.network->lines.path, solved.land.walled.size(), channels.cell.size()));
-        solved = solved_with(Heights::soft);
+        solved.params.heights = surface::RiverHeights::yielding;
+        solved = solved_with(solved.params);
         solved.gave_way = true;
     }
     return solved;
@@ -317,8 +320,9 @@ Terrain draw_in_equilibrium(Plan const& plan, Terrain terrain, Diary& diary, Run
     surface::EquilibriumTerrain& land = solved.land;
     terrain.equilibrium = story_of(solved, rivers.channels);
     terrain = with_target_checked(std::move(terrain), land, solved.params, run);
-    if (solved.params.heights != surface::RiverHeights::graded) {
-        terrain = with_walls_checked(std::move(terrain), land, rivers.channels, run);
+    bool const given = solved.params.heights != surface::RiverHeights::graded;
+    if (given || solved.params.heads == surface::Heads::kept) {
+        terrain = with_walls_checked(std::move(terrain), land, rivers.channels, given, run);
     }
     warn_of_region(land, plan.recipe.surface->equilibrium.region, run);
     warn_of_heights(land.dem, run);

@@ -39,7 +39,7 @@ struct Elevated {
 Elevated raise(Plan const& plan, RiversInPlan const& planned, network::RiverTypes const& types, Run const& run) {
     NetworkRecipe const& wanted = *plan.recipe.network;
     if (planned.file_heights) {
-        return {network::keep_heights(planned.network, *planned.file_heights, wanted.slope)};
+        return {network::keep_heights(planned.network, *planned.file_heights)};
     }
     if (wanted.heights == Heights::rosgen) {
         return {network::set_heights_by_type(planned.network, types, {wanted.rosgen_slope, plan.recipe.seed}, run)};

@@ -51,7 +51,7 @@ struct DrainStory {
 /// How a land came into equilibrium with its rivers.
 struct EquilibriumStory {
     surface::Edge edge = surface::Edge::open; ///< of the land, by recipe, mask or sea
-    bool gave_way = false;            ///< heights of the rivers' file: as soft ones, since they would have needed walls
+    bool gave_way = false;            ///< heights of the rivers' file: lowered where they would have needed walls
     std::int64_t channel_cells = 0;   ///< in which rivers run
     std::int64_t shortened_cells = 0; ///< of perched tips that are rivers no more
     std::int64_t walled_cells = 0;    ///< of rivers whose given heights only walls hold up

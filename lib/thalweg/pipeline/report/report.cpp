@@ -263,6 +263,13 @@ void add_rivers(Made const& t, ordered_json& report) {
         if (t.assessment.given) {
             report["given"] = given_object(*t.assessment.given);
         }
+        if (t.assessment.given_heights) {
+            GivenHeights const& heights = *t.assessment.given_heights;
+            report["given"]["heights"] = {{"vertices", heights.vertices},
+                                          {"missed", heights.missed},
+                                          {"mean_m", heights.mean_m},
+                                          {"largest_m", heights.largest_m}};
+        }
         report["shortened_fields"] = ordered_json::array();
         for (io::ShortenedName const& one : shortened_names(t)) {
             report["shortened_fields"].push_back({{"field", one.name}, {"in_shapefile", one.in_shapefile}});

@@ -8,6 +8,7 @@
 #include <thalweg/surface/equilibrium/internal/cover_cells.hpp>
 #include <thalweg/surface/equilibrium/internal/edge_heights.hpp>
 #include <thalweg/surface/equilibrium/internal/equilibrium_law.hpp>
+#include <thalweg/surface/equilibrium/internal/firm_rock.hpp>
 #include <thalweg/surface/equilibrium/internal/flood_land.hpp>
 #include <thalweg/surface/equilibrium/internal/give_up_tips.hpp>
 #include <thalweg/surface/equilibrium/internal/jitter.hpp>
@@ -94,6 +95,7 @@ LandLevel prepared(Plan&& plan, std::size_t number, LandLevel const& coarser, La
     level.rivers = std::move(plan.rivers);
     cover_cells(level, plan.land, params.edge, number == 0 ? RiverBanks::kept : RiverBanks::none);
     set_rock(level, fields, rock, run);
+    take_firmness(level, coarser);
     jitter(level, params.seed, run);
     if (coarser.z.empty()) {
         start_from_nothing(level, nearest_river(level), params.seed, run);
@@ -141,6 +143,9 @@ public:
         flood_land(level);
         int const rounds = rounds_of(number, levels);
         bool const given = !level.rivers.asked.empty();
+        if (number == 0 && !given && params_.heads == Heads::kept) {
+            take(give_up_touching_tips(level));
+        }
         for (int round = 0; round < rounds; ++round) {
             run_.at(share_done(number, round, rounds), "fill");
             if (round > 0) {
@@ -163,6 +168,9 @@ public:
                 relax_finest_rivers(level, rounds - round);
             }
             relax_land(level, law_);
+            if (params_.heads == Heads::kept && round % 2 == 1 && rounds - round >= to_come_down_) {
+                firm_rock(level, law_);
+            }
         }
         if (number == 0) {
             come_to_rest(level, given);
@@ -190,12 +198,11 @@ private:
 
     /// With what only the grid's own rivers ask for: no perched head, and water that keeps to them.
     void relax_finest_rivers(LandLevel& level, int rounds_left) {
-        constexpr int to_come_down = 3; // rounds that land takes where a river was given up
-        if (rounds_left == to_come_down || rounds_left == to_come_down + 1) {
+        if (rounds_left == to_come_down_ || rounds_left == to_come_down_ + 1) {
             give_up(level);
         }
         relax_rivers(level, law_);
-        if (rounds_left <= to_come_down) {
+        if (rounds_left <= to_come_down_) {
             lower_perched(level, perched_, least_tangent);
         }
         keep_to_receivers(level);
@@ -215,9 +222,18 @@ private:
     void give_up(LandLevel& level) {
         Raise const raise = raise_for(level, rivers_, window_, params_);
         perched_ = static_cast<float>(raise.mean_tangent * window_.grid.cell_m / raise.metres);
-        auto const numbers = give_up_tips(level, of_perched * perched_, TipBanks::rise);
+        if (params_.heads == Heads::kept) {
+            return;
+        }
+        take(give_up_tips(level, of_perched * perched_, TipBanks::rise));
+    }
+
+    void take(std::vector<std::int64_t> const& numbers) {
         shortened_.insert(shortened_.end(), numbers.begin(), numbers.end());
     }
+
+    static constexpr int to_come_down_ =
+        3; ///< rounds that land takes where a river was given up or its rock made firmer
 
     EquilibriumParams const& params_;
     Channels const& rivers_;
@@ -261,7 +277,8 @@ Solved solved(Channels const& rivers, EquilibriumFields const& fields, Equilibri
     std::vector<RegionInflow> inflows;
     for (std::size_t number = levels.size(); number-- > 0;) {
         level = prepared(std::move(levels[number]), number, level, around, land.fields, rock, params, run);
-        RegionFrame const frame = around.z.empty() ? RegionFrame{} : frame_by_region(level, around, params.seed);
+        RegionFrame const frame =
+            around.z.empty() ? RegionFrame{} : frame_by_region(level, around, params.seed, params.inflow);
         solver.solve(level, number, levels.size(), frame);
         if (region.level > 0 && number == region.level) {
             around = level;
@@ -355,8 +372,8 @@ EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& 
     Window const window{rivers.grid, fields.land, graded.margin};
     Raise const raise = raise_for(graded.level, rivers, window, params);
     if (!asks_heights(rivers, params)) {
-        EquilibriumTerrain land =
-            written_land(std::move(graded.level), rivers, window, raise, std::move(graded.shortened), run);
+        EquilibriumTerrain land = written_land(std::move(graded.level), rivers, window, raise,
+                                               std::move(graded.shortened), params.heads, run);
         land.inflows = std::move(graded.inflows);
         land.in_region = graded.in_region;
         land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);

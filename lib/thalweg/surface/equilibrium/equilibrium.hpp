@@ -23,9 +23,16 @@ enum class Edge : std::uint8_t {
 
 /// How prescribed heights of rivers are used.
 enum class RiverHeights : std::uint8_t {
-    graded, ///< not used: rivers are graded like other channels
-    soft,   ///< upper bounds: a river is lowered where its surroundings are lower
-    fixed   ///< kept; where the surroundings are lower, the river runs on a wall
+    graded,  ///< not used: rivers are graded like other channels
+    soft,    ///< upper bounds: a river is lowered where its surroundings are lower
+    fixed,   ///< kept; where the surroundings are lower, the river runs on a wall
+    yielding ///< kept, but lowered where it would run on a wall
+};
+
+/// What becomes of the heads of graded rivers that would stand above their surroundings.
+enum class Heads : std::uint8_t {
+    cut, ///< they become terrain
+    kept ///< rivers are lowered there, and rock below them is firmer
 };
 
 /// Fields that vary over the terrain, on the rivers' grid; empty: none.
@@ -51,6 +58,8 @@ struct EquilibriumParams {
     /// [1, 5] with an open edge: coarse levels are solved on land wider than the grid by this factor; 1: on the grid
     /// alone
     double region = 3.0;
+    bool inflow = true; ///< water of the region may enter the grid; false: where it would, a divide runs along the edge
+    Heads heads = Heads::cut;
     Edge edge = Edge::open;
     RiverHeights heights = RiverHeights::graded;
     /// with prescribed heights: solve again until the terrain has the target slope or relief; false: it is as high as
@@ -70,7 +79,7 @@ struct EquilibriumTerrain {
     Raster<float> dem;                   ///< [m] NaN: sea
     Raster<flow::Direction> direction;   ///< D8 flow directions; no_data at sea
     std::vector<std::int64_t> shortened; ///< numbers of channel cells removed because they were perched (tips)
-    std::vector<std::int64_t> walled;    ///< numbers of channel cells on walls (fixed, soft)
+    std::vector<std::int64_t> walled;    ///< numbers of channel cells on walls (fixed, soft, heads kept)
     double max_lowered_m = 0.0;          ///< soft: largest lowering below prescribed heights
     double p95_lowered_m = 0.0;          ///< soft: its 95th percentile over channel cells with heights
     bool in_region = false;              ///< whether coarse levels were solved on a region

@@ -12,11 +12,11 @@ namespace thalweg::surface {
 
 namespace {
 
-constexpr std::int32_t longest_tip = 200; // [cells]: more is no tip
+constexpr std::int32_t longest_tip = 200;     // [cells]: more is no tip
+constexpr std::int32_t longest_touching = 32; // likewise, for what lies beside another river
 
-/// Marks river cells that are perched with little upstream of them, and all that lies upstream.
-std::vector<std::uint8_t> perched_heads(LandLevel const& level, float tangent) {
-    RiverCells const& rivers = level.rivers;
+/// Marks river cells of which something is true, with little upstream of them, and all that lies upstream.
+template <class Is> std::vector<std::uint8_t> marked_tips(RiverCells const& rivers, std::int32_t longest, Is is) {
     std::vector<std::int32_t> upstream(rivers.cell.size(), 1);
     for (std::size_t n = upstream.size(); n-- > 0;) {
         if (rivers.receiver[n] >= 0) {
@@ -29,10 +29,40 @@ std::vector<std::uint8_t> perched_heads(LandLevel const& level, float tangent) {
             continue;
         }
         bool const below = marked[static_cast<std::size_t>(rivers.receiver[n])] != 0;
-        bool const tip = rivers.level[n] == 0 && upstream[n] <= longest_tip;
-        marked[n] = below || (tip && is_perched(level, rivers.cell[n], tangent)) ? 1 : 0;
+        bool const tip = rivers.level[n] == 0 && upstream[n] <= longest;
+        marked[n] = below || (tip && is(n)) ? 1 : 0;
     }
     return marked;
+}
+
+/// Whether two river cells come to one place within so many steps that their heights are alike.
+bool meet_soon(RiverCells const& rivers, std::int32_t a, std::int32_t b) {
+    constexpr int most = 400;
+    for (int step = 0; a != b; ++step) { // receivers have lower numbers
+        std::int32_t& upper = a > b ? a : b;
+        upper = rivers.receiver[static_cast<std::size_t>(upper)];
+        if (upper < 0 || step == most) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Marks the cells near heads that lie beside another river, and all that lies upstream.
+std::vector<std::uint8_t> touching_heads(LandLevel const& level) {
+    RiverCells const& rivers = level.rivers;
+    constexpr std::int32_t nothing = -1;
+    std::vector<std::int32_t> number_at(static_cast<std::size_t>(level.cells()), nothing);
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        number_at[rivers.cell[n]] = static_cast<std::int32_t>(n);
+    }
+    auto const offsets = level.offsets();
+    return marked_tips(rivers, longest_touching, [&](std::size_t n) {
+        return std::any_of(offsets.begin(), offsets.end(), [&](std::int64_t offset) {
+            std::int32_t const other = number_at[moved(rivers.cell[n], offset)];
+            return other != nothing && !meet_soon(rivers, static_cast<std::int32_t>(n), other);
+        });
+    });
 }
 
 bool is_rim(LandLevel const& level, std::size_t i) {
@@ -72,11 +102,8 @@ void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
     rivers.asked.resize(rivers.asked.empty() ? 0 : kept);
 }
 
-} // namespace
-
-std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent, TipBanks banks) {
+std::vector<std::int64_t> give_up(LandLevel& level, std::vector<std::uint8_t> const& marked, TipBanks banks) {
     RiverCells& rivers = level.rivers;
-    std::vector<std::uint8_t> const marked = perched_heads(level, tangent);
     std::vector<std::uint8_t> gone(marked.size());
     std::vector<std::uint8_t> holds(marked.size()); // something that stays lies upstream
     std::vector<std::int64_t> numbers;
@@ -104,6 +131,19 @@ std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent, TipBanks
     }
     compact(rivers, gone);
     return numbers;
+}
+
+} // namespace
+
+std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent, TipBanks banks) {
+    return give_up(level,
+                   marked_tips(level.rivers, longest_tip,
+                               [&](std::size_t n) { return is_perched(level, level.rivers.cell[n], tangent); }),
+                   banks);
+}
+
+std::vector<std::int64_t> give_up_touching_tips(LandLevel& level) {
+    return give_up(level, touching_heads(level), TipBanks::rise);
 }
 
 } // namespace thalweg::surface

@@ -14,7 +14,8 @@ constexpr float margin = 0.02F; // of a fall, above what floats may lose
 
 class Keeper {
 public:
-    explicit Keeper(LandLevel& level) : level_(level), rivers_(level.rivers), offsets_(level.offsets()) {
+    Keeper(LandLevel& level, float least)
+        : level_(level), rivers_(level.rivers), offsets_(level.offsets()), least_(least) {
         for (std::size_t n = 0; n < rivers_.cell.size(); ++n) {
             if (rivers_.number[n] < 0) {
                 beyond_.push_back(rivers_.cell[n]);
@@ -52,7 +53,7 @@ public:
         float& z = level_.z[rivers_.cell[n]];
         float const below = level_.z[rivers_.cell[receiver(n)]];
         float const length = level_.side * step_lengths[static_cast<std::size_t>(rivers_.way[n])];
-        z = rivers_.level[n] != 0 ? below : std::max(z, below + least_tangent * length);
+        z = rivers_.level[n] != 0 ? below : std::max(z, below + least_ * length);
     }
 
 private:
@@ -81,7 +82,7 @@ private:
             return;
         }
         float const most = below + (1.0F - margin) * (level_.z[q] - below) / (1.0F - ratio);
-        if (ratio < 1.0F && most >= below + least_tangent * level_.side * own) {
+        if (ratio < 1.0F && most >= below + least_ * level_.side * own) {
             z = most;
         } else {
             level_.z[q] = least;
@@ -91,13 +92,14 @@ private:
     LandLevel& level_;
     RiverCells const& rivers_;
     std::array<std::int64_t, 8> offsets_;
+    float least_;                     ///< tangent towards a receiver
     std::vector<std::size_t> beyond_; ///< river cells outside the caller's grid
 };
 
 } // namespace
 
-void keep_to_receivers(LandLevel& level) {
-    Keeper keeper(level);
+void keep_to_receivers(LandLevel& level, float least) {
+    Keeper keeper(level, least);
     for (int pass = 0; pass < passes; ++pass) {
         keeper.pass();
     }

@@ -16,37 +16,7 @@ namespace {
 
 constexpr std::uint64_t frame_stage = 0x6672616d65; // "frame"
 
-/// Where a level's cell lies among those of a coarser one, counted from the centres of its cells.
-struct Place {
-    double col;
-    double row;
-};
-
-Place place_in(LandLevel const& coarse, LandLevel const& level, std::int64_t col, std::int64_t row) {
-    double const side = static_cast<double>(level.side);
-    double const east =
-        static_cast<double>(level.corner.col - coarse.corner.col) + (static_cast<double>(col) - 0.5) * side;
-    double const south =
-        static_cast<double>(level.corner.row - coarse.corner.row) + (static_cast<double>(row) - 0.5) * side;
-    return {east / static_cast<double>(coarse.side) + 0.5, south / static_cast<double>(coarse.side) + 0.5};
-}
-
-float height_at(LandLevel const& level, Place p) {
-    double const left = std::floor(p.col);
-    double const top = std::floor(p.row);
-    auto const z = [&](double col, double row) {
-        auto const c = std::clamp<std::int64_t>(static_cast<std::int64_t>(col), 1, level.width - 2);
-        auto const r = std::clamp<std::int64_t>(static_cast<std::int64_t>(row), 1, level.height - 2);
-        return level.z[static_cast<std::size_t>(r * level.width + c)];
-    };
-    auto const u = static_cast<float>(p.col - left);
-    auto const v = static_cast<float>(p.row - top);
-    float const upper = z(left, top) + (z(left + 1.0, top) - z(left, top)) * u;
-    float const lower = z(left, top + 1.0) + (z(left + 1.0, top + 1.0) - z(left, top + 1.0)) * u;
-    return upper + (lower - upper) * v;
-}
-
-std::size_t cell_at(LandLevel const& level, Place p) {
+std::size_t cell_at(LandLevel const& level, LevelPlace p) {
     auto const col = static_cast<std::int64_t>(std::floor(p.col + 0.5));
     auto const row = static_cast<std::int64_t>(std::floor(p.row + 0.5));
     return static_cast<std::size_t>(row * level.width + col);
@@ -139,7 +109,7 @@ void share_out(RegionFrame& frame, LandLevel const& level, LandLevel const& regi
 
 } // namespace
 
-RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint64_t seed) {
+RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint64_t seed, bool inflow) {
     Within const within(level, region);
     auto const offsets = level.offsets();
     auto const around = region.offsets();
@@ -154,7 +124,7 @@ RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint
         if (level.cover[i] != Cover::edge) {
             return;
         }
-        Place const place = place_in(region, level, col, row);
+        LevelPlace const place = place_in(region, level, col, row);
         std::size_t const outside = cell_at(region, place);
         std::int8_t const way = region.way[outside];
         if (way >= 0 && within(moved(outside, around[static_cast<std::size_t>(way)]))) {
@@ -167,7 +137,7 @@ RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint
             }
             return;
         }
-        frame.cells.push_back({static_cast<std::uint32_t>(i), height_at(region, place), 0.0F});
+        frame.cells.push_back({static_cast<std::uint32_t>(i), value_at(region, region.z, place), 0.0F});
     });
     share_out(frame, level, region, within, seed);
     each_inner(level, [&](std::size_t i) {
@@ -180,7 +150,7 @@ RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint
     float const each = region.side * region.side / (level.side * level.side);
     level.inflow.clear();
     for (auto const& [outside, lowest] : entries) {
-        if (!std::isinf(lowest.z)) {
+        if (inflow && !std::isinf(lowest.z)) {
             level.inflow.push_back({static_cast<std::uint32_t>(lowest.cell),
                                     static_cast<std::uint32_t>(static_cast<float>(region.area[outside]) * each)});
         }
@@ -191,7 +161,7 @@ RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint
         for (std::int64_t col = inset; col < level.width - inset; col += stride) {
             auto const i = static_cast<std::uint32_t>(row * level.width + col);
             if (is_land(level.cover[i])) {
-                frame.land.push_back({i, height_at(region, place_in(region, level, col, row))});
+                frame.land.push_back({i, value_at(region, region.z, place_in(region, level, col, row))});
             }
         }
     }
@@ -223,7 +193,7 @@ std::vector<float> end_heights(LandLevel const& level, LandLevel const& region) 
     for (std::size_t n = 0; n < heights.size(); ++n) {
         if (rivers.receiver[n] < 0) {
             auto const cell = static_cast<std::int64_t>(rivers.cell[n]);
-            Place const place = place_in(region, level, cell % level.width, cell / level.width);
+            LevelPlace const place = place_in(region, level, cell % level.width, cell / level.width);
             heights[n] = region.z[cell_at(region, place)];
         }
     }

@@ -7,6 +7,7 @@
 #include <thalweg/flow/direction.hpp>
 #include <thalweg/flow/steepest_descent.hpp>
 #include <thalweg/surface/equilibrium/internal/give_up_tips.hpp>
+#include <thalweg/surface/equilibrium/internal/keep_to_receivers.hpp>
 #include <thalweg/surface/equilibrium/internal/perched_rivers.hpp>
 #include <thalweg/surface/equilibrium/internal/rise_of.hpp>
 #include <thalweg/surface/equilibrium/internal/settle_land.hpp>
@@ -136,16 +137,24 @@ double share_of_target(LandLevel const& level, Window const& window, double metr
 }
 
 EquilibriumTerrain written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
-                                std::vector<std::int64_t> shortened, Run const& run) {
+                                std::vector<std::int64_t> shortened, Heads heads, Run const& run) {
     EquilibriumTerrain out;
     out.rise = raise.metres / window.grid.cell_m;
     to_metres(level, raise);
     // A little lower than what counts as perched, for what is settled afterwards.
     lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
+    if (heads == Heads::kept) {
+        keep_to_receivers(level, settled_step(raise));
+    }
     raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     settle_land(level, settled_step(raise), RiverHeights::graded);
     out.dem = cropped(level, window);
-    auto const perched = give_up_tips(level, perched_height(raise, window.grid), TipBanks::stay);
+    float const perched_m = perched_height(raise, window.grid);
+    if (heads == Heads::kept) {
+        out.walled = perched_cells(level, perched_m);
+    }
+    auto const perched =
+        heads == Heads::kept ? std::vector<std::int64_t>{} : give_up_tips(level, perched_m, TipBanks::stay);
     shortened.insert(shortened.end(), perched.begin(), perched.end());
     std::sort(shortened.begin(), shortened.end());
     out.shortened = std::move(shortened);
@@ -164,11 +173,11 @@ EquilibriumTerrain written_given_land(LandLevel level, Channels const& rivers, W
         float const asked = number < 0 ? std::nanf("") : rivers.z[static_cast<std::size_t>(number)];
         if (!std::isnan(asked)) {
             float& z = level.z[level.rivers.cell[n]];
-            z = heights == RiverHeights::fixed ? asked : std::min(z, asked);
+            z = heights == RiverHeights::soft ? std::min(z, asked) : asked;
         }
     }
     keep_below_asked(level, rivers);
-    if (heights == RiverHeights::soft) { // as graded rivers are
+    if (heights != RiverHeights::fixed) { // as graded rivers are
         lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
         raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     }

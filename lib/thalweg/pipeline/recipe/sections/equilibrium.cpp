@@ -89,7 +89,7 @@ Rows<EquilibriumRecipe> ground_keys() {
             .used(by_equilibrium() && is("surface.edge", {"auto", "open"}))
             .means(
                 "with an open edge the large valleys are found on land wider than the grid by this factor, and rivers "
-                "may enter it; 1: on the grid alone; left out: 3 for grown rivers, 1 for those of a file"),
+                "may enter it, unless they come from a file; 1: on the grid alone; left out: 3"),
         file("uplift", &EquilibriumRecipe::uplift)
             .used(by_equilibrium())
             .means("raster over the grid, values above 0; only ratios count"),

@@ -30,7 +30,7 @@ struct LinesRecipe {
     network::Divergences divergences = network::Divergences::main;
     io::LineFilter filter = io::LineFilter::natural;
     Coastlines coastlines = Coastlines::sea;
-    double keep = 0.0; ///< [0, 1] least share of the given length that must be in the network
+    double keep = 0.99; ///< [0, 1] least share of the given length that must be in the network
 };
 
 } // namespace thalweg::pipeline

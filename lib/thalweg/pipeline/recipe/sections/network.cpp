@@ -39,6 +39,10 @@ Use is_graded() {
     return when("network.heights = \"graded\"", [](Recipe const& r) { return may_be(r, Heights::graded); });
 }
 
+Use given_heights() {
+    return is("network.heights", {"auto", "file", "soft", "fixed", "ends"});
+}
+
 Use rosgen_heights() {
     return is("network.heights", {"rosgen"});
 }
@@ -77,6 +81,12 @@ Rows<NetworkRecipe> source_keys() {
             .range({0, 10, left_open})
             .used(by_slope())
             .means("channel slope s; with graded heights the mean slope of the main stem"),
+        number("heights_tolerance", &NetworkRecipe::heights_tolerance_m)
+            .unit("m")
+            .range({0, 1e4})
+            .used(source_is("lines") && given_heights())
+            .means("vertices whose heights in the file dem.tif misses by more, beside what the river falls within a "
+                   "cell, are counted in a warning"),
         number("concavity", &NetworkRecipe::concavity)
             .range({0, 1})
             .earlier(0.45)

@@ -39,6 +39,7 @@ struct NetworkRecipe {
     std::optional<double> prune_cells; ///< [cells] default 20 for dla and forest, else 0
     Heights heights = Heights::automatic;
     double slope = 0.087;                  ///< [m/m] > 0
+    double heights_tolerance_m = 1.0;      ///< [m] >= 0 by which a DEM may miss heights of a file without a warning
     double concavity = 0.38;               ///< [0, 1] theta of graded heights
     std::optional<network::Rosgen> rosgen; ///< type of arcs without one; none: by Strahler order
     network::SlopeDraw rosgen_slope = network::SlopeDraw::middle;

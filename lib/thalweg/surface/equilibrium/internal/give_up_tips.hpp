@@ -16,4 +16,7 @@ namespace thalweg::surface {
 enum class TipBanks : std::uint8_t { stay, rise };
 std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent, TipBanks banks);
 
+/// The same for the cells near heads that lie beside cells of another river: there no land between them fits.
+std::vector<std::int64_t> give_up_touching_tips(LandLevel& level);
+
 } // namespace thalweg::surface

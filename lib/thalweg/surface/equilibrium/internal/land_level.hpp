@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -71,6 +73,7 @@ struct LandLevel {
     Cells<std::uint32_t> area;  ///< [cells of this level]
     Cells<std::uint32_t> order; ///< land cells, receivers last
     std::vector<Inflow> inflow; ///< water from beyond the frame
+    Cells<float> firmness;      ///< [log] by how much rock is firmer than the fields say; empty: nowhere
 
     std::int64_t cells() const { return width * height; }
     Cell at(std::size_t i) const {
@@ -84,6 +87,36 @@ struct LandLevel {
         return out;
     }
 };
+
+/// Where a level's cell lies among those of a coarser one, counted from the centres of its cells.
+struct LevelPlace {
+    double col;
+    double row;
+};
+inline LevelPlace place_in(LandLevel const& coarse, LandLevel const& level, std::int64_t col, std::int64_t row) {
+    double const side = static_cast<double>(level.side);
+    double const east =
+        static_cast<double>(level.corner.col - coarse.corner.col) + (static_cast<double>(col) - 0.5) * side;
+    double const south =
+        static_cast<double>(level.corner.row - coarse.corner.row) + (static_cast<double>(row) - 0.5) * side;
+    return {east / static_cast<double>(coarse.side) + 0.5, south / static_cast<double>(coarse.side) + 0.5};
+}
+
+/// The value there of a field on the level's cells, between those inside its frame.
+inline float value_at(LandLevel const& level, Cells<float> const& field, LevelPlace p) {
+    double const left = std::floor(p.col);
+    double const top = std::floor(p.row);
+    auto const value = [&](double col, double row) {
+        auto const c = std::clamp<std::int64_t>(static_cast<std::int64_t>(col), 1, level.width - 2);
+        auto const r = std::clamp<std::int64_t>(static_cast<std::int64_t>(row), 1, level.height - 2);
+        return field[static_cast<std::size_t>(r * level.width + c)];
+    };
+    auto const u = static_cast<float>(p.col - left);
+    auto const v = static_cast<float>(p.row - top);
+    float const upper = value(left, top) + (value(left + 1.0, top) - value(left, top)) * u;
+    float const lower = value(left, top + 1.0) + (value(left + 1.0, top + 1.0) - value(left, top + 1.0)) * u;
+    return upper + (lower - upper) * v;
+}
 
 /// Calls visit(cell) for the cells inside the frame, row by row.
 template <class Visit> void each_inner(LandLevel const& level, Visit visit) {

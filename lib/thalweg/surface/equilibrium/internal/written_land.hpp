@@ -33,9 +33,9 @@ Raise raise_for(LandLevel const& level, Channels const& rivers, Window const& wi
 double share_of_target(LandLevel const& level, Window const& window, double metres, EquilibriumParams const& params);
 
 /// The caller's grid out of a solved finest level, in metres, with the ways of its water. Tips that are still perched
-/// are given up besides those that are shortened already.
+/// are given up besides those that are shortened already, unless heads are kept.
 EquilibriumTerrain written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
-                                std::vector<std::int64_t> shortened, Run const& run);
+                                std::vector<std::int64_t> shortened, Heads heads, Run const& run);
 
 /// The same with rivers at the heights that are given, or below them; tells which stand on walls and what was lowered.
 EquilibriumTerrain written_given_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
