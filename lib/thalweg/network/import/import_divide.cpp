@@ -53,10 +53,11 @@ std::vector<Component> components_of(Pieces const& p) {
 
 class Divider {
 public:
-    Divider(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation)
+    Divider(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
+            Votes const& drawn)
         : p_(pieces), lines_(lines), file_(file), orientation_(orientation),
           evidence_(evidence_of(pieces, lines, file, orientation)), main_(pieces.nodes.size(), no_piece),
-          kept_(pieces.nodes.size()) {
+          drawn_(drawn), kept_(pieces.nodes.size()) {
         divided_.reason.assign(p_.pieces.size(), nullptr);
         divided_.runs.assign(p_.pieces.size(), 0);
         reached_.assign(p_.nodes.size(), 0);
@@ -85,7 +86,7 @@ private:
         Evidence const* const certain = evidence_for(c);
         for (std::size_t const k : c.pieces) {
             int const vote = certain == nullptr ? 0 : certain->votes[k];
-            divided_.runs[k] = vote != 0 || orientation_ == Orientation::topology ? vote : 1;
+            divided_.runs[k] = vote != 0 || orientation_ == Orientation::topology ? vote : drawn_[k];
             if (p_.pieces[k].from == p_.pieces[k].to) {
                 leave_out(k, ring);
             }
@@ -284,7 +285,6 @@ private:
         }
         towards_.resize(p_.nodes.size(), no_piece);
         cost_.resize(p_.nodes.size(), 0);
-        drawn_.resize(p_.pieces.size(), 1);
         Tree tree{{}, towards_};
         root_at(p_, c.nodes.front(), tree);
         auto const turned = against(p_, tree, drawn_, cost_);
@@ -358,7 +358,7 @@ private:
     std::vector<char> reached_ = {};      ///< by node, while its component is spanned
     std::vector<PieceId> towards_ = {};   ///< room for a tree
     std::vector<std::int64_t> cost_ = {}; ///< likewise
-    Votes drawn_ = {};
+    Votes const& drawn_; ///< or found
     Sets kept_;
     Divided divided_ = {};
 };
@@ -366,8 +366,8 @@ private:
 } // namespace
 
 Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
-               Run const& run) {
-    return Divider(pieces, lines, file, orientation).divide(run);
+               Votes const& drawn, Run const& run) {
+    return Divider(pieces, lines, file, orientation, drawn).divide(run);
 }
 
 } // namespace thalweg::network::import_steps

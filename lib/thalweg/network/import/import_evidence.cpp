@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <thalweg/core/run/error.hpp>
 
@@ -108,6 +109,14 @@ std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine> const&
     bool const any_link = std::ranges::any_of(lines, [](RiverLine const& l) { return l.down != 0; });
     if (any_link && (asked == Orientation::automatic || asked == Orientation::links)) {
         evidence.push_back({Evidence::Kind::links, by_links(p, lines), "the file's links"});
+    }
+    bool const any_runs = std::ranges::any_of(lines, [](RiverLine const& l) { return l.runs != 0; });
+    if (any_runs && (asked == Orientation::automatic || asked == Orientation::links)) {
+        Votes votes;
+        for (auto const& piece : p.pieces) {
+            votes.push_back(lines[piece.line].runs);
+        }
+        evidence.push_back({Evidence::Kind::column, std::move(votes), "the direction column"});
     }
     if (file.has_z && (asked == Orientation::height || asked == Orientation::automatic)) {
         evidence.push_back({Evidence::Kind::height, by_height(p, lines), "height"});

@@ -11,6 +11,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/network/import/internal/import_directions.hpp>
 #include <thalweg/network/import/internal/import_steps.hpp>
 
 namespace thalweg::network {
@@ -313,17 +314,19 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     double const near_m = std::min(snap_m, 1e-6 * import_steps::diagonal_of(file.lines));
     import_steps::drop_overshoots(lines, slip_in_near * near_m, left);
     auto pieces = import_steps::cut(lines, left);
+    auto const found = import_steps::find_directions(pieces, lines, file, params, run);
     std::vector<PieceId> leaves;
     if (params.divergences == Divergences::error) {
         import_steps::refuse_cycles(pieces, lines, file.name);
-        leaves = import_steps::orient(pieces, lines, file, params);
+        leaves = import_steps::orient(pieces, lines, file, params, found.runs);
     } else {
-        auto divided = import_steps::divide(pieces, lines, file, params.orientation, run);
-        leaves = import_steps::orient(pieces, lines, file, params);
+        auto divided = import_steps::divide(pieces, lines, file, params.orientation, found.runs, run);
+        leaves = import_steps::orient(pieces, lines, file, params, found.runs);
         import_steps::drop_unfed(pieces, divided, leaves);
         auto const branches = import_steps::secondary_lines(pieces, divided, lines, repairs);
         imported.secondary.insert(imported.secondary.end(), branches.begin(), branches.end());
     }
+    imported.directions = import_steps::review_directions(pieces, lines, found, leaves);
     import_steps::report_turned(pieces, lines, leaves, repairs);
     Flow const flow{pieces, lines, std::move(leaves)};
     if (std::ranges::all_of(flow.leaves, [](PieceId k) { return k == no_piece; })) {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_lines.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
@@ -14,13 +16,14 @@ namespace thalweg::network {
 
 /// How the flow direction of a component, and so its outlet, is found.
 enum class Orientation : std::uint8_t {
-    /// by links if the file has any, else by height if every line has heights, else by rank if the file gives one, else
-    /// least_turned (ties: as topology)
+    /// by links if the file has any, else by a direction column, else by height if every line has heights, else by rank
+    /// if the file gives one; where these are silent as drawn if that is free of contradictions, else by a DEM, angles at
+    /// confluences, the border and the drawn direction together (docs/algorithms/river_directions.md)
     automatic,
     height,       ///< downhill
     rank,         ///< towards lower ranks
     as_drawn,     ///< in the file's direction
-    links,        ///< by the file's links, else as least_turned
+    links,        ///< by the file's links or direction column, else as automatic without heights and ranks
     least_turned, ///< to the end of the component for which the least length of lines is reversed
     topology      ///< to the end of the component nearest the border of the box
 };
@@ -45,6 +48,23 @@ struct ImportParams {
     bool join = true; ///< lines that meet end to end become one arc
     Divergences divergences = Divergences::main;
     SnappedEnds snapped = SnappedEnds::all;
+    Raster<float> const* dem = nullptr; ///< [m] heights for automatic and links, in the lines' CRS; null: none
+};
+
+/// How the directions of a file's lines were found; of automatic and links.
+struct Directions {
+    /// Length that runs against its drawn direction.
+    struct Turned {
+        std::string by;        ///< evidence, for readers: "angles at confluences"
+        double length_m = 0.0; ///< > 0
+    };
+    std::vector<Turned> turned;        ///< the greatest length first
+    double drawn_downstream = 0.5;     ///< [0, 1] estimated share of reaches drawn downstream; 0.5: says nothing
+    double uncertain_m = 0.0;          ///< length of groups of lines of which more than 5 % may be wrong
+    double expected_wrong_m = 0.0;     ///< of uncertain_m
+    /// One a group: uncertain_direction [expected wrong share of its length], second_outlet [score gained],
+    /// conflicting_direction [share of its length]; one an evidence: contradicted_direction [share of its length]
+    std::vector<Finding> doubts;
 };
 
 /// What import_lines() returns.
@@ -59,6 +79,7 @@ struct Imported {
     std::vector<Finding> repairs;
     std::vector<std::vector<Stretch>> stretches = {}; ///< by arc, downstream: the features it is made of
     std::vector<SecondaryLine> secondary = {}; ///< left out of the network: duplicates, lines too short, branches
+    Directions directions = {};
 };
 
 /// Imports drawn lines as a network: snaps ends, splits at crossings (exact), drops duplicates, orients downstream,

@@ -63,11 +63,11 @@ void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::ve
 }
 
 std::vector<PieceId> orient(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
-                            ImportParams const& params) {
+                            ImportParams const& params, std::vector<int> const& drawn_or_found) {
     Orientation const orientation = params.orientation;
     auto const evidence = evidence_of(p, lines, file, orientation);
     Evidence const silence{Evidence::Kind::drawn, Votes(p.pieces.size(), 0), "nothing"};
-    Votes const drawn(p.pieces.size(), orientation == Orientation::topology ? 0 : 1);
+    Votes const drawn = orientation == Orientation::topology ? Votes(p.pieces.size(), 0) : drawn_or_found;
     auto const border_m = border_distances(p, lines);
     std::vector<PieceId> leaves(p.nodes.size(), no_piece);
     std::vector<std::int64_t> cost(p.nodes.size(), 0);

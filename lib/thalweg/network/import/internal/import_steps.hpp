@@ -117,13 +117,15 @@ struct Divided {
 
 /// Keeps the main path wherever water could go more than one way, and takes the pieces of the others out of
 /// pieces.at_node: what stays there is a forest.
+/// drawn: by piece, 1 or -1: how it runs where nobody says for certain.
 Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
-               Run const& run);
+               std::vector<int> const& drawn, Run const& run);
 
 /// The piece that leaves each node, by node; no_piece at outlets. The network flows along pieces towards them.
-/// Takes: a forest. Throws: BadInput naming rivers and place where two run away, under Divergences::error.
+/// Takes: a forest; drawn as of divide(). Throws: BadInput naming rivers and place where two run away, under
+/// Divergences::error.
 std::vector<PieceId> orient(Pieces const& pieces, std::vector<RiverLine> const& lines, RiverLines const& file,
-                            ImportParams const& params);
+                            ImportParams const& params, std::vector<int> const& drawn);
 
 /// Takes out of the network what a minor channel fed alone: from there down to the next node where something else
 /// flows in.

@@ -16,7 +16,7 @@ using Votes = std::vector<int>; ///< by piece: 1 runs as drawn, -1 against it, 0
 
 /// What the file says for certain about the direction of pieces.
 struct Evidence {
-    enum class Kind : std::uint8_t { links, height, rank, drawn };
+    enum class Kind : std::uint8_t { links, column, height, rank, drawn };
     Kind kind;
     Votes votes;
     char const* name; ///< "by NAME", for messages

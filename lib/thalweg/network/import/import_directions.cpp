@@ -1,0 +1,507 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/import/internal/import_directions.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/network/import/internal/import_reaches.hpp>
+#include <thalweg/network/import/internal/import_tree.hpp>
+
+namespace thalweg::network::import_steps {
+namespace {
+
+// Constants of the trial, see docs/algorithms/river_directions.md.
+constexpr std::array<double, 9> shares_drawn{0.03, 0.06, 0.1, 0.15, 0.5, 0.85, 0.9, 0.94, 0.97};
+constexpr double vote_weight = 0.5;    // of a reach's drawn direction: neighbours are drawn by the same hand
+constexpr double most_votes = 3.0;     // drawings err by whole rivers
+constexpr double belief = 0.25;        // that lines are drawn downstream
+constexpr double certain_weight = 2.0; // of a reach whose direction the file tells
+constexpr double most_wrong = 0.05;    // expected share of a group
+constexpr double second_gain = 5.0;
+constexpr double conflict_gain = 8.0;
+constexpr double telling = 0.85; // share drawn downstream from which the drawn direction is used inside loops
+constexpr std::size_t telling_confluences = 3;
+constexpr double most_contradicted = 0.1; // share of what an evidence says
+
+constexpr char const* by_angles = "angles at confluences";
+constexpr char const* by_dem = "the DEM";
+constexpr char const* by_drawing = "the drawn direction";
+constexpr char const* by_upstream = "the drawn direction, which is upstream";
+
+double logit(double p) {
+    return portable::log(p / (1.0 - p));
+}
+
+/// How the drawn lines of a group agree.
+struct Drawing {
+    std::size_t sources = 0;
+    std::size_t sinks = 0;
+    std::size_t confluences = 0; ///< where more lines arrive than leave
+    std::size_t divergences = 0; ///< where more leave than arrive
+    bool is_acyclic = true;
+    /// All lines lead to one end.
+    bool is_downstream() const { return is_acyclic && sinks == 1; }
+    /// All lines lead away from one end.
+    bool is_upstream() const { return is_acyclic && sources == 1 && confluences == 0; }
+};
+
+/// Of the group that a node belongs to; visits its pieces.
+class Drawings {
+public:
+    explicit Drawings(Pieces const& p) : p_(p), in_(p.nodes.size(), 0), out_(p.nodes.size(), 0) {
+        for (Piece const& piece : p.pieces) {
+            if (piece.from != piece.to) {
+                ++out_[piece.from];
+                ++in_[piece.to];
+            }
+        }
+        find();
+    }
+    Drawing const& of(std::size_t node) const { return groups_[group_[node]]; }
+    std::vector<Drawing> const& groups() const { return groups_; }
+    std::size_t group(std::size_t node) const { return group_[node]; }
+
+private:
+    void find() {
+        Sets sets(p_.nodes.size());
+        for (Piece const& piece : p_.pieces) {
+            sets.join(piece.from, piece.to);
+        }
+        constexpr std::size_t unknown = std::numeric_limits<std::size_t>::max();
+        group_.assign(p_.nodes.size(), unknown);
+        for (std::size_t n = 0; n < p_.nodes.size(); ++n) {
+            if (sets.of(n) == n) {
+                group_[n] = groups_.size();
+                groups_.emplace_back();
+            }
+            group_[n] = group_[sets.of(n)]; // which is the first of its set
+            Drawing& g = groups_[group_[n]];
+            g.sources += in_[n] == 0 && out_[n] > 0 ? 1 : 0;
+            g.sinks += out_[n] == 0 && in_[n] > 0 ? 1 : 0;
+            g.confluences += out_[n] > 0 && in_[n] > 1 ? 1 : 0;
+            g.divergences += in_[n] > 0 && out_[n] > 1 ? 1 : 0;
+        }
+        std::vector<int> left = in_;
+        std::vector<std::size_t> free;
+        for (std::size_t n = 0; n < left.size(); ++n) {
+            if (left[n] == 0) {
+                free.push_back(n);
+            }
+        }
+        for (std::size_t i = 0; i < free.size(); ++i) {
+            for (std::size_t const k : p_.at_node[free[i]]) {
+                Piece const& piece = p_.pieces[k];
+                if (piece.from == free[i] && piece.to != piece.from && --left[piece.to] == 0) {
+                    free.push_back(piece.to);
+                }
+            }
+        }
+        for (std::size_t n = 0; n < left.size(); ++n) {
+            groups_[group_[n]].is_acyclic = groups_[group_[n]].is_acyclic && left[n] == 0;
+        }
+    }
+
+    Pieces const& p_;
+    std::vector<int> in_;
+    std::vector<int> out_;
+    std::vector<std::size_t> group_;
+    std::vector<Drawing> groups_;
+};
+
+/// A group of reaches, its roots and their probabilities.
+struct RootedGroup {
+    ReachGroup const* reaches;
+    std::vector<Root> roots;
+    double votes = 0.0; ///< reaches whose drawn direction counts
+    bool is_said = false; ///< the file tells the direction of all of it
+    std::vector<double> score = {};
+};
+
+/// log sum exp.
+double log_sum(std::vector<double> const& x) {
+    double const high = *std::ranges::max_element(x);
+    double sum = 0.0;
+    for (double const v : x) {
+        sum += portable::exp(v - high);
+    }
+    return high + portable::log(sum);
+}
+
+/// The share of reaches that are drawn downstream, from what the geometry makes of them.
+double share_drawn(std::vector<RootedGroup> const& groups) {
+    double best = -std::numeric_limits<double>::infinity();
+    double share = 0.5;
+    for (double const p : shares_drawn) {
+        double of_p = belief * logit(p);
+        for (RootedGroup const& g : groups) {
+            std::vector<double> prior;
+            std::vector<double> joint;
+            for (Root const& r : g.roots) {
+                double const with = 0.5 * (g.votes + r.drawn);
+                double const against = 0.5 * (g.votes - r.drawn);
+                prior.push_back(r.geometry() + certain_weight * r.certain);
+                joint.push_back(prior.back() +
+                                vote_weight * (with * portable::log(p) + against * portable::log(1.0 - p)));
+            }
+            of_p += log_sum(joint) - log_sum(prior);
+        }
+        if (of_p > best) {
+            best = of_p;
+            share = p;
+        }
+    }
+    return share;
+}
+
+class Director {
+public:
+    Director(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file, ImportParams const& params,
+             FoundDirections& found)
+        : p_(p), lines_(lines), params_(params), found_(found), drawings_(p) {
+        take_said(evidence_of(p, lines, file, params.orientation));
+    }
+
+    void find(Run const& run) {
+        bool const has_dem = params_.dem != nullptr;
+        if (!has_dem && all_unsaid([](Drawing const& g) { return g.is_downstream(); })) {
+            if (!any_said_) {
+                found_.report.drawn_downstream = 1.0;
+                return;
+            }
+            is_drawn_well_ = true;
+        } else if (!has_dem && is_drawn_upstream()) {
+            is_drawn_upstream_ = true;
+        }
+        ReachGraph const graph = reaches_of(p_, lines_);
+        RootScores scores(p_, lines_, graph, found_.said, params_.dem);
+        std::vector<RootedGroup> groups;
+        for (ReachGroup const& group : graph.groups) {
+            run.check();
+            RootedGroup& g = groups.emplace_back(RootedGroup{&group, scores.of(group)});
+            g.is_said = true;
+            for (std::size_t const k : group.reaches) {
+                g.votes += graph.is_bridge[k] != 0 && scores.drawn()[k] != 0.0 ? 1.0 : 0.0;
+                g.is_said = g.is_said && std::ranges::all_of(graph.reaches[k].steps, [&](Reach::Step const& s) {
+                    return found_.said[s.piece] != 0;
+                });
+            }
+        }
+        share_ = is_drawn_well_ ? shares_drawn.back() : is_drawn_upstream_ ? shares_drawn.front() : share_drawn(groups);
+        found_.report.drawn_downstream = share_;
+        for (RootedGroup& g : groups) {
+            run.check();
+            direct(g, graph, scores);
+        }
+    }
+
+private:
+    void take_said(std::vector<Evidence> const& evidence) {
+        speaks_.assign(drawings_.groups().size(), nullptr);
+        is_silent_.assign(drawings_.groups().size(), 0);
+        for (Evidence const& e : evidence) {
+            std::vector<char const*> now = speaks_;
+            for (std::size_t k = 0; k < p_.pieces.size(); ++k) {
+                std::size_t const g = drawings_.group(p_.pieces[k].from);
+                if (e.votes[k] != 0 && speaks_[g] == nullptr) {
+                    now[g] = e.name;
+                    found_.said[k] = e.votes[k];
+                    found_.by[k] = e.name;
+                    any_said_ = true;
+                }
+            }
+            speaks_ = std::move(now);
+        }
+        for (std::size_t k = 0; k < p_.pieces.size(); ++k) {
+            if (found_.said[k] == 0 && p_.pieces[k].from != p_.pieces[k].to) {
+                is_silent_[drawings_.group(p_.pieces[k].from)] = 1;
+            }
+        }
+    }
+
+    /// Whether a test holds of every group of which some direction is not said.
+    template <class Test> bool all_unsaid(Test const& test) const {
+        for (std::size_t g = 0; g < is_silent_.size(); ++g) {
+            if (is_silent_[g] != 0 && !test(drawings_.groups()[g])) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    bool is_drawn_upstream() const {
+        std::size_t divergences = 0;
+        bool const all = all_unsaid([&](Drawing const& g) {
+            divergences += g.divergences;
+            return g.is_upstream();
+        });
+        return all && divergences > 0;
+    }
+
+    void score(RootedGroup& g) const {
+        double const weight = vote_weight * logit(share_);
+        double most = -std::numeric_limits<double>::infinity();
+        for (Root const& r : g.roots) {
+            most = std::max(most, weight * r.drawn);
+        }
+        for (Root const& r : g.roots) {
+            double const behind = most - weight * r.drawn;
+            g.score.push_back(r.geometry() + certain_weight * r.certain -
+                              (is_drawn_upstream_ ? behind : std::min(most_votes, behind)));
+        }
+    }
+
+    static std::size_t best_of(std::vector<double> const& score) {
+        return static_cast<std::size_t>(std::ranges::max_element(score) - score.begin());
+    }
+
+    void direct(RootedGroup& g, ReachGraph const& graph, RootScores const& scores) {
+        score(g);
+        Root const& root = g.roots[best_of(g.score)];
+        scores.ways_to(root.node, ways_);
+        Drawing const& drawing = drawings_.of(root.node);
+        bool const agrees = share_ >= telling && drawing.is_downstream() && params_.dem == nullptr;
+        bool const stays = is_drawn_well_ || (agrees && drawing.confluences >= telling_confluences);
+        if (!stays) {
+            turn(g, graph, scores);
+        }
+        if (g.is_said) {
+            find_conflict(g);
+        } else if (!stays && !is_drawn_upstream_) {
+            doubt(g, root, scores);
+        }
+    }
+
+    /// Puts the pieces of a group into the directions of its ways; in loops as they are drawn where that is consistent.
+    void turn(RootedGroup const& g, ReachGraph const& graph, RootScores const& scores) {
+        char const* const by = params_.dem != nullptr ? by_dem : share_ <= 1.0 - telling ? by_upstream : by_angles;
+        int const drawn = share_ >= telling ? 1 : share_ <= 1.0 - telling ? -1 : 0;
+        auto const is_drawn = drawn == 0 ? std::vector<char>() : blocks_as_drawn(g, graph, scores, drawn);
+        for (std::size_t const k : g.reaches->reaches) {
+            Reach const& r = graph.reaches[k];
+            bool const is_way = ways_.down[r.from] == k;
+            bool const is_back = ways_.down[r.to] == k;
+            bool forth = is_way || (!is_back && ways_.way_m[r.from] > ways_.way_m[r.to]);
+            if (drawn != 0 && graph.is_bridge[k] == 0 && is_drawn[k] != 0) {
+                forth = drawn * scores.drawn()[k] > 0.0;
+            }
+            for (auto const& [piece, runs] : r.steps) {
+                found_.runs[piece] = forth ? runs : -runs;
+                if (found_.said[piece] == 0) {
+                    found_.by[piece] = by;
+                }
+            }
+        }
+    }
+
+    /// By reach: whether its block, drawn as it is (or all turned), leads from everywhere to where its water leaves.
+    std::vector<char> blocks_as_drawn(RootedGroup const& g, ReachGraph const& graph, RootScores const& scores,
+                                      int drawn) const {
+        std::vector<char> result(graph.reaches.size(), 0);
+        std::vector<std::size_t> blocks;
+        for (std::size_t const n : g.reaches->nodes) {
+            blocks.push_back(graph.block[n]);
+        }
+        std::ranges::sort(blocks);
+        blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+        auto const forth = [&](Way const& way) { return way.sign * drawn * scores.drawn()[way.reach] > 0.0; };
+        for (std::size_t const b : blocks) {
+            auto const& nodes = graph.block_nodes[b];
+            std::size_t ends = 0; // nodes that nothing in the block leaves
+            std::vector<std::pair<std::size_t, int>> arriving;
+            bool is_whole = nodes.size() > 1;
+            for (std::size_t const n : nodes) {
+                int in = 0;
+                int out = 0;
+                for (Way const& way : graph.at[n]) {
+                    if (graph.is_bridge[way.reach] == 0) {
+                        is_whole = is_whole && std::fabs(scores.drawn()[way.reach]) == 1.0;
+                        out += forth(way) ? 1 : 0;
+                        in += forth(way) ? 0 : 1;
+                    }
+                }
+                bool const is_exit = ways_.down[n] == RootScores::none || graph.is_bridge[ways_.down[n]] != 0;
+                is_whole = is_whole && (out > 0) != is_exit;
+                ends += out == 0 ? 1 : 0;
+                arriving.emplace_back(n, in);
+            }
+            if (!is_whole || ends != 1 || !empties(graph, arriving, forth)) {
+                continue;
+            }
+            for (std::size_t const n : nodes) {
+                for (Way const& way : graph.at[n]) {
+                    result[way.reach] = graph.is_bridge[way.reach] == 0 ? 1 : 0;
+                }
+            }
+        }
+        return result;
+    }
+
+    /// Whether nothing in a block runs in a circle.
+    template <class Forth>
+    static bool empties(ReachGraph const& graph, std::vector<std::pair<std::size_t, int>> arriving,
+                        Forth const& forth) {
+        std::ranges::sort(arriving);
+        std::vector<std::size_t> free;
+        for (auto const& [n, in] : arriving) {
+            if (in == 0) {
+                free.push_back(n);
+            }
+        }
+        for (std::size_t i = 0; i < free.size(); ++i) {
+            for (Way const& way : graph.at[free[i]]) {
+                if (graph.is_bridge[way.reach] == 0 && forth(way)) {
+                    auto const to = std::ranges::lower_bound(arriving, std::pair(way.to, 0));
+                    if (--to->second == 0) {
+                        free.push_back(way.to);
+                    }
+                }
+            }
+        }
+        return free.size() == arriving.size();
+    }
+
+    void doubt(RootedGroup const& g, Root const& root, RootScores const& scores) {
+        double const sum = log_sum(g.score);
+        double wrong_m = 0.0;
+        for (std::size_t i = 0; i < g.roots.size(); ++i) {
+            wrong_m += portable::exp(g.score[i] - sum) * ways_.way_m[g.roots[i].node];
+        }
+        Directions& report = found_.report;
+        Vec2 const at = p_.nodes[root.node];
+        std::int64_t const feature = feature_at(root.node);
+        double const length_m = g.reaches->length_m;
+        if (wrong_m > most_wrong * length_m) {
+            report.uncertain_m += length_m;
+            report.expected_wrong_m += wrong_m;
+            report.doubts.push_back(
+                {"uncertain_direction", feature, at, wrong_m / length_m,
+                 fmt::format("{:.6g} m of rivers run to ({:.6f}, {:.6f}); {:.3g} % of their length is expected to run "
+                             "the other way",
+                             length_m, at.x, at.y, 100.0 * wrong_m / length_m)});
+        }
+        auto const second = scores.second_outlet(*g.reaches, root.node, vote_weight * logit(share_));
+        if (second.gain > second_gain) {
+            Vec2 const there = p_.nodes[second.outlet];
+            report.doubts.push_back({"second_outlet", feature_at(second.outlet), there, second.gain,
+                                     fmt::format("rivers that run to ({:.6f}, {:.6f}) may have a second outlet at "
+                                                 "({:.6f}, {:.6f})",
+                                                 at.x, at.y, there.x, there.y)});
+        }
+    }
+
+    /// Where the file says one outlet and the geometry clearly another.
+    void find_conflict(RootedGroup const& g) {
+        std::vector<double> geometry;
+        std::vector<double> said;
+        for (Root const& r : g.roots) {
+            geometry.push_back(r.geometry());
+            said.push_back(r.certain);
+        }
+        std::size_t const one = best_of(said);
+        std::size_t const other = best_of(geometry);
+        if (one == other || geometry[other] - geometry[one] < conflict_gain) {
+            return;
+        }
+        // The ways lead to the root of the highest score, which here is what the file says or close to it.
+        double const share = std::fabs(ways_.way_m[g.roots[other].node] - ways_.way_m[g.roots[one].node]) /
+                             g.reaches->length_m;
+        if (share < most_wrong) {
+            return;
+        }
+        Vec2 const at = p_.nodes[g.roots[one].node];
+        Vec2 const there = p_.nodes[g.roots[other].node];
+        found_.report.doubts.push_back(
+            {"conflicting_direction", feature_at(g.roots[one].node), at, share,
+             fmt::format("rivers run to ({:.6f}, {:.6f}) by {}, but by their {} they would run to ({:.6f}, {:.6f})",
+                         at.x, at.y, speaks_[drawings_.group(g.roots[one].node)],
+                         params_.dem != nullptr ? "angles and the DEM" : "angles", there.x, there.y)});
+    }
+
+    std::int64_t feature_at(std::size_t node) const {
+        return lines_[p_.pieces[p_.at_node[node].front()].line].number();
+    }
+
+    Pieces const& p_;
+    std::vector<RiverLine> const& lines_;
+    ImportParams const& params_;
+    FoundDirections& found_;
+    Drawings drawings_;
+    std::vector<char const*> speaks_; ///< by group of drawings: evidence
+    std::vector<char> is_silent_;     ///< by group of drawings: that does not say everything
+    bool any_said_ = false;
+    bool is_drawn_well_ = false;
+    bool is_drawn_upstream_ = false;
+    double share_ = 0.5;
+    RootScores::Ways ways_;
+};
+
+} // namespace
+
+FoundDirections find_directions(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
+                                ImportParams const& params, Run const& run) {
+    std::size_t const pieces = p.pieces.size();
+    FoundDirections found{std::vector<int>(pieces, 1), std::vector<int>(pieces, 0),
+                          std::vector<char const*>(pieces, by_drawing), {}};
+    if (params.orientation == Orientation::automatic || params.orientation == Orientation::links) {
+        Director(p, lines, file, params, found).find(run);
+    }
+    return found;
+}
+
+Directions review_directions(Pieces const& p, std::vector<RiverLine> const& lines, FoundDirections const& found,
+                             std::vector<PieceId> const& leaves) {
+    Directions report = found.report;
+    struct Tally {
+        char const* by;
+        double turned_m = 0.0;
+        double said_m = 0.0;
+        double against_m = 0.0;
+        std::size_t against = no_piece; ///< the first piece that runs against it
+    };
+    std::vector<Tally> tallies;
+    for (std::size_t n = 0; n < p.nodes.size(); ++n) {
+        PieceId const k = leaves[n];
+        if (k == no_piece) {
+            continue;
+        }
+        auto tally = std::ranges::find(tallies, found.by[k], &Tally::by);
+        if (tally == tallies.end()) {
+            tally = tallies.insert(tally, Tally{found.by[k]});
+        }
+        Piece const& piece = p.pieces[k];
+        int const runs = piece.from == n ? 1 : -1;
+        tally->turned_m += runs < 0 ? piece.length_m : 0.0;
+        if (found.said[k] != 0) {
+            tally->said_m += piece.length_m;
+            if (found.said[k] != runs) {
+                tally->against_m += piece.length_m;
+                tally->against = tally->against == no_piece ? k : tally->against;
+            }
+        }
+    }
+    std::ranges::stable_sort(tallies, std::greater(), &Tally::turned_m);
+    for (Tally const& t : tallies) {
+        if (t.turned_m > 0.0) {
+            report.turned.push_back({t.by, t.turned_m});
+        }
+        if (t.against_m > most_contradicted * t.said_m) {
+            Piece const& piece = p.pieces[t.against];
+            report.doubts.push_back({"contradicted_direction", lines[piece.line].number(), p.nodes[piece.from],
+                                     t.against_m / t.said_m,
+                                     fmt::format("{} contradicts itself: {:.3g} % of the length that it orients runs "
+                                                 "against it",
+                                                 t.by, 100.0 * t.against_m / t.said_m)});
+        }
+    }
+    return report;
+}
+
+} // namespace thalweg::network::import_steps
