@@ -219,9 +219,19 @@ private:
             }
             speaks_ = std::move(now);
         }
+        std::vector<std::pair<double, double>> drawn_m(speaks_.size()); // as the file says, and against it
         for (std::size_t k = 0; k < p_.pieces.size(); ++k) {
-            if (found_.said[k] == 0 && p_.pieces[k].from != p_.pieces[k].to) {
-                is_silent_[drawings_.group(p_.pieces[k].from)] = 1;
+            std::size_t const g = drawings_.group(p_.pieces[k].from);
+            (found_.said[k] > 0 ? drawn_m[g].first : drawn_m[g].second) +=
+                found_.said[k] == 0 ? 0.0 : p_.pieces[k].length_m;
+        }
+        for (auto const& [with_m, against_m] : drawn_m) {
+            confirms_.push_back(with_m > 0.0 && against_m <= most_contradicted * with_m ? 1 : 0);
+        }
+        for (std::size_t k = 0; k < p_.pieces.size(); ++k) {
+            std::size_t const g = drawings_.group(p_.pieces[k].from);
+            if (found_.said[k] == 0 && p_.pieces[k].from != p_.pieces[k].to && confirms_[g] == 0) {
+                is_silent_[g] = 1;
             }
         }
     }
@@ -268,7 +278,7 @@ private:
         scores.ways_to(root.node, ways_);
         Drawing const& drawing = drawings_.of(root.node);
         bool const agrees = share_ >= telling && drawing.is_downstream() && params_.dem == nullptr;
-        bool const stays = is_drawn_well_ || (agrees && drawing.confluences >= telling_confluences);
+        bool const stays = is_drawn_well_ || confirms_[drawings_.group(root.node)] != 0 || (agrees && drawing.confluences >= telling_confluences);
         if (!stays) {
             turn(g, graph, scores);
         }
@@ -435,7 +445,8 @@ private:
     FoundDirections& found_;
     Drawings drawings_;
     std::vector<char const*> speaks_; ///< by group of drawings: evidence
-    std::vector<char> is_silent_;     ///< by group of drawings: that does not say everything
+    std::vector<char> confirms_;      ///< by group of drawings: evidence says of some lines what is drawn
+    std::vector<char> is_silent_;     ///< by group of drawings: of some lines neither is known
     bool any_said_ = false;
     bool is_drawn_well_ = false;
     bool is_drawn_upstream_ = false;

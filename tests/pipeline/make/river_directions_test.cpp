@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/import/import_lines.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/streams/extract_streams.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/io/raster/read_dem.hpp>
+
+// How much of rivers whose direction is known is oriented wrong once their fields and directions are taken away:
+// docs/algorithms/river_directions.md.
+namespace river_directions_test {
+
+using namespace thalweg;
+
+namespace {
+
+using Step = std::pair<std::pair<double, double>, std::pair<double, double>>;
+
+Step step(Vec2 a, Vec2 b) {
+    return {{a.x, a.y}, {b.x, b.y}};
+}
+
+/// Rivers drawn downstream, without fields or heights.
+struct KnownRivers {
+    std::string name;
+    RiverLines lines;
+    Raster<float> dem; ///< without cells where there is none
+};
+
+KnownRivers of_dem(std::string const& name, std::string const& path, double length_m) {
+    KnownRivers known{name, {}, io::read_dem(path)};
+    flow::FlowField const drainage = flow::route(known.dem);
+    flow::ExtractedStreams const streams =
+        flow::extract_streams(drainage, known.dem, {flow::support_for_length(drainage, length_m)});
+    known.lines.name = name;
+    for (Arc const& arc : streams.network.plan.arcs()) {
+        RiverLine& line = known.lines.lines.emplace_back();
+        line.feature = static_cast<std::int64_t>(known.lines.lines.size());
+        for (Vec2 const v : arc.line) {
+            line.vertices.push_back({v.x, v.y, std::numeric_limits<double>::quiet_NaN()});
+        }
+    }
+    return known;
+}
+
+KnownRivers of_file(std::string const& name, std::string const& path) {
+    KnownRivers known{name, io::read_rivers({.path = path, .filter = io::LineFilter::natural}), {}};
+    for (RiverLine& line : known.lines.lines) {
+        std::vector<Vec3> const vertices = std::move(line.vertices);
+        line = {line.feature, vertices};
+        for (Vec3& v : line.vertices) {
+            v.z = std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+    known.lines.has_z = false;
+    return known;
+}
+
+enum class Drawn { random_1, random_2, random_3, pieces, third, upstream, downstream };
+
+void reverse(RiverLine& line) {
+    std::ranges::reverse(line.vertices);
+}
+
+/// Cut at random vertices, as vectorised rasters are.
+void cut(RiverLines& lines) {
+    std::vector<RiverLine> parts;
+    for (RiverLine const& line : lines.lines) {
+        RiverLine part{static_cast<std::int64_t>(parts.size()) + 1, {}};
+        for (std::size_t i = 0; i < line.vertices.size(); ++i) {
+            part.vertices.push_back(line.vertices[i]);
+            bool const ends = i > 0 && (i + 1 == line.vertices.size() ||
+                                        unit(random_word(1, static_cast<std::uint64_t>(line.feature), i)) < 0.1);
+            if (ends) {
+                parts.push_back(part);
+                part = {static_cast<std::int64_t>(parts.size()) + 1, {line.vertices[i]}};
+            }
+        }
+    }
+    lines.lines = std::move(parts);
+}
+
+RiverLines redrawn(RiverLines lines, Drawn how) {
+    if (how == Drawn::pieces) {
+        cut(lines);
+    }
+    for (std::size_t l = 0; l < lines.lines.size(); ++l) {
+        double const dice = unit(random_word(2 + static_cast<std::uint64_t>(how), l));
+        bool const turned = how == Drawn::upstream || (how == Drawn::third && l % 3 == 0) ||
+                            (how < Drawn::third && dice < 0.5);
+        if (turned) {
+            reverse(lines.lines[l]);
+        }
+    }
+    return lines;
+}
+
+struct Wrong {
+    double wrong_m = 0.0;
+    double length_m = 0.0;
+    double share() const { return wrong_m / length_m; }
+    Wrong& operator+=(Wrong const& o) {
+        wrong_m += o.wrong_m;
+        length_m += o.length_m;
+        return *this;
+    }
+};
+
+Wrong wrong_of(KnownRivers const& known, Drawn how, bool with_dem) {
+    std::set<Step> downstream;
+    for (RiverLine const& line : known.lines.lines) {
+        for (std::size_t i = 1; i < line.vertices.size(); ++i) {
+            downstream.insert(step(plan(line.vertices[i - 1]), plan(line.vertices[i])));
+        }
+    }
+    network::Imported const imported =
+        network::import_lines(redrawn(known.lines, how), {.dem = with_dem ? &known.dem : nullptr});
+    Wrong wrong;
+    for (Arc const& arc : imported.network.arcs()) {
+        for (std::size_t i = 1; i < arc.line.size(); ++i) {
+            double const m = distance(arc.line[i - 1], arc.line[i]);
+            wrong.length_m += m;
+            wrong.wrong_m += downstream.contains(step(arc.line[i], arc.line[i - 1])) ? m : 0.0;
+        }
+    }
+    return wrong;
+}
+
+std::vector<KnownRivers> const& networks() {
+    static std::vector<KnownRivers> const all = [] {
+        std::string const samples = THALWEG_SOURCE_DIR "/samples/";
+        std::vector<KnownRivers> known;
+        known.push_back(of_dem("Big Tujunga", samples + "bigtujunga_srtm1_utm11.tif", 668e3));
+        known.push_back(of_dem("Jacksboro", samples + "jacksboro_utm16.tif", 539e3));
+        if (char const* more = std::getenv("MORE_DEMS")) {
+            std::string rest = more;
+            while (!rest.empty()) {
+                auto const n = rest.find(',');
+                auto const one = rest.substr(0, n);
+                auto const eq = one.find('=');
+                known.push_back(of_dem(one.substr(0, eq), one.substr(0, eq), std::stod(one.substr(eq + 1)) * 1000));
+                rest = n == std::string::npos ? "" : rest.substr(n + 1);
+            }
+        }
+        known.push_back(of_file("Walker", samples + "walker_nhdplus.gpkg"));
+        known.push_back(of_file("coastal", samples + "coastal_nhdplus.gpkg"));
+        return known;
+    }();
+    return all;
+}
+
+void expect_bars(Drawn how, char const* name, bool with_dem, double pooled_share, double most_share) {
+    Wrong pooled;
+    std::string row = fmt::format("{:<12}", name);
+    for (KnownRivers const& known : networks()) {
+        if (with_dem && known.dem.cells() == 0) {
+            continue;
+        }
+        Wrong const wrong = wrong_of(known, how, with_dem);
+        row += fmt::format("  {} {:.2f} % of {:.0f} km", known.name, 100.0 * wrong.share(), wrong.length_m / 1000.0);
+        EXPECT_LE(wrong.share(), most_share) << known.name << ", " << name;
+        pooled += wrong;
+    }
+    std::printf("%s  pooled %.2f %%\n", row.c_str(), 100.0 * pooled.share());
+    EXPECT_LE(pooled.share(), pooled_share) << name;
+}
+
+constexpr double pooled_bar = 0.02;
+constexpr double any_bar = 0.06;
+constexpr double dem_bar = 0.005;
+
+} // namespace
+
+TEST(RiverDirections, TurnedAtRandom) {
+    expect_bars(Drawn::random_1, "random 1", false, pooled_bar, any_bar);
+    expect_bars(Drawn::random_2, "random 2", false, pooled_bar, any_bar);
+    expect_bars(Drawn::random_3, "random 3", false, pooled_bar, any_bar);
+}
+
+TEST(RiverDirections, CutAndTurnedAsVectorisedRastersAre) {
+    expect_bars(Drawn::pieces, "pieces", false, pooled_bar, any_bar);
+}
+
+TEST(RiverDirections, OneInThreeTurned) {
+    expect_bars(Drawn::third, "third", false, pooled_bar, any_bar);
+}
+
+TEST(RiverDirections, AllUpstream) {
+    expect_bars(Drawn::upstream, "upstream", false, pooled_bar, any_bar);
+}
+
+TEST(RiverDirections, AllDownstream) {
+    expect_bars(Drawn::downstream, "downstream", false, pooled_bar, any_bar);
+}
+
+TEST(RiverDirections, WithADem) {
+    expect_bars(Drawn::random_1, "random 1, DEM", true, dem_bar, any_bar);
+    expect_bars(Drawn::upstream, "upstream, DEM", true, dem_bar, any_bar);
+    expect_bars(Drawn::pieces, "pieces, DEM", true, dem_bar, any_bar);
+}
+
+} // namespace river_directions_test
