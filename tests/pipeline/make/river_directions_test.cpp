@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <set>
 #include <string>
@@ -60,7 +61,7 @@ KnownRivers of_file(std::string const& name, std::string const& path) {
     KnownRivers known{name, io::read_rivers({.path = path, .filter = io::LineFilter::natural}), {}};
     for (RiverLine& line : known.lines.lines) {
         std::vector<Vec3> const vertices = std::move(line.vertices);
-        line = {line.feature, vertices};
+        line = {line.feature, vertices, ""};
         for (Vec3& v : line.vertices) {
             v.z = std::numeric_limits<double>::quiet_NaN();
         }
@@ -79,14 +80,14 @@ void reverse(RiverLine& line) {
 void cut(RiverLines& lines) {
     std::vector<RiverLine> parts;
     for (RiverLine const& line : lines.lines) {
-        RiverLine part{static_cast<std::int64_t>(parts.size()) + 1, {}};
+        RiverLine part{static_cast<std::int64_t>(parts.size()) + 1, {}, ""};
         for (std::size_t i = 0; i < line.vertices.size(); ++i) {
             part.vertices.push_back(line.vertices[i]);
             bool const ends = i > 0 && (i + 1 == line.vertices.size() ||
                                         unit(random_word(1, static_cast<std::uint64_t>(line.feature), i)) < 0.1);
             if (ends) {
                 parts.push_back(part);
-                part = {static_cast<std::int64_t>(parts.size()) + 1, {line.vertices[i]}};
+                part = {static_cast<std::int64_t>(parts.size()) + 1, {line.vertices[i]}, ""};
             }
         }
     }

@@ -180,7 +180,7 @@ public:
         } else if (!has_dem && is_drawn_upstream()) {
             is_drawn_upstream_ = true;
         }
-        ReachGraph const graph = reaches_of(p_, lines_);
+        ReachGraph const graph = reaches_of(p_, lines_, params_.dem);
         RootScores scores(p_, lines_, graph, found_.said, params_.dem);
         std::vector<RootedGroup> groups;
         for (ReachGroup const& group : graph.groups) {

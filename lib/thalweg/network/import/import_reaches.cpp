@@ -3,8 +3,11 @@
 #include <thalweg/network/import/internal/import_reaches.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
+
+#include <thalweg/network/import/internal/import_tree.hpp>
 
 namespace thalweg::network::import_steps {
 namespace {
@@ -18,19 +21,46 @@ double median_of(std::vector<double> values) {
     return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
+/// Whether a cell around a place is no data, or none.
+bool lies_at_no_data(Raster<float> const& dem, Vec2 at) {
+    Cell const c = dem.grid().cell_of(at);
+    for (std::int64_t row = c.row - 1; row <= c.row + 1; ++row) {
+        for (std::int64_t col = c.col - 1; col <= c.col + 1; ++col) {
+            if (!dem.grid().contains({col, row}) || std::isnan(dem[Cell{col, row}])) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// By node: whether it lies on the border of the file or of the DEM.
+std::vector<char> border_nodes(Pieces const& p, std::vector<RiverLine> const& lines, Raster<float> const* dem) {
+    auto const border_m = border_distances(p, lines);
+    std::vector<char> result;
+    for (std::size_t n = 0; n < p.nodes.size(); ++n) {
+        bool const lies = border_m[n] <= same_point_m || (dem != nullptr && lies_at_no_data(*dem, p.nodes[n]));
+        result.push_back(lies ? 1 : 0);
+    }
+    return result;
+}
+
 class ReachMaker {
 public:
-    ReachMaker(Pieces const& p, std::vector<RiverLine> const& lines)
+    ReachMaker(Pieces const& p, std::vector<RiverLine> const& lines, std::vector<char> const& on_border)
         : p_(p), lines_(lines), used_(p.pieces.size(), 0), at_(p.nodes.size()) {
         for (std::size_t n = 0; n < p.nodes.size(); ++n) {
             at_[n] = p.at_node[n];
             std::erase_if(at_[n], [&](std::size_t k) { return is_ring(k); });
         }
+        for (std::size_t n = 0; n < p.nodes.size(); ++n) {
+            is_inner_.push_back(at_[n].size() == 2 && on_border[n] == 0 ? 1 : 0);
+        }
     }
 
     std::vector<Reach> make() {
         for (std::size_t n = 0; n < at_.size(); ++n) {
-            if (at_[n].size() != 2) {
+            if (is_inner_[n] == 0) {
                 start(n);
             }
         }
@@ -60,7 +90,7 @@ private:
             int const runs = p_.pieces[k].from == n ? 1 : -1;
             reach.steps.push_back({k, runs});
             n = runs > 0 ? p_.pieces[k].to : p_.pieces[k].from;
-            if (at_[n].size() != 2 || n == start) {
+            if (is_inner_[n] == 0 || n == start) {
                 break;
             }
             std::size_t const next = at_[n].front() == k ? at_[n].back() : at_[n].front();
@@ -99,6 +129,7 @@ private:
     std::vector<RiverLine> const& lines_;
     std::vector<char> used_;
     std::vector<std::vector<std::size_t>> at_; ///< by node: pieces that are no rings
+    std::vector<char> is_inner_;               ///< by node: reaches go on through it
     std::vector<Reach> reaches_;
 };
 
@@ -204,9 +235,10 @@ void find_blocks(ReachGraph& graph) {
 
 } // namespace
 
-ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines) {
+ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, Raster<float> const* dem) {
     ReachGraph graph;
-    graph.reaches = ReachMaker(p, lines).make();
+    graph.on_border = border_nodes(p, lines, dem);
+    graph.reaches = ReachMaker(p, lines, graph.on_border).make();
     graph.at.resize(p.nodes.size());
     std::vector<double> lengths;
     std::vector<double> segments;

@@ -225,7 +225,7 @@ double RootScores::leaf_terms(std::size_t node, Vec2 low, Vec2 high) const {
     double const own_m = std::min({at.x - low.x, high.x - at.x, at.y - low.y, high.y - at.y});
     return border_weight * portable::exp(-std::max(0.0, border_m_[node]) / graph_.median_m) +
            own_border_weight * portable::exp(-std::max(0.0, own_m) / graph_.median_m) +
-           (is_free_ahead(node) ? free_weight : 0.0);
+           (graph_.at[node].size() == 1 && is_free_ahead(node) ? free_weight : 0.0);
 }
 
 double RootScores::angle(std::size_t node, std::size_t reach) const {
@@ -352,7 +352,7 @@ std::vector<Root> RootScores::of(ReachGroup const& group) {
 
     std::vector<std::size_t> nodes;
     std::ranges::copy_if(group.nodes, std::back_inserter(nodes),
-                         [&](std::size_t n) { return graph_.at[n].size() == 1; });
+                         [&](std::size_t n) { return graph_.at[n].size() == 1 || graph_.on_border[n] != 0; });
     Vec2 low = p_.nodes[group.nodes.front()];
     Vec2 high = low;
     for (std::size_t const n : group.nodes) {

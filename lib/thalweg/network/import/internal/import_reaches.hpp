@@ -14,7 +14,7 @@
 /// docs/algorithms/river_directions.md. Private to this module.
 namespace thalweg::network::import_steps {
 
-/// The pieces between two places where not just two of them meet. Which end is `from` follows from the positions
+/// The pieces between two places where not just two of them meet, or that lie on a border. Which end is `from` follows from the positions
 /// alone, so that nothing here depends on how lines are drawn or in which order.
 struct Reach {
     struct Step {
@@ -46,6 +46,7 @@ struct ReachGroup {
 struct ReachGraph {
     std::vector<Reach> reaches;
     std::vector<std::vector<Way>> at; ///< by node of Pieces; empty inside reaches
+    std::vector<char> on_border;      ///< by node: of the file, or of the DEM
     std::vector<char> is_bridge;      ///< by reach: without it its group falls apart
     std::vector<std::size_t> block;   ///< by node: parts that hang together without bridges
     std::vector<std::vector<std::size_t>> block_nodes;
@@ -54,7 +55,8 @@ struct ReachGraph {
     double segment_m = 0.0; ///< median length of a segment
 };
 
-ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines);
+/// dem: null without one.
+ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, Raster<float> const* dem);
 
 /// The point at a distance [m] along a line, its end beyond.
 Vec2 point_along(std::vector<Vec2> const& line, double along_m);
@@ -78,7 +80,8 @@ public:
     /// dem: null without one.
     RootScores(Pieces const& p, std::vector<RiverLine> const& lines, ReachGraph const& graph, PieceVotes const& certain,
                Raster<float> const* dem);
-    /// Every end of a line in a group, by position; where it has none, the nodes nearest to its border.
+    /// Every end of a group and every place of it on a border, by position; where it has none, the nodes
+    /// nearest to its own border.
     std::vector<Root> of(ReachGroup const& group);
     struct Ways {
         std::vector<std::size_t> down; ///< by node: reach that it leaves by; none at the root
