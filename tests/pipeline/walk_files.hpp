@@ -56,6 +56,7 @@ public:
         write("patch_mask.geojson", test::geojson(polygon(square(500800, 4998900, 200))));
         raster("mask.asc", 64, 30, 500000, 4998080, [](int c, int r) { return c + r < 6 ? 0.0 : 1.0; });
         raster("uplift.asc", 100, 60, 498000, 4998000, [](int c, int) { return 1.0 + 0.05 * c; });
+        raster("north.asc", 100, 60, 498000, 4998000, [](int, int r) { return 100.0 + 4.0 * r; }); // falls to it
         raster("erodibility.asc", 100, 60, 498000, 4998000, [](int c, int r) { return (c / 9 + r / 7) % 2 + 0.5; });
         auto const hills = [](int c, int r) { return 50.0 + 40.0 * std::sin(r / 4.0) * std::cos(c / 5.0); };
         raster("patch.asc", 24, 30, 500600, 4998700, hills);

@@ -95,7 +95,9 @@ Command add_check(CLI::App& app, Session& session) {
     auto const options = std::make_shared<CheckOptions>();
     add_network_options(app, options->source, "--schema,--from");
     app.add_option("--dem", options->job.dem,
-                   "Also check that this DEM drains, and by these rivers. It must have the network's CRS.")
+                   "Also check that this DEM drains, and by these rivers; --fix finds the flow direction of lines by "
+                   "it. It must "
+                   "have the network's CRS.")
         ->type_name("FILE(tif)");
     app.add_option(
            "--fix", options->job.fix,

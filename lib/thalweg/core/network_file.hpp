@@ -68,6 +68,7 @@ struct NetworkFile {
         std::string name = {};              ///< likewise
         std::string unnatural = {};         ///< why it is not a natural watercourse, or ""
         bool is_channel = false;            ///< unnatural, but carries water: a canal, ditch, drain or pipe
+        int runs = 0;                       ///< as RiverLine
         std::vector<Stretch> sources = {};  ///< the features it is made of, if the file names them
         std::string type = {};
         bool braided = false;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <set>
 #include <string>
@@ -100,8 +99,8 @@ RiverLines redrawn(RiverLines lines, Drawn how) {
     }
     for (std::size_t l = 0; l < lines.lines.size(); ++l) {
         double const dice = unit(random_word(2 + static_cast<std::uint64_t>(how), l));
-        bool const turned = how == Drawn::upstream || (how == Drawn::third && l % 3 == 0) ||
-                            (how < Drawn::third && dice < 0.5);
+        bool const turned =
+            how == Drawn::upstream || (how == Drawn::third && l % 3 == 0) || (how < Drawn::third && dice < 0.5);
         if (turned) {
             reverse(lines.lines[l]);
         }
@@ -146,16 +145,8 @@ std::vector<KnownRivers> const& networks() {
         std::vector<KnownRivers> known;
         known.push_back(of_dem("Big Tujunga", samples + "bigtujunga_srtm1_utm11.tif", 668e3));
         known.push_back(of_dem("Jacksboro", samples + "jacksboro_utm16.tif", 539e3));
-        if (char const* more = std::getenv("MORE_DEMS")) {
-            std::string rest = more;
-            while (!rest.empty()) {
-                auto const n = rest.find(',');
-                auto const one = rest.substr(0, n);
-                auto const eq = one.find('=');
-                known.push_back(of_dem(one.substr(0, eq), one.substr(0, eq), std::stod(one.substr(eq + 1)) * 1000));
-                rest = n == std::string::npos ? "" : rest.substr(n + 1);
-            }
-        }
+        known.push_back(of_dem("Big Tujunga, coarse", samples + "bigtujunga_srtm1_utm11.tif", 250e3));
+        known.push_back(of_dem("Jacksboro, fine", samples + "jacksboro_utm16.tif", 900e3));
         known.push_back(of_file("Walker", samples + "walker_nhdplus.gpkg"));
         known.push_back(of_file("coastal", samples + "coastal_nhdplus.gpkg"));
         return known;

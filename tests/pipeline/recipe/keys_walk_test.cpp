@@ -147,6 +147,7 @@ std::map<std::string, Words> const values = {
     {"network.lines.id_field", {"alias"}},
     {"network.lines.down_field", {"back"}},
     {"network.lines.snap", {"40"}},
+    {"network.lines.dem", {"north.asc"}},
     {"network.lines.keep", {"0.5"}},
     {"skeleton.ridge_farthest", {"60"}},
     {"skeleton.ridge_noise", {"15"}},

@@ -171,6 +171,7 @@ private:
             arc.size = std::move(line.size);
             arc.channel = line.channel;
             arc.name = std::move(line.name);
+            arc.runs = line.runs;
             arc.rank = key_;
             RiverFields::Unnatural unnatural = fields_.unnatural(feature);
             arc.unnatural = std::move(unnatural.reason);

@@ -139,6 +139,7 @@ void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& 
     if (upstream) {
         for (FileArc& arc : file.arcs) {
             std::ranges::reverse(arc.line);
+            arc.runs = -arc.runs;
         }
     }
     if (upstream != drawn_upstream) {

@@ -45,6 +45,11 @@ constexpr std::array<std::string_view, 5> river_classes{"streamleve", "streamlev
 constexpr std::array<std::string_view, 6> river_names{"name",       "gnis_name", "nametxtint",
                                                       "river_name", "rivername", "riv_name"};
 
+// Whether water runs as a line is drawn: INSPIRE and NHN, OS Open Rivers (GeoPackage and shapefile), BD TOPAGE, BD
+// TOPO.
+constexpr std::array<std::string_view, 6> river_directions{"flowdirection", "flow_direction", "flow",
+                                                           "sensecoul",     "sens_ecoul",     "sens_de_l_ecoulement"};
+
 // Values of OpenStreetMap's key waterway that are natural watercourses.
 constexpr std::array<std::string_view, 8> natural_waterways{"river", "stream", "tidal_channel", "brook",
                                                             "creek", "wadi",   "rapids",        "waterfall"};
@@ -124,6 +129,8 @@ RiverFields::RiverFields(OGRLayer& layer, int id, int down) {
     sizes_ = numbers_among(schema, river_sizes);
     classes_ = numbers_among(schema, river_classes);
     name_ = first_of(schema, river_names);
+    direction_ = first_of(schema, river_directions);
+    is_coded_ = direction_ >= 0 && small_letters(schema.GetFieldDefn(direction_)->GetNameRef()) == "flowdirection";
     waterway_ = find("waterway");
     tunnel_ = find("tunnel");
     man_made_ = find("man_made");
@@ -146,6 +153,17 @@ double RiverFields::number(OGRFeature const& feature, int field) {
     return std::isfinite(value) ? value : 0.0;
 }
 
+// Without case and spaces, of an INSPIRE code list its last part.
+int RiverFields::runs_of(OGRFeature const& feature) const {
+    std::string value = small_letters(text(feature, direction_));
+    std::erase_if(value, [](char c) { return c == ' ' || c == '_'; });
+    value.erase(0, value.rfind('/') + 1);
+    if (value == "indirection" || value == "sensdirect" || (is_coded_ && value == "1")) {
+        return 1;
+    }
+    return value == "inoppositedirection" || value == "sensinverse" || (is_coded_ && value == "2") ? -1 : 0;
+}
+
 void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
     line.size.clear();
     for (int const field : sizes_) {
@@ -156,6 +174,7 @@ void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
         line.size.push_back(of >= 1.0 ? 1.0 / of : 0.0);
     }
     line.name = text(feature, name_);
+    line.runs = runs_of(feature);
     double const divergence = number(feature, divergence_);
     bool const minor_path = calculated_order_ >= 0 && feature.IsFieldSetAndNotNull(calculated_order_) != 0 &&
                             number(feature, calculated_order_) == 0.0 && number(feature, order_) > 0.0;

@@ -20,11 +20,10 @@ namespace {
 
 // Constants of the trial, see docs/algorithms/river_directions.md.
 constexpr std::array<double, 9> shares_drawn{0.03, 0.06, 0.1, 0.15, 0.5, 0.85, 0.9, 0.94, 0.97};
-constexpr double vote_weight = 0.5;    // of a reach's drawn direction: neighbours are drawn by the same hand
-constexpr double most_votes = 3.0;     // drawings err by whole rivers
-constexpr double belief = 0.25;        // that lines are drawn downstream
-constexpr double certain_weight = 2.0; // of a reach whose direction the file tells
-constexpr double most_wrong = 0.05;    // expected share of a group
+constexpr double vote_weight = 0.5; // of a reach's drawn direction: neighbours are drawn by the same hand
+constexpr double most_votes = 3.0;  // drawings err by whole rivers
+constexpr double belief = 0.25;     // that lines are drawn downstream
+constexpr double most_wrong = 0.05; // expected share of a group
 constexpr double second_gain = 5.0;
 constexpr double conflict_gain = 8.0;
 constexpr double telling = 0.85; // share drawn downstream from which the drawn direction is used inside loops
@@ -46,11 +45,10 @@ struct Drawing {
     std::size_t sinks = 0;
     std::size_t confluences = 0; ///< where more lines arrive than leave
     std::size_t divergences = 0; ///< where more leave than arrive
-    bool is_acyclic = true;
-    /// All lines lead to one end.
-    bool is_downstream() const { return is_acyclic && sinks == 1; }
-    /// All lines lead away from one end.
-    bool is_upstream() const { return is_acyclic && sources == 1 && confluences == 0; }
+    bool leads_down = true;      ///< from everywhere a way leads to a sink
+    bool leads_up = true;        ///< from a source to everywhere
+    bool is_downstream() const { return leads_down && sinks == 1; }
+    bool is_upstream() const { return leads_up && sources == 1 && confluences == 0; }
 };
 
 /// Of the group that a node belongs to; visits its pieces.
@@ -89,23 +87,33 @@ private:
             g.confluences += out_[n] > 0 && in_[n] > 1 ? 1 : 0;
             g.divergences += in_[n] > 0 && out_[n] > 1 ? 1 : 0;
         }
-        std::vector<int> left = in_;
-        std::vector<std::size_t> free;
-        for (std::size_t n = 0; n < left.size(); ++n) {
-            if (left[n] == 0) {
-                free.push_back(n);
+        reach(-1, &Drawing::leads_down);
+        reach(1, &Drawing::leads_up);
+    }
+
+    /// Notes where some node lies on no way to an end (-1: sinks, 1: sources) of its group.
+    void reach(int way, bool Drawing::*leads) {
+        auto const& last = way < 0 ? out_ : in_;
+        std::vector<char> seen(p_.nodes.size(), 0);
+        std::vector<std::size_t> reached;
+        for (std::size_t n = 0; n < seen.size(); ++n) {
+            if (last[n] == 0) {
+                seen[n] = 1;
+                reached.push_back(n);
             }
         }
-        for (std::size_t i = 0; i < free.size(); ++i) {
-            for (std::size_t const k : p_.at_node[free[i]]) {
+        for (std::size_t i = 0; i < reached.size(); ++i) {
+            for (std::size_t const k : p_.at_node[reached[i]]) {
                 Piece const& piece = p_.pieces[k];
-                if (piece.from == free[i] && piece.to != piece.from && --left[piece.to] == 0) {
-                    free.push_back(piece.to);
+                auto const [here, next] = way < 0 ? std::pair(piece.to, piece.from) : std::pair(piece.from, piece.to);
+                if (here == reached[i] && seen[next] == 0) {
+                    seen[next] = 1;
+                    reached.push_back(next);
                 }
             }
         }
-        for (std::size_t n = 0; n < left.size(); ++n) {
-            groups_[group_[n]].is_acyclic = groups_[group_[n]].is_acyclic && left[n] == 0;
+        for (std::size_t n = 0; n < seen.size(); ++n) {
+            groups_[group_[n]].*leads = groups_[group_[n]].*leads && seen[n] != 0;
         }
     }
 
@@ -120,8 +128,10 @@ private:
 struct RootedGroup {
     ReachGroup const* reaches;
     std::vector<Root> roots;
-    double votes = 0.0; ///< reaches whose drawn direction counts
-    bool is_said = false; ///< the file tells the direction of all of it
+    double votes = 0.0;     ///< reaches whose drawn direction counts
+    double said = 0.0;      ///< likewise, of which the file tells the direction
+    bool is_said = false;   ///< the file tells the direction of all of it
+    bool by_column = false; ///< and does so by a column
     std::vector<double> score = {};
 };
 
@@ -136,7 +146,7 @@ double log_sum(std::vector<double> const& x) {
 }
 
 /// The share of reaches that are drawn downstream, from what the geometry makes of them.
-double share_drawn(std::vector<RootedGroup> const& groups) {
+double share_drawn(std::vector<RootedGroup> const& groups, double certain_weight) {
     double best = -std::numeric_limits<double>::infinity();
     double share = 0.5;
     for (double const p : shares_drawn) {
@@ -163,10 +173,10 @@ double share_drawn(std::vector<RootedGroup> const& groups) {
 
 class Director {
 public:
-    Director(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file, ImportParams const& params,
-             FoundDirections& found)
-        : p_(p), lines_(lines), params_(params), found_(found), drawings_(p) {
-        take_said(evidence_of(p, lines, file, params.orientation));
+    Director(Pieces const& p, std::vector<RiverLine> const& lines, ImportParams const& params,
+             std::vector<Evidence>& evidence, FoundDirections& found)
+        : p_(p), lines_(lines), params_(params), evidence_(evidence), found_(found), drawings_(p) {
+        take_said(evidence);
     }
 
     void find(Run const& run) {
@@ -180,7 +190,7 @@ public:
         } else if (!has_dem && is_drawn_upstream()) {
             is_drawn_upstream_ = true;
         }
-        ReachGraph const graph = reaches_of(p_, lines_, params_.dem);
+        ReachGraph const graph = reaches_of(p_, lines_, found_.said, params_.dem);
         RootScores scores(p_, lines_, graph, found_.said, params_.dem);
         std::vector<RootedGroup> groups;
         for (ReachGroup const& group : graph.groups) {
@@ -189,12 +199,16 @@ public:
             g.is_said = true;
             for (std::size_t const k : group.reaches) {
                 g.votes += graph.is_bridge[k] != 0 && scores.drawn()[k] != 0.0 ? 1.0 : 0.0;
+                g.said += graph.is_bridge[k] != 0 ? std::fabs(scores.certain()[k]) : 0.0;
                 g.is_said = g.is_said && std::ranges::all_of(graph.reaches[k].steps, [&](Reach::Step const& s) {
-                    return found_.said[s.piece] != 0;
-                });
+                                return found_.said[s.piece] != 0;
+                            });
             }
         }
-        share_ = is_drawn_well_ ? shares_drawn.back() : is_drawn_upstream_ ? shares_drawn.front() : share_drawn(groups);
+        doubt_column(groups);
+        share_ = is_drawn_well_       ? shares_drawn.back()
+                 : is_drawn_upstream_ ? shares_drawn.front()
+                                      : share_drawn(groups, certain_weight_);
         found_.report.drawn_downstream = share_;
         for (RootedGroup& g : groups) {
             run.check();
@@ -246,6 +260,45 @@ private:
         return true;
     }
 
+    /// A column of which much contradicts the rest of it is one vote among others.
+    void doubt_column(std::vector<RootedGroup>& groups) {
+        double said = 0.0;
+        double against = 0.0;
+        for (RootedGroup& g : groups) {
+            char const* const by = speaks_[drawings_.group(g.roots.front().node)];
+            auto const column = std::ranges::find(evidence_, Evidence::Kind::column, &Evidence::kind);
+            g.by_column = by != nullptr && column != evidence_.end() && by == column->name;
+            if (g.by_column) {
+                said += g.said;
+                against += 0.5 * (g.said - std::ranges::max_element(g.roots, {}, &Root::certain)->certain);
+            }
+        }
+        if (!(against > most_contradicted * said)) {
+            return;
+        }
+        double const share = against / said;
+        certain_weight_ = vote_weight * logit(std::clamp(1.0 - share, 0.5, shares_drawn.back()));
+        std::erase_if(evidence_, [](Evidence const& e) { return e.kind == Evidence::Kind::column; });
+        found_.report.doubts.push_back(
+            {"contradicted_direction", 0, p_.nodes.front(), share,
+             fmt::format("the direction column contradicts itself in {:.3g} % of the reaches that it orients: it is "
+                         "weighed with the angles at confluences",
+                         100.0 * share)});
+        for (RootedGroup& g : groups) {
+            g.is_said = g.is_said && !g.by_column;
+            if (g.by_column) {
+                speaks_[drawings_.group(g.roots.front().node)] = nullptr;
+                confirms_[drawings_.group(g.roots.front().node)] = 0;
+            }
+        }
+        for (std::size_t k = 0; k < p_.pieces.size(); ++k) {
+            if (speaks_[drawings_.group(p_.pieces[k].from)] == nullptr) {
+                found_.said[k] = 0;
+                found_.by[k] = by_angles;
+            }
+        }
+    }
+
     bool is_drawn_upstream() const {
         std::size_t divergences = 0;
         bool const all = all_unsaid([&](Drawing const& g) {
@@ -263,7 +316,7 @@ private:
         }
         for (Root const& r : g.roots) {
             double const behind = most - weight * r.drawn;
-            g.score.push_back(r.geometry() + certain_weight * r.certain -
+            g.score.push_back(r.geometry() + certain_weight_ * r.certain -
                               (is_drawn_upstream_ ? behind : std::min(most_votes, behind)));
         }
     }
@@ -278,7 +331,8 @@ private:
         scores.ways_to(root.node, ways_);
         Drawing const& drawing = drawings_.of(root.node);
         bool const agrees = share_ >= telling && drawing.is_downstream() && params_.dem == nullptr;
-        bool const stays = is_drawn_well_ || confirms_[drawings_.group(root.node)] != 0 || (agrees && drawing.confluences >= telling_confluences);
+        bool const stays = is_drawn_well_ || confirms_[drawings_.group(root.node)] != 0 ||
+                           (agrees && drawing.confluences >= telling_confluences);
         if (!stays) {
             turn(g, graph, scores);
         }
@@ -421,8 +475,8 @@ private:
             return;
         }
         // The ways lead to the root of the highest score, which here is what the file says or close to it.
-        double const share = std::fabs(ways_.way_m[g.roots[other].node] - ways_.way_m[g.roots[one].node]) /
-                             g.reaches->length_m;
+        double const share =
+            std::fabs(ways_.way_m[g.roots[other].node] - ways_.way_m[g.roots[one].node]) / g.reaches->length_m;
         if (share < most_wrong) {
             return;
         }
@@ -442,6 +496,7 @@ private:
     Pieces const& p_;
     std::vector<RiverLine> const& lines_;
     ImportParams const& params_;
+    std::vector<Evidence>& evidence_;
     FoundDirections& found_;
     Drawings drawings_;
     std::vector<char const*> speaks_; ///< by group of drawings: evidence
@@ -451,18 +506,19 @@ private:
     bool is_drawn_well_ = false;
     bool is_drawn_upstream_ = false;
     double share_ = 0.5;
+    double certain_weight_ = vote_weight * logit(shares_drawn.back()); ///< of a reach whose direction the file tells
     RootScores::Ways ways_;
 };
 
 } // namespace
 
-FoundDirections find_directions(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
-                                ImportParams const& params, Run const& run) {
+FoundDirections find_directions(Pieces const& p, std::vector<RiverLine> const& lines, ImportParams const& params,
+                                std::vector<Evidence>& evidence, Run const& run) {
     std::size_t const pieces = p.pieces.size();
-    FoundDirections found{std::vector<int>(pieces, 1), std::vector<int>(pieces, 0),
-                          std::vector<char const*>(pieces, by_drawing), {}};
+    FoundDirections found{
+        std::vector<int>(pieces, 1), std::vector<int>(pieces, 0), std::vector<char const*>(pieces, by_drawing), {}};
     if (params.orientation == Orientation::automatic || params.orientation == Orientation::links) {
-        Director(p, lines, file, params, found).find(run);
+        Director(p, lines, params, evidence, found).find(run);
     }
     return found;
 }

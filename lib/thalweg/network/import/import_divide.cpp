@@ -54,10 +54,9 @@ std::vector<Component> components_of(Pieces const& p) {
 class Divider {
 public:
     Divider(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
-            Votes const& drawn)
-        : p_(pieces), lines_(lines), file_(file), orientation_(orientation),
-          evidence_(evidence_of(pieces, lines, file, orientation)), main_(pieces.nodes.size(), no_piece),
-          drawn_(drawn), kept_(pieces.nodes.size()) {
+            std::vector<Evidence> const& evidence, Votes const& drawn)
+        : p_(pieces), lines_(lines), file_(file), orientation_(orientation), evidence_(evidence),
+          main_(pieces.nodes.size(), no_piece), drawn_(drawn), kept_(pieces.nodes.size()) {
         divided_.reason.assign(p_.pieces.size(), nullptr);
         divided_.runs.assign(p_.pieces.size(), 0);
         reached_.assign(p_.nodes.size(), 0);
@@ -350,7 +349,7 @@ private:
     std::vector<RiverLine> const& lines_;
     RiverLines const& file_;
     Orientation orientation_;
-    std::vector<Evidence> evidence_;
+    std::vector<Evidence> const& evidence_;
     std::vector<std::size_t> main_; ///< by node: the piece that leaves it and stays
     std::vector<char> state_ = {};  ///< by node: 1 on the way that is walked, 2 known to lead out
     std::vector<double> length_above_ = {};
@@ -358,7 +357,7 @@ private:
     std::vector<char> reached_ = {};      ///< by node, while its component is spanned
     std::vector<PieceId> towards_ = {};   ///< room for a tree
     std::vector<std::int64_t> cost_ = {}; ///< likewise
-    Votes const& drawn_; ///< or found
+    Votes const& drawn_;                  ///< or found
     Sets kept_;
     Divided divided_ = {};
 };
@@ -366,8 +365,8 @@ private:
 } // namespace
 
 Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
-               Votes const& drawn, Run const& run) {
-    return Divider(pieces, lines, file, orientation, drawn).divide(run);
+               std::vector<Evidence> const& evidence, Votes const& drawn, Run const& run) {
+    return Divider(pieces, lines, file, orientation, evidence, drawn).divide(run);
 }
 
 } // namespace thalweg::network::import_steps

@@ -13,6 +13,7 @@
 #include <thalweg/geometry/segments_near.hpp>
 #include <thalweg/network/import/internal/import_directions.hpp>
 #include <thalweg/network/import/internal/import_steps.hpp>
+#include <thalweg/network/import/internal/import_tree.hpp>
 
 namespace thalweg::network {
 namespace {
@@ -314,14 +315,15 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     double const near_m = std::min(snap_m, 1e-6 * import_steps::diagonal_of(file.lines));
     import_steps::drop_overshoots(lines, slip_in_near * near_m, left);
     auto pieces = import_steps::cut(lines, left);
-    auto const found = import_steps::find_directions(pieces, lines, file, params, run);
+    auto evidence = import_steps::evidence_of(pieces, lines, file, params.orientation);
+    auto const found = import_steps::find_directions(pieces, lines, params, evidence, run);
     std::vector<PieceId> leaves;
     if (params.divergences == Divergences::error) {
         import_steps::refuse_cycles(pieces, lines, file.name);
-        leaves = import_steps::orient(pieces, lines, file, params, found.runs);
+        leaves = import_steps::orient(pieces, lines, file, params, evidence, found.runs);
     } else {
-        auto divided = import_steps::divide(pieces, lines, file, params.orientation, found.runs, run);
-        leaves = import_steps::orient(pieces, lines, file, params, found.runs);
+        auto divided = import_steps::divide(pieces, lines, file, params.orientation, evidence, found.runs, run);
+        leaves = import_steps::orient(pieces, lines, file, params, evidence, found.runs);
         import_steps::drop_unfed(pieces, divided, leaves);
         auto const branches = import_steps::secondary_lines(pieces, divided, lines, repairs);
         imported.secondary.insert(imported.secondary.end(), branches.begin(), branches.end());

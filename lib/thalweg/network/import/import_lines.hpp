@@ -17,7 +17,8 @@ namespace thalweg::network {
 /// How the flow direction of a component, and so its outlet, is found.
 enum class Orientation : std::uint8_t {
     /// by links if the file has any, else by a direction column, else by height if every line has heights, else by rank
-    /// if the file gives one; where these are silent as drawn if that is free of contradictions, else by a DEM, angles at
+    /// if the file gives one; where these are silent as drawn if that is free of contradictions, else by a DEM, angles
+    /// at
     /// confluences, the border and the drawn direction together (docs/algorithms/river_directions.md)
     automatic,
     height,       ///< downhill
@@ -58,10 +59,10 @@ struct Directions {
         std::string by;        ///< evidence, for readers: "angles at confluences"
         double length_m = 0.0; ///< > 0
     };
-    std::vector<Turned> turned;        ///< the greatest length first
-    double drawn_downstream = 0.5;     ///< [0, 1] estimated share of reaches drawn downstream; 0.5: says nothing
-    double uncertain_m = 0.0;          ///< length of groups of lines of which more than 5 % may be wrong
-    double expected_wrong_m = 0.0;     ///< of uncertain_m
+    std::vector<Turned> turned;    ///< the greatest length first
+    double drawn_downstream = 0.5; ///< [0, 1] estimated share of reaches drawn downstream; 0.5: says nothing
+    double uncertain_m = 0.0;      ///< length of groups of lines of which more than 5 % may be wrong
+    double expected_wrong_m = 0.0; ///< of uncertain_m
     /// One a group: uncertain_direction [expected wrong share of its length], second_outlet [score gained],
     /// conflicting_direction [share of its length]; one an evidence: contradicted_direction [share of its length]
     std::vector<Finding> doubts;

@@ -63,9 +63,9 @@ void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::ve
 }
 
 std::vector<PieceId> orient(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
-                            ImportParams const& params, std::vector<int> const& drawn_or_found) {
+                            ImportParams const& params, std::vector<Evidence> const& evidence,
+                            std::vector<int> const& drawn_or_found) {
     Orientation const orientation = params.orientation;
-    auto const evidence = evidence_of(p, lines, file, orientation);
     Evidence const silence{Evidence::Kind::drawn, Votes(p.pieces.size(), 0), "nothing"};
     Votes const drawn = orientation == Orientation::topology ? Votes(p.pieces.size(), 0) : drawn_or_found;
     auto const border_m = border_distances(p, lines);

@@ -3,7 +3,9 @@
 #include <thalweg/network/import/internal/import_reaches.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -34,12 +36,43 @@ bool lies_at_no_data(Raster<float> const& dem, Vec2 at) {
     return false;
 }
 
-/// By node: whether it lies on the border of the file or of the DEM.
-std::vector<char> border_nodes(Pieces const& p, std::vector<RiverLine> const& lines, Raster<float> const* dem) {
-    auto const border_m = border_distances(p, lines);
+/// Whether the file lets all that meets in a node end there.
+bool is_said_outlet(Pieces const& p, PieceVotes const& certain, std::size_t n) {
+    return !certain.empty() && std::ranges::all_of(p.at_node[n], [&](std::size_t k) {
+        return certain[k] != 0 && (certain[k] > 0 ? p.pieces[k].to : p.pieces[k].from) == n;
+    });
+}
+
+/// By node: whether it lies on a side of the file on which other lines end, as those of a clipped file do, or at the
+/// border of the DEM, or is an outlet by the file.
+std::vector<char> likely_outlets(Pieces const& p, std::vector<RiverLine> const& lines, PieceVotes const& certain,
+                                 Raster<float> const* dem) {
+    std::array<double, 4> far{}; // west, east, south, north, counted outward
+    far.fill(-std::numeric_limits<double>::infinity());
+    auto const outward = [](double x, double y) { return std::array<double, 4>{-x, x, -y, y}; };
+    for (RiverLine const& line : lines) {
+        for (Vec3 const& v : line.vertices) {
+            auto const of = outward(v.x, v.y);
+            for (std::size_t side = 0; side < far.size(); ++side) {
+                far[side] = std::max(far[side], of[side]);
+            }
+        }
+    }
+    auto const lies_on = [&](std::size_t n, std::size_t side) {
+        return far[side] - outward(p.nodes[n].x, p.nodes[n].y)[side] <= same_point_m;
+    };
+    std::array<bool, 4> ends{};
+    for (std::size_t side = 0; side < ends.size(); ++side) {
+        for (std::size_t n = 0; n < p.nodes.size(); ++n) {
+            ends[side] = ends[side] || (p.at_node[n].size() == 1 && lies_on(n, side));
+        }
+    }
     std::vector<char> result;
     for (std::size_t n = 0; n < p.nodes.size(); ++n) {
-        bool const lies = border_m[n] <= same_point_m || (dem != nullptr && lies_at_no_data(*dem, p.nodes[n]));
+        bool lies = is_said_outlet(p, certain, n) || (dem != nullptr && lies_at_no_data(*dem, p.nodes[n]));
+        for (std::size_t side = 0; side < ends.size(); ++side) {
+            lies = lies || (ends[side] && lies_on(n, side));
+        }
         result.push_back(lies ? 1 : 0);
     }
     return result;
@@ -47,14 +80,14 @@ std::vector<char> border_nodes(Pieces const& p, std::vector<RiverLine> const& li
 
 class ReachMaker {
 public:
-    ReachMaker(Pieces const& p, std::vector<RiverLine> const& lines, std::vector<char> const& on_border)
+    ReachMaker(Pieces const& p, std::vector<RiverLine> const& lines, std::vector<char> const& is_outlet)
         : p_(p), lines_(lines), used_(p.pieces.size(), 0), at_(p.nodes.size()) {
         for (std::size_t n = 0; n < p.nodes.size(); ++n) {
             at_[n] = p.at_node[n];
             std::erase_if(at_[n], [&](std::size_t k) { return is_ring(k); });
         }
         for (std::size_t n = 0; n < p.nodes.size(); ++n) {
-            is_inner_.push_back(at_[n].size() == 2 && on_border[n] == 0 ? 1 : 0);
+            is_inner_.push_back(at_[n].size() == 2 && is_outlet[n] == 0 ? 1 : 0);
         }
     }
 
@@ -235,10 +268,11 @@ void find_blocks(ReachGraph& graph) {
 
 } // namespace
 
-ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, Raster<float> const* dem) {
+ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, PieceVotes const& certain,
+                      Raster<float> const* dem) {
     ReachGraph graph;
-    graph.on_border = border_nodes(p, lines, dem);
-    graph.reaches = ReachMaker(p, lines, graph.on_border).make();
+    graph.is_outlet = likely_outlets(p, lines, certain, dem);
+    graph.reaches = ReachMaker(p, lines, graph.is_outlet).make();
     graph.at.resize(p.nodes.size());
     std::vector<double> lengths;
     std::vector<double> segments;

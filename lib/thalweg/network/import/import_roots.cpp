@@ -242,7 +242,7 @@ RootScores::Sums RootScores::along(std::size_t reach, int sign) const {
     Sums sums;
     sums.climb = to_fixed(-std::max(0.0, sign * rise_m_[reach]) / climb_per_unit);
     sums.drawn = graph_.is_bridge[reach] != 0 ? to_fixed(sign * drawn_[reach]) : 0;
-    sums.certain = to_fixed(sign * certain_[reach]);
+    sums.certain = graph_.is_bridge[reach] != 0 ? to_fixed(sign * certain_[reach]) : 0;
     return sums;
 }
 
@@ -352,7 +352,7 @@ std::vector<Root> RootScores::of(ReachGroup const& group) {
 
     std::vector<std::size_t> nodes;
     std::ranges::copy_if(group.nodes, std::back_inserter(nodes),
-                         [&](std::size_t n) { return graph_.at[n].size() == 1 || graph_.on_border[n] != 0; });
+                         [&](std::size_t n) { return graph_.at[n].size() == 1 || graph_.is_outlet[n] != 0; });
     Vec2 low = p_.nodes[group.nodes.front()];
     Vec2 high = low;
     for (std::size_t const n : group.nodes) {

@@ -18,6 +18,7 @@
 #include <thalweg/pipeline/commands/internal/mend_network.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
+#include <thalweg/pipeline/plan/internal/read_cells.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
@@ -217,8 +218,11 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
     }
 
     for (CheckOutput const& output : fix) {
-        MendedNetwork const mended = mend_network(network, topology, {job.near_m}, run);
+        Raster<float> const dem = read_dem_in(job.dem, network.crs, "pipeline.check_files: --dem", job.nodata, run);
+        MendedNetwork const mended =
+            mend_network(network, topology, {job.near_m, dem.cells() > 0 ? &dem : nullptr}, run);
         checked.mended = mended.mended;
+        append(checked.notes, mended.doubts);
         if (mended.done) {
             write_copy(mended, network, output, checked, run);
         }

@@ -18,7 +18,7 @@ namespace thalweg::pipeline {
 struct CheckJob {
     std::string network = {};          ///< as io::read_network takes it
     io::ReadNetworkParams read = {};   ///< how it is understood
-    std::string dem = {};              ///< a DEM that the network drains; "" for none
+    std::string dem = {};              ///< a DEM that the network drains, and by which fix orients lines; "" for none
     std::string fix = {};              ///< NAME.gpkg or NAME.shp: a mended copy; "" for none
     std::string findings = {};         ///< NAME.gpkg: the findings as points; "" for none
     double near_m = 0.0;               ///< [m] >= 0: as measure::TopologyParams

@@ -94,6 +94,7 @@ public:
     void mend(std::size_t a) {
         auto const& arc = file_.arcs[a];
         std::int64_t const number = number_of(arc);
+        int runs = arc.runs;
         auto line = numbers_of(arc);
         Vec3 const* from = nodes_.of(arc.from_node);
         Vec3 const* to = nodes_.of(arc.to_node);
@@ -130,6 +131,7 @@ public:
         }
         if (found_.upstream[a] != 0) {
             std::reverse(line.begin(), line.end());
+            runs = -runs;
             say("turned", number, plan(line.front()), length_in_plan(line),
                 fmt::format("arc {}: is reversed to run downstream", number));
         }
@@ -154,7 +156,8 @@ public:
                                         arc.channel,
                                         arc.name,
                                         {},
-                                        file_.id_shift});
+                                        file_.id_shift,
+                                        runs});
         result_.arcs.push_back(a);
     }
 

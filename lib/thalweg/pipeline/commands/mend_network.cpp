@@ -15,6 +15,7 @@
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/commands/internal/mend_lines.hpp>
+#include <thalweg/pipeline/make/internal/direction_words.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
 
 namespace thalweg::pipeline {
@@ -152,6 +153,22 @@ void say_lowered(network::Lowered const& lowered, std::int64_t id_shift, std::ve
     }
 }
 
+/// What was turned by which evidence, then sentences on what is doubtful.
+std::vector<Finding> doubts_of_directions(network::Directions const& directions, bool has_dem) {
+    std::vector<Finding> notes;
+    if (std::string const turned = turned_in_words(directions); !turned.empty()) {
+        double sum_m = 0.0;
+        for (network::Directions::Turned const& one : directions.turned) {
+            sum_m += one.length_m;
+        }
+        notes.push_back({"directions", 0, {}, sum_m, turned});
+    }
+    for (std::string const& doubt : direction_doubts(directions, has_dem ? "" : "--dem FILE", "")) {
+        notes.push_back({"uncertain_direction", 0, {}, 0.0, doubt});
+    }
+    return notes;
+}
+
 } // namespace
 
 MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport const& found,
@@ -174,12 +191,14 @@ MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport cons
             {.snap_m = near_m,
              .orientation = file.schema == "native" ? network::Orientation::least_turned : network::Orientation::links,
              .join = false,
-             .snapped = network::SnappedEnds::open},
+             .snapped = network::SnappedEnds::open,
+             .dem = params.dem},
             run);
     } catch (BadInput const& cannot) {
         return give_up(cannot.what());
     }
     append(mended.mended, std::move(imported.repairs));
+    mended.doubts = doubts_of_directions(imported.directions, params.dem != nullptr);
     network::Lowered lowered = network::lower_rises(imported.network, imported.arc_z);
     say_lowered(lowered, file.id_shift, mended.mended);
     if (!file.says.heights) {

@@ -6,6 +6,7 @@
 #include <thalweg/network/elevation/keep_heights.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
+#include <thalweg/pipeline/make/internal/direction_words.hpp>
 #include <thalweg/pipeline/make/internal/rivers_in_plan.hpp>
 #include <thalweg/pipeline/plan/internal/plan_asks.hpp>
 
@@ -108,6 +109,18 @@ RiverFile file_of(RiverLines const& lines, network::Imported const& imported) {
     return file;
 }
 
+/// What was turned, and what is doubtful.
+void say_directions(network::Directions const& directions, bool has_dem, Run const& run) {
+    if (std::string const turned = turned_in_words(directions); !turned.empty()) {
+        run.tell("directions", turned);
+    }
+    for (std::string const& doubt :
+         direction_doubts(directions, has_dem ? "" : "--set network.lines.dem=FILE",
+                          "--set network.lines.orientation=as_drawn (or height, rank, topology)")) {
+        run.say("warning: " + doubt);
+    }
+}
+
 /// The heights of the file, where the recipe takes them.
 std::optional<ElevatedNetwork> heights_of_file(Plan const& plan, network::Imported const& imported) {
     Heights const heights = plan.recipe.network->heights;
@@ -122,8 +135,10 @@ std::optional<ElevatedNetwork> heights_of_file(Plan const& plan, network::Import
 
 RiversInPlan rivers_of_lines(Plan const& plan, Diary& diary, Run const& run) {
     LinesRecipe const& wanted = plan.recipe.network->lines;
-    network::ImportParams const params{
-        .snap_m = wanted.snap_m, .orientation = wanted.orientation, .divergences = wanted.divergences};
+    network::ImportParams const params{.snap_m = wanted.snap_m,
+                                       .orientation = wanted.orientation,
+                                       .divergences = wanted.divergences,
+                                       .dem = plan.line_dem.cells() > 0 ? &plan.line_dem : nullptr};
     network::Imported imported = diary.stage("adopt", [&] { return network::import_lines(plan.lines, params, run); });
     RiversInPlan rivers;
     rivers.grid = *plan.grid;
@@ -135,6 +150,8 @@ RiversInPlan rivers_of_lines(Plan const& plan, Diary& diary, Run const& run) {
     std::size_t const secondary = rivers.file.secondary.size();
     diary.say(fmt::format("{} arcs, {} repairs{}", imported.network.arc_count(), repairs.size(),
                           secondary == 0 ? "" : fmt::format(", {} secondary", secondary)));
+    say_directions(imported.directions, params.dem != nullptr, run);
+    repairs.insert(repairs.end(), imported.directions.doubts.begin(), imported.directions.doubts.end());
     warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, run);
     rivers.land = land_of_coastlines(plan, diary, run);
     rivers.file_heights = heights_of_file(plan, imported);

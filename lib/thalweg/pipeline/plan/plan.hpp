@@ -31,6 +31,7 @@ struct Plan {
     Recipe recipe;                ///< with its defaults: CRS, cell, heights, prune, meander, rotate, mean slope, drain
     std::optional<Grid> grid;     ///< empty: it follows from rivers that have to be grown first
     RiverLines lines;             ///< of network.lines.path, inside the grid; or strokes
+    Raster<float> line_dem;       ///< of network.lines.dem, in the CRS of the lines; without cells for none
     bool heights_of_file = false; ///< rivers have these because the lines do, not because they were asked for
     std::optional<Polygons> region;            ///< that a Tokunaga tree fills
     std::optional<network::TokunagaTree> tree; ///< which fills the region or the grid: its size gives the grid's

@@ -11,6 +11,7 @@
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/frame/ground_cell.hpp>
 #include <thalweg/io/frame/same_frame.hpp>
 #include <thalweg/io/gdal/content_of.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
@@ -125,6 +126,18 @@ Raster<float> read_field(std::string const& path, Grid const& grid, std::string 
         }
     }
     return field;
+}
+
+Raster<float> read_dem_in(std::string const& path, std::string const& crs, std::string const& what,
+                          std::optional<double> nodata, Run const& run) {
+    if (path.empty()) {
+        return {};
+    }
+    Raster<float> dem = io::read_dem(path, {.nodata = nodata}, run);
+    Grid lattice;
+    lattice.cell_m = io::ground_cell(dem.grid()).side_m;
+    lattice.crs = crs;
+    return io::warp_to_grid(dem, lattice, fmt::format("{} = \"{}\"", what, path), run);
 }
 
 } // namespace thalweg::pipeline

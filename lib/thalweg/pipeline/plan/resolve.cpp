@@ -12,6 +12,7 @@
 #include <thalweg/pipeline/plan/internal/forest_land.hpp>
 #include <thalweg/pipeline/plan/internal/plan_asks.hpp>
 #include <thalweg/pipeline/plan/internal/points.hpp>
+#include <thalweg/pipeline/plan/internal/read_cells.hpp>
 #include <thalweg/pipeline/plan/internal/read_lines.hpp>
 #include <thalweg/pipeline/plan/internal/trees.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
@@ -80,6 +81,10 @@ Plan plan_lines(Recipe recipe, Diary& diary, Run const& run) {
     run.tell("grid", fmt::format("{}x{} cells of {} m{}", grid.width, grid.height, grid.cell_m, settled.why));
     plan.grid = grid;
     plan.lines = plan.recipe.grid.clip ? clipped(std::move(lines), grid) : std::move(lines);
+    LinesRecipe const& wanted = plan.recipe.network->lines;
+    if (wanted.orientation == network::Orientation::automatic) {
+        plan.line_dem = read_dem_in(file_in(plan.recipe, wanted.dem), grid.crs, "network.lines.dem", {}, run);
+    }
     if (plan.recipe.network->heights == Heights::automatic && plan.lines.has_z) {
         plan.heights_of_file = true;
         plan.recipe.network->heights = Heights::file;

@@ -23,7 +23,7 @@ public:
     /// the line downstream, where a user names both; else -1.
     explicit RiverFields(OGRLayer& layer, int id = -1, int down = -1);
 
-    /// Sets channel, size and name, and remembers the links of the feature.
+    /// Sets channel, size, name and runs, and remembers the links of the feature.
     void read(OGRFeature const& feature, RiverLine& line);
     /// Why a feature is not a natural watercourse.
     struct Unnatural {
@@ -42,6 +42,7 @@ public:
 
 private:
     void find_links(OGRFeatureDefn& schema);
+    int runs_of(OGRFeature const& feature) const;
     static std::string text(OGRFeature const& feature, int field);
     static double number(OGRFeature const& feature, int field);
 
@@ -53,6 +54,8 @@ private:
     std::vector<int> sizes_;   ///< greater for greater rivers
     std::vector<int> classes_; ///< 1 for the greatest rivers
     int name_ = -1;
+    int direction_ = -1;
+    bool is_coded_ = false; ///< directions are 1 and 2
     int waterway_ = -1;
     int tunnel_ = -1;
     int man_made_ = -1;

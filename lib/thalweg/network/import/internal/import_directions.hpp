@@ -17,9 +17,10 @@ struct FoundDirections {
     Directions report;           ///< without turned
 };
 
-/// Under automatic and links: docs/algorithms/river_directions.md. Else everything runs as drawn.
-FoundDirections find_directions(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
-                                ImportParams const& params, Run const& run);
+/// Under automatic and links: docs/algorithms/river_directions.md. Else everything runs as drawn. Takes a direction
+/// column that contradicts itself out of the evidence.
+FoundDirections find_directions(Pieces const& p, std::vector<RiverLine> const& lines, ImportParams const& params,
+                                std::vector<Evidence>& evidence, Run const& run);
 
 /// Adds up what was turned, and doubts evidence that more than a tenth of the network contradicts.
 Directions review_directions(Pieces const& p, std::vector<RiverLine> const& lines, FoundDirections const& found,

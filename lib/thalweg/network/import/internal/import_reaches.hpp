@@ -14,8 +14,11 @@
 /// docs/algorithms/river_directions.md. Private to this module.
 namespace thalweg::network::import_steps {
 
-/// The pieces between two places where not just two of them meet, or that lie on a border. Which end is `from` follows from the positions
-/// alone, so that nothing here depends on how lines are drawn or in which order.
+/// What pieces say, by piece: 1 runs as drawn, -1 against it, 0 nothing.
+using PieceVotes = std::vector<int>;
+
+/// The pieces between two places where not just two of them meet, or where water may leave. Which end is `from` follows
+/// from the positions alone, so that nothing here depends on how lines are drawn or in which order.
 struct Reach {
     struct Step {
         PieceId piece;
@@ -46,7 +49,7 @@ struct ReachGroup {
 struct ReachGraph {
     std::vector<Reach> reaches;
     std::vector<std::vector<Way>> at; ///< by node of Pieces; empty inside reaches
-    std::vector<char> on_border;      ///< by node: of the file, or of the DEM
+    std::vector<char> is_outlet;      ///< by node: likely one, by the border of file or DEM or by what the file says
     std::vector<char> is_bridge;      ///< by reach: without it its group falls apart
     std::vector<std::size_t> block;   ///< by node: parts that hang together without bridges
     std::vector<std::vector<std::size_t>> block_nodes;
@@ -56,7 +59,8 @@ struct ReachGraph {
 };
 
 /// dem: null without one.
-ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, Raster<float> const* dem);
+ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, PieceVotes const& certain,
+                      Raster<float> const* dem);
 
 /// The point at a distance [m] along a line, its end beyond.
 Vec2 point_along(std::vector<Vec2> const& line, double along_m);
@@ -64,15 +68,12 @@ Vec2 point_along(std::vector<Vec2> const& line, double along_m);
 /// A node that a group could drain to, and what speaks for it. Scores are logarithms of odds.
 struct Root {
     std::size_t node;
-    double shape;    ///< angles, borders, free land ahead
-    double climb;    ///< of a DEM, <= 0
-    double drawn;    ///< reaches drawn towards it, less those drawn away; of bridges
-    double certain;  ///< likewise, of votes
+    double shape;   ///< angles, borders, free land ahead
+    double climb;   ///< of a DEM, <= 0
+    double drawn;   ///< reaches drawn towards it, less those drawn away; of bridges
+    double certain; ///< likewise, of what the file says
     double geometry() const { return shape + climb; }
 };
-
-/// What pieces say, by piece: 1 runs as drawn, -1 against it, 0 nothing.
-using PieceVotes = std::vector<int>;
 
 /// Scores roots, and turns groups towards them.
 class RootScores {
@@ -80,7 +81,7 @@ public:
     /// dem: null without one.
     RootScores(Pieces const& p, std::vector<RiverLine> const& lines, ReachGraph const& graph, PieceVotes const& certain,
                Raster<float> const* dem);
-    /// Every end of a group and every place of it on a border, by position; where it has none, the nodes
+    /// Every end of a group and every likely outlet, by position; where it has none, the nodes
     /// nearest to its own border.
     std::vector<Root> of(ReachGroup const& group);
     struct Ways {
@@ -96,6 +97,8 @@ public:
     };
     Second second_outlet(ReachGroup const& group, std::size_t root, double drawn_weight) const;
 
+    /// Likewise of what the file says.
+    std::vector<double> const& certain() const { return certain_; }
     /// By reach [-1, 1]: the share drawn from `from` to `to`, less that drawn back.
     std::vector<double> const& drawn() const { return drawn_; }
 

@@ -115,17 +115,20 @@ struct Divided {
     std::vector<int> runs;           ///< by piece: 1 as drawn, -1 against it, 0 nobody knows
 };
 
+struct Evidence; // in import_tree.hpp
+
 /// Keeps the main path wherever water could go more than one way, and takes the pieces of the others out of
 /// pieces.at_node: what stays there is a forest.
-/// drawn: by piece, 1 or -1: how it runs where nobody says for certain.
+/// evidence: the most trusted first. drawn: by piece, 1 or -1: how it runs where nobody says for certain.
 Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
-               std::vector<int> const& drawn, Run const& run);
+               std::vector<Evidence> const& evidence, std::vector<int> const& drawn, Run const& run);
 
 /// The piece that leaves each node, by node; no_piece at outlets. The network flows along pieces towards them.
-/// Takes: a forest; drawn as of divide(). Throws: BadInput naming rivers and place where two run away, under
-/// Divergences::error.
+/// Takes: a forest; evidence and drawn as of divide(). Throws: BadInput naming rivers and place where two run away,
+/// under Divergences::error.
 std::vector<PieceId> orient(Pieces const& pieces, std::vector<RiverLine> const& lines, RiverLines const& file,
-                            ImportParams const& params, std::vector<int> const& drawn);
+                            ImportParams const& params, std::vector<Evidence> const& evidence,
+                            std::vector<int> const& drawn);
 
 /// Takes out of the network what a minor channel fed alone: from there down to the next node where something else
 /// flows in.

@@ -6,6 +6,7 @@
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/network_file.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/network/write_network.hpp>
@@ -14,7 +15,8 @@
 namespace thalweg::pipeline {
 
 struct MendNetworkParams {
-    double near_m = 0.0; ///< [m] >= 0: as measure::TopologyParams
+    double near_m = 0.0;                ///< [m] >= 0: as measure::TopologyParams
+    Raster<float> const* dem = nullptr; ///< as network::ImportParams
 };
 
 /// A network without the faults of its file.
@@ -27,6 +29,7 @@ struct MendedNetwork {
     std::vector<std::uint8_t> braided; ///< by arc
     io::UserData user;                 ///< of the file
     std::vector<SecondaryLine> secondary;
+    std::vector<Finding> doubts; ///< of directions, as network::Directions, and what was turned by which evidence
     std::vector<Finding> mended; ///< feature = arc_id of the file
     bool done = false;           ///< the check finds nothing any more; else mended ends with what is left
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <thalweg/core/raster.hpp>
@@ -31,5 +32,10 @@ Mask read_mask_of_land(std::string const& path, Grid const& grid);
 /// erodibility, 1 between them (of several the last counts); empty for "". what: the key, for messages.
 /// Throws: as the doors; BadInput naming the cell where a raster has no value or one that is not above 0.
 Raster<float> read_field(std::string const& path, Grid const& grid, std::string const& what, Run const& run);
+
+/// [m] A DEM in a CRS, on cells as large as its own; without cells for "". what: the key or option, for messages.
+/// Throws: as io::read_dem and io::warp_to_grid.
+Raster<float> read_dem_in(std::string const& path, std::string const& crs, std::string const& what,
+                          std::optional<double> nodata, Run const& run);
 
 } // namespace thalweg::pipeline

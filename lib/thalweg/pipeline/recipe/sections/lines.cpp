@@ -71,7 +71,12 @@ Rows<LinesRecipe> adoption_keys() {
                      {"as_drawn", Orientation::as_drawn},
                      {"topology", Orientation::topology}})
             .used(source_is("lines"))
-            .means("what decides the flow direction of a line"),
+            .means("what decides the flow direction of a line; auto: links, a direction column, Z or ranks, and else "
+                   "angles at confluences, the border, the drawn direction and network.lines.dem together"),
+        file("dem", &LinesRecipe::dem)
+            .used(source_is("lines") && is("network.lines.orientation", {"auto"}))
+            .means("DEM of the land that the lines are of, in any CRS, for the flow direction of lines: together with "
+                   "angles at confluences, where fields and Z do not tell it"),
         choice("divergences", &LinesRecipe::divergences)
             .one_of({{"main", Divergences::main}, {"error", Divergences::error}})
             .used(source_is("lines"))

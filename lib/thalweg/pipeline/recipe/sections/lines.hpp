@@ -27,6 +27,7 @@ struct LinesRecipe {
     std::string down_field; ///< of the line downstream; both or none
     double snap_m = 0.0;    ///< [m] 0 takes 1e-6 of the box's diagonal
     network::Orientation orientation = network::Orientation::automatic;
+    std::string dem; ///< heights that lines are oriented by; "" for none
     network::Divergences divergences = network::Divergences::main;
     io::LineFilter filter = io::LineFilter::natural;
     Coastlines coastlines = Coastlines::sea;

@@ -1,0 +1,453 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/import/import_lines.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <network/rivers.hpp>
+#include <support.hpp>
+#include <thalweg/network/import/internal/import_reaches.hpp>
+
+namespace import_directions_test {
+
+using namespace thalweg;
+using network::import_lines;
+using network::Imported;
+using network::Orientation;
+using test::flats;
+
+namespace {
+
+namespace steps = network::import_steps;
+
+/// Edges of a lattice whose vertices are shaken: a tree, and some edges that close loops. Each is drawn away from
+/// vertex 0.
+struct Lattice {
+    std::vector<Vec2> at;
+    std::vector<std::pair<std::size_t, std::size_t>> edges; ///< from vertex, to vertex
+};
+
+/// head: nothing but its first edge meets vertex 0.
+enum class First { any, head };
+
+Lattice random_lattice(int size, int loops, First first = First::any) {
+    Lattice lattice;
+    std::map<std::pair<int, int>, std::size_t> taken;
+    std::vector<std::pair<int, int>> cell;
+    auto const add = [&](std::pair<int, int> c) {
+        taken[c] = cell.size();
+        cell.push_back(c);
+        auto const shake = [] { return *rc::gen::inRange(-20000, 20001) * 1e-3; };
+        lattice.at.push_back(rounded(Vec2{c.first * 100.0 + shake(), c.second * 100.0 + shake()}));
+    };
+    add({0, 0});
+    constexpr std::pair<int, int> beside[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    for (int tries = 0; tries < 3 * size && static_cast<int>(cell.size()) < size; ++tries) {
+        auto const from = static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(cell.size())));
+        auto const [dx, dy] = beside[*rc::gen::inRange(0, 4)];
+        std::pair<int, int> const to{cell[from].first + dx, cell[from].second + dy};
+        if (first == First::head && from == 0 && cell.size() > 1) {
+            continue;
+        }
+        if (!taken.contains(to)) {
+            add(to);
+            lattice.edges.emplace_back(from, cell.size() - 1);
+        } else if (loops > 0) {
+            std::pair const edge = std::minmax(from, taken.at(to));
+            if (std::ranges::find(lattice.edges, std::pair(edge.first, edge.second)) == lattice.edges.end()) {
+                lattice.edges.emplace_back(edge.first, edge.second);
+                --loops;
+            }
+        }
+    }
+    return lattice;
+}
+
+RiverLines drawn(Lattice const& lattice) {
+    std::vector<std::vector<Vec2>> lines;
+    for (auto const& [from, to] : lattice.edges) {
+        lines.push_back({lattice.at[from], lattice.at[to]});
+    }
+    return flats(lines);
+}
+
+/// Turns and shuffles lines.
+void disturb(RiverLines& file) {
+    for (std::size_t l = file.lines.size(); l-- > 1;) {
+        std::swap(file.lines[l], file.lines[static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(l) + 1))]);
+    }
+    for (RiverLine& line : file.lines) {
+        if (*rc::gen::inRange(0, 2) == 1) {
+            std::ranges::reverse(line.vertices);
+        }
+    }
+}
+
+struct Scored {
+    double shape;
+    double climb;
+};
+
+struct Graph {
+    steps::Pieces pieces;
+    steps::ReachGraph reaches;
+    std::vector<std::vector<steps::Root>> roots; ///< by group
+};
+
+Graph graph_of(RiverLines const& file, Raster<float> const* dem) {
+    std::vector<Finding> repairs;
+    std::vector<SecondaryLine> secondary;
+    steps::Left left{repairs, secondary};
+    Graph graph;
+    graph.pieces = steps::cut(file.lines, left);
+    graph.reaches = steps::reaches_of(graph.pieces, file.lines, {}, dem);
+    steps::RootScores scores(graph.pieces, file.lines, graph.reaches, {}, dem);
+    for (steps::ReachGroup const& group : graph.reaches.groups) {
+        graph.roots.push_back(scores.of(group));
+    }
+    return graph;
+}
+
+std::map<std::pair<double, double>, Scored> scores_of(Graph const& graph) {
+    std::map<std::pair<double, double>, Scored> result;
+    for (auto const& of_group : graph.roots) {
+        for (steps::Root const& root : of_group) {
+            Vec2 const at = graph.pieces.nodes[root.node];
+            result[{at.x, at.y}] = {root.shape, root.climb};
+        }
+    }
+    return result;
+}
+
+Raster<float> tilted(double west, double south, std::int64_t side) {
+    Raster<float> dem(Grid{side, side, 10.0, west, south + 10.0 * static_cast<double>(side), ""});
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        Cell const c = dem.grid().at(i);
+        dem[i] = static_cast<float>((c.col * 7 + c.row * 3) % 90);
+    }
+    return dem;
+}
+
+/// The same, every way and every sum for each root anew.
+class Oracle {
+public:
+    Oracle(Graph const& graph, Raster<float> const& dem) : g_(graph), dem_(dem) {}
+
+    Scored score(steps::ReachGroup const& group, std::size_t root) const {
+        std::map<std::size_t, double> way{{root, 0.0}};
+        std::map<std::size_t, std::size_t> down;
+        for (std::size_t round = 0; round < group.nodes.size(); ++round) { // Bellman and Ford
+            for (std::size_t const k : group.reaches) {
+                steps::Reach const& r = g_.reaches.reaches[k];
+                relax(way, down, r.from, r.to, k, r.length_m);
+                relax(way, down, r.to, r.from, k, r.length_m);
+            }
+        }
+        Scored scored{leaf_terms(group, root), 0.0};
+        for (auto const& [n, k] : down) {
+            scored.shape += angle(n, k);
+        }
+        for (std::size_t const k : group.reaches) {
+            steps::Reach const& r = g_.reaches.reaches[k];
+            bool const is_way = down.contains(r.from) && down.at(r.from) == k;
+            bool const is_back = down.contains(r.to) && down.at(r.to) == k;
+            bool const forth = is_way || (!is_back && way.at(r.from) > way.at(r.to));
+            double const rise = low(forth ? r.to : r.from) - low(forth ? r.from : r.to);
+            scored.climb -= std::clamp(rise, 0.0, 12.0) / 3.0;
+        }
+        return scored;
+    }
+
+private:
+    static void relax(std::map<std::size_t, double>& way, std::map<std::size_t, std::size_t>& down, std::size_t below,
+                      std::size_t n, std::size_t k, double length_m) {
+        if (way.contains(below) && (!way.contains(n) || way.at(below) + length_m < way.at(n) - 1e-9)) {
+            way[n] = way.at(below) + length_m;
+            down[n] = k;
+        }
+    }
+    Vec2 at(std::size_t n) const { return g_.pieces.nodes[n]; }
+    double low(std::size_t n) const {
+        Cell const c = dem_.grid().cell_of(at(n));
+        double result = 1e9;
+        for (int dr = -1; dr <= 1; ++dr) {
+            for (int dc = -1; dc <= 1; ++dc) {
+                result = std::min(result, static_cast<double>(dem_[Cell{c.col + dc, c.row + dr}]));
+            }
+        }
+        return result;
+    }
+    Vec2 towards(std::size_t n, std::size_t k, double m) const {
+        steps::Reach const& r = g_.reaches.reaches[k];
+        std::vector<Vec2> line = r.line;
+        if (r.from != n) {
+            std::ranges::reverse(line);
+        }
+        Vec2 const u = steps::point_along(line, m) - line.front();
+        return (1.0 / norm(u)) * u;
+    }
+    double angle(std::size_t n, std::size_t chosen) const {
+        auto const& ways = g_.reaches.at[n];
+        if (ways.size() < 3) {
+            return 0.0;
+        }
+        double result = 0.0;
+        for (auto const& [scale, weight] : {std::pair(0.1, 1.05), std::pair(1.0, 0.99)}) {
+            double const m = std::max(scale * g_.reaches.median_m, 2.0 * g_.reaches.segment_m);
+            double mean = 0.0;
+            double own = 0.0;
+            for (auto const& one : ways) {
+                for (auto const& other : ways) {
+                    if (one.reach != other.reach) {
+                        double const against = -dot(towards(n, one.reach, m), towards(n, other.reach, m));
+                        mean += against / static_cast<double>(ways.size());
+                        own += one.reach == chosen ? against : 0.0;
+                    }
+                }
+            }
+            result += weight * (own - mean);
+        }
+        return result;
+    }
+    double to_box(std::vector<std::size_t> const& nodes, Vec2 p) const {
+        double result = 1e9;
+        for (int axis = 0; axis < 2; ++axis) {
+            double low_side = 1e9;
+            double high_side = -1e9;
+            for (std::size_t const n : nodes) {
+                low_side = std::min(low_side, axis == 0 ? at(n).x : at(n).y);
+                high_side = std::max(high_side, axis == 0 ? at(n).x : at(n).y);
+            }
+            double const c = axis == 0 ? p.x : p.y;
+            result = std::min({result, c - low_side, high_side - c});
+        }
+        return result;
+    }
+    double leaf_terms(steps::ReachGroup const& group, std::size_t n) const {
+        std::vector<std::size_t> all(g_.pieces.nodes.size());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            all[i] = i;
+        }
+        double const scale = g_.reaches.median_m;
+        return 1.84 * std::exp(-to_box(all, at(n)) / scale) + 0.82 * std::exp(-to_box(group.nodes, at(n)) / scale);
+    }
+
+    Graph const& g_;
+    Raster<float> const& dem_;
+};
+
+using Segment = std::pair<std::pair<double, double>, std::pair<double, double>>;
+
+std::set<Segment> segments(StreamNetwork const& net) {
+    std::set<Segment> result;
+    for (Arc const& arc : net.arcs()) {
+        for (std::size_t i = 1; i < arc.line.size(); ++i) {
+            result.insert({{arc.line[i - 1].x, arc.line[i - 1].y}, {arc.line[i].x, arc.line[i].y}});
+        }
+    }
+    return result;
+}
+
+std::set<Segment> towards_first(Lattice const& lattice) {
+    std::set<Segment> result;
+    for (auto const& [from, to] : lattice.edges) {
+        result.insert({{lattice.at[to].x, lattice.at[to].y}, {lattice.at[from].x, lattice.at[from].y}});
+    }
+    return result;
+}
+
+bool has_doubt(Imported const& imported, char const* kind) {
+    return test::count(imported.directions.doubts, kind) > 0;
+}
+
+/// A trunk from (0, 4000) to (0, 0) with tributaries at acute angles, drawn downstream.
+std::vector<std::vector<Vec2>> comb() {
+    return {{{0, 4000}, {0, 3000}},    {{0, 3000}, {0, 2000}},   {{0, 2000}, {0, 1000}},   {{0, 1000}, {0, 0}},
+            {{-700, 3700}, {0, 3000}}, {{700, 2700}, {0, 2000}}, {{-700, 1700}, {0, 1000}}};
+}
+
+} // namespace
+
+// The score of a root by re-rooting is that of ways and sums made anew, of trees and with loops.
+TEST(ImportDirections, RerootingScoresAsTheOracle) {
+    bool const ok = rc::check([] {
+        Lattice const lattice = random_lattice(*rc::gen::inRange(2, 30), *rc::gen::inRange(0, 4));
+        RC_PRE(!lattice.edges.empty());
+        Raster<float> const dem = tilted(-3500.0, -3500.0, 700);
+        Graph const graph = graph_of(drawn(lattice), &dem);
+        Oracle const oracle(graph, dem);
+        for (std::size_t g = 0; g < graph.roots.size(); ++g) {
+            steps::ReachGroup const& group = graph.reaches.groups[g];
+            for (steps::Root const& root : graph.roots[g]) {
+                Scored const plain = oracle.score(group, root.node);
+                double const free = root.shape - plain.shape; // free land ahead: there or not
+                RC_ASSERT((std::fabs(free) < 1e-6 || std::fabs(free - 1.02) < 1e-6));
+                RC_ASSERT(std::fabs(root.climb - plain.climb) < 1e-6);
+            }
+        }
+    });
+    ASSERT_TRUE(ok);
+}
+
+// Law: what geometry and DEM say does not depend on how lines are drawn, nor on their order.
+TEST(ImportDirections, ScoresDoNotDependOnTheDrawing) {
+    bool const ok = rc::check([] {
+        Lattice const lattice = random_lattice(*rc::gen::inRange(2, 40), *rc::gen::inRange(0, 4));
+        RC_PRE(!lattice.edges.empty());
+        Raster<float> const dem = tilted(-4500.0, -4500.0, 900);
+        RiverLines file = drawn(lattice);
+        auto const one = scores_of(graph_of(file, &dem));
+        disturb(file);
+        auto const other = scores_of(graph_of(file, &dem));
+        RC_ASSERT(one.size() == other.size());
+        for (auto const& [at, scored] : one) {
+            RC_ASSERT(std::fabs(other.at(at).shape - scored.shape) < 1e-6);
+            RC_ASSERT(other.at(at).climb == scored.climb);
+        }
+    });
+    ASSERT_TRUE(ok);
+}
+
+// Law: a tree of lines that all lead away from one end, and fork, is drawn upstream.
+TEST(ImportDirections, OneSourceAndNoConfluenceIsDrawnUpstream) {
+    bool const ok = rc::check([] {
+        Lattice const lattice = random_lattice(*rc::gen::inRange(30, 50), 0, First::head);
+        std::vector<int> degree(lattice.at.size(), 0);
+        for (auto const& [from, to] : lattice.edges) {
+            ++degree[from];
+            ++degree[to];
+        }
+        RC_ASSERT(degree[0] == 1);
+        if (*std::ranges::max_element(degree) < 3) {
+            return; // one line
+        }
+        Imported const imported = import_lines(drawn(lattice));
+        RC_ASSERT(segments(imported.network) == towards_first(lattice));
+        RC_ASSERT(imported.directions.doubts.empty());
+        RC_ASSERT(imported.directions.turned.size() == std::size_t{1});
+        RC_ASSERT(imported.directions.turned.front().by.find("upstream") != std::string::npos);
+    });
+    ASSERT_TRUE(ok);
+}
+
+TEST(ImportDirections, OneArcDrawnBothWays) {
+    auto const imported = import_lines(flats({{{0, 0}, {100, 0}}}));
+    EXPECT_TRUE(imported.directions.turned.empty());
+    EXPECT_TRUE(imported.directions.doubts.empty());
+}
+
+TEST(ImportDirections, AnglesTellWhereTheDrawingContradictsItself) {
+    auto lines = comb();
+    auto const truth = segments(import_lines(flats(lines), {.orientation = Orientation::as_drawn}).network);
+    for (std::size_t const l : {1U, 3U, 4U}) {
+        std::ranges::reverse(lines[l]);
+    }
+    auto const imported = import_lines(flats(lines));
+    EXPECT_EQ(segments(imported.network), truth);
+    ASSERT_EQ(imported.directions.turned.size(), 1U);
+    EXPECT_EQ(imported.directions.turned[0].by, "angles at confluences");
+    EXPECT_NEAR(imported.directions.turned[0].length_m, 2000.0 + 700.0 * std::sqrt(2.0), 1e-6);
+}
+
+TEST(ImportDirections, ASingleLineAmongContradictionsIsUncertain) {
+    auto lines = comb();
+    std::ranges::reverse(lines[1]);
+    std::ranges::reverse(lines[4]);
+    std::ranges::reverse(lines[5]);
+    lines.push_back({{2000, 2000}, {2000, 2600}});
+    auto const imported = import_lines(flats(lines));
+    ASSERT_TRUE(has_doubt(imported, "uncertain_direction"));
+    EXPECT_NEAR(imported.directions.uncertain_m, 600.0, 1e-6);
+    EXPECT_GT(imported.directions.expected_wrong_m, 100.0);
+}
+
+TEST(ImportDirections, ADemDecides) {
+    Raster<float> dem(Grid{300, 300, 20.0, -3000.0, 5000.0, ""});
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        Vec2 const at = dem.grid().centre(dem.grid().at(i));
+        dem[i] = static_cast<float>(200.0 - 0.02 * at.x);
+    }
+    auto lines = comb();
+    lines.push_back({{2000, 2000}, {1000, 2000}}); // alone, drawn uphill
+    auto const imported = import_lines(flats(lines), {.dem = &dem});
+    ASSERT_EQ(imported.directions.turned.size(), 1U);
+    EXPECT_EQ(imported.directions.turned[0].by, "the DEM");
+    EXPECT_EQ(imported.directions.turned[0].length_m, 1000.0);
+}
+
+TEST(ImportDirections, ADirectionColumnTells) {
+    bool const ok = rc::check([] {
+        Lattice const lattice = random_lattice(*rc::gen::inRange(2, 50), 0);
+        RC_PRE(!lattice.edges.empty());
+        RiverLines file = drawn(lattice);
+        for (RiverLine& line : file.lines) {
+            line.runs = -1; // towards the first vertex
+            if (*rc::gen::inRange(0, 2) == 1) {
+                std::ranges::reverse(line.vertices);
+                line.runs = 1;
+            }
+        }
+        Imported const imported = import_lines(file);
+        RC_ASSERT(segments(imported.network) == towards_first(lattice));
+        RC_ASSERT(!has_doubt(imported, "contradicted_direction"));
+    });
+    ASSERT_TRUE(ok);
+}
+
+TEST(ImportDirections, AColumnWithAThirdOfItsValuesWrongIsDoubted) {
+    auto file = flats(comb());
+    for (std::size_t l = 0; l < file.lines.size(); ++l) {
+        file.lines[l].runs = l % 3 == 1 ? -1 : 1;
+    }
+    auto const imported = import_lines(file);
+    EXPECT_TRUE(imported.secondary.empty());
+    EXPECT_EQ(imported.network.outlets().size(), 1U);
+    ASSERT_TRUE(has_doubt(imported, "contradicted_direction"));
+    EXPECT_GT(imported.directions.doubts.back().amount, 0.1);
+    EXPECT_TRUE(test::has(imported.directions.doubts.back().text, "the direction column contradicts itself"));
+}
+
+TEST(ImportDirections, AColumnAgainstAllAnglesIsDoubted) {
+    std::vector<std::vector<Vec2>> lines;
+    for (int i = 0; i < 12; ++i) {
+        double const y = 1000.0 * i;
+        lines.push_back({{0, y + 1000.0}, {0, y}});
+        lines.push_back({{i % 2 == 0 ? -700.0 : 700.0, y + 1700.0}, {0, y + 1000.0}});
+    }
+    auto file = flats(lines);
+    for (RiverLine& line : file.lines) {
+        line.runs = line.vertices.front().x == 0.0 ? -1 : 1; // up the trunk
+    }
+    auto const imported = import_lines(file);
+    ASSERT_EQ(imported.network.outlets().size(), 1U);
+    EXPECT_GT(imported.network.node(imported.network.outlets()[0]).at.y, 11000.0);
+    EXPECT_TRUE(has_doubt(imported, "conflicting_direction"));
+}
+
+TEST(ImportDirections, TwoRiversJoinedHeadToHeadMayHaveTwoOutlets) {
+    std::vector<std::vector<Vec2>> lines;
+    for (int i = 0; i < 8; ++i) {
+        double const y = 1000.0 * i;
+        for (double const side : {-1.0, 1.0}) { // from (0, 0) north and south
+            lines.push_back({{0, side * y}, {0, side * (y + 1000.0)}});
+            lines.push_back({{i % 2 == 0 ? -700.0 : 700.0, side * (y + 300.0)}, {0, side * (y + 1000.0)}});
+        }
+    }
+    auto file = flats(lines);
+    for (std::size_t l = 0; l < file.lines.size(); l += 3) {
+        std::ranges::reverse(file.lines[l].vertices);
+    }
+    EXPECT_TRUE(has_doubt(import_lines(file), "second_outlet"));
+}
+
+} // namespace import_directions_test
