@@ -210,6 +210,26 @@ TEST_F(ReadRivers, FieldsOfLinksCanBeNamed) {
     EXPECT_THROW(io::read_rivers({.path = file, .id_field = "nummer"}), BadParameter);
 }
 
+TEST_F(ReadRivers, DirectionColumns) {
+    auto const runs = [&](std::string const& field, OGRFieldType type, std::string const& first,
+                          std::string const& second) {
+        auto layer = two_rivers;
+        layer.fields = {{field, type}};
+        layer.features[0].fields = {{field, first}};
+        layer.features[1].fields = {{field, second}};
+        auto const rivers = io::read_rivers({.path = write(field + first + ".gpkg", {layer})});
+        return std::pair(rivers.lines[0].runs, rivers.lines[1].runs);
+    };
+    EXPECT_EQ(runs("flowDirection", OFTString, "inDirection", "inOppositeDirection"), std::pair(1, -1));     // INSPIRE
+    EXPECT_EQ(runs("flow_direction", OFTString, "in direction", "in opposite direction"), std::pair(1, -1)); // OS
+    EXPECT_EQ(runs("flow", OFTString, "both directions", "in direction"), std::pair(0, 1));
+    EXPECT_EQ(runs("SensEcoul", OFTString, "Sens inverse", "Sens direct"), std::pair(-1, 1)); // BD TOPAGE
+    EXPECT_EQ(runs("SensEcoul", OFTString, "Double sens", "Inconnu"), std::pair(0, 0));
+    EXPECT_EQ(runs("FLOWDIRECTION", OFTInteger, "1", "2"), std::pair(1, -1)); // NHN
+    EXPECT_EQ(runs("FLOWDIRECTION", OFTInteger, "-1", "0"), std::pair(0, 0));
+    EXPECT_EQ(runs("flow", OFTInteger, "1", "2"), std::pair(0, 0)); // a discharge, say
+}
+
 TEST_F(ReadRivers, ACrsThatIsMissingCanBeNamed) {
     auto layer = two_rivers;
     layer.name = "a";

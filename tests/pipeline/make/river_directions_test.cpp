@@ -4,20 +4,27 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <io/scratch_folder.hpp>
+#include <pipeline/ascii_grid.hpp>
+#include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/flow/streams/extract_streams.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/pipeline/commands/check_files.hpp>
+#include <thalweg/pipeline/make/make.hpp>
 
 // How much of rivers whose direction is known is oriented wrong once their fields and directions are taken away:
 // docs/algorithms/river_directions.md.
@@ -202,6 +209,117 @@ TEST(RiverDirections, WithADem) {
     expect_bars(Drawn::random_1, "random 1, DEM", true, dem_bar, any_bar);
     expect_bars(Drawn::upstream, "upstream, DEM", true, dem_bar, any_bar);
     expect_bars(Drawn::pieces, "pieces, DEM", true, dem_bar, any_bar);
+}
+
+namespace {
+
+std::string feature(std::string const& vertices, std::string const& properties = "") {
+    return "{\"type\":\"Feature\",\"properties\":{" + properties +
+           "},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[" + vertices + "]}}";
+}
+
+/// Seven lines, each drawn from the mouth of the river at (500000, 5000000) upward.
+std::string const from_the_mouth = feature("[500000,5000000],[500200,5002000],[500000,5004000]") + "," +
+                                   feature("[500000,5004000],[498500,5006000],[497500,5008000]") + "," +
+                                   feature("[500000,5004000],[501200,5006000],[501500,5007000]") + "," +
+                                   feature("[501500,5007000],[501000,5009000],[501200,5011000]") + "," +
+                                   feature("[501500,5007000],[503000,5008000],[504500,5009000]") + "," +
+                                   feature("[497500,5008000],[497500,5009500],[497000,5011500]") + "," +
+                                   feature("[497500,5008000],[495500,5008500],[493500,5009500]");
+constexpr double from_the_mouth_m = 27668.0;
+
+struct Logged {
+    pipeline::Made made;
+    std::vector<std::string> log;
+
+    std::vector<std::string> about(std::string const& words) const {
+        std::vector<std::string> lines;
+        std::ranges::copy_if(log, std::back_inserter(lines),
+                             [&](std::string const& line) { return line.find(words) != std::string::npos; });
+        return lines;
+    }
+};
+
+Logged make_lines(ScratchFolder const& folder, std::string const& keys = "") {
+    pipeline::Recipe recipe = pipeline::read_recipe(
+        "[grid]\ncell = 60\n[network]\nsource = \"lines\"\n[network.lines]\npath = \"rivers.geojson\"\n" + keys,
+        "test");
+    recipe.folder = folder.path().string();
+    Logged logged;
+    Run run;
+    run.log = [&](std::string_view line) { logged.log.emplace_back(line); };
+    logged.made = pipeline::make(recipe, run);
+    return logged;
+}
+
+} // namespace
+
+TEST(RiverDirections, AFileDrawnFromTheMouthIsTurned) {
+    ScratchFolder const folder;
+    folder.write("rivers.geojson", test::geojson(from_the_mouth));
+    Logged const logged = make_lines(folder);
+    StreamNetwork const& network = logged.made.rivers.file.adopted;
+    ASSERT_EQ(network.outlets().size(), 1U);
+    EXPECT_EQ(network.node(network.outlets()[0]).at, (Vec2{500000, 5000000}));
+    ASSERT_TRUE(logged.made.assessment.given);
+    EXPECT_NEAR(logged.made.assessment.given->turned_m, from_the_mouth_m, 1.0);
+    ASSERT_EQ(logged.about("directions").size(), 1U);
+    EXPECT_TRUE(test::has(logged.about("directions")[0], "27.7 km reversed by the drawn direction, which is upstream"));
+    EXPECT_TRUE(logged.about("uncertain").empty());
+}
+
+TEST(RiverDirections, OfAFileDrawnFromTheMouthAMendedCopyIsTurned) {
+    ScratchFolder const folder;
+    folder.write("rivers.geojson", test::geojson(from_the_mouth));
+    pipeline::CheckJob job;
+    job.network = folder / "rivers.geojson";
+    job.fix = folder / "mended.gpkg";
+    pipeline::CheckedFiles const checked = pipeline::check_files(job);
+    EXPECT_EQ(checked.written.size(), 1U);
+    EXPECT_EQ(test::count(checked.mended, "reversed"), 7);
+    EXPECT_EQ(test::count(checked.notes, "directions"), 1);
+    EXPECT_EQ(test::count(checked.notes, "uncertain_direction"), 0);
+}
+
+// A line alone whose file is drawn in all directions: a warning, and a DEM decides, in make and in check --fix.
+TEST(RiverDirections, WhatIsUncertainADemDecides) {
+    ScratchFolder const folder;
+    std::string lines = from_the_mouth;
+    for (auto const& [drawn, turned] : {std::pair("[500000,5004000],[498500,5006000],[497500,5008000]",
+                                                  "[497500,5008000],[498500,5006000],[500000,5004000]"),
+                                        std::pair("[501500,5007000],[501000,5009000],[501200,5011000]",
+                                                  "[501200,5011000],[501000,5009000],[501500,5007000]"),
+                                        std::pair("[497500,5008000],[495500,5008500],[493500,5009500]",
+                                                  "[493500,5009500],[495500,5008500],[497500,5008000]")}) {
+        lines.replace(lines.find(drawn), std::string(drawn).size(), turned);
+    }
+    lines += "," + feature("[496000,5003000],[496500,5003800],[497000,5004600]"); // to the north
+    folder.write("rivers.geojson", test::geojson(lines));
+    write_ascii_grid(folder / "dem.asc", {150, 150, 100, 491000, 4999000},
+                     [](int, int row) { return 2.0 * (150 - row); }); // falls to the south
+    Logged const without = make_lines(folder);
+    ASSERT_EQ(without.about("is uncertain").size(), 1U);
+    EXPECT_TRUE(test::has(without.about("is uncertain")[0], "network.lines.dem"));
+    Logged const with = make_lines(folder, "dem = \"dem.asc\"\n");
+    EXPECT_TRUE(with.about("is uncertain").empty());
+    std::vector<Vec2> outlets;
+    StreamNetwork const& network = with.made.rivers.file.adopted;
+    for (NodeId const n : network.outlets()) {
+        outlets.push_back(network.node(n).at);
+    }
+    std::ranges::sort(outlets, before);
+    EXPECT_EQ(outlets, (std::vector<Vec2>{{496000, 5003000}, {500000, 5000000}}));
+
+    pipeline::CheckJob job;
+    job.network = folder / "rivers.geojson";
+    job.fix = folder / "mended.gpkg";
+    EXPECT_EQ(test::count(pipeline::check_files(job).notes, "uncertain_direction"), 1);
+    job.dem = folder / "dem.asc";
+    job.overwrite = true;
+    pipeline::CheckedFiles const checked = pipeline::check_files(job);
+    EXPECT_EQ(test::count(checked.notes, "uncertain_direction"), 0);
+    EXPECT_TRUE(
+        std::ranges::any_of(checked.mended, [](Finding const& f) { return f.kind == "reversed" && f.feature == 8; }));
 }
 
 } // namespace river_directions_test
