@@ -45,10 +45,8 @@ constexpr std::array<std::string_view, 5> river_classes{"streamleve", "streamlev
 constexpr std::array<std::string_view, 6> river_names{"name",       "gnis_name", "nametxtint",
                                                       "river_name", "rivername", "riv_name"};
 
-// Whether water runs as a line is drawn: INSPIRE and NHN, OS Open Rivers (GeoPackage and shapefile), BD TOPAGE, BD
-// TOPO.
-constexpr std::array<std::string_view, 6> river_directions{"flowdirection", "flow_direction", "flow",
-                                                           "sensecoul",     "sens_ecoul",     "sens_de_l_ecoulement"};
+// Whether water runs as a line is drawn: INSPIRE and NHN, OS Open Rivers (GeoPackage and shapefile), BD TOPAGE.
+constexpr std::array<std::string_view, 4> river_directions{"flowdirection", "flow_direction", "flow", "sensecoul"};
 
 // Values of OpenStreetMap's key waterway that are natural watercourses.
 constexpr std::array<std::string_view, 8> natural_waterways{"river", "stream", "tidal_channel", "brook",

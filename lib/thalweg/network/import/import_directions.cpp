@@ -180,15 +180,10 @@ public:
     }
 
     void find(Run const& run) {
-        bool const has_dem = params_.dem != nullptr;
-        if (!has_dem && all_unsaid([](Drawing const& g) { return g.is_downstream(); })) {
-            if (!any_said_) {
-                found_.report.drawn_downstream = 1.0;
-                return;
-            }
-            is_drawn_well_ = true;
-        } else if (!has_dem && is_drawn_upstream()) {
-            is_drawn_upstream_ = true;
+        judge_drawing();
+        if (is_drawn_well_ && !any_said_) {
+            found_.report.drawn_downstream = 1.0;
+            return;
         }
         ReachGraph const graph = reaches_of(p_, lines_, found_.said, params_.dem);
         RootScores scores(p_, lines_, graph, found_.said, params_.dem);
@@ -289,14 +284,22 @@ private:
             if (g.by_column) {
                 speaks_[drawings_.group(g.roots.front().node)] = nullptr;
                 confirms_[drawings_.group(g.roots.front().node)] = 0;
+                is_silent_[drawings_.group(g.roots.front().node)] = 1;
             }
         }
+        judge_drawing();
         for (std::size_t k = 0; k < p_.pieces.size(); ++k) {
             if (speaks_[drawings_.group(p_.pieces[k].from)] == nullptr) {
                 found_.said[k] = 0;
                 found_.by[k] = by_angles;
             }
         }
+    }
+
+    /// A DEM is weighed whatever the drawing looks like.
+    void judge_drawing() {
+        is_drawn_well_ = params_.dem == nullptr && all_unsaid([](Drawing const& g) { return g.is_downstream(); });
+        is_drawn_upstream_ = params_.dem == nullptr && !is_drawn_well_ && is_drawn_upstream();
     }
 
     bool is_drawn_upstream() const {
@@ -325,7 +328,7 @@ private:
         return static_cast<std::size_t>(std::ranges::max_element(score) - score.begin());
     }
 
-    void direct(RootedGroup& g, ReachGraph const& graph, RootScores const& scores) {
+    void direct(RootedGroup& g, ReachGraph const& graph, RootScores& scores) {
         score(g);
         Root const& root = g.roots[best_of(g.score)];
         scores.ways_to(root.node, ways_);
@@ -347,13 +350,15 @@ private:
     void turn(RootedGroup const& g, ReachGraph const& graph, RootScores const& scores) {
         char const* const by = params_.dem != nullptr ? by_dem : share_ <= 1.0 - telling ? by_upstream : by_angles;
         int const drawn = share_ >= telling ? 1 : share_ <= 1.0 - telling ? -1 : 0;
-        auto const is_drawn = drawn == 0 ? std::vector<char>() : blocks_as_drawn(g, graph, scores, drawn);
+        if (drawn != 0) {
+            keep_drawn_blocks(g, graph, scores, drawn);
+        }
         for (std::size_t const k : g.reaches->reaches) {
             Reach const& r = graph.reaches[k];
             bool const is_way = ways_.down[r.from] == k;
             bool const is_back = ways_.down[r.to] == k;
             bool forth = is_way || (!is_back && ways_.way_m[r.from] > ways_.way_m[r.to]);
-            if (drawn != 0 && graph.is_bridge[k] == 0 && is_drawn[k] != 0) {
+            if (drawn != 0 && graph.is_bridge[k] == 0 && is_drawn_[k] != 0) {
                 forth = drawn * scores.drawn()[k] > 0.0;
             }
             for (auto const& [piece, runs] : r.steps) {
@@ -365,10 +370,9 @@ private:
         }
     }
 
-    /// By reach: whether its block, drawn as it is (or all turned), leads from everywhere to where its water leaves.
-    std::vector<char> blocks_as_drawn(RootedGroup const& g, ReachGraph const& graph, RootScores const& scores,
-                                      int drawn) const {
-        std::vector<char> result(graph.reaches.size(), 0);
+    /// Marks the reaches whose block, drawn as it is (or all turned), leads from everywhere to where its water leaves.
+    void keep_drawn_blocks(RootedGroup const& g, ReachGraph const& graph, RootScores const& scores, int drawn) {
+        is_drawn_.resize(graph.reaches.size(), 0);
         std::vector<std::size_t> blocks;
         for (std::size_t const n : g.reaches->nodes) {
             blocks.push_back(graph.block[n]);
@@ -401,11 +405,10 @@ private:
             }
             for (std::size_t const n : nodes) {
                 for (Way const& way : graph.at[n]) {
-                    result[way.reach] = graph.is_bridge[way.reach] == 0 ? 1 : 0;
+                    is_drawn_[way.reach] = graph.is_bridge[way.reach] == 0 ? 1 : 0;
                 }
             }
         }
-        return result;
     }
 
     /// Whether nothing in a block runs in a circle.
@@ -432,7 +435,7 @@ private:
         return free.size() == arriving.size();
     }
 
-    void doubt(RootedGroup const& g, Root const& root, RootScores const& scores) {
+    void doubt(RootedGroup const& g, Root const& root, RootScores& scores) {
         double const sum = log_sum(g.score);
         double wrong_m = 0.0;
         for (std::size_t i = 0; i < g.roots.size(); ++i) {
@@ -508,6 +511,7 @@ private:
     double share_ = 0.5;
     double certain_weight_ = vote_weight * logit(shares_drawn.back()); ///< of a reach whose direction the file tells
     RootScores::Ways ways_;
+    std::vector<char> is_drawn_; ///< by reach
 };
 
 } // namespace

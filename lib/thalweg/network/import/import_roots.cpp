@@ -278,7 +278,7 @@ void RootScores::search(std::size_t from, bool in_block, Ways& ways, std::vector
 
 /// All that a block gives when its water leaves at a node of it; angles there left aside.
 RootScores::Sums const& RootScores::inside(std::size_t exit) {
-    constexpr std::size_t most_visits = 200'000'000; // a braid with thousands of tributaries: its angles say nothing
+    constexpr std::size_t most_visits = 50'000'000; // a braid with thousands of tributaries: its angles say nothing
     if (known_[exit] != 0) {
         return inside_[exit];
     }
@@ -386,7 +386,7 @@ void RootScores::ways_to(std::size_t root, Ways& ways) const {
     search(root, false, ways, reached);
 }
 
-RootScores::Second RootScores::second_outlet(ReachGroup const& group, std::size_t root, double drawn_weight) const {
+RootScores::Second RootScores::second_outlet(ReachGroup const& group, std::size_t root, double drawn_weight) {
     Second best{-1.0, none};
     if (group.reaches.size() + 1 != group.nodes.size()) {
         return best;
@@ -410,14 +410,17 @@ RootScores::Second RootScores::second_outlet(ReachGroup const& group, std::size_
         }
     }
     // By node: the best end above it for its water to leave by, were it cut off below.
-    std::vector<Second> above(p_.nodes.size(), Second{-std::numeric_limits<double>::infinity(), none});
+    above_.resize(p_.nodes.size());
+    for (std::size_t const n : group.nodes) {
+        above_[n] = {-std::numeric_limits<double>::infinity(), none};
+    }
     for (std::size_t i = order.size(); i-- > 1;) {
         auto const [n, down] = order[i];
         if (graph_.at[n].size() == 1) {
-            above[n] = {leaf_terms(n, low, high), n};
+            above_[n] = {leaf_terms(n, low, high), n};
         } else {
-            above[n].gain -= angle(n, down.reach);
-            best = above[n].gain > best.gain ? above[n] : best;
+            above_[n].gain -= angle(n, down.reach);
+            best = above_[n].gain > best.gain ? above_[n] : best;
         }
         // Over the reach below: what turning it round gives, and the node below sending its water up it.
         std::size_t const below = down.to;
@@ -427,9 +430,9 @@ RootScores::Second RootScores::second_outlet(ReachGroup const& group, std::size_
         Sums turned = along(down.reach, -down.sign);
         turned -= along(down.reach, down.sign);
         double const of_reach = from_fixed(turned.climb) + drawn_weight * from_fixed(turned.drawn);
-        double const gain = above[n].gain + of_reach + angle(below, down.reach);
-        if (gain > above[below].gain) {
-            above[below] = {gain, above[n].outlet};
+        double const gain = above_[n].gain + of_reach + angle(below, down.reach);
+        if (gain > above_[below].gain) {
+            above_[below] = {gain, above_[n].outlet};
         }
     }
     return best;

@@ -95,7 +95,7 @@ public:
         double gain;
         std::size_t outlet;
     };
-    Second second_outlet(ReachGroup const& group, std::size_t root, double drawn_weight) const;
+    Second second_outlet(ReachGroup const& group, std::size_t root, double drawn_weight);
 
     /// Likewise of what the file says.
     std::vector<double> const& certain() const { return certain_; }
@@ -145,6 +145,7 @@ private:
     std::vector<Sample> samples_; ///< along reaches, by col, then row
     Ways scratch_;
     std::vector<std::size_t> reached_;
+    std::vector<Second> above_; ///< by node: the best end above it, were its water cut off below
 };
 
 } // namespace thalweg::network::import_steps
