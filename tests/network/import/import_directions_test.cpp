@@ -414,7 +414,8 @@ TEST(ImportDirections, AColumnWithAThirdOfItsValuesWrongIsDoubted) {
     EXPECT_EQ(imported.network.outlets().size(), 1U);
     ASSERT_TRUE(has_doubt(imported, "contradicted_direction"));
     EXPECT_GT(imported.directions.doubts.back().amount, 0.1);
-    EXPECT_TRUE(test::has(imported.directions.doubts.back().text, "the direction column contradicts itself"));
+    EXPECT_TRUE(
+        test::has(imported.directions.doubts.back().text, "oriented by the direction column contradict the others"));
 }
 
 TEST(ImportDirections, AColumnAgainstAllAnglesIsDoubted) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@
 #include <pipeline/ascii_grid.hpp>
 #include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/flow/streams/extract_streams.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
@@ -126,15 +128,13 @@ struct Wrong {
     }
 };
 
-Wrong wrong_of(KnownRivers const& known, Drawn how, bool with_dem) {
+Wrong wrong_of(KnownRivers const& known, network::Imported const& imported) {
     std::set<Step> downstream;
     for (RiverLine const& line : known.lines.lines) {
         for (std::size_t i = 1; i < line.vertices.size(); ++i) {
             downstream.insert(step(plan(line.vertices[i - 1]), plan(line.vertices[i])));
         }
     }
-    network::Imported const imported =
-        network::import_lines(redrawn(known.lines, how), {.dem = with_dem ? &known.dem : nullptr});
     Wrong wrong;
     for (Arc const& arc : imported.network.arcs()) {
         for (std::size_t i = 1; i < arc.line.size(); ++i) {
@@ -168,7 +168,8 @@ void expect_bars(Drawn how, char const* name, bool with_dem, double pooled_share
         if (with_dem && known.dem.cells() == 0) {
             continue;
         }
-        Wrong const wrong = wrong_of(known, how, with_dem);
+        Wrong const wrong =
+            wrong_of(known, network::import_lines(redrawn(known.lines, how), {.dem = with_dem ? &known.dem : nullptr}));
         row += fmt::format("  {} {:.2f} % of {:.0f} km", known.name, 100.0 * wrong.share(), wrong.length_m / 1000.0);
         EXPECT_LE(wrong.share(), most_share) << known.name << ", " << name;
         pooled += wrong;
@@ -203,6 +204,75 @@ TEST(RiverDirections, AllUpstream) {
 
 TEST(RiverDirections, AllDownstream) {
     expect_bars(Drawn::downstream, "downstream", false, pooled_bar, any_bar);
+}
+
+TEST(RiverDirections, AColumnThatIsRightIsNotDoubted) {
+    for (KnownRivers const& known : networks()) {
+        RiverLines lines = redrawn(known.lines, Drawn::random_1);
+        for (std::size_t l = 0; l < lines.lines.size(); ++l) {
+            lines.lines[l].runs = plan(lines.lines[l].vertices[0]) == plan(known.lines.lines[l].vertices[0]) ? 1 : -1;
+        }
+        network::Imported const imported = network::import_lines(lines);
+        EXPECT_EQ(wrong_of(known, imported).wrong_m, 0.0) << known.name;
+        for (Finding const& doubt : imported.directions.doubts) {
+            ADD_FAILURE() << known.name << ": " << doubt.text;
+        }
+    }
+}
+
+// Ranks of which a third is wrong are refused where they lead into pits, else doubted.
+TEST(RiverDirections, RanksThatAreAThirdWrong) {
+    for (KnownRivers const& known : networks()) {
+        if (known.dem.cells() == 0) {
+            continue; // its lines have loops
+        }
+        RiverLines lines = known.lines;
+        std::map<std::pair<double, double>, std::size_t> leaving;
+        auto const place = [](Vec3 const& v) { return std::pair(v.x, v.y); };
+        for (std::size_t l = 0; l < lines.lines.size(); ++l) {
+            leaving[place(lines.lines[l].vertices.front())] = l;
+        }
+        for (RiverLine& line : lines.lines) {
+            line.rank = 1;
+            for (auto next = leaving.find(place(line.vertices.back())); next != leaving.end();
+                 next = leaving.find(place(lines.lines[next->second].vertices.back()))) {
+                ++line.rank;
+            }
+        }
+        EXPECT_TRUE(network::import_lines(lines).directions.doubts.empty()) << known.name;
+        for (std::size_t l = 0; l < lines.lines.size(); ++l) {
+            std::uint64_t const word = random_word(30, l);
+            lines.lines[l].rank = word % 3 == 0 ? static_cast<std::int64_t>(word / 3 % 60) + 1 : lines.lines[l].rank;
+        }
+        try {
+            EXPECT_GE(test::count(network::import_lines(lines).directions.doubts, "contradicted_direction"), 1)
+                << known.name;
+        } catch (BadInput const& refused) {
+            EXPECT_TRUE(test::has(refused.what(), "by rank"));
+        }
+    }
+}
+
+// A direction column of which a third is wrong: it is doubted, and what the angles say with it holds the same bars.
+TEST(RiverDirections, AColumnThatIsAThirdWrong) {
+    Wrong pooled;
+    for (KnownRivers const& known : networks()) {
+        RiverLines lines = known.lines;
+        for (std::size_t l = 0; l < lines.lines.size(); ++l) {
+            lines.lines[l].runs = unit(random_word(20, l)) < 1.0 / 3.0 ? -1 : 1;
+            if (unit(random_word(21, l)) < 0.5) {
+                reverse(lines.lines[l]);
+                lines.lines[l].runs = -lines.lines[l].runs;
+            }
+        }
+        network::Imported const imported = network::import_lines(lines);
+        EXPECT_EQ(test::count(imported.directions.doubts, "contradicted_direction"), 1) << known.name;
+        Wrong const wrong = wrong_of(known, imported);
+        std::printf("column: %s %.2f %%\n", known.name.c_str(), 100.0 * wrong.share());
+        EXPECT_LE(wrong.share(), any_bar) << known.name;
+        pooled += wrong;
+    }
+    EXPECT_LE(pooled.share(), pooled_bar);
 }
 
 TEST(RiverDirections, WithADem) {

@@ -28,7 +28,8 @@ constexpr double second_gain = 5.0;
 constexpr double conflict_gain = 8.0;
 constexpr double telling = 0.85; // share drawn downstream from which the drawn direction is used inside loops
 constexpr std::size_t telling_confluences = 3;
-constexpr double most_contradicted = 0.1; // share of what an evidence says
+constexpr double most_contradicted = 0.1;   // share of what an evidence says
+constexpr double most_distributaries = 0.2; // likewise, where it may lead away from one place
 
 constexpr char const* by_angles = "angles at confluences";
 constexpr char const* by_dem = "the DEM";
@@ -128,10 +129,9 @@ private:
 struct RootedGroup {
     ReachGroup const* reaches;
     std::vector<Root> roots;
-    double votes = 0.0;     ///< reaches whose drawn direction counts
-    double said = 0.0;      ///< likewise, of which the file tells the direction
-    bool is_said = false;   ///< the file tells the direction of all of it
-    bool by_column = false; ///< and does so by a column
+    double votes = 0.0;   ///< reaches whose drawn direction counts
+    double said = 0.0;    ///< likewise, of which the file tells the direction
+    bool is_said = false; ///< the file tells the direction of all of it
     std::vector<double> score = {};
 };
 
@@ -200,7 +200,7 @@ public:
                             });
             }
         }
-        doubt_column(groups);
+        doubt_evidence(groups);
         share_ = is_drawn_well_       ? shares_drawn.back()
                  : is_drawn_upstream_ ? shares_drawn.front()
                                       : share_drawn(groups, certain_weight_);
@@ -255,36 +255,43 @@ private:
         return true;
     }
 
-    /// A column of which much contradicts the rest of it is one vote among others.
-    void doubt_column(std::vector<RootedGroup>& groups) {
-        double said = 0.0;
-        double against = 0.0;
-        for (RootedGroup& g : groups) {
-            char const* const by = speaks_[drawings_.group(g.roots.front().node)];
-            auto const column = std::ranges::find(evidence_, Evidence::Kind::column, &Evidence::kind);
-            g.by_column = by != nullptr && column != evidence_.end() && by == column->name;
-            if (g.by_column) {
-                said += g.said;
-                against += 0.5 * (g.said - std::ranges::max_element(g.roots, {}, &Root::certain)->certain);
+    /// Reports evidence of which much contradicts the rest of it. A column then is one vote among others; links,
+    /// heights and ranks lead away from one place at distributaries, too, and stay.
+    void doubt_evidence(std::vector<RootedGroup>& groups) {
+        for (Evidence const& e : std::vector<Evidence>(evidence_)) {
+            double said = 0.0;
+            double against = 0.0;
+            for (RootedGroup const& g : groups) {
+                if (speaks_[drawings_.group(g.roots.front().node)] == e.name) {
+                    said += g.said;
+                    against += 0.5 * (g.said - std::ranges::max_element(g.roots, {}, &Root::certain)->certain);
+                }
+            }
+            bool const is_column = e.kind == Evidence::Kind::column;
+            if (against <= (is_column ? most_contradicted : most_distributaries) * said) {
+                continue;
+            }
+            double const share = against / said;
+            found_.report.doubts.push_back(
+                {"contradicted_direction", 0, p_.nodes.front(), share,
+                 fmt::format("{:.3g} % of the reaches that are oriented by {} contradict the others{}", 100.0 * share,
+                             e.name, is_column ? ": it is weighed with the angles at confluences" : "")});
+            if (is_column) {
+                distrust_column(groups, share, e.name);
             }
         }
-        if (!(against > most_contradicted * said)) {
-            return;
-        }
-        double const share = against / said;
+    }
+
+    void distrust_column(std::vector<RootedGroup>& groups, double share, char const* name) {
         certain_weight_ = vote_weight * logit(std::clamp(1.0 - share, 0.5, shares_drawn.back()));
         std::erase_if(evidence_, [](Evidence const& e) { return e.kind == Evidence::Kind::column; });
-        found_.report.doubts.push_back(
-            {"contradicted_direction", 0, p_.nodes.front(), share,
-             fmt::format("the direction column contradicts itself in {:.3g} % of the reaches that it orients: it is "
-                         "weighed with the angles at confluences",
-                         100.0 * share)});
         for (RootedGroup& g : groups) {
-            g.is_said = g.is_said && !g.by_column;
-            if (g.by_column) {
-                speaks_[drawings_.group(g.roots.front().node)] = nullptr;
-                confirms_[drawings_.group(g.roots.front().node)] = 0;
-                is_silent_[drawings_.group(g.roots.front().node)] = 1;
+            std::size_t const group = drawings_.group(g.roots.front().node);
+            if (speaks_[group] == name) {
+                g.is_said = false;
+                speaks_[group] = nullptr;
+                confirms_[group] = 0;
+                is_silent_[group] = 1;
             }
         }
         judge_drawing();
@@ -563,13 +570,15 @@ Directions review_directions(Pieces const& p, std::vector<RiverLine> const& line
         if (t.turned_m > 0.0) {
             report.turned.push_back({t.by, t.turned_m});
         }
-        if (t.against_m > most_contradicted * t.said_m) {
+        bool const is_known = std::ranges::any_of(report.doubts, [&](Finding const& doubt) {
+            return doubt.kind == "contradicted_direction" && doubt.text.find(t.by) != std::string::npos;
+        });
+        if (!is_known && t.against_m > most_contradicted * t.said_m) {
             Piece const& piece = p.pieces[t.against];
             report.doubts.push_back({"contradicted_direction", lines[piece.line].number(), p.nodes[piece.from],
                                      t.against_m / t.said_m,
-                                     fmt::format("{} contradicts itself: {:.3g} % of the length that it orients runs "
-                                                 "against it",
-                                                 t.by, 100.0 * t.against_m / t.said_m)});
+                                     fmt::format("{:.3g} % of the length that is oriented by {} runs against it",
+                                                 100.0 * t.against_m / t.said_m, t.by)});
         }
     }
     return report;
