@@ -49,6 +49,7 @@
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/growth/tokunaga/lsystem.hpp>
 #include <thalweg/network/growth/tokunaga/rewrite.hpp>
+#include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/order/streams.hpp>
@@ -458,6 +459,30 @@ void print_rivers(StreamNetwork const& network, Grid const& grid, Run const& run
     print("set_heights_graded", hash_of(graded.network));
 }
 
+/// Rivers drawn in all directions, found by angles and by a DEM.
+void print_directions(StreamNetwork const& network, Raster<float> const& dem, Run const& run) {
+    RiverLines lines;
+    for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
+        RiverLine& line = lines.lines.emplace_back();
+        line.feature = static_cast<std::int64_t>(arc) + 1;
+        for (Vec2 const& p : network.arc(arc).line) {
+            line.vertices.push_back({p.x, p.y, 0.0});
+        }
+        if (random_word(5, arc) % 2 == 0) {
+            std::reverse(line.vertices.begin(), line.vertices.end());
+        }
+    }
+    for (Raster<float> const* const heights : {static_cast<Raster<float> const*>(nullptr), &dem}) {
+        network::Imported const imported = network::import_lines(lines, {.dem = heights}, run);
+        Fnv fnv = hash_of(imported.network);
+        for (Finding const& doubt : imported.directions.doubts) {
+            fnv.add(doubt.amount);
+        }
+        fnv.add(imported.directions.expected_wrong_m);
+        print(heights == nullptr ? "directions" : "directions by a DEM", fnv);
+    }
+}
+
 /// Squares turned by 20 degrees around a place, with waves.
 Tin small_mesh(Vec2 middle, double side_m) {
     constexpr std::uint32_t across = 7;
@@ -697,6 +722,7 @@ int main(int count, char** words) {
     print("natural_neighbours", hash_of(geometry::natural_neighbours(points, grid, {}, run)));
     Raster<float> const land = surface::dilate(valley, {{"rise_fall"}, surface::Metric::euclid, 500.0}, run).dem;
     print("tin_of_dem", hash_of(geometry::tin_of_dem(land, {20.0}, run).tin));
+    print_directions(pruned, land, run);
     print("drape", hash_of(network::drape(pruned, land)));
     for (char const* increment : {"uniform", "decreasing", "rise_fall", "2+sin(x/7)*exp(-x/50)+x^0.3"}) {
         for (auto const metric : {surface::Metric::cityblock, surface::Metric::euclid}) {

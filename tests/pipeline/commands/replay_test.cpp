@@ -48,6 +48,10 @@ std::map<std::string, Case> const cases = {
     {"network.lines.path",
      {grid + "[network]\nsource = \"lines\"\n[network.lines]\npath = \"rivers.geojson\"\n[surface]\n",
       "inputs/rivers.geojson"}},
+    {"network.lines.dem",
+     {grid +
+          "[network]\nsource = \"lines\"\n[network.lines]\npath = \"rivers.geojson\"\ndem = \"north.asc\"\n[surface]\n",
+      "inputs/dem/north.asc"}},
     {"skeleton.points", {grid + "[skeleton]\npoints = \"points.csv\"\n", "inputs/points/points.csv"}},
     {"surface.mask", {dla + "[surface]\nmask = \"mask.asc\"\n", "inputs/mask/mask.asc"}},
     {"surface.uplift", {dla + "[surface]\nuplift = \"uplift.asc\"\n", "inputs/uplift/uplift.asc"}},
