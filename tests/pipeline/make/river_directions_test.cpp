@@ -78,7 +78,7 @@ KnownRivers of_file(std::string const& name, std::string const& path) {
     return known;
 }
 
-enum class Drawn { random_1, random_2, random_3, pieces, third, upstream, downstream };
+enum class Drawn { random_1, random_2, random_3, pieces, third, few, upstream, downstream };
 
 void reverse(RiverLine& line) {
     std::ranges::reverse(line.vertices);
@@ -108,8 +108,8 @@ RiverLines redrawn(RiverLines lines, Drawn how) {
     }
     for (std::size_t l = 0; l < lines.lines.size(); ++l) {
         double const dice = unit(random_word(2 + static_cast<std::uint64_t>(how), l));
-        bool const turned =
-            how == Drawn::upstream || (how == Drawn::third && l % 3 == 0) || (how < Drawn::third && dice < 0.5);
+        bool const turned = how == Drawn::upstream || (how == Drawn::third && l % 3 == 0) ||
+                            (how == Drawn::few && dice < 0.05) || (how < Drawn::third && dice < 0.5);
         if (turned) {
             reverse(lines.lines[l]);
         }
@@ -196,6 +196,10 @@ TEST(RiverDirections, CutAndTurnedAsVectorisedRastersAre) {
 
 TEST(RiverDirections, OneInThreeTurned) {
     expect_bars(Drawn::third, "third", false, pooled_bar, any_bar);
+}
+
+TEST(RiverDirections, OneInTwentyTurned) {
+    expect_bars(Drawn::few, "few", false, dem_bar, pooled_bar);
 }
 
 TEST(RiverDirections, AllUpstream) {
