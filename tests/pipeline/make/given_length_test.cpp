@@ -104,7 +104,9 @@ TEST(GivenLength, HeadsBesideAnotherRiverAreCut) {
     expect_balanced(given);
     EXPECT_NEAR(given.kept_m, stretches_m(t), 1e-6);
     ASSERT_GT(given.left_out(LeftOut::head), 0.0);
-    EXPECT_TRUE(t.assessment.passed());
+    for (Check const& check : t.assessment.checks) {
+        EXPECT_TRUE(check.ok) << check.name << ' ' << check.value;
+    }
     EXPECT_FALSE(test::made(asked, files.folder()).assessment.passed());
 }
 
