@@ -318,7 +318,7 @@ private:
     /// Whether one hand drew the lines downstream, loops among them. Of nodes of three lines drawn at random a quarter
     /// is contradicted, of two lines a half; lines drawn upstream fork more than they meet.
     bool is_hardly_contradicted() const {
-        constexpr std::size_t enough = 12;
+        constexpr std::size_t enough = 5;
         constexpr std::size_t one_in = 40;
         Drawing sum;
         for (std::size_t g = 0; g < is_silent_.size(); ++g) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace thalweg::surface {
 
@@ -15,14 +16,21 @@ namespace {
 constexpr std::int32_t longest_tip = 200;     // [cells]: more is no tip
 constexpr std::int32_t longest_touching = 32; // likewise, for what lies beside another river
 
-/// Marks river cells of which something is true, with little upstream of them, and all that lies upstream.
-template <class Is> std::vector<std::uint8_t> marked_tips(RiverCells const& rivers, std::int32_t longest, Is is) {
+/// By river cell how many drain through it, itself included.
+std::vector<std::int32_t> upstream_of(RiverCells const& rivers) {
     std::vector<std::int32_t> upstream(rivers.cell.size(), 1);
     for (std::size_t n = upstream.size(); n-- > 0;) {
         if (rivers.receiver[n] >= 0) {
             upstream[static_cast<std::size_t>(rivers.receiver[n])] += upstream[n];
         }
     }
+    return upstream;
+}
+
+/// Marks river cells of which something is true, with little upstream of them, and all that lies upstream.
+template <class Is>
+std::vector<std::uint8_t> marked_tips(RiverCells const& rivers, std::vector<std::int32_t> const& upstream,
+                                      std::int32_t longest, Is is) {
     std::vector<std::uint8_t> marked(upstream.size());
     for (std::size_t n = 0; n < marked.size(); ++n) {
         if (leaves_grid(rivers, n)) {
@@ -48,7 +56,7 @@ bool meet_soon(RiverCells const& rivers, std::int32_t a, std::int32_t b) {
     return true;
 }
 
-/// Marks the cells near heads that lie beside another river, and all that lies upstream.
+/// Marks the cells near heads that lie beside another river, which has more upstream, and all that lies upstream.
 std::vector<std::uint8_t> touching_heads(LandLevel const& level) {
     RiverCells const& rivers = level.rivers;
     constexpr std::int32_t nothing = -1;
@@ -57,10 +65,14 @@ std::vector<std::uint8_t> touching_heads(LandLevel const& level) {
         number_at[rivers.cell[n]] = static_cast<std::int32_t>(n);
     }
     auto const offsets = level.offsets();
-    return marked_tips(rivers, longest_touching, [&](std::size_t n) {
+    std::vector<std::int32_t> const upstream = upstream_of(rivers);
+    return marked_tips(rivers, upstream, longest_touching, [&](std::size_t n) {
         return std::any_of(offsets.begin(), offsets.end(), [&](std::int64_t offset) {
             std::int32_t const other = number_at[moved(rivers.cell[n], offset)];
-            return other != nothing && !meet_soon(rivers, static_cast<std::int32_t>(n), other);
+            auto const i = static_cast<std::int32_t>(n);
+            return other != nothing &&
+                   std::pair(upstream[n], -i) < std::pair(upstream[static_cast<std::size_t>(other)], -other) &&
+                   !meet_soon(rivers, i, other);
         });
     });
 }
@@ -136,10 +148,8 @@ std::vector<std::int64_t> give_up(LandLevel& level, std::vector<std::uint8_t> co
 } // namespace
 
 std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent, TipBanks banks) {
-    return give_up(level,
-                   marked_tips(level.rivers, longest_tip,
-                               [&](std::size_t n) { return is_perched(level, level.rivers.cell[n], tangent); }),
-                   banks);
+    auto const perched = [&](std::size_t n) { return is_perched(level, level.rivers.cell[n], tangent); };
+    return give_up(level, marked_tips(level.rivers, upstream_of(level.rivers), longest_tip, perched), banks);
 }
 
 std::vector<std::int64_t> give_up_touching_tips(LandLevel& level) {
