@@ -101,8 +101,7 @@ TEST(Shorten, AnArmThatGoesLeavesOneRiver) {
 }
 
 TEST(Shorten, AHeadInTheCellOfAnotherRiverGoesWithTheCellsBelowIt) {
-    StreamNetwork const net =
-        test::network_of({{0.5, 25.5}, {30.5, 25.5}, {5.6, 25.4}, {5.5, 0.5}}, {{0, 1}, {2, 3}});
+    StreamNetwork const net = test::network_of({{0.5, 25.5}, {30.5, 25.5}, {5.6, 25.4}, {5.5, 0.5}}, {{0, 1}, {2, 3}});
     ChannelsOfArcs const drawn = channels(net, test::frame(31, 31));
     auto const& cells = drawn.of_arc[1];
     ASSERT_GE(cells.size(), 4U);

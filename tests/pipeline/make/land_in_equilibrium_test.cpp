@@ -274,7 +274,7 @@ TEST(LandInEquilibrium, ATargetThatRiversRuleOutFailsItsCheck) {
     EXPECT_TRUE(check_of(met, "relief_error").ok);
 }
 
-TEST(LandInEquilibrium, HeightsOfAFileThatNeedWallsBecomeSoftUnlessTheyAreAskedFor) {
+TEST(LandInEquilibrium, HeightsOfAFileThatNeedWallsYieldThereUnlessTheyAreAskedFor) {
     Files const files;
     std::string const high = "[network.lines]\npath = \"high.geojson\"\n";
     Made const kept = made(lines + "heights = \"file\"\n" + high + "[surface]\nmean_slope = 8\n", files.folder());
@@ -282,7 +282,7 @@ TEST(LandInEquilibrium, HeightsOfAFileThatNeedWallsBecomeSoftUnlessTheyAreAskedF
     EXPECT_TRUE(
         std::ranges::any_of(kept.assessment.findings, [](Finding const& f) { return f.kind == "walled_cell"; }));
     Made const free = made(lines + high + "[surface]\nmean_slope = 8\n", files.folder());
-    EXPECT_EQ(free.recipe.network->heights, Heights::soft);
+    EXPECT_EQ(free.recipe.network->heights, Heights::automatic);
     EXPECT_TRUE(check_of(free, "walled_cells").ok) << check_of(free, "walled_cells").value;
     EXPECT_GT(free.terrain.equilibrium->max_lowered_m, 100.0);
     Made const gentle = made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\n", files.folder());

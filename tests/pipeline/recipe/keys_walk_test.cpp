@@ -77,7 +77,9 @@ std::vector<BaseRecipe> const bases = {
     {"EquilibriumLines",
      lines + "\"rivers.geojson\"\n" + equilibrium,
      {"network.lines.", "network.slope", "network.heights", "grid.clip"}},
-    {"EquilibriumLinesWithHeights", lines + "\"heights.geojson\"\n" + equilibrium, {"network.slope"}},
+    {"EquilibriumLinesWithHeights",
+     lines + "\"heights.geojson\"\n" + equilibrium,
+     {"network.slope", "network.heights_tolerance"}},
     {"EquilibriumDetail", dla + equilibrium + "[detail]\nsigma = 20\n", {"detail.", "-detail.method"}},
     {"DilateHarmonic",
      dla + surface("dilate"),
@@ -290,6 +292,9 @@ std::string digest(Made const& t) {
     }
     for (Check const& check : t.assessment.checks) {
         hash.add(check.limit);
+    }
+    if (t.assessment.given_heights) {
+        hash.add(t.assessment.given_heights->tolerance_m);
     }
     return std::to_string(hash.hash());
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <utility>
 
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
@@ -70,8 +69,8 @@ double zone_stretch(Grid const& grid) {
 
 std::string metric_crs(Grid const& grid, std::string const& what) {
     if (is_projected_in_metres(read_reference(grid.crs))) {
-        GroundCell ground = ground_cell(grid);
-        return ground.unit == GridUnit::distorted ? std::move(ground.crs) : grid.crs;
+        GroundCell const ground = ground_cell(grid);
+        return ground.unit == GridUnit::distorted ? ground.crs : grid.crs;
     }
     Degrees const box = box_of(grid, what);
     return utm_zone(0.5 * (box.west + box.east), 0.5 * (box.south + box.north));

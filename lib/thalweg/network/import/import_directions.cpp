@@ -277,6 +277,7 @@ private:
                 continue;
             }
             double const share = against / said;
+            found_.contradicted.push_back(e.name);
             found_.report.doubts.push_back(
                 {"contradicted_direction", 0, p_.nodes.front(), share,
                  fmt::format("{:.3g} % of the reaches that are oriented by {} contradict the others{}", 100.0 * share,
@@ -551,7 +552,7 @@ FoundDirections find_directions(Pieces const& p, std::vector<RiverLine> const& l
                                 std::vector<Evidence>& evidence, Run const& run) {
     std::size_t const pieces = p.pieces.size();
     FoundDirections found{
-        std::vector<int>(pieces, 1), std::vector<int>(pieces, 0), std::vector<char const*>(pieces, by_drawing), {}};
+        std::vector<int>(pieces, 1), std::vector<int>(pieces, 0), std::vector<char const*>(pieces, by_drawing), {}, {}};
     if (params.orientation == Orientation::automatic || params.orientation == Orientation::links) {
         Director(p, lines, params, evidence, found).find(run);
     }
@@ -594,9 +595,7 @@ Directions review_directions(Pieces const& p, std::vector<RiverLine> const& line
         if (t.turned_m > 0.0) {
             report.turned.push_back({t.by, t.turned_m});
         }
-        bool const is_known = std::ranges::any_of(report.doubts, [&](Finding const& doubt) {
-            return doubt.kind == "contradicted_direction" && doubt.text.find(t.by) != std::string::npos;
-        });
+        bool const is_known = std::ranges::count(found.contradicted, t.by) > 0;
         if (!is_known && t.against_m > most_contradicted * t.said_m) {
             Piece const& piece = p.pieces[t.against];
             report.doubts.push_back({"contradicted_direction", lines[piece.line].number(), p.nodes[piece.from],

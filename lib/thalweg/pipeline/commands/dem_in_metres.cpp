@@ -22,7 +22,7 @@ MetricDem dem_in_metres(std::string const& path, io::ReadDemParams const& params
         constexpr std::int64_t most_side = 30000;
         io::Drawable read = io::read_drawable(path, {.most_side = most_side, .nodata = params.nodata}, run);
         for (std::string& note : read.notes) {
-            note = name + ": " + note;
+            note.insert(0, name + ": ");
         }
         return {std::move(read.dem), std::move(read.notes)};
     }

@@ -207,11 +207,10 @@ Assessment with_given_heights(Plan const& plan, Rivers const& rivers, Terrain co
     found.given_heights = given_heights(plan, rivers, terrain);
     if (found.given_heights && found.given_heights->missed > 0) {
         GivenHeights const& given = *found.given_heights;
-        run.say(
-            fmt::format("warning: at {} of the {} vertices with heights in {} dem.tif is off by more than {:g} m: by "
-                        "{:.3g} m on average, by {:.3g} m at most.",
-                        given.missed, given.vertices, plan.lines.name, plan.recipe.network->heights_tolerance_m,
-                        given.mean_m, given.largest_m));
+        run.say(fmt::format(
+            "warning: at {} of the {} vertices with heights in {} dem.tif is off by more than {:g} m: by "
+            "{:.3g} m on average, by {:.3g} m at most.",
+            given.missed, given.vertices, plan.lines.name, given.tolerance_m, given.mean_m, given.largest_m));
     }
     return found;
 }

@@ -107,6 +107,7 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers
     Raster<float> const& dem = terrain.surface->dem;
     double const cell_m = dem.grid().cell_m;
     GivenHeights given;
+    given.tolerance_m = plan.recipe.network->heights_tolerance_m;
     double sum_m = 0.0;
     for (ArcId a = 0; a < rivers.network.plan.arc_count(); ++a) {
         std::vector<Vec2> const& line = rivers.network.plan.arc(a).line;
@@ -124,7 +125,7 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers
                 std::max(i > 0 ? fall_in_cell(i - 1) : 0.0, i + 1 < line.size() ? fall_in_cell(i) : 0.0);
             double const off_m = std::fabs(static_cast<double>(dem[cell]) - z[i]);
             ++given.vertices;
-            if (off_m > plan.recipe.network->heights_tolerance_m + fall_m) {
+            if (off_m > given.tolerance_m + fall_m) {
                 ++given.missed;
                 sum_m += off_m;
                 given.largest_m = std::max(given.largest_m, off_m);

@@ -53,6 +53,7 @@ std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, 
 
 /// Heights that a file's lines have at their vertices, beside the DEM.
 struct GivenHeights {
+    double tolerance_m = 0.0;
     std::int64_t vertices = 0; ///< with heights, in the network
     std::int64_t missed = 0;   ///< of them, by more than the tolerance and what the river falls within a cell
     double largest_m = 0.0;    ///< greatest difference of these

@@ -265,7 +265,8 @@ void add_rivers(Made const& t, ordered_json& report) {
         }
         if (t.assessment.given_heights) {
             GivenHeights const& heights = *t.assessment.given_heights;
-            report["given"]["heights"] = {{"vertices", heights.vertices},
+            report["given"]["heights"] = {{"tolerance_m", heights.tolerance_m},
+                                          {"vertices", heights.vertices},
                                           {"missed", heights.missed},
                                           {"mean_m", heights.mean_m},
                                           {"largest_m", heights.largest_m}};

@@ -110,6 +110,22 @@ void keep_below_asked(LandLevel& level, Channels const& rivers) {
     }
 }
 
+/// Puts the lowest end of a river at 0, where all ends have risen.
+void lower_to_ends(LandLevel& level, Channels const& rivers) {
+    RiverCells const& cells = level.rivers;
+    float low = std::numeric_limits<float>::infinity();
+    for (std::size_t n = 0; n < cells.cell.size(); ++n) {
+        if (cells.number[n] >= 0 && rivers.receiver[static_cast<std::size_t>(cells.number[n])] < 0) {
+            low = std::min(low, level.z[cells.cell[n]]);
+        }
+    }
+    if (low > 0.0F && std::isfinite(low)) {
+        for (float& z : level.z) {
+            z -= low;
+        }
+    }
+}
+
 void tell_lowered(Raster<float> const& dem, Channels const& rivers, EquilibriumTerrain& out) {
     std::vector<double> lowered;
     for (std::size_t n = 0; n < rivers.z.size(); ++n) {
@@ -145,6 +161,7 @@ EquilibriumTerrain written_land(LandLevel level, Channels const& rivers, Window 
     lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
     if (heads == Heads::kept) {
         keep_to_receivers(level, settled_step(raise));
+        lower_to_ends(level, rivers);
     }
     raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     settle_land(level, settled_step(raise), RiverHeights::graded);

@@ -14,7 +14,8 @@ struct FoundDirections {
     std::vector<int> runs;       ///< by piece: 1 as drawn, -1 against it
     std::vector<int> said;       ///< by piece: the same by links, columns, heights or ranks; 0: they do not say
     std::vector<char const*> by; ///< by piece: what decides
-    Directions report;           ///< without turned
+    std::vector<char const*> contradicted; ///< evidence that much of itself contradicts
+    Directions report;                     ///< without turned
 };
 
 /// Under automatic and links: docs/algorithms/river_directions.md. Else everything runs as drawn. Takes a direction
