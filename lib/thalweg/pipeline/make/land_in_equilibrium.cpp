@@ -145,7 +145,7 @@ Terrain with_walls_checked(Terrain terrain, surface::EquilibriumTerrain const& l
     if (!ok) {
         run.say(fmt::format("warning: {} of {} river cells stand on walls above the terrain. {}", land.walled.size(),
                             channels.cell.size(),
-                            given ? "network.heights = \"graded\" or \"soft\" lets rivers follow it."
+                            given ? R"(network.heights = "graded" or "soft" lets rivers follow it.)"
                                   : "A smaller grid.cell gives slopes room between rivers."));
     }
     for (std::size_t i = 0; i < std::min(listed, land.walled.size()); ++i) {

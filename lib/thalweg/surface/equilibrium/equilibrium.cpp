@@ -168,7 +168,7 @@ public:
                 relax_finest_rivers(level, rounds - round);
             }
             relax_land(level, law_);
-            if (params_.heads == Heads::kept && round % 2 == 1 && rounds - round >= to_come_down_) {
+            if (params_.heads == Heads::kept && round % 2 == 1 && rounds - round >= to_come_down) {
                 firm_rock(level, law_);
             }
         }
@@ -198,11 +198,11 @@ private:
 
     /// With what only the grid's own rivers ask for: no perched head, and water that keeps to them.
     void relax_finest_rivers(LandLevel& level, int rounds_left) {
-        if (rounds_left == to_come_down_ || rounds_left == to_come_down_ + 1) {
+        if (rounds_left == to_come_down || rounds_left == to_come_down + 1) {
             give_up(level);
         }
         relax_rivers(level, law_);
-        if (rounds_left <= to_come_down_) {
+        if (rounds_left <= to_come_down) {
             lower_perched(level, perched_, least_tangent);
         }
         keep_to_receivers(level);
@@ -232,7 +232,7 @@ private:
         shortened_.insert(shortened_.end(), numbers.begin(), numbers.end());
     }
 
-    static constexpr int to_come_down_ =
+    static constexpr int to_come_down =
         3; ///< rounds that land takes where a river was given up or its rock made firmer
 
     EquilibriumParams const& params_;
