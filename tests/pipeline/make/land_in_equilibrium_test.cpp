@@ -289,6 +289,12 @@ TEST(LandInEquilibrium, HeightsOfAFileThatNeedWallsYieldThereUnlessTheyAreAskedF
     EXPECT_EQ(gentle.recipe.network->heights, Heights::file);
     EXPECT_TRUE(check_of(gentle, "walled_cells").ok) << check_of(gentle, "walled_cells").value;
     EXPECT_FALSE(gentle.recipe.surface->equilibrium.mean_slope_deg) << "nobody asked for one";
+    ASSERT_TRUE(gentle.assessment.given_heights);
+    EXPECT_EQ(gentle.assessment.given_heights->missed, 0);
+    EXPECT_GT(free.assessment.given_heights->missed, 0);
+    std::string const falling = "[network.lines]\npath = \"falling.geojson\"\n[surface]\n";
+    EXPECT_FALSE(made(lines + "heights = \"graded\"\n" + falling, files.folder()).assessment.given_heights);
+    EXPECT_FALSE(made(lines + "heights = \"ends\"\n" + falling, files.folder()).assessment.given_heights);
 }
 
 TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {

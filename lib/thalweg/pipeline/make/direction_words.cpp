@@ -11,11 +11,6 @@ namespace thalweg::pipeline {
 
 namespace {
 
-std::string in_km(double m) {
-    constexpr double least_m = 50.0; // less would be 0.0 km
-    return m < least_m ? fmt::format("{:.2g} m", m) : fmt::format("{:.1f} km", m / 1000.0);
-}
-
 /// The doubts of a kind, the greatest first.
 std::vector<Finding const*> doubts_of(network::Directions const& directions, std::string_view kind) {
     std::vector<Finding const*> result;
@@ -33,6 +28,11 @@ std::string groups(std::size_t count) {
 }
 
 } // namespace
+
+std::string in_km(double m) {
+    constexpr double least_m = 50.0; // less would be 0.0 km
+    return m < least_m ? fmt::format("{:.2g} m", m) : fmt::format("{:.1f} km", m / 1000.0);
+}
 
 std::string turned_in_words(network::Directions const& directions) {
     double sum_m = 0.0;

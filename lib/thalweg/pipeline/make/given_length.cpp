@@ -3,6 +3,7 @@
 #include <thalweg/pipeline/make/given_length.hpp>
 
 #include <thalweg/core/length_in_plan.hpp>
+#include <thalweg/pipeline/make/internal/direction_words.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
 
 #include <fmt/format.h>
@@ -37,11 +38,6 @@ double sum_of(std::vector<Finding> const& findings, std::initializer_list<char c
         sum += std::ranges::count(kinds, f.kind) > 0 ? f.amount : 0.0;
     }
     return sum;
-}
-
-std::string km(double m) {
-    constexpr double least_m = 50.0; // less would be 0.0 km
-    return m < least_m ? fmt::format("{:.2g} m", m) : fmt::format("{:.1f} km", m / 1000.0);
 }
 
 } // namespace
@@ -94,8 +90,9 @@ std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, 
 }
 
 std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers, Terrain const& terrain) {
-    bool const taken = plan.recipe.network && plan.recipe.network->source == Source::lines && plan.lines.has_z;
-    if (!taken || rivers.network.arc_z.empty() || !terrain.surface) {
+    auto const asks = [&](Heights heights) { return plan.recipe.network && plan.recipe.network->heights == heights; };
+    bool const taken = asks(Heights::file) || asks(Heights::soft) || asks(Heights::fixed);
+    if (!taken || !plan.lines.has_z || rivers.network.arc_z.empty() || !terrain.surface) {
         return std::nullopt;
     }
     std::set<std::pair<double, double>> of_file; // without those of outlets that were carried on
@@ -137,17 +134,17 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers
 }
 
 std::string line_of(GivenLength const& given) {
-    std::string line = fmt::format("{} read, {} kept", km(given.read_m), km(given.kept_m));
-    line += given.connector_m > 0.0 ? fmt::format(", {} of it in artificial channels", km(given.connector_m)) : "";
+    std::string line = fmt::format("{} read, {} kept", in_km(given.read_m), in_km(given.kept_m));
+    line += given.connector_m > 0.0 ? fmt::format(", {} of it in artificial channels", in_km(given.connector_m)) : "";
     char const* before = "; left out: ";
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (given.left_out_m[i] > 0.0) {
-            line += fmt::format("{}{} {}", std::exchange(before, ", "), km(given.left_out_m[i]), words[i].text);
+            line += fmt::format("{}{} {}", std::exchange(before, ", "), in_km(given.left_out_m[i]), words[i].text);
         }
     }
-    line += given.turned_m > 0.0 ? fmt::format("; {} reversed", km(given.turned_m)) : "";
+    line += given.turned_m > 0.0 ? fmt::format("; {} reversed", in_km(given.turned_m)) : "";
     line += given.moved_m > 0.0 ? fmt::format("; ends moved by up to {:.3g} m", given.moved_m) : "";
-    line += given.carried_m > 0.0 ? fmt::format("; outlets extended by {}", km(given.carried_m)) : "";
+    line += given.carried_m > 0.0 ? fmt::format("; outlets extended by {}", in_km(given.carried_m)) : "";
     return line;
 }
 

@@ -64,7 +64,7 @@ struct GivenHeights {
 /// \param plan the plan
 /// \param rivers made of it
 /// \param terrain made of them
-/// \return nothing where the network does not take heights from a file, or there is no DEM
+/// \return nothing where the network does not take all heights of a file, or there is no DEM
 std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers, Terrain const& terrain);
 
 /// \param given the account

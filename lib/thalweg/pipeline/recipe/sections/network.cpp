@@ -40,7 +40,7 @@ Use is_graded() {
 }
 
 Use given_heights() {
-    return is("network.heights", {"auto", "file", "soft", "fixed", "ends"});
+    return is("network.heights", {"auto", "file", "soft", "fixed"});
 }
 
 Use rosgen_heights() {
