@@ -232,7 +232,7 @@ TEST(Perched, IsLoweredOrHeldUp) {
                 RC_ASSERT(level.z[i] >= lowered[i]);
             }
         });
-        for (std::int64_t const number : perched_cells(level, tangent * 1.0001F)) {
+        for (std::int64_t const number : walled_cells(level, tangent * 1.0001F)) {
             auto const n = static_cast<std::size_t>(
                 std::distance(rivers.number.begin(), std::find(rivers.number.begin(), rivers.number.end(), number)));
             // what it stands above is a river
@@ -252,22 +252,51 @@ TEST(Perched, IsLoweredOrHeldUp) {
     }));
 }
 
+namespace {
+
+/// Any land with an open frame.
+LandLevel any_open_land() {
+    LandLevel level = any_land();
+    auto const width = static_cast<std::size_t>(level.width);
+    for (std::size_t i = 0; i < level.cover.size(); ++i) {
+        bool const inside = i % width > 0 && i % width + 1 < width && i >= width && i + width < level.cover.size();
+        level.cover[i] = inside ? level.cover[i] : Cover::edge;
+    }
+    return level;
+}
+
+} // namespace
+
 // The land's edge is as high as the nearest river, also when heads have been given up and the others are counted anew.
 TEST(EdgeHeights, AskNoNumbers) {
     ASSERT_TRUE(rc::check("edges keep their heights when rivers are counted anew", [] {
-        LandLevel level = any_land();
-        auto const width = static_cast<std::size_t>(level.width);
-        for (std::size_t i = 0; i < level.cover.size(); ++i) {
-            bool const inside = i % width > 0 && i % width + 1 < width && i >= width && i + width < level.cover.size();
-            level.cover[i] = inside ? level.cover[i] : Cover::edge;
-        }
-        EdgeCells const edge = edge_cells(level, nearest_river(level));
-        RC_ASSERT(edge.ring.size() == static_cast<std::size_t>(2 * (level.width + level.height) - 4));
+        LandLevel level = any_open_land();
+        EdgeCells const edge = edge_cells(level, nearest_river(level), Beyond::rivers);
+        RC_ASSERT(edge.ring.cell.size() == static_cast<std::size_t>(2 * (level.width + level.height) - 4));
         set_edge_heights(level, edge);
         Cells<float> const before = level.z;
         level.rivers = {};
         set_edge_heights(level, edge);
         RC_ASSERT(level.z == before);
+    }));
+}
+
+// Valleys beyond the edge lie nowhere higher than rivers would, and above the lowest river or what touches them.
+TEST(EdgeHeights, ValleysLieLowerThanRivers) {
+    ASSERT_TRUE(rc::check("valleys lie lower", [] {
+        LandLevel level = any_open_land();
+        set_edge_heights(level, edge_cells(level, nearest_river(level), Beyond::rivers));
+        Cells<float> const as_rivers = level.z;
+        EdgeCells const edge = edge_cells(level, nearest_river(level), Beyond::valleys);
+        set_edge_heights(level, edge);
+        float lowest = std::numeric_limits<float>::infinity();
+        for (std::uint32_t const river : level.rivers.cell) {
+            lowest = std::min(lowest, level.z[river]);
+        }
+        for (std::uint32_t const i : edge.ring.cell) {
+            RC_ASSERT(level.z[i] <= as_rivers[i] + 1e-3F);
+            RC_ASSERT(level.z[i] >= lowest - 1e-3F);
+        }
     }));
 }
 

@@ -73,7 +73,34 @@ void expect_none(Channels const& rivers, EquilibriumFields const& fields, Equili
     EXPECT_TRUE(same(wide.dem, equilibrium(rivers, fields, params).dem));
 }
 
+/// How many cells drain to a single river, by a terrain's directions.
+std::int64_t drained(EquilibriumTerrain const& land, Channels const& rivers) {
+    std::set<std::int64_t> const river(rivers.cell.begin(), rivers.cell.end());
+    std::int64_t count = 0;
+    for (std::int64_t i = 0; i < land.direction.cells(); ++i) {
+        std::int64_t at = i;
+        while (at >= 0 && !river.contains(at)) {
+            at = flow::receiver(land.direction, at);
+        }
+        count += at >= 0 ? 1 : 0;
+    }
+    return count;
+}
+
 } // namespace
+
+// Beyond the edge lie valleys that fall away from the head of a river, not one as high as it.
+TEST(Region, LandFarFromRiversDrainsOffTheMap) {
+    Channels const rivers = from_sides(square(256), {{0, 1}});
+    for (std::uint64_t seed = 1; seed < 4; ++seed) {
+        EquilibriumParams params = seeded(seed, 3.0);
+        params.inflow = false;
+        std::int64_t const own = drained(equilibrium(rivers, {}, params), rivers);
+        std::int64_t const before = drained(equilibrium(rivers, {}, seeded(seed, 1.0)), rivers);
+        EXPECT_GT(own, 124 * 10);
+        EXPECT_LT(own, before);
+    }
+}
 
 TEST(Region, StreamsEnterTheGridAndDividesAreElsewhere) {
     Channels const rivers = from_sides(square(256), {{0, 1}});

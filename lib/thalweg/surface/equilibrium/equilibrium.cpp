@@ -138,7 +138,9 @@ public:
     /// The frame is as its nearest rivers where the region says nothing of it.
     void solve(LandLevel& level, std::size_t number, std::size_t levels, RegionFrame const& frame) {
         bool const by_rivers = goes_on(params_.edge) && frame.cells.empty();
-        EdgeCells const edge = by_rivers ? edge_cells(level, nearest_river(level)) : EdgeCells{};
+        EdgeCells const edge =
+            by_rivers ? edge_cells(level, nearest_river(level), params_.inflow ? Beyond::rivers : Beyond::valleys)
+                      : EdgeCells{};
         set_edge_heights(level, edge);
         flood_land(level);
         int const rounds = rounds_of(number, levels);
@@ -278,7 +280,7 @@ Solved solved(Channels const& rivers, EquilibriumFields const& fields, Equilibri
     for (std::size_t number = levels.size(); number-- > 0;) {
         level = prepared(std::move(levels[number]), number, level, around, land.fields, rock, params, run);
         RegionFrame const frame =
-            around.z.empty() ? RegionFrame{} : frame_by_region(level, around, params.seed, params.inflow);
+            around.z.empty() || !params.inflow ? RegionFrame{} : frame_by_region(level, around, params.seed);
         solver.solve(level, number, levels.size(), frame);
         if (region.level > 0 && number == region.level) {
             around = level;

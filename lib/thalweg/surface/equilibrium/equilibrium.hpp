@@ -58,7 +58,8 @@ struct EquilibriumParams {
     /// [1, 5] with an open edge: coarse levels are solved on land wider than the grid by this factor; 1: on the grid
     /// alone
     double region = 3.0;
-    bool inflow = true; ///< water of the region may enter the grid; false: where it would, a divide runs along the edge
+    bool inflow = true; ///< water of the region may enter the grid; false: beyond an open edge lie valleys as low as
+                        ///< the grid's own, to which land drains that no river reaches
     Heads heads = Heads::cut;
     Edge edge = Edge::open;
     RiverHeights heights = RiverHeights::graded;

@@ -38,6 +38,18 @@ void dig(LandLevel& level, std::size_t from, float z, float step) {
     }
 }
 
+/// Whether a river runs through a cell within a few steps.
+bool runs_soon(RiverCells const& rivers, std::size_t n, std::size_t cell) {
+    constexpr int steps = 4; // as far as the second ring, with a bend
+    for (int step = 0; step < steps && rivers.receiver[n] >= 0; ++step) {
+        n = static_cast<std::size_t>(rivers.receiver[n]);
+        if (rivers.cell[n] == cell) {
+            return true;
+        }
+    }
+    return false;
+}
+
 } // namespace
 
 bool leaves_grid(RiverCells const& rivers, std::size_t n) {
@@ -49,11 +61,20 @@ bool is_perched(LandLevel const& level, std::uint32_t cell, float tangent) {
     return level.z[cell] > highest_lawful(level, cell, tangent);
 }
 
-std::vector<std::int64_t> perched_cells(LandLevel const& level, float tangent) {
+std::vector<std::int64_t> walled_cells(LandLevel const& level, float tangent) {
+    RiverCells const& rivers = level.rivers;
     std::vector<std::int64_t> numbers;
-    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
-        if (level.rivers.number[n] >= 0 && is_perched(level, level.rivers.cell[n], tangent)) {
-            numbers.push_back(level.rivers.number[n]);
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        if (rivers.number[n] < 0 || !is_perched(level, rivers.cell[n], tangent)) {
+            continue;
+        }
+        bool walled = false;
+        each_of_second_ring(level, rivers.cell[n], [&](std::size_t i) {
+            bool const lower = level.z[rivers.cell[n]] > level.z[i] + tangent * level.side;
+            walled = walled || (lower && !runs_soon(rivers, n, i));
+        });
+        if (walled) {
+            numbers.push_back(rivers.number[n]);
         }
     }
     std::sort(numbers.begin(), numbers.end());

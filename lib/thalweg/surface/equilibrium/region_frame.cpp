@@ -109,7 +109,7 @@ void share_out(RegionFrame& frame, LandLevel const& level, LandLevel const& regi
 
 } // namespace
 
-RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint64_t seed, bool inflow) {
+RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint64_t seed) {
     Within const within(level, region);
     auto const offsets = level.offsets();
     auto const around = region.offsets();
@@ -150,7 +150,7 @@ RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint
     float const each = region.side * region.side / (level.side * level.side);
     level.inflow.clear();
     for (auto const& [outside, lowest] : entries) {
-        if (inflow && !std::isinf(lowest.z)) {
+        if (!std::isinf(lowest.z)) {
             level.inflow.push_back({static_cast<std::uint32_t>(lowest.cell),
                                     static_cast<std::uint32_t>(static_cast<float>(region.area[outside]) * each)});
         }

@@ -168,7 +168,7 @@ EquilibriumTerrain written_land(LandLevel level, Channels const& rivers, Window 
     out.dem = cropped(level, window);
     float const perched_m = perched_height(raise, window.grid);
     if (heads == Heads::kept) {
-        out.walled = perched_cells(level, perched_m);
+        out.walled = walled_cells(level, perched_m);
     }
     auto const perched =
         heads == Heads::kept ? std::vector<std::int64_t>{} : give_up_tips(level, perched_m, TipBanks::stay);
@@ -200,7 +200,7 @@ EquilibriumTerrain written_given_land(LandLevel level, Channels const& rivers, W
     }
     settle_land(level, settled_step(raise), heights);
     out.dem = cropped(level, window);
-    out.walled = perched_cells(level, perched_height(raise, window.grid));
+    out.walled = walled_cells(level, perched_height(raise, window.grid));
     level = {};
     out.direction = directions(out.dem, rivers, {}, run);
     tell_lowered(out.dem, rivers, out);

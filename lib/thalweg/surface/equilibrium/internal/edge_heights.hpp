@@ -11,17 +11,30 @@
 /// Private to this module.
 namespace thalweg::surface {
 
+/// What lies beyond an open edge.
+enum class Beyond : std::uint8_t {
+    rivers, ///< at each place one as high as the nearest inside
+    valleys ///< of basins with rivers of their own, which fall away from the heads inside
+};
+
 /// The cells at which an open land ends: the frame, once round, and land beside what is masked out.
 struct EdgeCells {
-    std::vector<std::uint32_t> ring;       ///< clockwise from the north-west corner, the sea's cells among them
-    std::vector<std::uint32_t> ring_river; ///< cell of the nearest river; of the sea its own
-    std::vector<std::uint32_t> inner;
-    std::vector<std::uint32_t> inner_river;
+    /// By cell: where it is, and the river nearest to it.
+    struct Part {
+        std::vector<std::uint32_t> cell;
+        std::vector<std::uint32_t> river; ///< its cell; of the sea the sea's own
+        std::vector<std::uint32_t> inner; ///< the cell itself, or the one beside it inside the frame
+        std::vector<float> far;           ///< [finest cells] from the river; of the sea 0
+    };
+    Part ring; ///< clockwise from the north-west corner, the sea's cells among them
+    Part inside;
+    Beyond beyond = Beyond::rivers;
 };
-EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near);
+EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near, Beyond beyond);
 
-/// Sets their heights: as high as the nearest river, along the frame the mean over a stretch; above the rivers they
-/// touch. So neighbouring basins stand as high as ours.
+/// Sets their heights, along the frame as the mean over a stretch, and above the rivers that they touch. Rivers: as
+/// high as the nearest. Valleys: lower by the fall of a river's first reaches, the farther the lower, but nowhere so
+/// low that a large river could not flow from there to one of the grid.
 void set_edge_heights(LandLevel& level, EdgeCells const& edge);
 
 } // namespace thalweg::surface

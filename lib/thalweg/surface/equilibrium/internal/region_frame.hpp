@@ -28,8 +28,8 @@ struct RegionFrame {
 };
 
 /// Sets what lies around a window's level as the region has it. The frame is closed where water flows in, which is
-/// given to the lowest cell beside it where inflow is wanted, and is open elsewhere.
-RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint64_t seed, bool inflow);
+/// given to the lowest cell beside it, and is open elsewhere.
+RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint64_t seed);
 
 /// Sets the heights of an open frame: the region's, and as much as land inside stands higher than the region, whose
 /// cells know no hillslopes.
