@@ -17,7 +17,7 @@
 #include <thalweg/pipeline/commands/replay.hpp>
 #include <thalweg/pipeline/make/assess.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>
-#include <thalweg/pipeline/make/given_length.hpp>
+#include <thalweg/pipeline/make/given.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>
 #include <thalweg/pipeline/make/make.hpp>

@@ -31,6 +31,7 @@ struct RiverLine {
     std::string artificial = {}; ///< what kind of artificial channel it is ("waterway canal"), or ""
     std::int64_t id_shift = 0;   ///< feature is the file's own number and this: networks whose ids begin at 0
     int runs = 0;                ///< by a direction column: 1 as drawn, -1 against it, 0: it does not say
+    double area_m2 = 0.0;        ///< drainage area at its lower end by the file; 0: unknown
 
     /// The number by which the file itself calls it.
     std::int64_t number() const { return feature - id_shift; }

@@ -39,6 +39,15 @@ constexpr std::array<std::string_view, 16> river_sizes{
     "divdasqkm",  "upland_skm",  "uparea",   "dis_av_cms", "ds_area",   "dscontarea", "totdasqkm", "streamcalc",
     "streamorde", "streamorder", "ord_stra", "strahler",   "strmorder", "stream_ord", "strord",    "horton"};
 
+// Drainage areas at the lower end of a line, and their unit [m2].
+constexpr std::array<std::pair<std::string_view, double>, 5> river_areas{{
+    {"totdasqkm", 1e6},  // NHDPlus
+    {"upland_skm", 1e6}, // HydroRIVERS
+    {"uparea", 1e6},     // MERIT-Basins
+    {"dscontarea", 1.0}, // TauDEM
+    {"ds_area", 1.0},    // thalweg
+}};
+
 // The same as classes, of which 1 is the greatest.
 constexpr std::array<std::string_view, 5> river_classes{"streamleve", "streamlevel", "ord_clas", "ord_flow", "hack"};
 
@@ -126,6 +135,12 @@ RiverFields::RiverFields(OGRLayer& layer, int id, int down) {
     order_ = numeric(find("streamorde") >= 0 ? find("streamorde") : find("streamorder"));
     sizes_ = numbers_among(schema, river_sizes);
     classes_ = numbers_among(schema, river_classes);
+    for (auto const& [name, unit_m2] : river_areas) {
+        if (area_ < 0) {
+            area_ = numeric(find(std::string(name).c_str()));
+            area_unit_m2_ = unit_m2;
+        }
+    }
     name_ = first_of(schema, river_names);
     direction_ = first_of(schema, river_directions);
     is_coded_ = direction_ >= 0 && small_letters(schema.GetFieldDefn(direction_)->GetNameRef()) == "flowdirection";
@@ -171,6 +186,7 @@ void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
         double const of = number(feature, field);
         line.size.push_back(of >= 1.0 ? 1.0 / of : 0.0);
     }
+    line.area_m2 = std::max(0.0, number(feature, area_) * area_unit_m2_);
     line.name = text(feature, name_);
     line.runs = runs_of(feature);
     double const divergence = number(feature, divergence_);

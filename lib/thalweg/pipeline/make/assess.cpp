@@ -215,6 +215,18 @@ Assessment with_given_heights(Plan const& plan, Rivers const& rivers, Terrain co
     return found;
 }
 
+/// With the drainage areas of the input beside those of the terrain.
+Assessment with_given_areas(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Assessment found,
+                            Run const& run) {
+    if (terrain.drainage && found.given) {
+        found.given_areas = given_areas(plan, rivers, terrain, found.areas.ds_area_m2);
+    }
+    if (found.given_areas) {
+        run.tell("areas", line_of(*found.given_areas));
+    }
+    return found;
+}
+
 } // namespace
 
 bool Assessment::passed() const {
@@ -228,6 +240,7 @@ Assessment assess(Plan const& plan, Rivers const& rivers, Terrain const& terrain
     found = with_topology(plan, terrain, std::move(found), diary, run);
     found = with_given_length(plan, rivers, terrain, std::move(found), run);
     found = with_given_heights(plan, rivers, terrain, std::move(found), run);
+    found = with_given_areas(plan, rivers, terrain, std::move(found), run);
     found.timings_s = diary.take();
     return found;
 }

@@ -14,7 +14,7 @@
 #include <thalweg/measure/drainage/extract_ridges.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/pipeline/make/given_length.hpp>
+#include <thalweg/pipeline/make/given.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
@@ -33,6 +33,7 @@ struct WaterAreas {
 struct Assessment {
     std::optional<GivenLength> given;          ///< where rivers are read from lines
     std::optional<GivenHeights> given_heights; ///< where the DEM is to have heights of these
+    std::optional<GivenAreas> given_areas;     ///< where the lines have areas and the terrain drains
     flow::ContributingAreas areas;             ///< of the arcs
     RiverLaws laws;
     std::vector<NodeId> sinks;                     ///< where rivers end inland, as they were asked to

@@ -46,7 +46,7 @@ ordered_json grid_object(Grid const& grid) {
 }
 
 /// Rows of name, value and unit, those of nothing left out.
-ordered_json given_array(std::optional<GivenLength> const& given) {
+ordered_json given_array(std::optional<GivenLength> const& given, std::optional<GivenAreas> const& areas) {
     ordered_json rows = ordered_json::array();
     auto const add = [&](std::string const& name, double metres, double unit_m, char const* unit) {
         if (metres > 0.0) {
@@ -63,6 +63,12 @@ ordered_json given_array(std::optional<GivenLength> const& given) {
         add("reversed", given->turned_m, 1000.0, "km");
         add("outlets extended by", given->carried_m, 1000.0, "km");
         add("ends moved by up to", given->moved_m, 1.0, "m");
+    }
+    if (areas) {
+        rows.push_back({"drainage area, terrain / file: median", to_millimetres(areas->median), ""});
+        rows.push_back({"from (5 % of arcs below)", to_millimetres(areas->low), ""});
+        rows.push_back({"to (5 % of arcs above)", to_millimetres(areas->high), ""});
+        rows.push_back({"within a factor of 2", to_millimetres(100.0 * areas->within_factor_2), "% of arcs"});
     }
     return rows;
 }
@@ -344,7 +350,7 @@ std::string page_data(Made const& t, PageParams const& params, std::optional<Pag
                             {"relief", t.assessment.relief ? ordered_json::parse(relief_json(*t.assessment.relief))
                                                            : ordered_json(nullptr)},
                             {"statistics", figures.take()},
-                            {"given", given_array(t.assessment.given)},
+                            {"given", given_array(t.assessment.given, t.assessment.given_areas)},
                             {"checks", ordered_json::parse(checks_json(t.assessment.checks))},
                             {"timings", timings_array(t)},
                             {"repairs", shown(repairs_of(t))},

@@ -271,6 +271,14 @@ void add_rivers(Made const& t, ordered_json& report) {
                                           {"mean_m", heights.mean_m},
                                           {"largest_m", heights.largest_m}};
         }
+        if (t.assessment.given_areas) {
+            GivenAreas const& areas = *t.assessment.given_areas;
+            report["given"]["areas"] = {{"arcs", areas.arcs},
+                                        {"median", areas.median},
+                                        {"p05", areas.low},
+                                        {"p95", areas.high},
+                                        {"within_factor_2", areas.within_factor_2}};
+        }
         report["shortened_fields"] = ordered_json::array();
         for (io::ShortenedName const& one : shortened_names(t)) {
             report["shortened_fields"].push_back({{"field", one.name}, {"in_shapefile", one.in_shapefile}});

@@ -23,7 +23,7 @@ public:
     /// the line downstream, where a user names both; else -1.
     explicit RiverFields(OGRLayer& layer, int id = -1, int down = -1);
 
-    /// Sets channel, size, name and runs, and remembers the links of the feature.
+    /// Sets channel, size, area, name and runs, and remembers the links of the feature.
     void read(OGRFeature const& feature, RiverLine& line);
     /// Why a feature is not a natural watercourse.
     struct Unnatural {
@@ -53,6 +53,8 @@ private:
     int order_ = -1;
     std::vector<int> sizes_;   ///< greater for greater rivers
     std::vector<int> classes_; ///< 1 for the greatest rivers
+    int area_ = -1;
+    double area_unit_m2_ = 1.0;
     int name_ = -1;
     int direction_ = -1;
     bool is_coded_ = false; ///< directions are 1 and 2

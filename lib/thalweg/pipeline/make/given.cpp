@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/given_length.hpp>
+#include <thalweg/pipeline/make/given.hpp>
 
 #include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/pipeline/make/internal/direction_words.hpp>
@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -131,6 +132,52 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers
     }
     given.mean_m = given.missed > 0 ? sum_m / static_cast<double>(given.missed) : 0.0;
     return given;
+}
+
+std::optional<GivenAreas> given_areas(Plan const& plan, Rivers const& rivers, Terrain const& terrain,
+                                      std::vector<double> const& ds_area_m2) {
+    std::map<std::int64_t, double> area_of; // by feature
+    for (auto const* lines : {&plan.lines.lines, &plan.lines.channels}) {
+        for (RiverLine const& line : *lines) {
+            if (line.area_m2 > 0.0) {
+                area_of.try_emplace(line.feature, line.area_m2);
+            }
+        }
+    }
+    if (area_of.empty()) {
+        return std::nullopt;
+    }
+    StreamNetwork const& network = terrain.network.plan;
+    std::vector<std::vector<Stretch>> const stretches = rivers.file.sources.of(network);
+    std::vector<double> ratios;
+    for (ArcId a = 0; a < network.arc_count(); ++a) {
+        if (stretches[a].empty() || network.length_m(a) - stretches[a].back().to_m > terrain.grid.cell_m) {
+            continue; // carried beyond the line
+        }
+        std::int64_t const feature = stretches[a].back().feature;
+        ArcId const below = network.out(network.to(a));
+        bool const goes_on =
+            below != no_arc && !stretches[below].empty() && stretches[below].front().feature == feature;
+        if (auto const area = area_of.find(feature); area != area_of.end() && !goes_on) {
+            ratios.push_back(ds_area_m2[a] / area->second);
+        }
+    }
+    if (ratios.empty()) {
+        return std::nullopt;
+    }
+    std::ranges::sort(ratios);
+    auto const at = [&](double share) {
+        return ratios[static_cast<std::size_t>(share * static_cast<double>(ratios.size() - 1) + 0.5)];
+    };
+    auto const near = std::ranges::count_if(ratios, [](double r) { return r >= 0.5 && r <= 2.0; });
+    return GivenAreas{static_cast<std::int64_t>(ratios.size()), at(0.5), at(0.05), at(0.95),
+                      static_cast<double>(near) / static_cast<double>(ratios.size())};
+}
+
+std::string line_of(GivenAreas const& given) {
+    return fmt::format("{} arcs drain {:.2f} of the file's areas (median; {:.2f} to {:.2f} from 5 to 95 %), {:.0f} % "
+                       "within a factor of 2",
+                       given.arcs, given.median, given.low, given.high, 100.0 * given.within_factor_2);
 }
 
 std::string line_of(GivenLength const& given) {

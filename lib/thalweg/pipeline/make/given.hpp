@@ -67,8 +67,30 @@ struct GivenHeights {
 /// \return nothing where the network does not take all heights of a file, or there is no DEM
 std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers, Terrain const& terrain);
 
+/// Drainage areas that a file's lines have at their lower ends, beside those of the terrain. Ratios: terrain / file.
+struct GivenAreas {
+    std::int64_t arcs = 0;        ///< that end where a line with an area does
+    double median = 0.0;          ///< ratio
+    double low = 0.0;             ///< its 5th percentile
+    double high = 0.0;            ///< its 95th percentile
+    double within_factor_2 = 0.0; ///< [0, 1] share of arcs
+};
+
+/// Compares the drainage areas of a plan's lines with those of the terrain.
+/// \param plan the plan
+/// \param rivers made of it
+/// \param terrain made of them
+/// \param ds_area_m2 [m2] by arc, at its lower end
+/// \return nothing where the file has none
+std::optional<GivenAreas> given_areas(Plan const& plan, Rivers const& rivers, Terrain const& terrain,
+                                      std::vector<double> const& ds_area_m2);
+
 /// \param given the account
 /// \return one line for the log: kilometres read, kept, left out by cause, turned, moved, added
 std::string line_of(GivenLength const& given);
+
+/// \param given the comparison
+/// \return one line for the log
+std::string line_of(GivenAreas const& given);
 
 } // namespace thalweg::pipeline

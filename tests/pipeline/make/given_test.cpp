@@ -1,9 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/given_length.hpp>
+#include <thalweg/pipeline/make/given.hpp>
 
+#include <algorithm>
 #include <numeric>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +16,7 @@
 #include <pipeline/made.hpp>
 #include <thalweg/core/length_in_plan.hpp>
 
-namespace given_length_test {
+namespace given_test {
 
 using namespace thalweg;
 using namespace thalweg::pipeline;
@@ -132,6 +137,50 @@ TEST(GivenLength, OfAFeatureInSeveralPartsOnlyTheShortOneIsLeftOut) {
     EXPECT_NEAR(given.kept_m, 2990.0, 10.0);
 }
 
+// Areas of three schemas: the terrain's at an arc's lower end over the file's, where that line ends there.
+TEST(GivenAreas, OfTheFileStandBesideThoseOfTheTerrain) {
+    std::string const text = recipe + "[network.lines]\npath = \"rivers.geojson\"\n[surface]\n";
+    Files files;
+    EXPECT_FALSE(test::made(text, files.folder()).assessment.given_areas);
+    for (auto const& [field, unit_m2] :
+         {std::pair("\"TotDASqKM\":", 1e6), std::pair("\"UPLAND_SKM\":", 1e6), std::pair("\"DSContArea\":", 1.0)}) {
+        auto const area = [&](double km2) { return fmt::format("{}{}", field, km2 * 1e6 / unit_m2); };
+        // The upper half of the trunk has an area, the lower one none; its tributary runs as drawn.
+        files.write("rivers.geojson", test::geojson(line("[502000,5003000],[502000,5002000]", area(2.0)) + "," +
+                                                    line("[503000,5002800],[502000,5002000]", area(4.0)) + "," +
+                                                    line("[502000,5002000],[502000,5000010]", area(0.0))));
+        Made const t = test::made(text, files.folder());
+        ASSERT_TRUE(t.assessment.given_areas) << field;
+        GivenAreas const& given = *t.assessment.given_areas;
+        EXPECT_EQ(given.arcs, 2);
+        std::vector<double> ratios;
+        StreamNetwork const& network = t.terrain.network.plan;
+        for (ArcId a = 0; a < network.arc_count(); ++a) {
+            double const km2 = network.arc(a).feature == 1 ? 2.0 : network.arc(a).feature == 2 ? 4.0 : 0.0;
+            if (km2 > 0.0) {
+                ratios.push_back(t.assessment.areas.ds_area_m2[a] / (1e6 * km2));
+            }
+        }
+        std::ranges::sort(ratios);
+        ASSERT_EQ(ratios.size(), 2U);
+        EXPECT_DOUBLE_EQ(given.low, ratios[0]);
+        EXPECT_DOUBLE_EQ(given.high, ratios[1]);
+        auto const near = std::ranges::count_if(ratios, [](double r) { return r >= 0.5 && r <= 2.0; });
+        EXPECT_DOUBLE_EQ(given.within_factor_2, 0.5 * static_cast<double>(near));
+    }
+}
+
+// No arc of the terrain is made to fit the file's areas: they fit where neighbours' valleys lie beyond the map.
+TEST(GivenAreas, OfWalkerCreekAreTheTerrains) {
+    std::string const text =
+        "[network]\nsource = \"lines\"\n[network.lines]\npath = \"walker_nhdplus.gpkg\"\n[surface]\n";
+    Made const t = test::made(text, THALWEG_SOURCE_DIR "/samples");
+    ASSERT_TRUE(t.assessment.given_areas);
+    EXPECT_GE(t.assessment.given_areas->arcs, 50);
+    EXPECT_GE(t.assessment.given_areas->within_factor_2, 0.9);
+    EXPECT_NEAR(t.assessment.given_areas->median, 1.0, 0.15);
+}
+
 TEST(GivenLength, BendsAreNoLength) {
     Files const files;
     Made const t = test::made(recipe + "meander = 1\n" + path, files.folder());
@@ -160,4 +209,4 @@ TEST(GivenLength, OneLineTellsAll) {
         "heads; 1.5 km reversed; ends moved by up to 12.5 m; outlets extended by 0.7 km");
 }
 
-} // namespace given_length_test
+} // namespace given_test
