@@ -10,7 +10,6 @@
 
 #include <support.hpp>
 #include <thalweg/blend/paste.hpp>
-#include <thalweg/blend/place_patch.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "lands.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/blend/internal/distance_within.hpp>
+#include <thalweg/blend/internal/region.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/blend/fuse_tin.hpp>
+#include <thalweg/blend/tin.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,6 @@
 
 #include <support.hpp>
 #include <thalweg/blend/internal/cut_tin.hpp>
-#include <thalweg/blend/internal/mesh_outline.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/blend/paste_tin.hpp>
+#include <thalweg/blend/tin.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <rapidcheck.h>
 
 #include <support.hpp>
-#include <thalweg/blend/internal/follow.hpp>
+#include <thalweg/blend/internal/region.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "lands.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/blend/place_patch.hpp>
+#include <thalweg/blend/paste.hpp>
 
 #include <cmath>
 #include <limits>

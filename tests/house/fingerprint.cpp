@@ -5,10 +5,8 @@
 #include "fnv.hpp"
 
 #include <thalweg/blend/deform.hpp>
-#include <thalweg/blend/fuse_tin.hpp>
 #include <thalweg/blend/paste.hpp>
-#include <thalweg/blend/paste_tin.hpp>
-#include <thalweg/blend/place_patch.hpp>
+#include <thalweg/blend/tin.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/flow/catchments/areas.hpp>

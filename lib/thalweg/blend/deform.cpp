@@ -7,8 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/blend/internal/follow.hpp>
-#include <thalweg/blend/internal/opening.hpp>
+#include <thalweg/blend/internal/region.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 

@@ -34,8 +34,6 @@ struct Deformed {
 /// \param target [m] by cell; NaN: no data
 /// \param region by cell of the target; not 0: inside
 /// \param handles cells of the region with data, and their heights
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return handles at their heights, rounded to float; outside the region the target bit for bit; elsewhere f with lap
 /// f = div (scale g), g: the target's differences, and f the target's in the region's 4-neighbours. No flux across the
 /// target's edge and into cells without data. With scale 1 and handles at their present heights, the target bit for
@@ -44,7 +42,6 @@ struct Deformed {
 /// \throws BadInput naming a cell when the region is on another grid or has no data, a handle is outside it, not finite
 /// or given twice with two heights, or a part of the region has neither handle nor neighbour with data
 /// \throws NotConverged when the solver does not reach the tolerance
-/// \throws Cancelled
 ///
 /// Source: \cite nenu2015, section 4.2 (deformation).
 Deformed deform(Raster<float> const& target, Mask const& region, std::vector<Handle> const& handles,

@@ -3,19 +3,269 @@
 #include <thalweg/blend/paste.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/blend/internal/distance_within.hpp>
-#include <thalweg/blend/internal/follow.hpp>
-#include <thalweg/blend/internal/opening.hpp>
+#include <thalweg/blend/internal/region.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/run/range.hpp>
 
 namespace thalweg::blend {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+// [cells] What coordinates of millions of metres lose to rounding.
+constexpr double snap = 1e-6;
+
+/// A place on the source in columns and rows; whole numbers are centres of cells.
+struct Place {
+    double col;
+    double row;
+};
+
+double snapped(double v) {
+    double const whole = std::floor(v + 0.5);
+    return std::fabs(v - whole) <= snap ? whole : v;
+}
+
+// Cells without data that reach the source's edge through others: what lies beyond its outline, not a hole in it.
+Mask beyond_outline(Raster<float> const& source) {
+    Grid const& grid = source.grid();
+    Mask beyond(grid);
+    std::vector<Cell> reached;
+    auto const take = [&](Cell c) {
+        if (grid.contains(c) && beyond[c] == 0 && std::isnan(source[c])) {
+            beyond[c] = 1;
+            reached.push_back(c);
+        }
+    };
+    for (std::int64_t col = 0; col < grid.width; ++col) {
+        take({col, 0});
+        take({col, grid.height - 1});
+    }
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        take({0, row});
+        take({grid.width - 1, row});
+    }
+    while (!reached.empty()) {
+        Cell const c = reached.back();
+        reached.pop_back();
+        take({c.col - 1, c.row});
+        take({c.col + 1, c.row});
+        take({c.col, c.row - 1});
+        take({c.col, c.row + 1});
+    }
+    return beyond;
+}
+
+std::int64_t count(Mask const& mask, Run const& run) {
+    return sum_rows(run, mask.height(), [&](std::int64_t r) {
+        return static_cast<std::int64_t>(std::ranges::count_if(mask.row(r), [](std::uint8_t m) { return m != 0; }));
+    });
+}
+
+/// How target and source lie to one another.
+class Placement {
+public:
+    Placement(Raster<float> const& source, SourceWindow const& window, PlacePatchParams const& params)
+        : source_(source), beyond_(beyond_outline(source)), window_(window),
+          middle_{static_cast<double>(window.col) + 0.5 * static_cast<double>(window.width - 1),
+                  static_cast<double>(window.row) + 0.5 * static_cast<double>(window.height - 1)},
+          cosine_(portable::cos(params.rotate_deg * (portable::pi / 180.0))),
+          sine_(portable::sin(params.rotate_deg * (portable::pi / 180.0))),
+          cell_m_(params.scale * source.grid().cell_m) {
+        Grid const& grid = source.grid();
+        at_ = params.at.value_or(
+            Vec2{grid.west + (middle_.col + 0.5) * grid.cell_m, grid.north - (middle_.row + 0.5) * grid.cell_m});
+    }
+
+    Place on_source(Vec2 p) const {
+        double const east = (p.x - at_.x) / cell_m_;
+        double const north = (p.y - at_.y) / cell_m_;
+        return {snapped(middle_.col + (cosine_ * east + sine_ * north)),
+                snapped(middle_.row - (cosine_ * north - sine_ * east))};
+    }
+
+    Vec2 on_target(Place place) const {
+        double const east = (place.col - middle_.col) * cell_m_;
+        double const north = (middle_.row - place.row) * cell_m_;
+        return {at_.x + (cosine_ * east - sine_ * north), at_.y + (sine_ * east + cosine_ * north)};
+    }
+
+    bool on_lattice(Place p) const {
+        if (!(p.col >= 0.0 && p.row >= 0.0 && p.col <= static_cast<double>(source_.width() - 1) &&
+              p.row <= static_cast<double>(source_.height() - 1))) {
+            return false;
+        }
+        auto const col = static_cast<std::int64_t>(p.col);
+        auto const row = static_cast<std::int64_t>(p.row);
+        std::int64_t const east = static_cast<double>(col) < p.col ? col + 1 : col;
+        std::int64_t const south = static_cast<double>(row) < p.row ? row + 1 : row;
+        return (beyond_[{col, row}] | beyond_[{east, row}] | beyond_[{col, south}] | beyond_[{east, south}]) == 0;
+    }
+
+    bool in_window(Place p) const {
+        auto const within = [](double v, std::int64_t first, std::int64_t count) {
+            double const cell = std::floor(v + (0.5 + snap));
+            return cell >= static_cast<double>(first) && cell < static_cast<double>(first + count);
+        };
+        return within(p.col, window_.col, window_.width) && within(p.row, window_.row, window_.height);
+    }
+
+    /// Takes: a place on the lattice.
+    double height(Place p) const {
+        Cell const cell{static_cast<std::int64_t>(p.col), static_cast<std::int64_t>(p.row)};
+        double const x = p.col - static_cast<double>(cell.col);
+        double const y = p.row - static_cast<double>(cell.row);
+        double const north = along_row(cell, x);
+        if (y == 0.0) {
+            return north;
+        }
+        double const south = along_row({cell.col, cell.row + 1}, x);
+        return north + y * (south - north);
+    }
+
+    /// The window's corners on the target.
+    std::array<Vec2, 4> corners() const {
+        double const west = static_cast<double>(window_.col) - 0.5;
+        double const north = static_cast<double>(window_.row) - 0.5;
+        double const east = west + static_cast<double>(window_.width);
+        double const south = north + static_cast<double>(window_.height);
+        return {on_target({west, north}), on_target({east, north}), on_target({east, south}), on_target({west, south})};
+    }
+
+private:
+    double along_row(Cell cell, double x) const {
+        double const west = source_[cell];
+        return x == 0.0 ? west : west + x * (static_cast<double>(source_[{cell.col + 1, cell.row}]) - west);
+    }
+
+    Raster<float> const& source_;
+    Mask beyond_;
+    SourceWindow window_;
+    Place middle_;
+    double cosine_;
+    double sine_;
+    double cell_m_; // side of a source's cell on the target
+    Vec2 at_;
+};
+
+void check(PlacePatchParams const& params) {
+    require_in("blend.place_patch", "rotation", params.rotate_deg, Range::between(-360.0, 360.0), "degrees");
+    require_in("blend.place_patch", "scale", params.scale, Range::above(0.0));
+    require_in("blend.place_patch", "gain", params.gain, Range::finite());
+    if (params.at && (!std::isfinite(params.at->x) || !std::isfinite(params.at->y))) {
+        throw BadParameter(
+            fmt::format("blend.place_patch: a patch at ({}, {}); give finite coordinates", params.at->x, params.at->y));
+    }
+}
+
+SourceWindow window_of(Raster<float> const& source, PlacePatchParams const& params) {
+    SourceWindow const w = params.window.value_or(SourceWindow{0, 0, source.width(), source.height()});
+    if (w.col < 0 || w.row < 0 || w.width < 1 || w.height < 1 || w.width > source.width() ||
+        w.height > source.height() || w.col > source.width() - w.width || w.row > source.height() - w.height) {
+        throw BadInput(fmt::format("blend.place_patch: a window of {} x {} cells at column {}, row {} of a source of "
+                                   "{} x {} cells; it lies within the source",
+                                   w.width, w.height, w.col, w.row, source.width(), source.height()));
+    }
+    return w;
+}
+
+/// Cells the window may touch, and their neighbours.
+struct Span {
+    std::int64_t first_col;
+    std::int64_t end_col;
+    std::int64_t first_row;
+    std::int64_t end_row;
+};
+
+Span span_of(Placement const& placement, Grid const& target) {
+    auto const clamped = [](double v, std::int64_t most) {
+        return !(v > 0.0) ? 0 : v >= static_cast<double>(most) ? most : static_cast<std::int64_t>(v);
+    };
+    double west = std::numeric_limits<double>::infinity();
+    double east = -west;
+    double south = west;
+    double north = -west;
+    for (Vec2 const& p : placement.corners()) {
+        west = std::min(west, p.x);
+        east = std::max(east, p.x);
+        south = std::min(south, p.y);
+        north = std::max(north, p.y);
+    }
+    return {clamped((west - target.west) / target.cell_m - 2.0, target.width),
+            clamped((east - target.west) / target.cell_m + 3.0, target.width),
+            clamped((target.north - north) / target.cell_m - 2.0, target.height),
+            clamped((target.north - south) / target.cell_m + 3.0, target.height)};
+}
+
+[[noreturn]] void refuse_empty(Placement const& placement, SourceWindow const& window, Grid const& target,
+                               bool has_part) {
+    auto const corners = placement.corners();
+    throw BadInput(fmt::format(
+        "blend.place_patch: the patch of {} x {} source cells with its corners at ({:.3f}, {:.3f}), ({:.3f}, {:.3f}), "
+        "({:.3f}, {:.3f}) and ({:.3f}, {:.3f}) covers no cell{} of the target, which reaches from ({:.3f}, {:.3f}) to "
+        "({:.3f}, {:.3f}), that has all its neighbours on the source: move it or take a larger one",
+        window.width, window.height, corners[0].x, corners[0].y, corners[1].x, corners[1].y, corners[2].x, corners[2].y,
+        corners[3].x, corners[3].y, has_part ? " of the mask" : "", target.west, target.south(), target.east(),
+        target.north));
+}
+
+} // namespace
+
+Patch place_patch(Raster<float> const& source, Grid const& target, PlacePatchParams const& params, Run const& run) {
+    check(params);
+    SourceWindow const window = window_of(source, params);
+    bool const has_part = params.part.cells() > 0;
+    if (has_part && params.part.grid() != target) {
+        throw BadInput(
+            fmt::format("blend.place_patch: a mask of {} x {} cells for a target of {} x {}: they share a grid",
+                        params.part.width(), params.part.height(), target.width, target.height));
+    }
+    std::int64_t const wanted = has_part ? count(params.part, run) : 0;
+    if (has_part && wanted == 0) {
+        throw BadInput("blend.place_patch: the mask holds no cell of the target");
+    }
+    Placement const placement(source, window, params);
+    Patch patch{Mask(target), Raster<double>(target, not_a_number)};
+    Span const span = span_of(placement, target);
+    auto const on_lattice = [&](Cell c) {
+        return !target.contains(c) || placement.on_lattice(placement.on_source(target.centre(c)));
+    };
+    parallel_ranges(run, std::max<std::int64_t>(span.end_row - span.first_row, 0), 8,
+                    [&](std::int64_t begin, std::int64_t end) {
+                        for (std::int64_t row = span.first_row + begin; row < span.first_row + end; ++row) {
+                            for (std::int64_t col = span.first_col; col < span.end_col; ++col) {
+                                Cell const c{col, row};
+                                Place const place = placement.on_source(target.centre(c));
+                                if (!placement.on_lattice(place)) {
+                                    continue;
+                                }
+                                patch.z[c] = params.gain * placement.height(place);
+                                bool const asked = (!has_part || params.part[c] != 0) && placement.in_window(place);
+                                patch.mask[c] = asked && on_lattice({col - 1, row}) && on_lattice({col + 1, row}) &&
+                                                        on_lattice({col, row - 1}) && on_lattice({col, row + 1})
+                                                    ? 1
+                                                    : 0;
+                            }
+                        }
+                    });
+    std::int64_t const covered = count(patch.mask, run);
+    if (covered == 0) {
+        refuse_empty(placement, window, target, has_part);
+    }
+    patch.outside = has_part ? wanted - covered : 0;
+    return patch;
+}
+
 namespace {
 
 using solver::fixed_cell;

@@ -3,12 +3,51 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
-#include <thalweg/blend/patch.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
 namespace thalweg::blend {
+
+/// A piece of terrain placed on a target's grid.
+struct Patch {
+    Mask mask;                ///< cells that the patch replaces
+    Raster<double> z;         ///< [m] its heights, also outside the mask; NaN: no data
+    std::int64_t outside = 0; ///< requested cells that lie off the source
+};
+
+/// A window of a source, from its north-west.
+struct SourceWindow {
+    std::int64_t col = 0;
+    std::int64_t row = 0;
+    std::int64_t width = 0;  ///< [cells] >= 1
+    std::int64_t height = 0; ///< [cells] >= 1
+};
+
+/// Options of place_patch().
+struct PlacePatchParams {
+    std::optional<Vec2> at = {};             ///< [m] new position of the window's centre; empty: its own
+    double rotate_deg = 0.0;                 ///< [deg] in [-360, 360], counterclockwise about the centre
+    double scale = 1.0;                      ///< > 0, in plan
+    double gain = 1.0;                       ///< finite, of heights
+    std::optional<SourceWindow> window = {}; ///< the part of the source to place; empty: all
+    Mask part = {};                          ///< on the target's grid: cells that may be replaced; empty: all
+};
+
+/// Resamples a DEM onto the grid of another: moved, rotated about the vertical, scaled.
+/// \param source [m] by cell, of any cell size; NaN: no data; in the target's coordinates
+/// \param target grid of the result
+/// \return heights bilinear between cell centres, bit for bit at these (to 1e-6 of a cell); NaN where one is missing or
+/// beyond the outline of centres with data. The mask holds the cells of `part` in the window that lie, with all
+/// neighbours, inside the outline. The same bits for any number of threads.
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput when the window leaves the source, part is on another grid or empty, or the mask would be empty:
+/// names both extents
+///
+/// Source: \cite nenu2015, algorithm 1, step 1 and section 4.2 (rotation and scaling).
+Patch place_patch(Raster<float> const& source, Grid const& target, PlacePatchParams const& params = {},
+                  Run const& run = {});
 
 /// Whose differences between neighbours a pasted region has.
 enum class Relief : std::uint8_t {
@@ -48,8 +87,6 @@ struct Pasted {
 /// are mixed by a smoothstep of the distance from cells that keep their height.
 /// \param target [m] by cell; NaN: no data
 /// \param patch on the target's grid, at any level
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return outside the mask, in kept cells and in holes left the target bit for bit; elsewhere f with lap f = div g, g:
 /// the patch's differences (the target's, where it has none across the seam), and f the target's in the mask's
 /// 4-neighbours. No flux across the target's edge and into cells without data. A patch equal to the target, up to a
@@ -58,7 +95,6 @@ struct Pasted {
 /// \throws BadInput naming a cell when patch or keep are on another grid, a height is infinite, no cell would change,
 /// or a part of the patch touches no cell that keeps its height
 /// \throws NotConverged when the solver does not reach the tolerance
-/// \throws Cancelled
 ///
 /// Source: \cite nenu2015, algorithm 1 and eqs 14 to 16; \cite perez2003, Poisson image editing.
 Pasted paste(Raster<float> const& target, Patch const& patch, PasteParams const& params = {}, Run const& run = {});

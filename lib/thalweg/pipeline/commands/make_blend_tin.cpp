@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/blend/gradients.hpp>
+#include <thalweg/blend/tin.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/frame/same_frame.hpp>

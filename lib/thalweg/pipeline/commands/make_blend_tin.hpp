@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include <thalweg/blend/fuse_tin.hpp>
+#include <thalweg/blend/tin.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/pipeline/commands/make_blend.hpp>

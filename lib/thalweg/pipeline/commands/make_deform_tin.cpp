@@ -9,8 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/blend/gradients.hpp>
-#include <thalweg/blend/paste_tin.hpp>
+#include <thalweg/blend/tin.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/mesh/read_tin.hpp>

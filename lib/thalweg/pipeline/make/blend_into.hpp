@@ -7,7 +7,6 @@
 #include <string>
 
 #include <thalweg/blend/paste.hpp>
-#include <thalweg/blend/place_patch.hpp>
 #include <thalweg/core/run/run.hpp>
 
 namespace thalweg::pipeline {
