@@ -6,8 +6,8 @@
 // included. One and two threads.
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/fractal/internal/refine.hpp>
 #include <thalweg/fractal/midpoint.hpp>
-#include <thalweg/fractal/refine.hpp>
 
 #include <benchmark/benchmark.h>
 

@@ -3,11 +3,6 @@
 #pragma once
 
 /// All public headers of the module.
-#include <thalweg/fractal/check_targets.hpp>
 #include <thalweg/fractal/estimate_fractal.hpp>
-#include <thalweg/fractal/fine_forms.hpp>
 #include <thalweg/fractal/match_statistics.hpp>
 #include <thalweg/fractal/midpoint.hpp>
-#include <thalweg/fractal/noise_row.hpp>
-#include <thalweg/fractal/refine.hpp>
-#include <thalweg/fractal/stencil_weights.hpp>

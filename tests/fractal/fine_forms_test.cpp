@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/fractal/fine_forms.hpp>
+#include <thalweg/fractal/match_statistics.hpp>
 
 #include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>

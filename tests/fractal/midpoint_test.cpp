@@ -8,7 +8,7 @@
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/fractal/estimate_fractal.hpp>
-#include <thalweg/fractal/refine.hpp>
+#include <thalweg/fractal/internal/refine.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

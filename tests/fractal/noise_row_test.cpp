@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/fractal/noise_row.hpp>
+#include <thalweg/fractal/midpoint.hpp>
 
 #include <Random123/philox.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/fractal/stencil_weights.hpp>
+#include <thalweg/fractal/midpoint.hpp>
 
 #include <gtest/gtest.h>
 

@@ -18,9 +18,9 @@
 #include <thalweg/flow/routing/route_dinf.hpp>
 #include <thalweg/flow/streams/extract_streams.hpp>
 #include <thalweg/fractal/estimate_fractal.hpp>
+#include <thalweg/fractal/internal/refine.hpp>
 #include <thalweg/fractal/match_statistics.hpp>
 #include <thalweg/fractal/midpoint.hpp>
-#include <thalweg/fractal/refine.hpp>
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>

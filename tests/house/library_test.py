@@ -14,7 +14,6 @@ REFERRING = {
     "io/network/write_network.hpp": "an argument, for the time of a call; names are literals",
     "io/raster/write_catchments.hpp": "an argument, for the time of a call",
     "core/run/run.hpp": "what the caller asks to be handed back to its own callback",
-    "fractal/refine.hpp": "an argument, for the time of a call",
     "network/import/import_lines.hpp": "an argument, for the time of a call",
     "io/mesh/write_tin.hpp": "names are literals",
     "io/mesh/write_points.hpp": "names are literals",

@@ -44,13 +44,10 @@ struct CellWindow {
 /// Estimates H and sigma of a raster by the least-squares line of ln S(k) over ln k, k = 1 ... 4 cells; S(k) is the
 /// average of its means along rows and columns, or the only one.
 /// \param dem [m] by cell; NaN: no data, left out with its pairs
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return H clamped to [0.05, 0.95], then sigma at that H. From one lag: H = 0.5 (unless prescribed) and sigma; from
 /// none, as of a flat raster: sigma = 0. The same bits for any number of threads.
 /// \throws BadInput for an infinite height
 /// \throws BadParameter when the prescribed H is outside its range
-/// \throws Cancelled
 ///
 /// Source: \cite zhang, section on fractal interpolation (H and sigma of the initial grid); specification 1.6.
 Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params = {}, Run const& run = {});
@@ -58,7 +55,6 @@ Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params 
 /// Estimates H and sigma from the pairs of cells inside a window.
 /// \param dem [m] by cell; NaN: no data
 /// \param window inside the raster
-/// \param params options, each with its default, unit and range
 /// \return as for a whole raster
 Fractal estimate_fractal(Raster<float> const& dem, CellWindow const& window, EstimateParams const& params = {});
 

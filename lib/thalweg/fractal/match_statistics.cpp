@@ -5,30 +5,322 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sum_rows.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/run/range.hpp>
-#include <thalweg/fractal/check_targets.hpp>
-#include <thalweg/fractal/internal/goals.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/fractal/internal/limiter.hpp>
-#include <thalweg/fractal/internal/prior.hpp>
 #include <thalweg/solver/linear/cholesky.hpp>
 #include <thalweg/solver/spectral/circulant.hpp>
+#include <thalweg/solver/spectral/fft.hpp>
 #include <thalweg/solver/statistics/field_statistics.hpp>
 
 namespace thalweg::fractal {
+namespace {
+
+void check_range(char const* what, std::optional<double> const& value, double above, double below,
+                 char const* unit = "") {
+    if (value) {
+        require_in("fractal.match_statistics", what, *value, Range::inside(above, below), unit);
+    }
+}
+
+void check_extreme(Raster<float> const& dem, char const* what, std::optional<FixedHeight> const& extreme) {
+    if (!extreme) {
+        return;
+    }
+    Cell const cell = extreme->cell;
+    if (!dem.grid().contains(cell)) {
+        throw BadParameter(fmt::format(
+            "fractal.match_statistics: the {} at column {}, row {} lies off the grid of {} x {} cells; columns "
+            "and rows count from 0",
+            what, cell.col, cell.row, dem.width(), dem.height()));
+    }
+    if (std::isnan(dem[cell])) {
+        throw BadParameter(
+            fmt::format("fractal.match_statistics: the {} at column {}, row {} lies in a hole; give a cell with data",
+                        what, cell.col, cell.row));
+    }
+    check_range(what, extreme->z, -1e9, 1e9, "m");
+}
+
+} // namespace
+
+void check_targets(Raster<float> const& dem, Targets const& targets) {
+    check_extreme(dem, "highest point", targets.max);
+    check_extreme(dem, "lowest point", targets.min);
+    check_range("mean", targets.mean, -1e9, 1e9, "m");
+    check_range("deviation", targets.std, 0.0, 1e9, "m");
+    check_range("correlation length lx", targets.lx_cells, 0.0, 1e9, "cells");
+    check_range("correlation length ly", targets.ly_cells, 0.0, 1e9, "cells");
+    check_range("slope", targets.slope_rad, 0.0, portable::pi / 2.0, "rad");
+    check_range("fractal dimension", targets.dimension, 2.0, 3.0);
+    double const infinity = std::numeric_limits<double>::infinity();
+    double const max = targets.max ? targets.max->z : infinity;
+    double const min = targets.min ? targets.min->z : -infinity;
+    if (targets.max && targets.min && targets.max->cell == targets.min->cell) {
+        throw BadParameter(
+            fmt::format("fractal.match_statistics: the highest and the lowest point are both at column {}, row {}",
+                        targets.max->cell.col, targets.max->cell.row));
+    }
+    if (!(min < max)) {
+        throw BadParameter(fmt::format(
+            "fractal.match_statistics: the lowest point of {} m is not below the highest of {} m", min, max));
+    }
+    if (targets.mean && !(min < *targets.mean && *targets.mean < max)) {
+        throw BadParameter(fmt::format(
+            "fractal.match_statistics: a mean of {} m is not between the lowest point of {} m and the highest "
+            "of {} m",
+            *targets.mean, min, max));
+    }
+    if (!targets.max || !targets.min) {
+        return;
+    }
+    double const mean = targets.mean.value_or((max + min) / 2.0); // where the bound is widest
+    double const most = std::sqrt((max - mean) * (mean - min));
+    if (targets.std && *targets.std > most) {
+        throw BadParameter(fmt::format(
+            "fractal.match_statistics: heights between {} m and {} m{} cannot have a deviation of {} m; the most "
+            "is {:.3f} m (Bhatia and Davis)",
+            min, max, targets.mean ? fmt::format(" with a mean of {} m", mean) : "", *targets.std, most));
+    }
+}
+
+std::vector<FixedHeight> kept_heights(Raster<float> const& dem, Targets const& targets,
+                                      std::vector<FixedHeight> const& fixed) {
+    std::vector<FixedHeight> kept;
+    std::map<std::int64_t, double> seen;
+    auto const keep = [&](FixedHeight const& one) {
+        Cell const cell = one.cell;
+        if (!dem.grid().contains(cell) || std::isnan(dem[cell]) || !std::isfinite(one.z)) {
+            throw BadInput(
+                fmt::format("fractal.match_statistics: the fixed height of {} m at column {}, row {} is not finite, "
+                            "or lies off the grid or in a hole; leave it out",
+                            one.z, cell.col, cell.row));
+        }
+        auto const [at, fresh] = seen.emplace(dem.grid().index(cell), one.z);
+        if (fresh) {
+            kept.push_back(one);
+        } else if (at->second != one.z) {
+            throw BadInput(fmt::format("fractal.match_statistics: the cell at column {}, row {} has two target "
+                                       "heights, {} m and {} m; give one",
+                                       cell.col, cell.row, at->second, one.z));
+        }
+    };
+    for (auto const& extreme : {targets.max, targets.min}) {
+        if (extreme) {
+            keep(*extreme);
+        }
+    }
+    std::for_each(fixed.begin(), fixed.end(), keep);
+    if (kept.size() > most_fixed) {
+        throw BadInput(
+            fmt::format("fractal.match_statistics: {} heights are fixed; at most {} can be kept, so thin them out",
+                        kept.size(), most_fixed));
+    }
+    return kept;
+}
 
 namespace {
 
+using solver::Quantity;
+
+// One statistic on its way to its target.
+struct Goal {
+    char const* name;
+    solver::Quantity quantity;
+    double asked;
+    double longest_step; // in the units in which it is derived
+};
+
 using solver::FieldStatistics;
+
+double figure(FieldStatistics const& is, Quantity quantity) {
+    switch (quantity) {
+    case Quantity::mean: return is.mean;
+    case Quantity::std: return is.std;
+    case Quantity::ln_lx: return is.lx.cells;
+    case Quantity::ln_ly: return is.ly.cells;
+    case Quantity::slope_rad: return is.slope_rad;
+    case Quantity::dimension: break;
+    }
+    return is.dimension;
+}
+
+bool by_logarithm(Quantity quantity) {
+    return quantity == Quantity::ln_lx || quantity == Quantity::ln_ly;
+}
+
+/// The error of a projection: what its caller reads.
+double error_of(Goal const& goal, FieldStatistics const& is, double deviation) {
+    double const off = std::fabs(figure(is, goal.quantity) - goal.asked);
+    double const error = off / (goal.quantity == Quantity::mean ? deviation : goal.asked);
+    return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+}
+
+// The statistics that have a target. deviation: [m] of the heights, by which steps of mean and deviation are measured.
+/// Steps as long as those by which table 4 of paper 001 is met, whose deviation is 131.6 m: there 100 m, 30 m, 0.3,
+/// 0.3, 0.05, 0.1.
+std::vector<Goal> goals_of(Targets const& targets, double deviation) {
+    std::vector<Goal> goals;
+    auto const add = [&](char const* name, Quantity quantity, std::optional<double> const& asked, double longest_step) {
+        if (asked) {
+            goals.push_back({name, quantity, *asked, longest_step});
+        }
+    };
+    add("mean", Quantity::mean, targets.mean, 0.76 * deviation);
+    add("std", Quantity::std, targets.std, 0.23 * deviation);
+    add("lx_cells", Quantity::ln_lx, targets.lx_cells, 0.3);
+    add("ly_cells", Quantity::ln_ly, targets.ly_cells, 0.3);
+    add("slope_rad", Quantity::slope_rad, targets.slope_rad, 0.05);
+    add("dimension", Quantity::dimension, targets.dimension, 0.1);
+    return goals;
+}
+
+// What is still missing, in the units in which the statistic is derived; not finite where the heights do not tell it.
+double missing(Goal const& goal, FieldStatistics const& is) {
+    double const got = figure(is, goal.quantity);
+    return by_logarithm(goal.quantity) ? portable::log(goal.asked / got) : goal.asked - got;
+}
+
+// The greatest of the goals' errors, as their residuals tell them; infinite where the heights do not tell one.
+double largest_error(std::vector<Goal> const& goals, FieldStatistics const& is, double deviation) {
+    double largest = 0.0;
+    for (Goal const& goal : goals) {
+        largest = std::max(largest, error_of(goal, is, deviation));
+    }
+    return largest;
+}
+
+// How many of its longest steps the goal that is farthest away takes; infinite where the heights do not tell one.
+double longest_way(std::vector<Goal> const& goals, FieldStatistics const& is) {
+    double longest = 0.0;
+    for (Goal const& goal : goals) {
+        double const steps = std::fabs(missing(goal, is)) / goal.longest_step;
+        longest = std::isfinite(steps) ? std::max(longest, steps) : std::numeric_limits<double>::infinity();
+    }
+    return longest;
+}
+
+// Of every goal what was asked for, what was got and the error.
+std::vector<Residual> residuals_of(std::vector<Goal> const& goals, FieldStatistics const& is, double deviation) {
+    std::vector<Residual> residuals;
+    for (Goal const& goal : goals) {
+        residuals.push_back({goal.name, goal.asked, figure(is, goal.quantity), error_of(goal, is, deviation)});
+    }
+    return residuals;
+}
+
+// The prior's covariance, and that part of it which the fixed heights leave.
+class Prior {
+public:
+    Prior(Grid const& grid, std::vector<FixedHeight> const& kept, solver::StableCovariance const& covariance,
+          Run const& run);
+
+    solver::Circulant const& torus() const { return torus_; }
+    std::vector<double> at_kept(Raster<double> const& field) const;
+    std::vector<double> solve_kept(std::vector<double> values) const;
+
+    // The covariance of every cell with weighted fixed cells (kriging).
+    Raster<double> spread(std::vector<double> const& weights, Run const& run) const;
+
+private:
+    static std::int64_t around(std::int64_t cells, double length_cells);
+    solver::Cholesky factor_kept(Run const& run) const;
+
+    Grid grid_;
+    std::vector<FixedHeight> const& kept_;
+    solver::Circulant torus_;
+    solver::Cholesky kept_covariance_;
+};
+
+// So close to singular a matrix may be: below it two statistics, or two fixed heights, cannot be told apart.
+constexpr double least_ridge = 1e-10;
+constexpr double most_ridge = 1e-2;
+
+// Factor of a symmetric matrix with the least ridge that makes it positive definite.
+solver::Cholesky factor_safely(std::vector<double> const& matrix, std::size_t size, Run const& run) {
+    for (double ridge = least_ridge; ridge < most_ridge; ridge *= 100.0) {
+        try {
+            return solver::factor(matrix, size, ridge, run);
+        } catch (NotConverged const&) {
+        }
+    }
+    return solver::factor(matrix, size, most_ridge, run);
+}
+
+Prior::Prior(Grid const& grid, std::vector<FixedHeight> const& kept, solver::StableCovariance const& covariance,
+             Run const& run)
+    : grid_(grid), kept_(kept), torus_(solver::circulant(covariance, around(grid.width, covariance.lx_cells),
+                                                         around(grid.height, covariance.ly_cells), run)),
+      kept_covariance_(factor_kept(run)) {}
+
+std::vector<double> Prior::at_kept(Raster<double> const& field) const {
+    std::vector<double> values;
+    for (FixedHeight const& one : kept_) {
+        values.push_back(field[one.cell]);
+    }
+    return values;
+}
+
+std::vector<double> Prior::solve_kept(std::vector<double> values) const {
+    return solver::solve(kept_covariance_, std::move(values));
+}
+
+Raster<double> Prior::spread(std::vector<double> const& weights, Run const& run) const {
+    Raster<double> field(grid_);
+    for (std::size_t p = 0; p < kept_.size(); ++p) {
+        field[kept_[p].cell] = weights[p];
+    }
+    if (!kept_.empty()) {
+        Raster<double> none(grid_);
+        solver::multiply(torus_, field, none, run);
+    }
+    return field;
+}
+
+/// Where heights three correlation lengths apart hardly know of one another, a torus may be that much wider than
+/// the grid.
+std::int64_t Prior::around(std::int64_t cells, double length_cells) {
+    auto const margin = static_cast<std::int64_t>(std::ceil(std::min(3.0 * length_cells, static_cast<double>(cells))));
+    return solver::good_size(cells + margin);
+}
+
+solver::Cholesky Prior::factor_kept(Run const& run) const {
+    std::size_t const n = kept_.size();
+    std::vector<double> matrix(n * n);
+    if (n > 0) {
+        solver::Quarter const table = solver::covariances(torus_, run);
+        auto const apart = [](std::int64_t a, std::int64_t b, std::int64_t length) {
+            return std::min(std::abs(a - b), length - std::abs(a - b));
+        };
+        for (std::size_t p = 0; p < n; ++p) {
+            for (std::size_t q = 0; q <= p; ++q) {
+                Cell const a = kept_[p].cell;
+                Cell const b = kept_[q].cell;
+                matrix[p * n + q] = table[static_cast<std::size_t>(
+                    apart(a.row, b.row, torus_.height) * (torus_.width / 2 + 1) + apart(a.col, b.col, torus_.width))];
+            }
+        }
+    }
+    return factor_safely(matrix, n, run);
+}
 
 constexpr std::int64_t grain_cells = 32768;
 // A step that leaves more missing than that many times the least so far is taken back, and the next is half as long.
@@ -358,6 +650,90 @@ MatchedDem match_statistics(Raster<float> const& dem, Targets const& targets, st
     nearest.found.residuals = residuals_of(goals, nearest.is, deviation);
     add_extremes(nearest.found, targets, deviation, params.tolerance);
     return std::move(nearest.found);
+}
+
+namespace {
+
+constexpr std::int64_t rows_a_range = 16;
+
+/// The window from -reach to reach, its sum 1.
+std::vector<double> window(double cells) {
+    auto const reach = static_cast<std::int64_t>(std::ceil(3.0 * cells));
+    std::vector<double> weights;
+    double sum = 0.0;
+    for (std::int64_t k = -reach; k <= reach; ++k) {
+        double const x = static_cast<double>(k) / cells;
+        weights.push_back(portable::exp(-0.5 * x * x));
+        sum += weights.back();
+    }
+    for (double& weight : weights) {
+        weight /= sum;
+    }
+    return weights;
+}
+
+std::int64_t mirrored(std::int64_t i, std::int64_t side) {
+    std::int64_t const around = 2 * side;
+    i = ((i % around) + around) % around;
+    return i < side ? i : around - 1 - i;
+}
+
+/// Means of the one less means of the other: as means are linear, one pass serves both.
+Raster<double> difference_of_means(Raster<float> const& land, Raster<float> const& fine, double cells, Run const& run) {
+    Indexed<std::int64_t, double> const weights = window(cells);
+    auto const reach = static_cast<std::int64_t>(weights.size() / 2);
+    Raster<double> along(land.grid());
+    Raster<double> out(land.grid());
+    parallel_ranges(run, land.height(), rows_a_range, [&](std::int64_t begin, std::int64_t end) {
+        run.check();
+        Indexed<ColumnIndex, double> off(land.width());
+        for (std::int64_t r = begin; r < end; ++r) {
+            for (std::int64_t c = 0; c < land.width(); ++c) {
+                off[c] = static_cast<double>(land[Cell{c, r}]) - static_cast<double>(fine[Cell{c, r}]);
+            }
+            for (std::int64_t c = 0; c < land.width(); ++c) {
+                double mean = 0.0;
+                for (std::int64_t k = -reach; k <= reach; ++k) {
+                    mean += weights[k + reach] * off[mirrored(c + k, land.width())];
+                }
+                along[Cell{c, r}] = mean;
+            }
+        }
+    });
+    parallel_ranges(run, land.height(), rows_a_range, [&](std::int64_t begin, std::int64_t end) {
+        run.check();
+        for (std::int64_t r = begin; r < end; ++r) {
+            auto const row = out.row(r);
+            for (std::int64_t k = -reach; k <= reach; ++k) {
+                double const weight = weights[k + reach];
+                auto const other = along.row(mirrored(r + k, land.height()));
+                for (std::size_t c = 0; c < row.size(); ++c) {
+                    row[c] += weight * other[c];
+                }
+            }
+        }
+    });
+    return out;
+}
+
+} // namespace
+
+Raster<float> with_fine_forms(Raster<float> const& land, Raster<float> const& fine, double cells, Run const& run) {
+    require_in("fractal.with_fine_forms", "window", cells, {0.0, 1000.0, false, true}, "cells");
+    auto const finite = [](float z) { return std::isfinite(z); };
+    if (land.grid() != fine.grid() || !std::all_of(land.values().begin(), land.values().end(), finite) ||
+        !std::all_of(fine.values().begin(), fine.values().end(), finite)) {
+        throw BadInput(
+            fmt::format("fractal.with_fine_forms: DEMs of {} x {} and {} x {} cells, or heights that are not "
+                        "finite: give two complete DEMs on one grid",
+                        land.width(), land.height(), fine.width(), fine.height()));
+    }
+    Raster<double> const means = difference_of_means(land, fine, cells, run);
+    Raster<float> out(land.grid());
+    for (std::int64_t i = 0; i < out.cells(); ++i) {
+        out[i] = static_cast<float>(means[i] + static_cast<double>(fine[i]));
+    }
+    return out;
 }
 
 } // namespace thalweg::fractal

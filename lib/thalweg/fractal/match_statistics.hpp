@@ -66,19 +66,41 @@ inline constexpr std::size_t most_fixed = 2000;
 /// \param dem [m] by cell; NaN: no data, unchanged
 /// \param targets statistics to match
 /// \param fixed heights of cells, at most most_fixed with the extremes
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return the best of all steps, with its residuals: contradictory targets are met as far as possible, and `converged`
 /// is false. The same bits for any number of threads.
 /// \throws BadParameter when a target is outside its range, the mean is not between the extremes, std^2 exceeds (max -
 /// mean) (mean - min), both extremes are at one cell, or an extreme is off the grid or in a cell without data
 /// \throws BadInput when a fixed height is off the grid or in a cell without data, contradicts another at its cell, or
 /// there are too many
-/// \throws Cancelled
 ///
 /// Source: \cite zhang, table 4; \cite bhatia2000 for the bound.
 MatchedDem match_statistics(Raster<float> const& dem, Targets const& targets,
                             std::vector<FixedHeight> const& fixed = {}, MatchParams const& params = {},
                             Run const& run = {});
+
+/// Checks whether any DEM on the grid can have the statistics.
+/// \param dem [m] by cell; NaN: no data
+/// \param targets statistics to match
+/// \throws BadParameter with the numbers, as match_statistics
+void check_targets(Raster<float> const& dem, Targets const& targets);
+
+/// Collects the heights to keep.
+/// \param dem [m] by cell; NaN: no data
+/// \param targets with extremes, if any
+/// \param fixed heights of cells
+/// \return extremes first, each cell once
+/// \throws BadInput as match_statistics
+std::vector<FixedHeight> kept_heights(Raster<float> const& dem, Targets const& targets,
+                                      std::vector<FixedHeight> const& fixed);
+
+/// Combines the coarse forms of one DEM with the fine forms of another: the first's means over a Gaussian window, plus
+/// the second's differences from such means. The border mirrors what lies beyond.
+/// \param land [m] by cell: the DEM with the coarse forms
+/// \param fine [m] by cell, on the same grid: the DEM with the fine forms
+/// \param cells [cells] (0, 1000] standard deviation of the window
+/// \return for two equal DEMs the same DEM, to rounding; the same bits for any number of threads
+/// \throws BadParameter when cells is outside its range
+/// \throws BadInput when the grids differ or a height is not finite
+Raster<float> with_fine_forms(Raster<float> const& land, Raster<float> const& fine, double cells, Run const& run = {});
 
 } // namespace thalweg::fractal

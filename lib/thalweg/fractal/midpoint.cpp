@@ -2,22 +2,323 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/fractal/midpoint.hpp>
 
-#include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
-#include <thalweg/core/run/range.hpp>
-#include <thalweg/fractal/estimate_fractal.hpp>
-#include <thalweg/fractal/internal/condition_surface.hpp>
-#include <thalweg/fractal/refine.hpp>
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/indexed.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/fractal/estimate_fractal.hpp>
+#include <thalweg/fractal/internal/refine.hpp>
+#include <thalweg/solver/linear/cholesky.hpp>
+#include <thalweg/solver/spectral/fractional_surface.hpp>
 
 namespace thalweg::fractal {
 namespace {
+
+/// E (z(a) - z(b))^2 in units of sigma^2 r^(2H), the nearest neighbours being r away.
+class Variogram {
+public:
+    explicit Variogram(double hurst) {
+        for (int col = 0; col <= longest; ++col) {
+            for (int row = col % 2; row <= col;
+                 row += 2) { // of one parity: so the neighbours lie to one another and to the point
+                int const square = col * col + row * row;
+                of_square_[static_cast<std::size_t>(square)] = portable::pow(0.5 * static_cast<double>(square), hurst);
+            }
+        }
+    }
+    double operator()(Offset const& a, Offset const& b) const {
+        int const col = a.col - b.col;
+        int const row = a.row - b.row;
+        return of_square_[static_cast<std::size_t>(col * col + row * row)];
+    }
+
+private:
+    static constexpr int longest = 6;
+    std::array<double, 2 * longest * longest + 1> of_square_{};
+};
+
+/// Solves the square system whose rows end in their right side, by elimination with the greatest pivots.
+std::vector<double> solve(std::vector<std::vector<double>> rows) {
+    std::size_t const n = rows.size();
+    for (std::size_t step = 0; step < n; ++step) {
+        std::size_t pivot = step;
+        for (std::size_t i = step + 1; i < n; ++i) {
+            pivot = std::fabs(rows[i][step]) > std::fabs(rows[pivot][step]) ? i : pivot;
+        }
+        std::swap(rows[step], rows[pivot]);
+        for (std::size_t i = step + 1; i < n; ++i) {
+            double const factor = rows[i][step] / rows[step][step];
+            for (std::size_t k = step; k <= n; ++k) {
+                rows[i][k] -= factor * rows[step][k];
+            }
+        }
+    }
+    std::vector<double> x(n);
+    for (std::size_t i = n; i-- > 0;) {
+        double sum = rows[i][n];
+        for (std::size_t k = i + 1; k < n; ++k) {
+            sum -= rows[i][k] * x[k];
+        }
+        x[i] = sum / rows[i][i];
+    }
+    return x;
+}
+
+std::vector<double> kriged(std::vector<Offset> const& points, Variogram const& variogram) {
+    std::size_t const n = points.size();
+    std::vector<std::vector<double>> rows(n + 1, std::vector<double>(n + 2, 1.0));
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t k = 0; k < n; ++k) {
+            rows[i][k] = variogram(points[i], points[k]);
+        }
+        rows[i][n + 1] = variogram(points[i], {});
+    }
+    rows[n][n] = 0.0;
+    std::vector<double> weights = solve(std::move(rows));
+    weights.pop_back();
+    return weights;
+}
+
+/// Conditional deviation of the new point under any weights whose sum is 1.
+double exact_deviation(std::vector<Offset> const& points, std::vector<double> const& weights,
+                       Variogram const& variogram) {
+    double variance = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        double inner = 0.0;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            inner += weights[k] * variogram(points[i], points[k]);
+        }
+        variance += weights[i] * (variogram(points[i], {}) - 0.5 * inner);
+    }
+    return std::sqrt(variance > 0.0 ? variance : 0.0);
+}
+
+/// Means over neighbours that lie alike, of which elimination makes slightly different numbers.
+void even_out(std::array<double, 16>& weight) {
+    using Places = std::pair<std::size_t, std::size_t>;
+    for (auto const& [first, last] : {Places{0, 4}, Places{4, 12}, Places{12, 16}}) {
+        double sum = 0.0;
+        for (std::size_t i = first; i < last; ++i) {
+            sum += weight[i];
+        }
+        for (std::size_t i = first; i < last; ++i) {
+            weight[i] = sum / static_cast<double>(last - first);
+        }
+    }
+}
+
+} // namespace
+
+StencilWeights stencil_weights(Stencil stencil, std::uint32_t known, double hurst) {
+    std::vector<Offset> points;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < around_centre.size(); ++i) {
+        if ((known >> i & 1U) != 0) {
+            points.push_back(around_centre[i]);
+            places.push_back(i);
+        }
+    }
+    Variogram const variogram(hurst);
+    bool const means = stencil == Stencil::four || stencil == Stencil::four_exact;
+    std::vector<double> const weights =
+        means ? std::vector<double>(points.size(), 1.0 / static_cast<double>(points.size()))
+              : kriged(points, variogram);
+    StencilWeights out;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        out.weight[places[i]] = weights[i];
+    }
+    if (known == used_neighbours(stencil)) {
+        even_out(out.weight);
+    }
+    out.deviation = stencil == Stencil::four ? std::sqrt(1.0 - portable::pow(2.0, 2.0 * hurst - 2.0))
+                                             : exact_deviation(points, weights, variogram);
+    return out;
+}
+
+namespace {
+
+// What a fractional Brownian surface through coarse heights is made with.
+struct Conditioning {
+    Raster<float> const* coarse = nullptr; // finite heights and NaN
+    int levels = 1;                        // [1, ...] times each cell is halved
+    double hurst = 0.5;                    // H
+    double sigma = 0.0;                    // [m] a coarse cell apart
+    std::uint64_t seed = 0;
+};
+
+constexpr std::uint64_t surface_stage = 0x737465696e; // "stein"
+
+/// Coarse cells with heights, in the order of the raster.
+std::vector<Cell> cells_with_heights(Raster<float> const& coarse) {
+    std::vector<Cell> cells;
+    for (std::int64_t i = 0; i < coarse.cells(); ++i) {
+        if (!std::isnan(coarse[i])) {
+            cells.push_back(coarse.grid().at(i));
+        }
+    }
+    if (static_cast<std::int64_t>(cells.size()) > most_conditioning_cells) {
+        throw BadParameter(fmt::format(
+            "fractal.midpoint: {} coarse cells have heights (detail.stencil = \"exact\" takes up to {}); choose more "
+            "levels (detail.levels) from fewer coarse cells, or detail.stencil = 16",
+            cells.size(), most_conditioning_cells));
+    }
+    return cells;
+}
+
+/// E (z(p) - z(q))^2 of coarse cells a column and a row distance apart, in units of sigma^2.
+class CoarseVariogram {
+public:
+    CoarseVariogram(Grid const& grid, double hurst) : width_(grid.width) {
+        for (std::int64_t row = 0; row < grid.height; ++row) {
+            for (std::int64_t col = 0; col < grid.width; ++col) {
+                of_distance_.push_back(portable::pow(static_cast<double>(col * col + row * row), hurst));
+            }
+        }
+    }
+    double operator()(Cell const& a, Cell const& b) const {
+        return of_distance_[std::abs(a.row - b.row) * width_ + std::abs(a.col - b.col)];
+    }
+
+private:
+    std::int64_t width_;
+    Indexed<CellIndex, double> of_distance_;
+};
+
+/// An interpolation: level less the sum of weights times variograms around the cells with heights.
+struct Kriged {
+    double level = 0.0;          ///< [m]
+    std::vector<double> weights; ///< sum 0, one a cell
+};
+
+/// Ordinary kriging of values at cells. Heights relative to the first cell have a covariance, with which the unknown
+/// mean leaves the system.
+Kriged krige(std::vector<Cell> const& cells, std::vector<double> const& values, CoarseVariogram const& variogram,
+             Run const& run) {
+    std::size_t const n = cells.size() - 1;
+    Kriged kriged{values[0], std::vector<double>(cells.size(), 0.0)};
+    std::vector<double> rise(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        rise[i] = values[i + 1] - values[0];
+    }
+    if (std::all_of(rise.begin(), rise.end(), [](double r) { return r == 0.0; })) {
+        return kriged;
+    }
+    std::vector<double> matrix(n * n);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t k = 0; k <= i; ++k) {
+            matrix[i * n + k] = variogram(cells[i + 1], cells[0]) + variogram(cells[k + 1], cells[0]) -
+                                variogram(cells[i + 1], cells[k + 1]);
+        }
+    }
+    std::vector<double> const solution = solver::solve(solver::factor(std::move(matrix), n, 0.0, run), rise);
+    for (std::size_t i = 0; i < n; ++i) {
+        kriged.weights[i + 1] = solution[i];
+        kriged.weights[0] -= solution[i];
+        kriged.level += solution[i] * variogram(cells[i + 1], cells[0]);
+    }
+    return kriged;
+}
+
+/// Whether the coarse cells nearest to a place of the lattice (one, two or four) are all holes.
+bool is_hole(Raster<float> const& coarse, std::int64_t col, std::int64_t row, int levels) {
+    std::int64_t const half = (std::int64_t{1} << levels) / 2;
+    std::int64_t const west = (col + half - 1) >> levels;
+    std::int64_t const east = (col + half) >> levels;
+    std::int64_t const north = (row + half - 1) >> levels;
+    std::int64_t const south = (row + half) >> levels;
+    return std::isnan(coarse[Cell{west, north}]) && std::isnan(coarse[Cell{east, north}]) &&
+           std::isnan(coarse[Cell{west, south}]) && std::isnan(coarse[Cell{east, south}]);
+}
+
+/// A conditioned surface in two terms, on the whole lattice.
+struct Terms {
+    Raster<double> random;     ///< [] of variance 1 a lattice cell apart; empty where sigma is 0
+    double scale = 0.0;        ///< [m] of the random one
+    Raster<double> variograms; ///< [m] empty where the kriged term is level
+    double level = 0.0;        ///< [m]
+    double at(std::int64_t i) const {
+        return level + (random.cells() > 0 ? scale * random[i] : 0.0) - (variograms.cells() > 0 ? variograms[i] : 0.0);
+    }
+};
+
+Terms terms_of(Conditioning const& c, std::vector<Cell> const& cells, Run const& run) {
+    Raster<float> const& coarse = *c.coarse;
+    auto const fine = [&](Cell const& cell) { return Cell{cell.col << c.levels, cell.row << c.levels}; };
+    solver::FractionalSurface const surface = solver::fractional_surface(
+        ((coarse.width() - 1) << c.levels) + 1, ((coarse.height() - 1) << c.levels) + 1, c.hurst, run);
+    run.at(0.3, "midpoint");
+    Terms terms;
+    terms.scale = c.sigma * portable::pow(std::ldexp(1.0, -c.levels), c.hurst);
+    if (c.sigma > 0.0) {
+        terms.random = solver::sample(surface, c.seed, surface_stage, run);
+    }
+    run.at(0.6, "midpoint");
+    std::vector<double> residuals;
+    for (Cell const& cell : cells) {
+        residuals.push_back(static_cast<double>(coarse[cell]) -
+                            (c.sigma > 0.0 ? terms.scale * terms.random[fine(cell)] : 0.0));
+    }
+    Kriged const kriged = krige(cells, residuals, CoarseVariogram(coarse.grid(), c.hurst), run);
+    run.at(0.7, "midpoint");
+    terms.level = kriged.level;
+    if (std::any_of(kriged.weights.begin(), kriged.weights.end(), [](double w) { return w != 0.0; })) {
+        double const fine_cells = portable::pow(std::ldexp(1.0, -c.levels), 2.0 * c.hurst);
+        terms.variograms = Raster<double>(Grid{surface.width, surface.height, 1.0, 0.0, 0.0, ""});
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            terms.variograms[fine(cells[i])] = kriged.weights[i] * fine_cells;
+        }
+        solver::superpose_variograms(surface, terms.variograms, run);
+    }
+    return terms;
+}
+
+// Writes a lattice 2^levels finer than the coarse raster, from its north-western corner: a random fractional Brownian
+// surface plus what ordinary kriging, with its variogram, makes of the differences to the coarse heights. Takes: dem:
+// no more columns and rows than (coarse columns - 1) 2^levels + 1, any content. Gives: every cell of dem: the bits of
+// the coarse heights where they lie, NaN where all the nearest coarse cells are holes, and between them the surface
+// under the condition that it passes through the heights. A smaller dem is part of a larger one bit for bit; the same
+// bytes for any number of threads. Throws: BadParameter: more than most_conditioning_cells heights, or a lattice too
+// large for the solver. Source: Stein 2002 (the surface); conditioning by kriging as in Journel and Huijbregts 1978;
+// specification 1.6.
+void condition_surface(Conditioning const& conditioning, Raster<float>& dem, Run const& run) {
+    constexpr float hole = std::numeric_limits<float>::quiet_NaN();
+    Raster<float> const& coarse = *conditioning.coarse;
+    std::vector<Cell> const cells = cells_with_heights(coarse);
+    if (cells.empty()) {
+        std::fill(dem.values().begin(), dem.values().end(), hole);
+        return;
+    }
+    Terms const terms = terms_of(conditioning, cells, run);
+    std::int64_t const lattice_width = ((coarse.width() - 1) << conditioning.levels) + 1;
+    std::int64_t const step = std::int64_t{1} << conditioning.levels;
+    parallel_ranges(run, dem.height(), 16, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t row = first; row < last; ++row) {
+            run.check();
+            for (std::int64_t col = 0; col < dem.width(); ++col) {
+                dem[Cell{col, row}] = is_hole(coarse, col, row, conditioning.levels)
+                                          ? hole
+                                          : static_cast<float>(terms.at(row * lattice_width + col));
+            }
+            for (std::int64_t col = 0; row % step == 0 && col < dem.width(); col += step) {
+                dem[Cell{col, row}] = coarse[Cell{col / step, row / step}];
+            }
+        }
+    });
+}
 
 constexpr int most_levels = 30;
 constexpr double greatest_height_m = 1e30; // sums of sixteen such heights are floats still

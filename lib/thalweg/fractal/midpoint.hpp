@@ -2,15 +2,112 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/lanes.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/fractal/noise_row.hpp>
-#include <thalweg/fractal/stencil_weights.hpp>
 
 namespace thalweg::fractal {
+
+/// The lattice neighbours whose mean a new point takes, and the deviation of its noise.
+enum class Stencil : std::uint8_t {
+    four,       ///< mean of the nearest; the published factor sqrt(1 - 2^(2H-2)), that of a line
+    four_exact, ///< the same mean; the conditional deviation of a fractional Brownian surface
+    twelve,     ///< ordinary kriging, without the four farthest
+    sixteen,    ///< ordinary kriging
+    exact       ///< no stencil: every height at once, from all coarse cells; for midpoint only
+};
+
+/// An offset in columns and rows.
+struct Offset {
+    int col = 0;
+    int row = 0;
+};
+
+/// Neighbours of the centre of a square of the lattice, in half sides: nearest, middle, farthest.
+inline constexpr std::array<Offset, 16> around_centre = {{{-1, -1},
+                                                          {1, -1},
+                                                          {-1, 1},
+                                                          {1, 1},
+                                                          {-1, -3},
+                                                          {1, -3},
+                                                          {-3, -1},
+                                                          {3, -1},
+                                                          {-3, 1},
+                                                          {3, 1},
+                                                          {-1, 3},
+                                                          {1, 3},
+                                                          {-3, -3},
+                                                          {3, -3},
+                                                          {-3, 3},
+                                                          {3, 3}}};
+
+/// Rotates neighbours by 45 degrees, for the middle of a side.
+/// \param straight neighbours of the centre of a square
+/// \return in the same order
+constexpr std::array<Offset, 16> turned(std::array<Offset, 16> const& straight) {
+    std::array<Offset, 16> out{};
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i] = {(straight[i].col - straight[i].row) / 2, (straight[i].col + straight[i].row) / 2};
+    }
+    return out;
+}
+inline constexpr std::array<Offset, 16> around_edge = turned(around_centre);
+
+/// Finds the neighbours that a stencil uses.
+/// \param stencil any
+/// \return bits by position in around_centre
+constexpr std::uint32_t used_neighbours(Stencil stencil) {
+    return stencil == Stencil::sixteen ? 0xffff : stencil == Stencil::twelve ? 0x0fff : 0x000f;
+}
+
+/// Weights of neighbours and deviation of the noise.
+struct StencilWeights {
+    std::array<double, 16> weight{}; ///< sum 1; 0: unknown neighbour
+    double deviation = 0.0;          ///< in units of sigma r^H, r: distance of the nearest neighbours
+};
+
+/// Computes the weights of known neighbours for a new point and the deviation of its noise.
+/// \param stencil any but exact
+/// \param known at least one bit of used_neighbours(stencil)
+/// \param hurst (0, 1) Hurst exponent
+/// \return for kriged stencils the weights of least variance under the variogram d^(2H), and that variance; if all are
+/// known, symmetric neighbours have equal weights
+///
+/// Source: \cite zhang, equation 14 (four); specification 1.6; ordinary kriging as in any textbook of geostatistics.
+StencilWeights stencil_weights(Stencil stencil, std::uint32_t known, double hurst);
+
+enum class Noise : std::uint8_t {
+    normal, ///< from 31 and 32 random bits for two numbers; truncated at 6.6 deviations
+    uniform ///< in 65536 steps between -sqrt(3) and sqrt(3)
+};
+
+/// The place of a row of noise: every second column of a lattice row of one level.
+struct NoisePlace {
+    std::uint64_t seed = 0;
+    int level = 0; ///< from 1, counted from the coarse raster
+    std::int64_t row = 0;
+    std::int64_t odd = 0; ///< 0: the columns 0, 2, 4, ...; 1: the columns 1, 3, 5, ...
+};
+
+/// Batch size: noise is made in multiples of this.
+inline constexpr std::int64_t noise_batch = 32;
+
+/// Fills a row with numbers of mean 0 and variance 1, independent from place to place: a hash of seed, level, row and
+/// column. The same bytes for any split of a row and any Lanes.
+/// \param noise distribution
+/// \param place seed, level, row and parity of columns
+/// \param first a multiple of noise_batch
+/// \param out out[i] receives the number of column 2 (first + i) + odd; size a multiple of noise_batch, at most 4096
+/// \param lanes instruction set; the bytes are the same for each
+///
+/// Source: Philox4x32-10 (\cite salmon2011), of which vector registers hold eight; \cite box1958 (normal).
+void noise_row(Noise noise, NoisePlace const& place, std::int64_t first, std::span<float> out, Lanes lanes);
 
 /// Most coarse cells with data for Stencil::exact, which solves a dense system of that size.
 inline constexpr std::int64_t most_conditioning_cells = 2000;
@@ -48,8 +145,6 @@ struct Displaced {
 /// heights at once are a fractional Brownian surface conditioned on the coarse cells (mean unknown), without creases;
 /// another number of levels gives another surface.
 /// \param coarse [m] by cell; NaN: no data; cell centres become lattice points, the north-western one the first
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return cell (c 2^levels, r 2^levels) has the bits of coarse cell (c, r); NaN exactly where all nearest coarse cells
 /// (one, two or four) are NaN. With Adaptation::global a smaller result is the north-western part of a larger one, and
 /// one of fewer levels every second cell of one with more, bit for bit. With sigma 0 a level DEM stays level. The same
@@ -58,7 +153,6 @@ struct Displaced {
 /// \throws BadParameter when a value is outside its range or the coarse raster does not cover the result;
 /// Stencil::exact: for more than 2000 coarse cells with data, a torus of more than 2^31 cells, Noise::uniform or
 /// Adaptation::local
-/// \throws Cancelled
 ///
 /// Source: \cite zhang, equation 14 (Stencil::four); \cite fournier1982; \cite stein2002 (Stencil::exact);
 /// specification 1.6.

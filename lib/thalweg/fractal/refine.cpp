@@ -1,21 +1,111 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/fractal/refine.hpp>
-
-#include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/parallel.hpp>
-#include <thalweg/fractal/internal/coarse_places.hpp>
-#include <thalweg/fractal/internal/level_weights.hpp>
+#include <thalweg/fractal/internal/refine.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <unordered_map>
+#include <vector>
+
+#include <thalweg/core/indexed.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/parallel.hpp>
 
 namespace thalweg::fractal {
 namespace {
+
+// Weights and deviations of one level, as its points want them.
+class LevelWeights {
+public:
+    LevelWeights(Refinement const& refinement, int level);
+
+    // For points with all their neighbours.
+    struct Simple {
+        float middle = 0.0F;
+        float farthest = 0.0F;
+        std::array<double, 2> deviation{}; // in units of sigma, of centres and of edges
+    };
+    // Where H is the same everywhere.
+    Simple const& simple() const { return simple_; }
+    // step: H in steps of Character::steps_of_hurst.
+    Simple const& simple(float step) const { return by_step_[static_cast<std::size_t>(step)]; }
+
+    // sigma r^H per sigma; r: distance of the nearest neighbours in coarse cells.
+    double reach(double hurst, bool edge) const;
+
+private:
+    Simple at_hurst(double hurst) const;
+
+    Refinement const& refinement_;
+    double side_; // [coarse cells] of the finer lattice
+    Simple simple_;
+    std::vector<Simple> by_step_;
+};
+
+LevelWeights::LevelWeights(Refinement const& refinement, int level)
+    : refinement_(refinement), side_(std::ldexp(1.0, -level)) {
+    if (!refinement.character.varies()) {
+        simple_ = at_hurst(refinement.character.hurst);
+        return;
+    }
+    for (int step = 0; step <= static_cast<int>(Character::steps_of_hurst); ++step) {
+        // No estimate comes near 0 or 1, where there is nothing to solve.
+        bool const useful = step > 0 && step < static_cast<int>(Character::steps_of_hurst);
+        by_step_.push_back(useful ? at_hurst(step / Character::steps_of_hurst) : Simple{});
+    }
+}
+
+double LevelWeights::reach(double hurst, bool edge) const {
+    return portable::pow(edge ? side_ : side_ * std::sqrt(2.0), hurst);
+}
+
+LevelWeights::Simple LevelWeights::at_hurst(double hurst) const {
+    StencilWeights const full = stencil_weights(refinement_.stencil, used_neighbours(refinement_.stencil), hurst);
+    return {static_cast<float>(full.weight[4]),
+            static_cast<float>(full.weight[12]),
+            {full.deviation * reach(hurst, false), full.deviation * reach(hurst, true)}};
+}
+
+struct LocalCharacter {
+    float step;  // H in steps of Character::steps_of_hurst
+    float sigma; // [m] a coarse cell apart
+};
+
+// Bilinear between the coarse points; for a character that varies.
+LocalCharacter character_at(Refinement const& refinement, int level, std::int64_t col, std::int64_t row) {
+    Character const& character = refinement.character;
+    std::int64_t const width = refinement.coarse->width();
+    std::int64_t const side = std::int64_t{1} << level;
+    float const x = static_cast<float>(col & (side - 1)) / static_cast<float>(side);
+    float const y = static_cast<float>(row & (side - 1)) / static_cast<float>(side);
+    std::int64_t const north_west = (row >> level) * width + (col >> level);
+    std::int64_t const east = x > 0.0F ? 1 : 0;
+    std::int64_t const south = y > 0.0F ? width : 0;
+    auto const between = [&](Indexed<CellIndex, float> const& of) {
+        float const north_z = of[north_west] + x * (of[north_west + east] - of[north_west]);
+        float const south_z = of[north_west + south] + x * (of[north_west + south + east] - of[north_west + south]);
+        return north_z + y * (south_z - north_z);
+    };
+    return {std::floor(between(character.steps) + 0.5F), between(character.sigmas)};
+}
+
+// Whether all the coarse cells nearest to a point are holes.
+bool in_hole(Refinement const& refinement, int level, std::int64_t col, std::int64_t row) {
+    std::int64_t const side = std::int64_t{1} << level;
+    for (std::int64_t const r : {(row + side / 2 - 1) / side, (row + side / 2) / side}) {
+        for (std::int64_t const c : {(col + side / 2 - 1) / side, (col + side / 2) / side}) {
+            if (!std::isnan((*refinement.coarse)[Cell{c, r}])) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
 
 constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
 

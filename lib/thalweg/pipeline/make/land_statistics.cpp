@@ -3,8 +3,7 @@
 #include <thalweg/pipeline/make/internal/land_parts.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/fractal/check_targets.hpp>
-#include <thalweg/fractal/fine_forms.hpp>
+#include <thalweg/fractal/match_statistics.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 
 #include <fmt/format.h>

@@ -9,8 +9,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/large_pages.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/fractal/noise_row.hpp>
-#include <thalweg/fractal/stencil_weights.hpp>
+#include <thalweg/fractal/midpoint.hpp>
 
 /// Implementation of midpoint: one dense lattice per level, each streamed row by row from the one above.
 namespace thalweg::fractal {
@@ -49,8 +48,6 @@ struct Floors {
 /// \param refinement coarse raster, levels, stencil, noise, H and sigma
 /// \param dem at most (coarse columns - 1) 2^levels + 1 columns, rows likewise; every byte is written
 /// \param floors scratch space
-/// \param run progress, log, stop token and number of threads
-/// \throws Cancelled
 void refine(Refinement const& refinement, Raster<float>& dem, Floors& floors, Run const& run);
 
 } // namespace thalweg::fractal
