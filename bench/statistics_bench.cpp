@@ -5,7 +5,7 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/fractal/match_statistics.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/skeleton/grf.hpp>
+#include <thalweg/skeleton/random_fields.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
 
 #include <benchmark/benchmark.h>

@@ -13,7 +13,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/fractal/internal/limiter.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/skeleton/grf.hpp>
+#include <thalweg/skeleton/random_fields.hpp>
 #include <thalweg/solver/statistics/expected_slope.hpp>
 
 namespace match_statistics_test {

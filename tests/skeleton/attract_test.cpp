@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/skeleton/attract.hpp>
+#include <thalweg/skeleton/scatter.hpp>
 
 #include <cmath>
 #include <limits>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/skeleton/shift_mean.hpp>
+#include <thalweg/skeleton/random_fields.hpp>
 
 #include "fields.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/skeleton/noise_along.hpp>
+#include <thalweg/skeleton/draw_skeleton.hpp>
 
 #include <algorithm>
 #include <cmath>

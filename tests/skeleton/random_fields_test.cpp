@@ -10,10 +10,8 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/skeleton/grf.hpp>
 #include <thalweg/skeleton/internal/normal_row.hpp>
-#include <thalweg/skeleton/markov3.hpp>
-#include <thalweg/skeleton/separable_ar.hpp>
+#include <thalweg/skeleton/random_fields.hpp>
 
 #include "fields.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/skeleton/scatter_between.hpp>
+#include <thalweg/skeleton/scatter.hpp>
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>

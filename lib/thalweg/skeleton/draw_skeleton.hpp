@@ -3,15 +3,41 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include <thalweg/core/feature_points.hpp>
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/skeleton.hpp>
 #include <thalweg/core/valley.hpp>
-#include <thalweg/skeleton/noise_along.hpp>
+#include <thalweg/core/vec.hpp>
 
 namespace thalweg::skeleton {
+
+/// Options of noise_along().
+struct NoiseAlongParams {
+    std::uint64_t seed = 7;
+    double amplitude_m = 0.0;     ///< [m] >= 0, bound of the noise
+    double wavelength_m = 1000.0; ///< [m] > 0, of the coarsest octave
+};
+
+/// A position on a line.
+struct PlaceOnLine {
+    Vec2 at;            ///< [m]
+    double share = 0.0; ///< [0, 1] share of the line's length up to it
+};
+
+/// Evaluates noise on a line that is 0 at its ends: F(at) 4 share (1 - share), F fractal Perlin noise of four octaves
+/// (gain 0.5, lacunarity 2). F is a field in the plane: lines close to each other get similar noise.
+/// \param places positions on lines
+/// \param origin [m] near the lines; noise is evaluated relative to it
+/// \return [m] one value per place, within the amplitude
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput naming the place: a share outside [0, 1], or farther than 2^20 wavelengths from the origin
+///
+/// Source: \cite nenu2015, equation 11; specification 3.5; \cite perlin1985 by libnoise.
+std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 origin,
+                                NoiseAlongParams const& params = {}, Run const& run = {});
 
 /// Options of draw_skeleton().
 struct DrawSkeletonParams {
@@ -33,14 +59,11 @@ struct DrawnSkeleton {
 /// \param valley [m] heights of river cells
 /// \param ridges in the grid's coordinates
 /// \param points in the grid's coordinates
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return river cells bit for bit; else the highest point of a cell; else its highest ridge. Independent of the order
 /// of ridges and points.
 /// \throws BadInput naming feature and position: outside the grid, without a finite height, in another coordinate
 /// system
 /// \throws BadParameter when a parameter is outside its range
-/// \throws Cancelled
 ///
 /// Source: \cite nenu2015, section 3.1 and equation 11 (begun at the height of the ridge's start); specification 3.5.
 DrawnSkeleton draw_skeleton(Valley const& valley, RidgeLines const& ridges, FeaturePoints const& points,

@@ -16,8 +16,6 @@ struct MidpointInverseParams {
 /// diamond-square scheme take the mean of known children. The scheme's square of 2^n + 1 cells has the skeleton in its
 /// north-west; its other cells may pass heights on.
 /// \param skeleton [m] of any size
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return the skeleton's cells bit for bit; a new cell is the mean of its known children at one distance d <= L: for
 /// half-steps h = 1, 2, 4, ... first edge midpoints (d = h), then centres of squares (d = h sqrt 2). Heights stay
 /// within the skeleton's range; more cells for larger L.

@@ -48,8 +48,6 @@ struct Regression {
 /// Fits a surface of twelve linear terms to points by least squares, optionally with a given slope.
 /// \param points at least as many as terms; those outside the grid count too
 /// \param grid of the result
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return the least sum of squared residuals (with a slope: among all surfaces of that slope, to 1e-10); if
 /// rank-deficient, which is reported, that of a ridge regression
 /// \throws BadParameter when a parameter is outside its range

@@ -29,14 +29,11 @@ struct RidgesParams {
 /// \param network the rivers, with heights
 /// \param stream_of_arc by arc: label of its stream
 /// \param grid bounds the ridges
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return lines inside the grid between streams of different labels. No ridge meets a river; ridges meet only at their
 /// ends, where three streams are equally far or the grid ends. A vertex has the height max z + gain d over the nearest
 /// river points, at distance d. left < right; sorted by left, right and position; empty for fewer than two labels.
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput when labels or heights are not the network's, or (segments) arcs meet away from their vertices
-/// \throws Cancelled
 ///
 /// Source: \cite nenu2015, section 3.1 and equation 10; specification 3.4.
 RidgeLines ridges(ElevatedNetwork const& network, std::vector<std::int64_t> const& stream_of_arc, Grid const& grid,

@@ -2,23 +2,274 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/scatter.hpp>
 
-#include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
-#include <thalweg/skeleton/internal/place_points.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
+#include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/cells/nearest_cells.hpp>
+#include <thalweg/core/grid.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/normal.hpp>
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::skeleton {
 
+Raster<float> attract(Raster<float> dem, Attraction const& attraction) {
+    Cell const centre = attraction.centre;
+    if (!dem.grid().contains(centre)) {
+        throw BadParameter(fmt::format("skeleton.attract: column {}, row {} is off the grid of {} x {} cells",
+                                       centre.col, centre.row, dem.width(), dem.height()));
+    }
+    require_in("skeleton.attract", "radius", attraction.radius_cells, Range::above(0.0).or_infinite(), "cells");
+    require_in("skeleton.attract", "height", attraction.z, Range::finite(), "m");
+    double const square = attraction.radius_cells * attraction.radius_cells;
+    double const at_radius = attraction.falloff == Falloff::literal ? 0.0 : portable::exp(-1.0);
+    auto const reach = static_cast<std::int64_t>(std::min(attraction.radius_cells, 1e9));
+    cells_around(dem.grid(), centre, reach, [&](Cell c) {
+        auto const distance = static_cast<double>(squared_cells(c, centre));
+        if (distance <= square) {
+            double const h = dem[c];
+            double const pull = (portable::exp(-distance / square) - at_radius) / (1.0 - at_radius);
+            dem[c] = static_cast<float>(h + pull * (attraction.z - h));
+        }
+    });
+    if (!std::isnan(dem[centre])) {
+        dem[centre] = static_cast<float>(attraction.z);
+    }
+    return dem;
+}
+
 namespace {
+
+struct PlacePointsParams {
+    std::uint64_t seed = 7;
+    std::int64_t count = 0;          // >= 0, those that stand already included
+    double spacing_cells = 0.0;      // [cells] >= 0
+    std::vector<Vec2> standing = {}; // [m] places that stand already, at least the spacing apart
+};
+
+struct PlacedPoints {
+    std::vector<Vec2> places; // [m] without those that stood
+    std::int64_t missing = 0; // of the wanted count: no more room was found
+    double density = 0.0;     // count spacing^2 / area; 0.6965 is where darts jam, 1.1547 the densest packing
+};
+
+constexpr std::uint64_t place_stage = 0x7363617474657231; // "scatter1"
+constexpr std::uint64_t annulus_stage = 0x7363617474657232;
+constexpr std::uint64_t choice_stage = 0x7363617474657234;
+constexpr double darts_jam = 0.62;
+constexpr double densest = 1.15;
+constexpr std::int64_t most_darts = 1'000'000;
+constexpr int candidates = 30; // around a point (Bridson)
+
+/// Points with room around them, found again by square tiles of side spacing / sqrt 2: at most one a tile.
+class Crowd {
+public:
+    Crowd(Grid const& grid, double spacing_m) : grid_(grid), spacing_m_(spacing_m), tile_(spacing_m / std::sqrt(2.0)) {}
+
+    bool has_room(Vec2 p) const {
+        if (spacing_m_ == 0.0) {
+            return true;
+        }
+        auto const [column, row] = tile_of(p);
+        for (std::int64_t r = row - 2; r <= row + 2; ++r) {
+            for (std::int64_t c = column - 2; c <= column + 2; ++c) {
+                auto const found = tiles_.find(key(c, r));
+                if (found != tiles_.end() && distance(places_[found->second], p) < spacing_m_) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+    void add(Vec2 p) {
+        if (spacing_m_ > 0.0) {
+            auto const [column, row] = tile_of(p);
+            tiles_.emplace(key(column, row), places_.size());
+        }
+        places_.push_back(p);
+    }
+    std::vector<Vec2> const& places() const { return places_; }
+
+private:
+    struct Tile {
+        std::int64_t column;
+        std::int64_t row;
+    };
+    Tile tile_of(Vec2 p) const {
+        return {static_cast<std::int64_t>(std::floor((p.x - grid_.west) / tile_)),
+                static_cast<std::int64_t>(std::floor((grid_.north - p.y) / tile_))};
+    }
+    static std::uint64_t key(std::int64_t column, std::int64_t row) {
+        return (static_cast<std::uint64_t>(row) << 32U) ^ (static_cast<std::uint64_t>(column) & 0xffffffffU);
+    }
+
+    Grid const& grid_;
+    double spacing_m_;
+    double tile_;
+    std::vector<Vec2> places_;
+    std::unordered_map<std::uint64_t, std::size_t> tiles_;
+};
+
+/// The ground that points may lie on.
+struct Ground {
+    Grid const& grid;
+    Mask const& free; ///< without cells: the whole grid
+
+    bool holds(Vec2 p) const {
+        if (!(p.x >= grid.west && p.x < grid.east() && p.y <= grid.north && p.y > grid.south())) {
+            return false;
+        }
+        Cell const cell = grid.cell_of(p);
+        return free.cells() == 0 || (grid.contains(cell) && free[cell] != 0);
+    }
+    std::int64_t cells() const {
+        return free.cells() == 0 ? grid.cells()
+                                 : grid.cells() - std::count(free.values().begin(), free.values().end(), 0);
+    }
+};
+
+Vec2 anywhere(Grid const& grid, std::array<std::uint64_t, 4> const& words) {
+    return {grid.west + unit(words[0]) * static_cast<double>(grid.width) * grid.cell_m,
+            grid.north - unit(words[1]) * static_cast<double>(grid.height) * grid.cell_m};
+}
+
+void throw_darts(Crowd& crowd, Ground const& ground, PlacePointsParams const& params, Run const& run) {
+    std::int64_t misses = 0;
+    for (std::uint64_t dart = 0; static_cast<std::int64_t>(crowd.places().size()) < params.count; ++dart) {
+        if (dart % 65536 == 0) {
+            run.at(static_cast<double>(crowd.places().size()) / static_cast<double>(params.count), "scatter");
+        }
+        Vec2 const p = anywhere(ground.grid, random_block(params.seed, place_stage, dart));
+        if (ground.holds(p) && crowd.has_room(p)) {
+            crowd.add(p);
+            misses = 0;
+        } else if (++misses > most_darts) {
+            return;
+        }
+    }
+}
+
+/// Fills the ground from the points that stand already: candidates between one and two spacings around each.
+void spread(Crowd& crowd, Ground const& ground, PlacePointsParams const& params, double spacing_m, Run const& run) {
+    if (crowd.places().empty()) {
+        for (std::uint64_t dart = 0; crowd.places().empty(); ++dart) {
+            Vec2 const p = anywhere(ground.grid, random_block(params.seed, place_stage, dart));
+            if (ground.holds(p)) {
+                crowd.add(p);
+            }
+        }
+    }
+    std::vector<std::size_t> active(crowd.places().size());
+    for (std::size_t i = 0; i < active.size(); ++i) {
+        active[i] = i;
+    }
+    for (std::uint64_t turn = 0; !active.empty(); ++turn) {
+        if (turn % 4096 == 0) {
+            run.check();
+        }
+        std::size_t const which =
+            static_cast<std::size_t>(random_word(params.seed, annulus_stage, turn) % active.size());
+        Vec2 const around = crowd.places()[active[which]];
+        bool found = false;
+        for (std::uint64_t k = 1; k <= candidates && !found; ++k) {
+            // In the square of side 4 spacings; what falls outside the annulus is drawn anew.
+            for (std::uint64_t again = 0;; ++again) {
+                auto const words = random_block(params.seed, annulus_stage, turn, k, again);
+                Vec2 const p{around.x + (4.0 * unit(words[0]) - 2.0) * spacing_m,
+                             around.y + (4.0 * unit(words[1]) - 2.0) * spacing_m};
+                double const away = distance(p, around);
+                if (away < spacing_m || away > 2.0 * spacing_m) {
+                    continue;
+                }
+                if (ground.holds(p) && crowd.has_room(p)) {
+                    active.push_back(crowd.places().size());
+                    crowd.add(p);
+                    found = true;
+                }
+                break;
+            }
+        }
+        if (!found) {
+            active[which] = active.back();
+            active.pop_back();
+        }
+    }
+}
+
+void demand_room(Grid const& grid, PlacePointsParams const& params) {
+    // Points may stand on the border itself: what the spacing asks for is a little less than the grid's ground alone.
+    double const ground = (static_cast<double>(grid.width) + params.spacing_cells) *
+                          (static_cast<double>(grid.height) + params.spacing_cells);
+    double const square = static_cast<double>(params.count) * params.spacing_cells * params.spacing_cells;
+    if (params.count > 1 && square / ground > densest) {
+        throw BadParameter(fmt::format("skeleton.scatter: {} points {} cells apart have a density of {:.3f}; even the "
+                                       "densest packing ends at 1.155: ask for fewer or nearer ones",
+                                       params.count, params.spacing_cells, square / static_cast<double>(grid.cells())));
+    }
+}
+
+/// More than asked for: those that a draw puts first.
+void thin_out(std::vector<Vec2>& places, std::size_t wanted, std::uint64_t seed) {
+    if (places.size() <= wanted) {
+        return;
+    }
+    for (std::size_t i = 0; i < wanted; ++i) {
+        std::size_t const j = i + static_cast<std::size_t>(random_word(seed, choice_stage, i) % (places.size() - i));
+        std::swap(places[i], places[j]);
+    }
+    places.resize(wanted);
+}
+
+// Takes: free: cells that points may lie in, by number other than 0; without cells: all of the grid. Gives: distances
+// >= spacing exactly; count points or how many are missing. Throws: BadParameter, with the density, when no packing on
+// the whole grid could hold the points. Source: Zhang, Liu and Li, equations 6, 7 and 11; darts, above a density of
+// 0.62 on a whole grid Bridson 2007 (denser).
+PlacedPoints place_points(Grid const& grid, Mask const& free, PlacePointsParams const& params, Run const& run) {
+    demand_room(grid, params);
+    Ground const ground{grid, free};
+    std::int64_t const cells = ground.cells();
+    PlacedPoints placed;
+    placed.missing = params.count - static_cast<std::int64_t>(params.standing.size());
+    if (cells == 0) {
+        return placed;
+    }
+    placed.density =
+        static_cast<double>(params.count) * params.spacing_cells * params.spacing_cells / static_cast<double>(cells);
+    double const spacing_m = params.spacing_cells * grid.cell_m;
+    Crowd crowd(grid, spacing_m);
+    for (Vec2 const p : params.standing) {
+        crowd.add(p);
+    }
+    if (placed.density > darts_jam) {
+        run.say(fmt::format("warning: {} points {} cells apart have a density of {:.3f}, about as dense as points at "
+                            "random can stand (0.7)",
+                            params.count, params.spacing_cells, placed.density));
+    }
+    if (placed.density > darts_jam && free.cells() == 0) {
+        spread(crowd, ground, params, spacing_m, run);
+    } else { // which also reaches ground that is cut off
+        throw_darts(crowd, ground, params, run);
+    }
+    auto const first = crowd.places().begin() + static_cast<std::ptrdiff_t>(params.standing.size());
+    placed.places.assign(first, crowd.places().end());
+    thin_out(placed.places, static_cast<std::size_t>(placed.missing), params.seed);
+    placed.missing -= static_cast<std::int64_t>(placed.places.size());
+    return placed;
+}
 
 constexpr std::uint64_t height_stage = 0x7363617474657233; // "scatter3"
 
@@ -148,6 +399,123 @@ Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run)
         }
         point.z = std::clamp(point.z, bottom + hair, top - hair);
         result.points.points.push_back(point);
+    }
+    return result;
+}
+
+namespace {
+
+constexpr std::uint64_t share_stage = 0x7363617474657235; // "scatter5"
+constexpr double nearest_allowed_cells = 2.0;
+
+void demand(Valley const& valley, Mask const& inside, ScatterBetweenParams const& p) {
+    constexpr char const* stage = "skeleton.scatter_between";
+    require_in(stage, "count", p.count, Range::at_least(0));
+    require_in(stage, "spacing", p.spacing_cells, Range::at_least(0.0), "cells");
+    require_in(stage, "gain", p.gain, Range::at_least(0.0));
+    require_in(stage, "farthest", p.farthest_m, Range::at_least(0.0), "m");
+    if (inside.cells() > 0 && inside.grid() != valley.z.grid()) {
+        throw BadInput("skeleton.scatter_between: the mask has another grid than the valley");
+    }
+}
+
+Mask rivers_of(Valley const& valley) {
+    Mask rivers(valley.z.grid());
+    for (std::int64_t i = 0; i < rivers.cells(); ++i) {
+        rivers[i] = std::isnan(valley.z[i]) ? 0 : 1;
+    }
+    if (std::find(rivers.values().begin(), rivers.values().end(), 1) == rivers.values().end()) {
+        throw BadInput("skeleton.scatter_between: no cell has a river; points need one to stand above");
+    }
+    return rivers;
+}
+
+double distance_cells(Grid const& grid, std::int64_t a, std::int64_t b) {
+    Cell const from = grid.at(a);
+    Cell const to = grid.at(b);
+    auto const dx = static_cast<double>(from.col - to.col);
+    auto const dy = static_cast<double>(from.row - to.row);
+    return std::sqrt(dx * dx + dy * dy);
+}
+
+/// Cell centres along the grid's border, evenly apart: as many as a border has where points spread evenly, and corners.
+std::vector<Vec2> border_places(Grid const& grid, std::int64_t count) {
+    double const apart = std::sqrt(static_cast<double>(grid.cells()) / static_cast<double>(count)); // [cells]
+    auto const parts = [apart](std::int64_t side) {
+        return std::clamp<std::int64_t>(std::llround(static_cast<double>(side - 1) / apart), 1,
+                                        std::max<std::int64_t>(1, side - 1));
+    };
+    std::vector<Vec2> places;
+    auto const put = [&](std::int64_t col, std::int64_t row) { places.push_back(grid.centre({col, row})); };
+    for (std::int64_t k = 0, n = parts(grid.width); k < n; ++k) {
+        put(k * (grid.width - 1) / n, 0);
+        put((k + 1) * (grid.width - 1) / n, grid.height - 1);
+    }
+    for (std::int64_t k = 0, n = parts(grid.height); k < n; ++k) {
+        put(0, (k + 1) * (grid.height - 1) / n);
+        put(grid.width - 1, k * (grid.height - 1) / n);
+    }
+    return places;
+}
+
+/// Of these places those on free cells that keep the spacing, at most count.
+std::vector<Vec2> with_room(std::vector<Vec2> const& places, Mask const& free, ScatterBetweenParams const& params) {
+    double const spacing_m = params.spacing_cells * free.grid().cell_m;
+    std::vector<Vec2> kept;
+    for (Vec2 const p : places) {
+        bool const has_room =
+            std::all_of(kept.begin(), kept.end(), [&](Vec2 q) { return p != q && distance(p, q) >= spacing_m; });
+        if (has_room && free[free.grid().cell_of(p)] != 0 && static_cast<std::int64_t>(kept.size()) < params.count) {
+            kept.push_back(p);
+        }
+    }
+    return kept;
+}
+
+double share_of(std::uint64_t place, ScatterBetweenParams const& params) {
+    if (params.law == HeightLaw::uniform) {
+        return unit(random_word(params.seed, share_stage, place));
+    }
+    for (std::uint64_t again = 0;; ++again) {
+        auto const words = random_block(params.seed, share_stage, place, again);
+        double const share = 0.5 + normal_pair(words[0], words[1])[0] / 6.0;
+        if (share >= 0.0 && share <= 1.0) {
+            return share;
+        }
+    }
+}
+
+} // namespace
+
+Scattered scatter_between(Valley const& valley, Mask const& inside, ScatterBetweenParams const& params,
+                          Run const& run) {
+    demand(valley, inside, params);
+    Grid const& grid = valley.z.grid();
+    Raster<std::int64_t> const nearest = nearest_cells(rivers_of(valley), run);
+    double const clear = std::max(params.spacing_cells, nearest_allowed_cells);
+    Mask free(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        bool const may_be = inside.cells() == 0 || inside[i] != 0;
+        free[i] = may_be && distance_cells(grid, i, nearest[i]) >= clear ? 1 : 0;
+    }
+    Scattered result;
+    result.points.crs = grid.crs;
+    if (params.count == 0) {
+        return result;
+    }
+    std::vector<Vec2> places = with_room(border_places(grid, params.count), free, params);
+    PlacedPoints const placed =
+        place_points(grid, free, {params.seed, params.count, params.spacing_cells, places}, run);
+    places.insert(places.end(), placed.places.begin(), placed.places.end());
+    result.missing = placed.missing;
+    result.density = placed.density;
+    double const most =
+        params.farthest_m > 0.0 ? params.farthest_m / grid.cell_m : std::numeric_limits<double>::infinity();
+    for (std::uint64_t number = 0; Vec2 const p : places) {
+        std::int64_t const cell = grid.index(grid.cell_of(p));
+        double const rise = params.gain * std::min(distance_cells(grid, cell, nearest[cell]), most) * grid.cell_m;
+        result.points.points.push_back(
+            {p.x, p.y, static_cast<double>(valley.z[nearest[cell]]) + rise * share_of(number++, params)});
     }
     return result;
 }

@@ -7,10 +7,33 @@
 
 #include <thalweg/core/feature_points.hpp>
 #include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/skeleton/attract.hpp>
+#include <thalweg/core/valley.hpp>
 
 namespace thalweg::skeleton {
+
+/// Decrease of an attraction from 1 at its centre: continuous to 0 at the radius; literal, as published, to 1/e with a
+/// step.
+enum class Falloff { continuous, literal };
+
+/// An extreme height to which surrounding terrain is attracted.
+struct Attraction {
+    Cell centre;
+    double z = 0.0;            ///< [m] target height
+    double radius_cells = 1.0; ///< [cells] > 0
+    Falloff falloff = Falloff::continuous;
+};
+
+/// Attracts the terrain around a cell to an extreme height. Other cells may still lie beyond it.
+/// \param dem [m] by cell; NaN: no data
+/// \param attraction centre, height and radius R
+/// \return within R: h + w (z - h), w = exp(-d^2/R^2) (literal) or (exp(-d^2/R^2) - 1/e)/(1 - 1/e); the centre becomes
+/// z, NaN stays
+/// \throws BadParameter when the centre is off the grid or the radius not above 0
+///
+/// Source: \cite zhang, equation 4.
+Raster<float> attract(Raster<float> dem, Attraction const& attraction);
 
 /// Distribution of the heights of random points, before scaling to mean and deviation.
 enum class HeightLaw : std::uint8_t { uniform, normal };
@@ -45,8 +68,6 @@ struct Scattered {
 
 /// Scatters random points over a grid, at a minimum distance, with heights of given mean and deviation.
 /// \param grid contains the extremes, which keep the spacing
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return distances are exactly >= spacing; `count` points, or fewer and their number in `missing`. Heights have the
 /// mean and deviation before the attraction to extremes (exact; printed: uniform ones have std / sqrt 3 in
 /// expectation), then lie strictly between the extremes.
@@ -54,5 +75,31 @@ struct Scattered {
 ///
 /// Source: \cite zhang, equations 6 to 11; up to a density of 0.62 darts, above it \cite bridson2007 (denser).
 Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run = {});
+
+/// Options of scatter_between().
+struct ScatterBetweenParams {
+    std::uint64_t seed = 7;
+    std::int64_t count = 200;           ///< [0, ...] points
+    double spacing_cells = 0.0;         ///< [cells] >= 0, least distance of any two points
+    double gain = 0.3;                  ///< [m/m] >= 0, largest rise of a point above its river per distance
+    double farthest_m = 0.0;            ///< [m] >= 0, distance beyond which points do not rise; 0: none
+    HeightLaw law = HeightLaw::uniform; ///< of a point's share of that rise
+};
+
+/// Scatters random feature points between rivers, which rise with distance from the nearest river. The first points lie
+/// in cells of the grid's border, corners included, spaced as points that spread evenly, so that triangles of the
+/// points cover the grid; the others anywhere. A point is at z + gain d share: z of the nearest river cell (ties:
+/// lowest index), d its distance [m], at most farthest_m, share uniform in [0, 1], or normal around 1/2 with deviation
+/// 1/6, redrawn beyond [0, 1].
+/// \param valley [m] heights of river cells, at least one
+/// \param inside 0: no points; empty: points anywhere
+/// \return distances of points are exactly >= spacing, those of cells of points and rivers >= spacing and >= 2 cells;
+/// `count` points, or fewer and their number in `missing`
+/// \throws BadParameter with the density, when no packing can hold the points
+/// \throws BadInput when there is no river cell, or inside is on another grid
+///
+/// Source: \cite zhang, equations 6 to 8 and 11, heights by equation 10 of \cite nenu2015 with a random share.
+Scattered scatter_between(Valley const& valley, Mask const& inside, ScatterBetweenParams const& params = {},
+                          Run const& run = {});
 
 } // namespace thalweg::skeleton

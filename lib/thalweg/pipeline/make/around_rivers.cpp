@@ -17,7 +17,7 @@
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>
 #include <thalweg/skeleton/ridges.hpp>
-#include <thalweg/skeleton/scatter_between.hpp>
+#include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/surface/diffusion/diffuse.hpp>
 #include <thalweg/surface/diffusion/harmonic.hpp>
 #include <thalweg/surface/dilation/dilate_over.hpp>

@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/internal/land_parts.hpp>
 
-#include <thalweg/skeleton/attract.hpp>
-#include <thalweg/skeleton/grf.hpp>
-#include <thalweg/skeleton/markov3.hpp>
-#include <thalweg/skeleton/separable_ar.hpp>
-#include <thalweg/skeleton/shift_mean.hpp>
+#include <thalweg/skeleton/random_fields.hpp>
+#include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/solver/statistics/expected_slope.hpp>
 
 #include <algorithm>

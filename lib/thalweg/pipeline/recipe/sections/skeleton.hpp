@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <string>
 
-#include <thalweg/skeleton/attract.hpp>
 #include <thalweg/skeleton/scatter.hpp>
 
 namespace thalweg::pipeline {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include <thalweg/skeleton/attract.hpp>
+#include <thalweg/skeleton/scatter.hpp>
 
 namespace thalweg::pipeline {
 
