@@ -5,8 +5,8 @@
 #include <measure/faults.hpp>
 #include <measure/star.hpp>
 
-#include <thalweg/geometry/meetings.hpp>
-#include <thalweg/geometry/side_of_line.hpp>
+#include <thalweg/geometry/crossings.hpp>
+#include <thalweg/geometry/triangles.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 
 // The whole check of a network's topology (goal: 100 000 arcs in a second), the part of it that is geometry, and beside

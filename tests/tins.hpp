@@ -4,7 +4,7 @@
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/tin.hpp>
-#include <thalweg/geometry/side_of_line.hpp>
+#include <thalweg/geometry/triangles.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/geometry/cotangents.hpp>
+#include <thalweg/geometry/triangles.hpp>
 
 #include <cmath>
 #include <limits>

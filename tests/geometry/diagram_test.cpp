@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/geometry/medial_lines.hpp>
-#include <thalweg/geometry/voronoi.hpp>
+#include <thalweg/geometry/diagram.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,8 +16,8 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
-#include <thalweg/geometry/internal/equidistant.hpp>
-#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/geometry/internal/diagram.hpp>
+#include <thalweg/geometry/nearby.hpp>
 
 namespace diagram_test {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/geometry/meetings.hpp>
+#include <thalweg/geometry/crossings.hpp>
 
 #include <limits>
 #include <set>
@@ -10,7 +10,6 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/geometry/crossings.hpp>
 
 namespace meetings_test {
 

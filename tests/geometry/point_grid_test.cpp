@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/geometry/point_grid.hpp>
+#include <thalweg/geometry/nearby.hpp>
 
 #include <cstdint>
 #include <limits>

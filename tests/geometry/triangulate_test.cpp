@@ -14,8 +14,7 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/geometry/height_on_plane.hpp>
-#include <thalweg/geometry/side_of_line.hpp>
+#include <thalweg/geometry/triangles.hpp>
 #include <tins.hpp>
 
 namespace triangulate_test {

@@ -15,7 +15,7 @@
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
-#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/network/growth/dla/pick_branch.hpp>

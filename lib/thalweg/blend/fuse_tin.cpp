@@ -15,9 +15,7 @@
 #include <thalweg/blend/tin.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
-#include <thalweg/geometry/height_on_plane.hpp>
-#include <thalweg/geometry/side_of_line.hpp>
-#include <thalweg/geometry/triangle_order.hpp>
+#include <thalweg/geometry/triangles.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 
 namespace thalweg::blend {

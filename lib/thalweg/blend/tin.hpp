@@ -8,7 +8,7 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>
-#include <thalweg/geometry/cotangents.hpp>
+#include <thalweg/geometry/triangles.hpp>
 
 namespace thalweg::blend {
 

@@ -3,13 +3,194 @@
 #include <thalweg/geometry/crossings.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
 #include <tuple>
+#include <utility>
+#include <vector>
 
-#include <thalweg/geometry/internal/exact_segments.hpp>
-#include <thalweg/geometry/internal/segment_pairs.hpp>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
+#include <CGAL/box_intersection_d.h>
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/vec.hpp>
 
 namespace thalweg::geometry {
 namespace {
+
+// How two segments of some length meet.
+struct SegmentMeeting {
+    enum class Kind {
+        none,
+        vertex, // in a point that is an end of one of them
+        proper, // in a point inside both
+        stretch // in more than a point
+    };
+    Kind kind = Kind::none;
+    Vec2 first; // the end they meet in; of a stretch the end of lesser x, then y. Not set where proper
+    Vec2 last;  // the other end of a stretch, else first
+};
+
+// The point in which ab and cd, which cross properly, do so, and its place [0,1] on each: exact and rounded once.
+struct ProperCrossing {
+    Vec2 at;
+    double on_ab = 0.0;
+    double on_cd = 0.0;
+};
+
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
+using Rational = CGAL::Exact_rational;
+
+// A common end is the usual case in a network, and the one in which no filter spares the exact arithmetic.
+int side(Vec2 a, Vec2 b, Vec2 p) {
+    if (p == a || p == b) {
+        return 0;
+    }
+    return static_cast<int>(CGAL::orientation(Point(a.x, a.y), Point(b.x, b.y), Point(p.x, p.y)));
+}
+
+// The double nearest to q. CGAL::to_double only promises one beside it.
+double rounded(Rational const& q) {
+    double best = CGAL::to_double(q);
+    for (double const side : {-1.0, 1.0}) {
+        double const next = std::nextafter(best, side * std::numeric_limits<double>::infinity());
+        Rational const gain = CGAL::abs(Rational(best) - q) - CGAL::abs(Rational(next) - q);
+        if (gain > 0) {
+            best = next;
+        }
+    }
+    return best + 0.0; // never minus zero: equal points have equal bits
+}
+
+Vec2 without_minus_zero(Vec2 p) {
+    return {p.x + 0.0, p.y + 0.0};
+}
+
+// Where the segments ab and cd meet: exact, and without rational arithmetic.
+SegmentMeeting meeting_of(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+    using Kind = SegmentMeeting::Kind;
+    int const of_a = side(c, d, a);
+    int const of_b = side(c, d, b);
+    if (of_a * of_b > 0) {
+        return {};
+    }
+    int const of_c = side(a, b, c);
+    int const of_d = side(a, b, d);
+    if (of_c * of_d > 0) {
+        return {};
+    }
+    if (of_a == 0 && of_b == 0 && of_c == 0 && of_d == 0) {
+        Vec2 const first = std::max(std::min(a, b, before), std::min(c, d, before), before);
+        Vec2 const last = std::min(std::max(a, b, before), std::max(c, d, before), before);
+        if (before(last, first)) {
+            return {};
+        }
+        return {first == last ? Kind::vertex : Kind::stretch, without_minus_zero(first), without_minus_zero(last)};
+    }
+    if (of_a != 0 && of_b != 0 && of_c != 0 && of_d != 0) {
+        return {Kind::proper, {}, {}};
+    }
+    Vec2 const p = without_minus_zero(of_a == 0 ? a : of_b == 0 ? b : of_c == 0 ? c : d);
+    return {Kind::vertex, p, p};
+}
+
+ProperCrossing crossing_of(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+    Rational const sx = Rational(b.x) - Rational(a.x);
+    Rational const sy = Rational(b.y) - Rational(a.y);
+    Rational const tx = Rational(d.x) - Rational(c.x);
+    Rational const ty = Rational(d.y) - Rational(c.y);
+    Rational const ox = Rational(c.x) - Rational(a.x);
+    Rational const oy = Rational(c.y) - Rational(a.y);
+    Rational const area = sx * ty - sy * tx;
+    Rational const on_s = (ox * ty - oy * tx) / area;
+    Rational const on_t = (ox * sy - oy * sx) / area;
+    return {{rounded(Rational(a.x) + on_s * sx), rounded(Rational(a.y) + on_s * sy)}, rounded(on_s), rounded(on_t)};
+}
+
+// Place [0,1] on ab of a point that lies on it, exact and rounded once.
+double place_on(Vec2 a, Vec2 b, Vec2 p) {
+    if (p == a) {
+        return 0.0;
+    }
+    if (p == b) {
+        return 1.0;
+    }
+    return a.x != b.x ? rounded((Rational(p.x) - Rational(a.x)) / (Rational(b.x) - Rational(a.x)))
+                      : rounded((Rational(p.y) - Rational(a.y)) / (Rational(b.y) - Rational(a.y)));
+}
+
+// A segment of a polyline: between vertices segment and segment + 1.
+struct LineSegment {
+    std::uint32_t line = 0;
+    std::uint32_t segment = 0;
+};
+
+// What CGAL asks of a box, without its own id and pointer: a million polylines have many segments.
+class Box {
+public:
+    using NT = double;
+    using ID = std::uint64_t;
+    Box(LineSegment segment, Vec2 a, Vec2 b)
+        : low_{std::min(a.x, b.x), std::min(a.y, b.y)}, high_{std::max(a.x, b.x), std::max(a.y, b.y)},
+          segment_(segment) {}
+    static int dimension() { return 2; }
+    double min_coord(int d) const { return low_[static_cast<std::size_t>(d)]; }
+    double max_coord(int d) const { return high_[static_cast<std::size_t>(d)]; }
+    ID id() const { return (ID{segment_.line} << 32U) | segment_.segment; }
+    LineSegment segment() const { return segment_; }
+
+private:
+    std::array<double, 2> low_;
+    std::array<double, 2> high_;
+    LineSegment segment_;
+};
+
+void add_boxes(std::vector<Vec2> const& line, std::uint32_t number, std::vector<Box>& boxes) {
+    for (std::size_t v = 0; v < line.size(); ++v) {
+        if (!std::isfinite(line[v].x) || !std::isfinite(line[v].y)) {
+            throw BadInput(fmt::format("geometry.crossings: vertex {} of line {} is not finite", v, number));
+        }
+    }
+    std::size_t const before = boxes.size();
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        if (line[i] != line[i + 1]) {
+            boxes.emplace_back(LineSegment{number, static_cast<std::uint32_t>(i)}, line[i], line[i + 1]);
+        }
+    }
+    if (boxes.size() == before && line.size() > 1) {
+        boxes.emplace_back(LineSegment{number, 0}, line[0], line[0]);
+    }
+}
+
+// Calls visit once for every two segments whose boxes meet, in no order that means something. Takes: polylines of
+// finite coordinates, fewer than 2^32, of fewer than 2^32 vertices. A segment without length is passed over, but for
+// the first of a polyline that is one repeated point. Throws: BadInput when a coordinate is not finite. Source:
+// Zomorodian and Edelsbrunner 2000 (CGAL).
+void each_close_pair(std::vector<std::vector<Vec2>> const& lines,
+                     std::function<void(LineSegment, LineSegment)> const& visit, Run const& run = {}) {
+    std::size_t segments = 0;
+    for (auto const& line : lines) {
+        segments += line.empty() ? 0 : line.size() - 1;
+    }
+    std::vector<Box> boxes;
+    boxes.reserve(segments);
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        add_boxes(lines[l], static_cast<std::uint32_t>(l), boxes);
+    }
+    std::int64_t pairs = 0;
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](Box const& a, Box const& b) {
+        if ((++pairs & 0xfff) == 0) {
+            run.check();
+        }
+        visit(a.segment(), b.segment());
+    });
+}
 
 using Lines = std::vector<std::vector<Vec2>>;
 
@@ -87,6 +268,56 @@ std::vector<Crossing> crossings(Lines const& lines, Run const& run) {
     each_close_pair(
         lines, [&](LineSegment s, LineSegment t) { meetings.add(s, t); }, run);
     return meetings.sorted();
+}
+
+namespace {
+
+bool share_node(Lines const& lines, std::vector<EndNodes> const& nodes, std::size_t line, std::size_t other, Vec2 at) {
+    for (std::size_t const end : {0U, 1U}) {
+        Vec2 const here = end == 0 ? lines[line].front() : lines[line].back();
+        for (std::size_t const other_end : {0U, 1U}) {
+            Vec2 const there = other_end == 0 ? lines[other].front() : lines[other].back();
+            if (here == at && there == at && nodes[line][end] == nodes[other][other_end]) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+std::vector<Meeting> meetings(Lines const& lines, std::vector<EndNodes> const& nodes, Run const& run) {
+    if (nodes.size() != lines.size()) {
+        throw BadInput(fmt::format("geometry.meetings: {} polylines but nodes of {}", lines.size(), nodes.size()));
+    }
+    std::vector<Meeting> found;
+    auto const add = [&](LineSegment s, LineSegment t) {
+        if (std::tie(t.line, t.segment) < std::tie(s.line, s.segment)) {
+            std::swap(s, t);
+        }
+        Vec2 const a = lines[s.line][s.segment];
+        Vec2 const b = lines[s.line][s.segment + 1];
+        Vec2 const c = lines[t.line][t.segment];
+        Vec2 const d = lines[t.line][t.segment + 1];
+        SegmentMeeting meeting = meeting_of(a, b, c, d);
+        switch (meeting.kind) {
+        case SegmentMeeting::Kind::none: return;
+        case SegmentMeeting::Kind::vertex:
+            if (s.line == t.line ? s.segment + 1 == t.segment
+                                 : share_node(lines, nodes, s.line, t.line, meeting.first)) {
+                return;
+            }
+            break;
+        case SegmentMeeting::Kind::proper: meeting.first = meeting.last = crossing_of(a, b, c, d).at; break;
+        case SegmentMeeting::Kind::stretch: break;
+        }
+        found.push_back({s.line, t.line, s.segment, t.segment, meeting.first, meeting.last});
+    };
+    each_close_pair(lines, add, run);
+    std::ranges::sort(found, {},
+                      [](Meeting const& m) { return std::tie(m.line, m.other, m.segment, m.other_segment); });
+    return found;
 }
 
 } // namespace thalweg::geometry

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/required.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg::geometry {
@@ -65,5 +67,34 @@ double distance_to(Diagram::Site const& site, Vec2 p);
 ///
 /// Source: Newton's method.
 Vec2 midway(Diagram::Site const& s, Diagram::Site const& t, Vec2 p, Vec2 direction = {});
+
+/// Computes the Voronoi diagram of the vertices of lines: the edges between labels.
+/// \param lines at least one vertex each; coincident vertices are one site with the labels of all their lines
+/// \param bounds clips the diagram
+/// \return points of edges are nearest to their two sites; no edges for fewer than two labels. Vertices closer than
+/// 1e-9 of the whole extent are merged; edges that share a point share a vertex, unless they cross by less than that.
+/// \throws BadInput naming the vertex when one is not finite
+/// \throws BadParameter when bounds have no area
+///
+/// Source: Voronoi 1908; CGAL, Delaunay triangulation with exact predicates.
+Diagram voronoi(std::vector<LabelledLine> const& lines, Bounds const& bounds, Run const& run = {});
+
+/// Options of medial_lines().
+struct MedialLinesParams {
+    Required<double> tolerance_m; ///< [m] > 0, largest distance of chords from a parabola
+};
+
+/// Computes the segment Voronoi diagram of lines: the medial lines between labels, arcs of parabolas as chords.
+/// \param lines meet only at common vertices; a common segment has the labels of both
+/// \param bounds clips the diagram
+/// \return vertices of edges are equally far from their two sites, which are the nearest; no edges for fewer than two
+/// labels. Otherwise as voronoi().
+/// \throws BadInput naming the position where lines meet elsewhere or a vertex is not finite
+/// \throws BadParameter when the tolerance is not above 0 or bounds have no area
+///
+/// Source: \cite karavelas2004, A robust and efficient implementation for the segment Voronoi diagram; CGAL, exact
+/// predicates.
+Diagram medial_lines(std::vector<LabelledLine> const& lines, Bounds const& bounds, MedialLinesParams const& params,
+                     Run const& run = {});
 
 } // namespace thalweg::geometry

@@ -22,12 +22,9 @@ struct NaturalNeighboursParams {
 /// lose to a new point.
 /// \param points finite; of several at one position the first counts
 /// \param grid of the result
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return [m] by cell: within the range of the neighbours, bit for bit at points, exact for planes. The same bytes for
 /// any number of threads, and, but for the last bit, any order of points.
 /// \throws BadInput as triangulate()
-/// \throws Cancelled
 ///
 /// Source: \cite sibson1981, A brief description of natural neighbour interpolation; CGAL.
 Raster<float> natural_neighbours(std::vector<Vec3> const& points, Grid const& grid,

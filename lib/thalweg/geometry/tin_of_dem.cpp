@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <queue>
@@ -15,14 +16,117 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
-#include <thalweg/geometry/internal/dem_land.hpp>
-#include <thalweg/geometry/triangle_order.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/geometry/triangles.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 
 namespace thalweg::geometry {
 namespace {
+
+// Where triangles between the cell centres of a DEM may be: squares between four centres with data, halves of those
+// with three.
+class DemLand {
+public:
+    explicit DemLand(Raster<float> const& dem) : dem_(dem) {}
+
+    bool has(std::int64_t col, std::int64_t row) const {
+        return dem_.grid().contains({col, row}) && !std::isnan(dem_[Cell{col, row}]);
+    }
+    // Centres with data of the square south-east of a centre.
+    int corners(std::int64_t col, std::int64_t row) const {
+        return (has(col, row) ? 1 : 0) + (has(col + 1, row) ? 1 : 0) + (has(col, row + 1) ? 1 : 0) +
+               (has(col + 1, row + 1) ? 1 : 0);
+    }
+    bool holds(std::int64_t col, std::int64_t row) const {
+        return has(col, row) && (corners(col, row) >= 3 || corners(col - 1, row) >= 3 || corners(col, row - 1) >= 3 ||
+                                 corners(col - 1, row - 1) >= 3);
+    }
+    // Whether the outline runs from a centre to its neighbour: the land lies on one side of the step, not on both.
+    bool outline(std::int64_t col, std::int64_t row, int dx, int dy) const;
+    // Steps of the outline at a centre.
+    int degree(std::int64_t col, std::int64_t row) const;
+    // Whether a triangle whose sides do not cross the outline lies on land: asked at its middle, given thrice.
+    bool is_inside(std::int64_t col3, std::int64_t row3) const;
+
+private:
+    Raster<float> const& dem_;
+};
+
+bool DemLand::outline(std::int64_t col, std::int64_t row, int dx, int dy) const {
+    if (dx < 0 || (dx == 0 && dy < 0)) {
+        return outline(col + dx, row + dy, -dx, -dy);
+    }
+    if (!has(col, row) || !has(col + dx, row + dy)) {
+        return false;
+    }
+    if (dx == 0) {
+        return (corners(col, row) >= 3) != (corners(col - 1, row) >= 3);
+    }
+    if (dy == 0) {
+        return (corners(col, row) >= 3) != (corners(col, row - 1) >= 3);
+    }
+    return corners(col, dy > 0 ? row : row - 1) == 3;
+}
+
+int DemLand::degree(std::int64_t col, std::int64_t row) const {
+    int count = 0;
+    for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+            count += (dx != 0 || dy != 0) && outline(col, row, dx, dy) ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+bool DemLand::is_inside(std::int64_t col3, std::int64_t row3) const {
+    std::int64_t const col = col3 / 3;
+    std::int64_t const row = row3 / 3;
+    int const data = corners(col, row);
+    if (data != 3) {
+        return data == 4;
+    }
+    std::int64_t const x = col3 - 3 * col;
+    std::int64_t const y = row3 - 3 * row;
+    if (!has(col, row)) {
+        return x + y > 3;
+    }
+    if (!has(col + 1, row + 1)) {
+        return x + y < 3;
+    }
+    return has(col + 1, row) ? x > y : x < y;
+}
+
+// The outline as straight lines between its corners; heights go with them. x: column, y: minus the row.
+std::vector<std::vector<Vec3>> outlines_of(Raster<float> const& dem, DemLand const& land, Run const& run) {
+    std::vector<std::vector<Vec3>> lines;
+    auto const place = [&](std::int64_t col, std::int64_t row) {
+        return Vec3{static_cast<double>(col), static_cast<double>(-row), static_cast<double>(dem[Cell{col, row}])};
+    };
+    constexpr std::array<std::pair<int, int>, 4> directions{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
+    for (std::int64_t row = 0; row < dem.height(); ++row) {
+        run.check();
+        for (std::int64_t col = 0; col < dem.width(); ++col) {
+            for (auto const& [dx, dy] : directions) {
+                if (!land.outline(col, row, dx, dy) ||
+                    (land.outline(col, row, -dx, -dy) && land.degree(col, row) == 2)) {
+                    continue;
+                }
+                std::int64_t c = col + dx;
+                std::int64_t r = row + dy;
+                while (land.outline(c, r, dx, dy) && land.degree(c, r) == 2) {
+                    c += dx;
+                    r += dy;
+                }
+                lines.push_back({place(col, row), place(c, r)});
+            }
+        }
+    }
+    return lines;
+}
 
 constexpr std::int64_t most_cells_a_side = 1 << 20; // areas fit 64 bits, circles 128
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();

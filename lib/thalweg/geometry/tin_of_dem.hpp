@@ -26,14 +26,11 @@ struct SimplifiedDem {
 /// corners of the outline on. The terrain is the squares between four neighbouring centres with data and the halves of
 /// those with three; the outline of every hole is kept.
 /// \param dem [m] by cell; NaN: no data
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return vertices are cell centres with their heights, in row order; at every other cell the TIN, computed in double,
 /// is within error_m. Isolated cells and rows one cell wide lie in no triangle and are counted.
 /// \throws BadParameter when error_m is not above 0
 /// \throws BadInput when a height is infinite, a side has more than 2^20 cells, or no three neighbouring cells have
 /// data
-/// \throws Cancelled
 ///
 /// Source: \cite garland1995, Fast polygonal approximation of terrains and height fields, algorithm III.
 SimplifiedDem tin_of_dem(Raster<float> const& dem, TinOfDemParams const& params = {}, Run const& run = {});

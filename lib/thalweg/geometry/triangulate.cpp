@@ -23,8 +23,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
-#include <thalweg/geometry/side_of_line.hpp>
-#include <thalweg/geometry/triangle_order.hpp>
+#include <thalweg/geometry/triangles.hpp>
 
 namespace thalweg::geometry {
 namespace {

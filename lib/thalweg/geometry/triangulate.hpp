@@ -27,11 +27,9 @@ struct Triangulation {
 /// its height interpolated along the first; a line through a vertex takes its height.
 /// \param points finite, coordinates within 1e15 m
 /// \param breaklines finite, coordinates within 1e15 m
-/// \param run progress, log, stop token and number of threads
 /// \return vertices in input order: points, line vertices, added ones; triangles as put_in_order() leaves them. Of four
 /// points on a circle the diagonal does not depend on input order.
 /// \throws BadInput when a coordinate is not finite, fewer than three positions remain, or all are collinear
-/// \throws Cancelled
 ///
 /// Source: CGAL, exact predicates, spatial sorting, symbolic perturbation.
 Triangulation triangulate(std::vector<Vec3> const& points, std::vector<std::vector<Vec3>> const& breaklines = {},

@@ -22,9 +22,7 @@
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/diagram.hpp>
-#include <thalweg/geometry/medial_lines.hpp>
-#include <thalweg/geometry/segments_near.hpp>
-#include <thalweg/geometry/voronoi.hpp>
+#include <thalweg/geometry/nearby.hpp>
 
 namespace thalweg::skeleton {
 namespace {

@@ -6,7 +6,7 @@
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/routing/route.hpp>
-#include <thalweg/geometry/meetings.hpp>
+#include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/shorten.hpp>
 #include <thalweg/network/elevation/elevate_from_dem.hpp>

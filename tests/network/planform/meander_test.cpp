@@ -12,7 +12,7 @@
 #include <support.hpp>
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/geometry/meetings.hpp>
+#include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/internal/segment_grid.hpp>
 

@@ -11,9 +11,8 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/geometry/height_on_plane.hpp>
-#include <thalweg/geometry/segments_near.hpp>
-#include <thalweg/geometry/side_of_line.hpp>
+#include <thalweg/geometry/nearby.hpp>
+#include <thalweg/geometry/triangles.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 #include <tins.hpp>
 

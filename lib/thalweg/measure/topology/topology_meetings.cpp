@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/geometry/meetings.hpp>
-#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/geometry/crossings.hpp>
+#include <thalweg/geometry/nearby.hpp>
 #include <thalweg/measure/topology/internal/topology_steps.hpp>
 
 // Where arcs meet themselves and others.

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/geometry/segments_near.hpp>
-#include <thalweg/geometry/side_of_line.hpp>
+#include <thalweg/geometry/nearby.hpp>
+#include <thalweg/geometry/triangles.hpp>
 #include <thalweg/measure/topology/internal/topology_steps.hpp>
 
 // Ends that nearly meet something.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/channels/internal/drawn_lines.hpp>
 
-#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/geometry/nearby.hpp>
 
 namespace thalweg::network {
 

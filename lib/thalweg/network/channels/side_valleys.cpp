@@ -16,7 +16,7 @@
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
-#include <thalweg/geometry/meetings.hpp>
+#include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/channels/internal/drawn_lines.hpp>
 
 namespace thalweg::network {

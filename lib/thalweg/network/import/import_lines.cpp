@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/import/internal/import_directions.hpp>
 #include <thalweg/network/import/internal/import_steps.hpp>
 #include <thalweg/network/import/internal/import_tree.hpp>

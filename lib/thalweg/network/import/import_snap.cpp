@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/vec.hpp>
-#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/import/internal/import_steps.hpp>
 
 namespace thalweg::network::import_steps {

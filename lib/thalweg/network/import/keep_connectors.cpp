@@ -16,7 +16,7 @@
 
 #include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/import/internal/import_steps.hpp>
 
 namespace thalweg::network {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 
 namespace thalweg::network {

@@ -13,7 +13,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/geometry/meetings.hpp>
+#include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 #include <thalweg/network/planform/internal/bend.hpp>
 #include <thalweg/network/planform/internal/keep_apart.hpp>

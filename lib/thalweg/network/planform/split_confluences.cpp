@@ -13,8 +13,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/geometry/segments_near.hpp>
-#include <thalweg/geometry/side_of_line.hpp>
+#include <thalweg/geometry/nearby.hpp>
+#include <thalweg/geometry/triangles.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 #include <thalweg/network/planform/internal/shift_tributary.hpp>
 

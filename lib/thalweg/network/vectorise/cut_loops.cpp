@@ -9,7 +9,7 @@
 #include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
-#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/geometry/nearby.hpp>
 
 namespace thalweg::network {
 namespace {

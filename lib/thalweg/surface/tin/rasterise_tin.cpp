@@ -16,8 +16,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/geometry/height_on_plane.hpp>
-#include <thalweg/geometry/side_of_line.hpp>
+#include <thalweg/geometry/triangles.hpp>
 #include <thalweg/surface/tin/internal/extend_tin.hpp>
 
 namespace thalweg::surface {

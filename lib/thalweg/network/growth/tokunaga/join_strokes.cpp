@@ -5,7 +5,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/suggest.hpp>
 #include <thalweg/geometry/crossings.hpp>
-#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/elevation/rosgen.hpp>
 
 #include <fmt/format.h>

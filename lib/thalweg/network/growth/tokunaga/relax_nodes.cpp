@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/geometry/point_grid.hpp>
+#include <thalweg/geometry/nearby.hpp>
 
 namespace thalweg::network {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/tokunaga/internal/stroke_lands.hpp>
 
-#include <thalweg/geometry/segments_near.hpp>
+#include <thalweg/geometry/nearby.hpp>
 
 #include <algorithm>
 #include <limits>

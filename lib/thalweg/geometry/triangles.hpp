@@ -7,8 +7,29 @@
 #include <vector>
 
 #include <thalweg/core/tin.hpp>
+#include <thalweg/core/vec.hpp>
 
 namespace thalweg::geometry {
+
+/// Finds the side of the line from a to b on which p lies.
+/// \param a,b,p [m] finite
+/// \return 1 left, -1 right, 0 on the line: the sign of the exact determinant
+///
+/// Source: \cite shewchuk1997, Adaptive precision floating-point arithmetic; what its filter leaves open, CGAL decides.
+int side_of_line(Vec2 a, Vec2 b, Vec2 p);
+
+/// Computes the height of the plane through three points, exact and rounded once, also for slivers.
+/// \param a,b,c [m] not collinear in plan
+/// \param p [m] a position
+/// \return [m] height at p
+///
+/// Source: CGAL, exact constructions.
+double height_on_plane(Vec3 const& a, Vec3 const& b, Vec3 const& c, Vec2 p);
+
+/// Puts the triangles of a TIN into a canonical order: each begins with its lowest vertex, and they follow the Morton
+/// curve of these vertices, so that neighbours are close in memory and in files. Orientations stay.
+/// \param tin finite vertices
+void put_in_order(Tin& tin);
 
 /// Whether angles and lengths of a TIN are measured in plan or in space.
 enum class Measured : std::uint8_t {

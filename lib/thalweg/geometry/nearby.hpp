@@ -3,12 +3,40 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg::geometry {
+
+/// A bucket grid of points for nearest-neighbour queries.
+class PointGrid {
+public:
+    /// Sorts points into buckets; these are enlarged if there were more than 2000 along a side.
+    /// \param points at least one, finite
+    /// \param cell_m [m] > 0, side of a bucket, ideally the distance between points
+    PointGrid(std::vector<Vec2> points, double cell_m);
+
+    /// Finds the nearest point.
+    /// \param p [m] any position
+    /// \return its number, the lowest of several
+    std::size_t nearest(Vec2 p) const;
+
+private:
+    std::int64_t slot(double along, std::int64_t count) const;
+    CellIndex cell(Vec2 p) const;
+
+    std::vector<Vec2> points_;
+    Vec2 low_;
+    double cell_m_ = 1.0;
+    std::int64_t width_ = 1;
+    std::int64_t height_ = 1;
+    Indexed<CellIndex, std::size_t> first_; ///< by bucket: position in in_
+    std::vector<std::size_t> in_;           ///< numbers of points, bucket by bucket
+};
 
 /// A segment of a polyline close to a point.
 struct NearSegment {
@@ -35,9 +63,7 @@ bool is_spike(Vec2 before, Vec2 tip, Vec2 after, double near_m);
 /// \param points [m]
 /// \param lines [m]
 /// \param distance_m [m] >= 0
-/// \param run progress, log, stop token and number of threads
 /// \return by point, sorted by line and segment
-/// \throws Cancelled
 ///
 /// Source: CGAL, streamed segment trees.
 std::vector<std::vector<NearSegment>> segments_near(std::vector<Vec2> const& points,
