@@ -3,12 +3,8 @@
 #pragma once
 
 /// All public headers of the module.
-#include <thalweg/draw/curve.hpp>
-#include <thalweg/draw/cut_sections.hpp>
-#include <thalweg/draw/hypsometry.hpp>
-#include <thalweg/draw/lines.hpp>
+#include <thalweg/draw/diagrams.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/picture.hpp>
-#include <thalweg/draw/profile.hpp>
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/draw/wireframe.hpp>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/draw/curve.hpp>
-#include <thalweg/draw/profile.hpp>
+#include <thalweg/draw/diagrams.hpp>
 
 #include <thalweg/core/run/error.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/draw/internal/fishnet.hpp>
+#include <thalweg/draw/internal/wireframe.hpp>
 #include <thalweg/draw/wireframe.hpp>
 
 #include <thalweg/core/run/error.hpp>

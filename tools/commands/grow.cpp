@@ -4,7 +4,7 @@
 #include "commands/seed.hpp"
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/draw/lines.hpp>
+#include <thalweg/draw/map.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/files/output_file.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/draw/internal/legend.hpp>
+#include <thalweg/draw/internal/map.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,7 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include <thalweg/draw/internal/axes.hpp>
-#include <thalweg/draw/internal/map_lines.hpp>
-#include <thalweg/draw/internal/relief.hpp>
+#include <thalweg/draw/internal/canvas.hpp>
 
 namespace thalweg::draw {
 namespace {

@@ -3,22 +3,435 @@
 #include <thalweg/draw/map.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
 
 #include <cairo.h>
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
-#include <thalweg/draw/internal/axes.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
-#include <thalweg/draw/internal/legend.hpp>
-#include <thalweg/draw/internal/map_lines.hpp>
-#include <thalweg/draw/internal/relief.hpp>
-#include <thalweg/draw/internal/window.hpp>
+#include <thalweg/draw/internal/map.hpp>
 
 namespace thalweg::draw {
 namespace {
+
+struct Relief {
+    std::vector<std::uint32_t> pixels; // premultiplied ARGB, row-major from the north-west
+    int width = 0;                     // [px]
+    int height = 0;                    // [px]
+    double cells_a_pixel = 1.0;        // side of a pixel [cells]; the last ones may reach beyond the grid
+    double low_m = 0.0;                // heights at the ends of the tint; low > high where there are none
+    double high_m = 0.0;
+    std::int64_t holes = 0; // cells without a height
+};
+
+constexpr Colour link_colour{0.05, 0.28, 0.58};
+
+struct LinesBox {
+    Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+};
+
+LinesBox box_of_lines(std::vector<std::vector<Vec2>> const& lines) {
+    LinesBox all;
+    for (auto const& line : lines) {
+        for (Vec2 const p : line) {
+            if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+                throw BadInput("draw.lines: a line has a coordinate that is not finite");
+            }
+            all.low = {std::min(all.low.x, p.x), std::min(all.low.y, p.y)};
+            all.high = {std::max(all.high.x, p.x), std::max(all.high.y, p.y)};
+        }
+    }
+    return all;
+}
+
+} // namespace
+
+Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& params) {
+    require_in("draw.lines", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    require_in("draw.lines", "height_px", params.height_px, Range::between(200, 8000), "pixels");
+    double const width = params.width_px;
+    double const height = params.height_px;
+    double const unit = 0.014 * std::min(width, height);
+    double const top = params.title.empty() ? 2.0 * unit : 4.2 * unit;
+    Box const box{2.0 * unit, top, width - 4.0 * unit, height - top - 2.0 * unit};
+    LinesBox const all = box_of_lines(lines);
+    double const span_x = std::max(all.high.x - all.low.x, 1e-9);
+    double const span_y = std::max(all.high.y - all.low.y, 1e-9);
+    double const scale = std::min(box.width / span_x, box.height / span_y);
+    double const left = box.x + 0.5 * (box.width - scale * span_x);
+    double const bottom = box.bottom() - 0.5 * (box.height - scale * span_y);
+    return paint(width, height, params.format, [&](Cairo* sheet) {
+        if (!params.title.empty()) {
+            draw_text_within(sheet, {box.x, 2.4 * unit}, params.title, {1.35 * unit, ink, Weight::bold}, box.width);
+        }
+        set_colour(sheet, link_colour);
+        cairo_set_line_width(sheet, std::clamp(0.12 * scale, 0.4, 2.0));
+        cairo_set_line_cap(sheet, CAIRO_LINE_CAP_ROUND);
+        cairo_set_line_join(sheet, CAIRO_LINE_JOIN_ROUND);
+        for (auto const& line : lines) {
+            std::vector<Vec2> drawn;
+            for (Vec2 const p : line) {
+                drawn.push_back({left + scale * (p.x - all.low.x), bottom - scale * (p.y - all.low.y)});
+            }
+            trace_line(sheet, drawn, 0.0);
+            cairo_stroke(sheet);
+        }
+    });
+}
+
+namespace {
+
+/// Sage, straw, sand, clay, white: seven colours joined in OKLab and cut into equal lengths there, so that equal
+/// differences of height look equally large. Light enough to be shaded.
+constexpr std::array<std::array<double, 3>, 17> tints = {{{126, 166, 136},
+                                                          {137, 173, 140},
+                                                          {148, 181, 143},
+                                                          {159, 189, 147},
+                                                          {170, 196, 150},
+                                                          {185, 202, 155},
+                                                          {199, 208, 159},
+                                                          {214, 214, 164},
+                                                          {231, 210, 166},
+                                                          {227, 201, 162},
+                                                          {222, 193, 160},
+                                                          {225, 201, 177},
+                                                          {228, 209, 194},
+                                                          {233, 218, 207},
+                                                          {238, 227, 219},
+                                                          {243, 237, 231},
+                                                          {248, 246, 243}}};
+
+constexpr int level_shade = 181; ///< GDAL's hillshade of level ground under a light 45 degrees high
+
+Colour mix(Colour a, Colour b, double share) {
+    auto const blend = [share](double p, double q) { return p + (q - p) * share; };
+    return {blend(a.red, b.red), blend(a.green, b.green), blend(a.blue, b.blue), 1.0};
+}
+
+/// Slopes turned from the light are multiplied by a cool grey, those turned to it lightened.
+Colour shade(Colour ground, double light) {
+    if (light <= 0.0) {
+        return mix(ground, {ground.red * 0.30, ground.green * 0.33, ground.blue * 0.45}, -light);
+    }
+    return mix(ground, {1.0, 1.0, 0.96}, 0.55 * light);
+}
+
+/// Light of every hillshade value, [-1, 1], 0 on level ground; stretched where the relief is faint.
+std::array<double, 256> lights(Raster<float> const& dem, Raster<std::uint8_t> const& hillshade) {
+    std::array<std::int64_t, 256> count{};
+    std::int64_t all = 0;
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        if (std::isfinite(dem[i]) && hillshade[i] > 0) {
+            ++count[hillshade[i]];
+            ++all;
+        }
+    }
+    std::size_t darkest = 1; // but for one cell in fifty
+    for (std::int64_t below = count[1]; darkest < level_shade && below * 50 < all;) {
+        below += count[++darkest];
+    }
+    double const depth = std::max(1.0, static_cast<double>(level_shade) - static_cast<double>(darkest));
+    double const gain = std::clamp(130.0 / depth, 1.0, 2.5);
+    std::array<double, 256> light{};
+    for (std::size_t s = 1; s < 256; ++s) {
+        double const off = gain * (static_cast<double>(s) - level_shade);
+        light[s] = std::clamp(off < 0.0 ? off / 180.0 : off / 74.0, -1.0, 1.0);
+    }
+    return light;
+}
+
+std::uint32_t packed(double red, double green, double blue, double alpha) {
+    auto const byte = [](double v) { return static_cast<std::uint32_t>(std::clamp(v, 0.0, 1.0) * 255.0 + 0.5); };
+    return byte(alpha) << 24U | byte(red) << 16U | byte(green) << 8U | byte(blue);
+}
+
+} // namespace
+
+Colour tint(double share) {
+    double const place = std::clamp(share, 0.0, 1.0) * static_cast<double>(tints.size() - 1);
+    std::size_t const k = std::min(static_cast<std::size_t>(place), tints.size() - 2);
+    double const part = place - static_cast<double>(k);
+    auto const channel = [&](std::size_t c) { return (tints[k][c] + (tints[k + 1][c] - tints[k][c]) * part) / 255.0; };
+    return {channel(0), channel(1), channel(2), 1.0};
+}
+
+namespace {
+
+// Takes: heights, and their hillshade [1, 255] (0 = none) on the same grid. Gives: one pixel a cell, or one for the
+// mean colour of every k × k cells, with the largest k that leaves most_wide or more pixels in a row; more where the
+// picture could not be held otherwise (30 000 pixels a side).
+Relief tinted_relief(Raster<float> const& dem, Raster<std::uint8_t> const& hillshade, double most_wide) {
+    Relief relief;
+    relief.low_m = std::numeric_limits<double>::infinity();
+    relief.high_m = -relief.low_m;
+    for (float const z : dem.values()) {
+        if (std::isfinite(z)) {
+            relief.low_m = std::min(relief.low_m, static_cast<double>(z));
+            relief.high_m = std::max(relief.high_m, static_cast<double>(z));
+        } else {
+            ++relief.holes;
+        }
+    }
+    double const span = relief.high_m - relief.low_m;
+    std::array<double, 256> const light = lights(dem, hillshade);
+
+    constexpr std::int64_t longest = 30000;
+    std::int64_t const fine = static_cast<std::int64_t>(static_cast<double>(dem.width()) / std::max(1.0, most_wide));
+    std::int64_t const block = std::max(
+        {std::int64_t{1}, fine, (dem.width() + longest - 1) / longest, (dem.height() + longest - 1) / longest});
+    std::int64_t const columns = (dem.width() + block - 1) / block;
+    std::int64_t const rows = (dem.height() + block - 1) / block;
+    relief.width = static_cast<int>(columns);
+    relief.height = static_cast<int>(rows);
+    relief.cells_a_pixel = static_cast<double>(block);
+    relief.pixels.reserve(static_cast<std::size_t>(columns * rows));
+    for (std::int64_t r = 0; r < rows; ++r) {
+        for (std::int64_t c = 0; c < columns; ++c) {
+            Colour sum{0.0, 0.0, 0.0, 0.0};
+            std::int64_t const right = std::min(dem.width(), (c + 1) * block);
+            std::int64_t const bottom = std::min(dem.height(), (r + 1) * block);
+            for (std::int64_t row = r * block; row < bottom; ++row) {
+                for (std::int64_t col = c * block; col < right; ++col) {
+                    double const z = dem[Cell{col, row}];
+                    if (!std::isfinite(z)) {
+                        continue;
+                    }
+                    Colour const seen =
+                        shade(tint(span > 0.0 ? (z - relief.low_m) / span : 0.4), light[hillshade[Cell{col, row}]]);
+                    sum = {sum.red + seen.red, sum.green + seen.green, sum.blue + seen.blue, sum.alpha + 1.0};
+                }
+            }
+            double const cells = static_cast<double>((right - c * block) * (bottom - r * block));
+            relief.pixels.push_back(packed(sum.red / cells, sum.green / cells, sum.blue / cells, sum.alpha / cells));
+        }
+    }
+    return relief;
+}
+
+// where: the grid's place on the sheet. px_per_cell: its scale.
+void draw_relief(Cairo* sheet, Relief const& relief, Box where, double px_per_cell) {
+    struct End {
+        void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    };
+    auto* const pixels = const_cast<std::uint32_t*>(relief.pixels.data()); // a source is only read
+    std::unique_ptr<cairo_surface_t, End> const image(cairo_image_surface_create_for_data(
+        reinterpret_cast<unsigned char*>(pixels), CAIRO_FORMAT_ARGB32, relief.width, relief.height, 4 * relief.width));
+    double const scale = relief.cells_a_pixel * px_per_cell;
+    cairo_save(sheet);
+    cairo_rectangle(sheet, where.x, where.y, where.width, where.height);
+    cairo_clip(sheet);
+    cairo_translate(sheet, where.x, where.y);
+    cairo_scale(sheet, scale, scale);
+    cairo_set_source_surface(sheet, image.get(), 0.0, 0.0);
+    cairo_pattern_set_filter(cairo_get_source(sheet), CAIRO_FILTER_BEST);
+    bool const is_svg = cairo_surface_get_type(cairo_get_target(sheet)) == CAIRO_SURFACE_TYPE_SVG;
+    if (!is_svg) { // which has no such extension: Cairo 1.18 writes every pixel instead
+        cairo_pattern_set_extend(cairo_get_source(sheet), CAIRO_EXTEND_PAD);
+    }
+    cairo_paint(sheet);
+    cairo_restore(sheet);
+    cairo_surface_finish(image.get());
+}
+
+ContourKind kind_of_contour(double height_m, double interval_m) {
+    if (interval_m <= 0.0) {
+        return ContourKind::ordinary;
+    }
+    double const steps = height_m / (index_every * interval_m);
+    return std::fabs(steps - std::floor(steps + 0.5)) < 1e-6 ? ContourKind::index : ContourKind::ordinary;
+}
+
+std::vector<Vec2> on_sheet(std::vector<Vec2> const& line, Window const& window) {
+    std::vector<Vec2> out(line.size());
+    std::transform(line.begin(), line.end(), out.begin(), [&](Vec2 p) { return window.at(p); });
+    return out;
+}
+
+/// A stretch of a line that is straight enough to carry a label.
+struct Seat {
+    Vec2 from;
+    Vec2 to;
+    Vec2 middle() const { return {0.5 * (from.x + to.x), 0.5 * (from.y + to.y)}; }
+};
+
+/// Point at a distance along a line. along: [px] of every vertex from the first.
+Vec2 point_at(std::vector<Vec2> const& line, std::vector<double> const& along, double where) {
+    auto const k = static_cast<std::size_t>(std::upper_bound(along.begin(), along.end(), where) - along.begin());
+    if (k == 0 || k == line.size()) {
+        return k == 0 ? line.front() : line.back();
+    }
+    double const step = along[k] - along[k - 1];
+    double const share = step > 0.0 ? (where - along[k - 1]) / step : 0.0;
+    return {line[k - 1].x + (line[k].x - line[k - 1].x) * share, line[k - 1].y + (line[k].y - line[k - 1].y) * share};
+}
+
+std::vector<Seat> seats_on(std::vector<Vec2> const& line, double room, double apart) {
+    std::vector<double> along(line.size(), 0.0);
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        along[i] = along[i - 1] + distance(line[i - 1], line[i]);
+    }
+    std::vector<Seat> seats;
+    double const step = std::max(0.25 * room, along.back() / 4000.0);
+    for (double where = 0.5 * room; where + 1.5 * room < along.back(); where += step) {
+        Seat const seat{point_at(line, along, where), point_at(line, along, where + room)};
+        Vec2 const halfway = point_at(line, along, where + 0.5 * room);
+        if (distance(seat.from, seat.to) > 0.97 * room && distance(seat.middle(), halfway) < 0.06 * room) {
+            seats.push_back(seat);
+            where += apart;
+        }
+    }
+    return seats;
+}
+
+/// Channels are as wide as the square root of the discharge (Leopold and Maddock 1953), which grows with the area.
+constexpr double width_exponent = 0.5;
+
+/// An area, 0 where it is not known.
+double known(double area_m2) {
+    return std::isfinite(area_m2) && area_m2 > 0.0 ? area_m2 : 0.0;
+}
+
+/// share: [0, 1] of the largest.
+LineStyle river_style(double share, RiverScale const& scale, double unit) {
+    double const widest = std::min(0.9 * (scale.highest_order - 1), 4.2);
+    auto const blend = [share](double small, double large) { return small + (large - small) * share; };
+    return {std::max(1.0, (1.2 + widest * share) * unit), {blend(0.25, 0.07), blend(0.50, 0.31), blend(0.80, 0.64)}};
+}
+
+} // namespace
+
+LineStyle contour_style(ContourKind kind, double unit) {
+    return kind == ContourKind::index ? LineStyle{1.25 * unit, {0.47, 0.29, 0.15, 0.75}}
+                                      : LineStyle{0.65 * unit, {0.50, 0.33, 0.19, 0.55}};
+}
+
+LineStyle style_of_area(double area_m2, RiverScale const& scale, double unit) {
+    return river_style(std::pow(known(area_m2) / scale.largest_area_m2, width_exponent), scale, unit);
+}
+
+LineStyle style_of_order(int order, RiverScale const& scale, double unit) {
+    return river_style(static_cast<double>(order - 1) / std::max(1, scale.highest_order - 1), scale, unit);
+}
+
+LineStyle ridge_style(double unit) {
+    return {std::max(0.8, 1.1 * unit), {0.37, 0.20, 0.08, 0.85}};
+}
+
+std::vector<Vec2> in_plan(std::vector<Vec3> const& line) {
+    std::vector<Vec2> plan(line.size());
+    std::transform(line.begin(), line.end(), plan.begin(), [](Vec3 const& p) { return Vec2{p.x, p.y}; });
+    return plan;
+}
+
+namespace {
+
+RiverScale river_scale(MapSheet const& sheet) {
+    RiverScale scale;
+    if (sheet.orders != nullptr && !sheet.orders->strahler.empty()) {
+        scale.highest_order = *std::max_element(sheet.orders->strahler.begin(), sheet.orders->strahler.end());
+    }
+    for (double const area : sheet.areas_m2) {
+        scale.largest_area_m2 = std::max(scale.largest_area_m2, known(area));
+    }
+    return scale;
+}
+
+// Whether the sheet has at least one ridge.
+bool has_ridges(MapSheet const& sheet) {
+    return sheet.ridges != nullptr && !sheet.ridges->lines.empty();
+}
+
+void draw_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, double interval_m, double unit) {
+    for (ContourKind const kind : {ContourKind::ordinary, ContourKind::index}) {
+        LineStyle const style = contour_style(kind, unit);
+        set_colour(canvas, style.colour);
+        cairo_set_line_width(canvas, style.width_px);
+        for (auto const& [height_m, line] : sheet.contours) {
+            if (kind_of_contour(height_m, interval_m) == kind) {
+                trace_line(canvas, on_sheet(line, window), 0.0);
+                cairo_stroke(canvas);
+            }
+        }
+    }
+}
+
+void draw_ridges(Cairo* canvas, MapSheet const& sheet, Window const& window, double unit) {
+    if (!has_ridges(sheet)) {
+        return;
+    }
+    LineStyle const style = ridge_style(unit);
+    set_colour(canvas, style.colour);
+    cairo_set_line_width(canvas, style.width_px);
+    for (RidgeLine const& ridge : sheet.ridges->lines) {
+        trace_line(canvas, on_sheet(in_plan(ridge.line), window), 0.0);
+        cairo_stroke(canvas);
+    }
+}
+
+void draw_rivers(Cairo* canvas, MapSheet const& sheet, Window const& window, double unit) {
+    RiverScale const scale = river_scale(sheet);
+    if (scale.highest_order == 0) {
+        return;
+    }
+    std::vector<std::pair<double, ArcId>> arcs; // wide ones lie above
+    for (ArcId a = 0; a < sheet.network->plan.arc_count(); ++a) {
+        arcs.emplace_back(scale.largest_area_m2 > 0.0 ? known(sheet.areas_m2[a]) : sheet.orders->strahler[a], a);
+    }
+    std::stable_sort(arcs.begin(), arcs.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
+    double const corner_px = 0.75 * sheet.dem.grid().cell_m * window.px_per_m;
+    cairo_set_line_cap(canvas, CAIRO_LINE_CAP_ROUND);
+    for (auto const& [size, a] : arcs) {
+        LineStyle const style = scale.largest_area_m2 > 0.0 ? style_of_area(size, scale, unit)
+                                                            : style_of_order(static_cast<int>(size), scale, unit);
+        trace_line(canvas, on_sheet(sheet.network->plan.arc(a).line, window), corner_px);
+        set_colour(canvas, style.colour);
+        cairo_set_line_width(canvas, style.width_px);
+        cairo_stroke(canvas);
+    }
+    cairo_set_line_cap(canvas, CAIRO_LINE_CAP_BUTT);
+}
+
+// Heights on index contours, where these run straight and no other label is near.
+void label_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, double interval_m, double unit) {
+    LineStyle const line_style = contour_style(ContourKind::index, unit);
+    TextStyle const style{11.0 * unit, line_style.colour, Weight::normal, 2.0 * unit};
+    int const decimals = interval_m > 0.0 ? decimals_of(round_down(interval_m)) : 0;
+    Box const& frame = window.frame;
+    std::vector<Vec2> taken;
+    for (auto const& [height_m, line] : sheet.contours) {
+        if (line.size() < 2 || kind_of_contour(height_m, interval_m) != ContourKind::index) {
+            continue;
+        }
+        std::string const label = number(height_m, decimals);
+        double const room = text_width(canvas, label, style) + 6.0 * unit;
+        for (Seat seat : seats_on(on_sheet(line, window), room, 500.0 * unit)) {
+            Vec2 const at = seat.middle();
+            bool const inside = at.x - room > frame.x && at.x + room < frame.right() && at.y - room > frame.y &&
+                                at.y + room < frame.bottom();
+            bool const free = std::none_of(taken.begin(), taken.end(),
+                                           [&](Vec2 other) { return distance(other, at) < 130.0 * unit; });
+            if (!inside || !free) {
+                continue;
+            }
+            if (seat.to.x < seat.from.x) {
+                std::swap(seat.from, seat.to);
+            }
+            // The base line lies below the contour, so that the figures sit astride it.
+            double const length = distance(seat.from, seat.to);
+            double const drop = 0.36 * style.size / length;
+            draw_text(canvas, {at.x - (seat.to.y - seat.from.y) * drop, at.y + (seat.to.x - seat.from.x) * drop}, label,
+                      style, Anchor::middle, seat.to - seat.from);
+            taken.push_back(at);
+        }
+    }
+}
 
 void demand_finite(std::vector<Vec2> const& line, char const* what, std::size_t number_of_line) {
     for (std::size_t i = 0; i < line.size(); ++i) {

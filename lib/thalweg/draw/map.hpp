@@ -10,9 +10,23 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/draw/picture.hpp>
 
 namespace thalweg::draw {
+
+/// Options of lines().
+struct LinesParams {
+    std::string title;    ///< UTF-8; "" for none
+    int width_px = 1000;  ///< [200, 8000]
+    int height_px = 1000; ///< [200, 8000]
+    Format format = Format::svg;
+};
+
+/// \param lines lines; none give an empty sheet
+/// \return polylines in plan, as large as the sheet lets them be, north up.
+/// \throws BadInput when a coordinate is not finite
+Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& params = {});
 
 /// Options of map().
 struct MapParams {
@@ -35,11 +49,9 @@ struct MapSheet {
 };
 
 /// \param sheet a DEM of one cell or more; cells without a height are light grey, cells without a shade lie level
-/// \param params options, each with its default, unit and range
 /// \return a map: hillshade under a hypsometric tint, contours, ridges as thin brown lines, rivers whose width and
 /// colour follow the area they drain, or Strahler order where no area is known, scale bar, legend, title, frame with
 /// coordinates
-/// \throws BadParameter
 /// \throws BadInput when hillshade, orders or areas are of another grid or network, or a line has a coordinate that is
 /// not finite
 Picture map(MapSheet const& sheet, MapParams const& params = {});

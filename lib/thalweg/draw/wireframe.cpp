@@ -5,21 +5,334 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 #include <cairo.h>
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
-#include <thalweg/draw/internal/axes.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
-#include <thalweg/draw/internal/fishnet.hpp>
-#include <thalweg/draw/internal/hidden_lines.hpp>
-#include <thalweg/draw/internal/main_stem.hpp>
-#include <thalweg/draw/internal/wireframe_model.hpp>
+#include <thalweg/draw/internal/sections.hpp>
+#include <thalweg/draw/internal/wireframe.hpp>
 
 namespace thalweg::draw {
 namespace {
+
+/// The columns and rows that hold heights; all of them where none does.
+struct Extent {
+    std::int64_t west = 0;
+    std::int64_t east = 0;
+    std::int64_t north = 0;
+    std::int64_t south = 0;
+};
+
+Extent extent_of(Raster<float> const& dem) {
+    Extent box{dem.width(), -1, dem.height(), -1};
+    for (std::int64_t row = 0; row < dem.height(); ++row) {
+        for (std::int64_t col = 0; col < dem.width(); ++col) {
+            if (std::isfinite(dem[Cell{col, row}])) {
+                box = {std::min(box.west, col), std::max(box.east, col), std::min(box.north, row), row};
+            }
+        }
+    }
+    return box.east < 0 ? Extent{0, dem.width() - 1, 0, dem.height() - 1} : box;
+}
+
+/// Where the lines across one direction lie [cells].
+std::vector<double> spread(std::int64_t first, std::int64_t last, double apart) {
+    auto const start = static_cast<double>(first);
+    if (first == last) {
+        return {start - 0.5, start + 0.5};
+    }
+    double const span = static_cast<double>(last - first);
+    auto const meshes = static_cast<std::int64_t>(std::max(1.0, std::floor(span / apart + 0.5)));
+    std::vector<double> at(static_cast<std::size_t>(meshes + 1));
+    for (std::size_t k = 0; k < at.size(); ++k) {
+        at[k] = start + span * static_cast<double>(k) / static_cast<double>(meshes);
+    }
+    return at;
+}
+
+/// Mean of the cells around a place; NaN where fewer than half of them have a height.
+double mean_around(Raster<float> const& dem, double col, double row, double reach) {
+    auto const clamped = [](double v, std::int64_t cells) {
+        return std::clamp(static_cast<std::int64_t>(std::floor(v + 0.5)), std::int64_t{0}, cells - 1);
+    };
+    std::int64_t const west = clamped(col - reach, dem.width());
+    std::int64_t const east = clamped(col + reach, dem.width());
+    std::int64_t const north = clamped(row - reach, dem.height());
+    std::int64_t const south = clamped(row + reach, dem.height());
+    double sum = 0.0;
+    std::int64_t known = 0;
+    for (std::int64_t r = north; r <= south; ++r) {
+        for (std::int64_t c = west; c <= east; ++c) {
+            float const z = dem[Cell{c, r}];
+            if (std::isfinite(z)) {
+                sum += static_cast<double>(z);
+                ++known;
+            }
+        }
+    }
+    return 2 * known >= (south - north + 1) * (east - west + 1) ? sum / static_cast<double>(known)
+                                                                : std::numeric_limits<double>::quiet_NaN();
+}
+
+} // namespace
+
+Fishnet fishnet(Raster<float> const& dem, std::int64_t most_lines) {
+    Extent const box = extent_of(dem);
+    double const longer = static_cast<double>(std::max(box.east - box.west, box.south - box.north));
+    double const apart = std::max(1.0, longer / static_cast<double>(most_lines - 1));
+    Fishnet net;
+    net.col_at = spread(box.west, box.east, apart);
+    net.row_at = spread(box.north, box.south, apart);
+    net.columns = net.col_at.count();
+    net.rows = net.row_at.count();
+    net.low_m = std::numeric_limits<double>::infinity();
+    net.high_m = -net.low_m;
+    // A third of a mesh each way: less, and single cells make the net restless; more, and valleys fill up.
+    double const reach = apart > 1.0 ? apart / 3.0 : 0.0;
+    for (double const row : net.row_at) {
+        for (double const col : net.col_at) {
+            double const z = mean_around(dem, col, row, reach);
+            net.height_m.push_back(z);
+            if (std::isfinite(z)) {
+                net.low_m = std::min(net.low_m, z);
+                net.high_m = std::max(net.high_m, z);
+            }
+        }
+    }
+    return net;
+}
+
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+
+// Parallel projection, in metres: x to the right, y up.
+struct View {
+    double sine = 0.0; // of the bearing
+    double cosine = 1.0;
+    double tilt = 0.5;    // what depth adds to y
+    double upright = 1.0; // what height adds to y
+
+    View(double azimuth_deg, double elevation_deg, double exaggeration);
+    Vec2 at(Vec2 ground, double z) const {
+        return {ground.x * cosine - ground.y * sine, (ground.x * sine + ground.y * cosine) * tilt + z * upright};
+    }
+};
+
+// The net over the ground with what stands around it, projected.
+struct Model {
+    Fishnet knots;
+    Net net;
+    double exaggeration = 1.0;
+    std::vector<std::array<Vec2, 2>> skirt;  // from knots on front edges down to the base, where seen
+    std::vector<std::array<Vec2, 2>> bottom; // the base between them
+    Vec2 base_corner;                        // the nearest corner, on the base
+    Vec2 base_col_end;                       // the far end of the front edge along columns
+    Vec2 base_row_end;
+    Box box; // of all that, y up: x, y are its lower left corner
+};
+
+// A place on the base below a knot.
+struct Foot {
+    Vec2 at;
+    double depth = 0.0; // [m] of the knot, growing away from the viewer
+};
+
+using Feet = Indexed<KnotId, Foot>;
+
+/// How high the land nearer to the viewer than a place stands in its column of the sheet.
+double cover_before(Net const& net, Feet const& feet, Foot const& place) {
+    double cover = -std::numeric_limits<double>::infinity();
+    auto const ask = [&](KnotId a, KnotId b) {
+        Vec2 const from = net.at[a];
+        Vec2 const to = net.at[b];
+        double const share = (place.at.x - from.x) / (to.x - from.x);
+        // Sides that end in the knot above cover nothing; between two knots the share is never a hair from the ends.
+        if (share > 1e-9 && share < 1.0 - 1e-9 && std::isfinite(from.y) && std::isfinite(to.y) &&
+            feet[a].depth + (feet[b].depth - feet[a].depth) * share < place.depth - 1e-9 * std::fabs(place.depth)) {
+            cover = std::max(cover, from.y + (to.y - from.y) * share);
+        }
+    };
+    for (KnotId i = 0; i < net.at.count(); ++i) {
+        if ((i + 1) % net.columns != 0) {
+            ask(i, i + 1);
+        }
+        if (i + net.columns < net.at.count()) {
+            ask(i, i + net.columns);
+        }
+    }
+    return cover;
+}
+
+// Hangs a skirt on every side of a mesh that has land behind it and none before it.
+void hang_skirt(Model& model, Feet const& feet) {
+    Net const& net = model.net;
+    auto const has = [&](std::int64_t col, std::int64_t row) {
+        return col >= 0 && row >= 0 && col < net.columns && row < net.rows && std::isfinite(net.knot(col, row).y);
+    };
+    auto const has_mesh = [&](std::int64_t col, std::int64_t row) { // by its knot of lowest column and row
+        return has(col, row) && has(col + 1, row) && has(col, row + 1) && has(col + 1, row + 1);
+    };
+    Indexed<KnotId, std::int8_t> hung(net.at.size(), 0); // 1: seen down to the base, 2: covered there
+    auto const hang = [&](std::int64_t col, std::int64_t row) {
+        KnotId const knot = row * net.columns + col;
+        if (hung[knot] == 0) {
+            double const down_to = std::max(feet[knot].at.y, cover_before(net, feet, feet[knot]));
+            Vec2 const top = net.at[knot];
+            if (down_to < top.y) {
+                model.skirt.push_back({top, Vec2{top.x, down_to}});
+            }
+            hung[knot] = down_to > feet[knot].at.y ? 2 : 1;
+        }
+        return hung[knot] == 1;
+    };
+    auto const hang_side = [&](std::int64_t col, std::int64_t row, std::int64_t next_col, std::int64_t next_row) {
+        bool const first = hang(col, row);
+        bool const second = hang(next_col, next_row);
+        Foot const& from = feet[row * net.columns + col];
+        Foot const& to = feet[next_row * net.columns + next_col];
+        if (first && second) {
+            model.bottom.push_back({from.at, to.at});
+            return;
+        }
+        constexpr int parts = 12; // of a line that is partly covered
+        auto const at = [&](double share) {
+            return Foot{{from.at.x + (to.at.x - from.at.x) * share, from.at.y + (to.at.y - from.at.y) * share},
+                        from.depth + (to.depth - from.depth) * share};
+        };
+        for (int k = 0; k < parts; ++k) {
+            Foot const middle = at((k + 0.5) / parts);
+            if (cover_before(net, feet, middle) < middle.at.y) {
+                model.bottom.push_back({at(static_cast<double>(k) / parts).at, at((k + 1.0) / parts).at});
+            }
+        }
+    };
+    for (std::int64_t row = 0; row < net.rows; ++row) {
+        for (std::int64_t col = 0; col < net.columns; ++col) {
+            std::int64_t const above = net.away_row > 0 ? row : row - 1; // the mesh behind a side along the row
+            std::int64_t const before = net.away_row > 0 ? row - 1 : row;
+            if (has_mesh(col, above) && !has_mesh(col, before)) {
+                hang_side(col, row, col + 1, row);
+            }
+            std::int64_t const behind = net.away_col > 0 ? col : col - 1;
+            std::int64_t const in_front = net.away_col > 0 ? col - 1 : col;
+            if (has_mesh(behind, row) && !has_mesh(in_front, row)) {
+                hang_side(col, row, col, row + 1);
+            }
+        }
+    }
+}
+
+// The base lies below the lowest knot by the larger of these.
+constexpr double base_of_relief = 0.06;
+constexpr double base_of_side = 0.015; ///< as drawn
+
+/// Relief of about a fifth of the land's greater side: 1, 2, 3, 5 times a power of ten, not below 1 unless the land is
+/// steeper than that altogether.
+double choose_exaggeration(double relief_m, double side_m) {
+    if (!(relief_m > 0.0)) {
+        return 1.0;
+    }
+    double const most = 0.22 * side_m / relief_m;
+    if (most < 1.0 && most > 0.25) {
+        return 1.0;
+    }
+    double const power = round_down(most) > 0.0 ? std::pow(10.0, std::floor(std::log10(most))) : 1.0;
+    double chosen = power;
+    for (double const factor : {2.0, 3.0, 5.0}) {
+        chosen = factor * power <= most ? factor * power : chosen;
+    }
+    return std::clamp(chosen, 1e-6, 1e6);
+}
+
+Vec2 ground_of(Grid const& grid, double col, double row) {
+    return {(col + 0.5) * grid.cell_m, -(row + 0.5) * grid.cell_m};
+}
+
+Net net_over(Fishnet const& knots, View const& view) {
+    Net net;
+    net.columns = knots.columns;
+    net.rows = knots.rows;
+    net.away_col = view.sine > 0.0 ? 1 : -1;
+    net.away_row = view.cosine > 0.0 ? -1 : 1;
+    return net;
+}
+
+Box box_around(std::vector<Vec2> const& places) {
+    Vec2 least = places.front();
+    Vec2 most = least;
+    for (Vec2 const p : places) {
+        if (std::isfinite(p.y)) {
+            least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+            most = {std::max(most.x, p.x), std::max(most.y, p.y)};
+        }
+    }
+    return {least.x, least.y, most.x - least.x, most.y - least.y};
+}
+
+View::View(double azimuth_deg, double elevation_deg, double exaggeration) {
+    double bearing = azimuth_deg - 90.0 * std::floor(azimuth_deg / 90.0);
+    // Seen end on a line would be a point: a twentieth of a degree shows no difference but to the arithmetic.
+    double const turned = std::clamp(bearing, 0.05, 89.95) - bearing;
+    bearing = (azimuth_deg + turned) * degree;
+    sine = std::sin(bearing);
+    cosine = std::cos(bearing);
+    tilt = std::sin(elevation_deg * degree);
+    upright = exaggeration * std::cos(elevation_deg * degree);
+}
+
+// The net, its skirt and their box, with the exaggeration of the params or one that reads well.
+Model model_of(Raster<float> const& dem, WireframeParams const& params) {
+    Model model;
+    model.knots = fishnet(dem, params.lines);
+    Fishnet const& knots = model.knots;
+    bool const empty = knots.low_m > knots.high_m;
+    double const low = empty ? 0.0 : knots.low_m;
+    double const relief = empty ? 0.0 : knots.high_m - knots.low_m;
+    double const side = dem.grid().cell_m * std::max(knots.col_at.back() - knots.col_at.front(),
+                                                     knots.row_at.back() - knots.row_at.front());
+    model.exaggeration = params.exaggeration > 0.0 ? params.exaggeration : choose_exaggeration(relief, side);
+    View const view(params.azimuth_deg, params.elevation_deg, model.exaggeration);
+    model.net = net_over(knots, view);
+    Net& net = model.net;
+    auto const place = [&](std::int64_t col, std::int64_t row) {
+        return ground_of(dem.grid(), knots.col_at[col], knots.row_at[row]);
+    };
+    // Heights from the lowest: with those of a plateau the sheet would be far from the numbers' origin.
+    double const base = -std::max(base_of_relief * relief, base_of_side * side / model.exaggeration);
+    Feet feet;
+    for (std::int64_t row = 0; row < net.rows; ++row) {
+        for (std::int64_t col = 0; col < net.columns; ++col) {
+            double const z = knots.height_m[row * net.columns + col];
+            Vec2 const ground = place(col, row);
+            net.at.push_back(view.at(ground, z - low));
+            feet.push_back({view.at(ground, base), ground.x * view.sine + ground.y * view.cosine});
+        }
+    }
+    hang_skirt(model, feet);
+
+    std::int64_t const front_col = net.away_col > 0 ? 0 : net.columns - 1;
+    std::int64_t const front_row = net.away_row > 0 ? 0 : net.rows - 1;
+    std::int64_t const back_col = net.columns - 1 - front_col;
+    std::int64_t const back_row = net.rows - 1 - front_row;
+    model.base_corner = view.at(place(front_col, front_row), base);
+    model.base_col_end = view.at(place(back_col, front_row), base);
+    model.base_row_end = view.at(place(front_col, back_row), base);
+    std::vector<Vec2> shown{model.base_corner, model.base_col_end, model.base_row_end,
+                            view.at(place(back_col, back_row), base)};
+    shown.insert(shown.end(), net.at.begin(), net.at.end());
+    model.box = box_around(shown);
+    return model;
+}
 
 constexpr int orders_shown = 3; // the smaller streams would only hide the net
 constexpr Colour skirt_line{0.55, 0.55, 0.57};

@@ -30,10 +30,8 @@ struct WireframeScene {
 
 /// The caption says from where, with which exaggeration and how wide the meshes are.
 /// \param scene a DEM of one cell or more. Cells without a height are holes in the net
-/// \param params options, each with its default, unit and range
 /// \return a net of lines over the land in parallel projection, hidden lines removed, with a skirt along the front;
 /// rivers, laid on the net, where they are seen.
-/// \throws BadParameter
 /// \throws BadInput when the grid is unusable or orders are of another network
 ///
 /// Source: \cite zhang, its perspective figures.

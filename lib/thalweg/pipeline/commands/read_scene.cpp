@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/commands/internal/read_scene.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/draw/cut_sections.hpp>
+#include <thalweg/draw/sections.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/read_rivers.hpp>

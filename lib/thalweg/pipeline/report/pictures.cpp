@@ -3,10 +3,8 @@
 #include <thalweg/pipeline/report/pictures.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/draw/curve.hpp>
-#include <thalweg/draw/hypsometry.hpp>
+#include <thalweg/draw/diagrams.hpp>
 #include <thalweg/draw/map.hpp>
-#include <thalweg/draw/profile.hpp>
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/draw/wireframe.hpp>
 #include <thalweg/io/raster/raster_files.hpp>

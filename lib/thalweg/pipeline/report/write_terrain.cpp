@@ -3,9 +3,8 @@
 #include <thalweg/pipeline/report/write_terrain.hpp>
 
 #include <thalweg/core/run/printable.hpp>
-#include <thalweg/draw/curve.hpp>
+#include <thalweg/draw/diagrams.hpp>
 #include <thalweg/draw/map.hpp>
-#include <thalweg/draw/profile.hpp>
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/draw/wireframe.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>

@@ -6,7 +6,7 @@
 
 #include <thalweg/core/stream_network.hpp>
 
-/// The longest stream of a network. Private to this module.
+/// The longest stream of a network.
 namespace thalweg::draw {
 
 struct MainStem {
