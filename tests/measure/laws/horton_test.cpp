@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/measure/laws/horton.hpp>
+#include <thalweg/measure/laws/network_laws.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -12,10 +12,9 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/measure/laws/internal/concavity.hpp>
-#include <thalweg/measure/laws/internal/hack.hpp>
-#include <thalweg/measure/laws/line_fit.hpp>
-#include <thalweg/measure/relief/natural_ranges.hpp>
+#include <thalweg/measure/laws/fits.hpp>
+#include <thalweg/measure/laws/internal/network_laws.hpp>
+#include <thalweg/measure/relief/relief.hpp>
 
 #include "dems.hpp"
 #include "trees.hpp"

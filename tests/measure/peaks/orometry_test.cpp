@@ -12,8 +12,6 @@
 
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/measure/peaks/isolation.hpp>
-#include <thalweg/measure/peaks/prominence.hpp>
 
 #include "dems.hpp"
 

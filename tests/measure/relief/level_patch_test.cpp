@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/measure/relief/level_patch.hpp>
+#include <thalweg/measure/relief/slopes.hpp>
 
 #include <cmath>
 #include <vector>

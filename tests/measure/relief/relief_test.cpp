@@ -13,8 +13,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
-#include <thalweg/measure/relief/perched.hpp>
-#include <thalweg/measure/relief/relief_metrics.hpp>
+#include <thalweg/measure/relief/slopes.hpp>
 
 #include "graded_land.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/measure/relief/slope_area_ratio.hpp>
+#include <thalweg/measure/relief/slope_area.hpp>
 
 #include <cmath>
 

@@ -9,7 +9,6 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/routing/route.hpp>
-#include <thalweg/measure/relief/chi.hpp>
 
 #include "graded_land.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/measure/texture/gradient_texture.hpp>
+#include <thalweg/measure/texture/texture.hpp>
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/routing/route.hpp>
-#include <thalweg/measure/laws/junction_angles.hpp>
+#include <thalweg/measure/laws/network_laws.hpp>
 #include <thalweg/measure/relief/relief.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/plan/make_input.hpp>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/measure/relief/reference_dems.hpp>
+#include <thalweg/measure/relief/relief.hpp>
 
 #include <cmath>
 #include <cstdlib>

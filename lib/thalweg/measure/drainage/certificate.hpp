@@ -8,6 +8,7 @@
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>
 #include <thalweg/flow/flow_field.hpp>
@@ -70,12 +71,28 @@ struct Claims {
 /// \param drainage flow field of the DEM, with its sinks, if any
 /// \param reaches with their parts inside the DEM's grid
 /// \param claims of the network's file
-/// \param run progress, log, stop token and number of threads
 /// \return from the DEM's steepest descent (flow::route) and the reaches' cells (cells_along), without corners that a
 /// diagonal step of a reach passes
 /// \throws BadInput for drainage or claims of another DEM or other reaches; as river_cells
-/// \throws Cancelled
 Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, flow::Reaches const& reaches,
                     Claims const& claims = {}, Run const& run = {});
+
+/// The ridges of a DEM compared with prescribed ridges.
+struct ExtractedRidges {
+    std::int64_t ridge_cells = 0; ///< cells under prescribed ridges with data
+    /// contributing area of the inverted DEM at which extraction agrees best within a cell
+    std::int64_t threshold_cells = 0;
+    Agreements extracted; ///< cells with at least that area, against those under ridges
+};
+
+/// Extracts ridges as the streams of the inverted DEM and compares them with prescribed ridges, as certify compares
+/// streams.
+/// \param dem [m] by cell; NaN: no data
+/// \param ridges on the DEM's grid
+/// \return the agreement at the best threshold that certify tries; all 0 without ridges
+/// \throws BadInput as flow::route and cells_along
+///
+/// Source: \cite nenu2015, figure 8, whose ridges a GIS extracts so; \cite ocallaghan1984.
+ExtractedRidges extract_ridges(Raster<float> const& dem, RidgeLines const& ridges, Run const& run = {});
 
 } // namespace thalweg::measure

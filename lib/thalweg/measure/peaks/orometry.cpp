@@ -3,15 +3,236 @@
 #include <thalweg/measure/peaks/orometry.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <unordered_map>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/indexed.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
-#include <thalweg/measure/peaks/isolation.hpp>
-#include <thalweg/measure/peaks/prominence.hpp>
+#include <thalweg/core/run/range.hpp>
 
 namespace thalweg::measure {
+namespace {
+
+using PeakIndex = std::int32_t;
+constexpr PeakIndex no_peak = -1;
+
+/// Each cell with the peak that the highest neighbours lead to.
+struct Summits {
+    Raster<PeakIndex> of;
+    Indexed<PeakIndex, std::int64_t> cell; ///< of a peak
+};
+
+bool is_higher(Raster<float> const& dem, std::int64_t a, std::int64_t b) {
+    return dem[a] > dem[b] || (dem[a] == dem[b] && a < b);
+}
+
+/// -1: no neighbour is higher.
+std::int64_t highest_neighbour(Raster<float> const& dem, std::int64_t cell) {
+    Cell const at = dem.grid().at(cell);
+    std::int64_t highest = cell;
+    for (Cell const step : d8_steps) {
+        Cell const there{at.col + step.col, at.row + step.row};
+        if (dem.grid().contains(there) && !std::isnan(dem[there]) && is_higher(dem, dem.grid().index(there), highest)) {
+            highest = dem.grid().index(there);
+        }
+    }
+    return highest == cell ? -1 : highest;
+}
+
+Summits climb(Raster<float> const& dem, Run const& run) {
+    Summits found{Raster<PeakIndex>(dem.grid(), no_peak), {}};
+    std::vector<std::int64_t> way;
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        if (i % cells_between_checks == 0) {
+            run.check();
+        }
+        if (std::isnan(dem[i])) {
+            continue;
+        }
+        way.clear();
+        std::int64_t top = i;
+        while (found.of[top] == no_peak) {
+            way.push_back(top);
+            std::int64_t const next = highest_neighbour(dem, top);
+            if (next < 0) {
+                found.of[top] = found.cell.count();
+                found.cell.push_back(top);
+                break;
+            }
+            top = next;
+        }
+        for (std::int64_t const cell : way) {
+            found.of[cell] = found.of[top];
+        }
+    }
+    return found;
+}
+
+/// Where the lands of two peaks meet highest.
+struct Saddle {
+    float z;
+    PeakIndex a;
+    PeakIndex b;
+};
+
+std::vector<Saddle> saddles(Raster<float> const& dem, Summits const& summits, Run const& run) {
+    constexpr std::array<Cell, 4> onwards = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}}; // each pair of neighbours once
+    std::unordered_map<std::uint64_t, float> highest;
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        if (i % cells_between_checks == 0) {
+            run.check();
+        }
+        Cell const at = dem.grid().at(i);
+        for (Cell const step : onwards) {
+            Cell const there{at.col + step.col, at.row + step.row};
+            if (summits.of[i] == no_peak || !dem.grid().contains(there) || summits.of[there] == no_peak ||
+                summits.of[there] == summits.of[i]) {
+                continue;
+            }
+            auto const [a, b] = std::minmax(summits.of[i], summits.of[there]);
+            float const z = std::min(dem[i], dem[there]);
+            auto const pair = (static_cast<std::uint64_t>(a) << 32U) | static_cast<std::uint64_t>(b);
+            auto const [known, is_new] = highest.emplace(pair, z);
+            known->second = is_new ? z : std::max(known->second, z);
+        }
+    }
+    std::vector<Saddle> found;
+    found.reserve(highest.size());
+    for (auto const& [pair, z] : highest) {
+        found.push_back({z, static_cast<PeakIndex>(pair >> 32U), static_cast<PeakIndex>(pair & 0xFFFFFFFFU)});
+    }
+    std::sort(found.begin(), found.end(),
+              [](Saddle const& p, Saddle const& q) { return std::tie(q.z, p.a, p.b) < std::tie(p.z, q.a, q.b); });
+    return found;
+}
+
+/// Joins the lands of peaks, from the highest saddle down; the lower peak of two gets its prominence.
+class Joining {
+public:
+    Joining(Raster<float> const& dem, Indexed<PeakIndex, std::int64_t> const& cell)
+        : dem_(dem), cell_(cell), highest_(cell.count()), prominence_(cell.count()) {
+        for (PeakIndex p = 0; p < cell.count(); ++p) {
+            highest_[p] = p;
+        }
+    }
+
+    void join(Saddle const& saddle) {
+        PeakIndex const a = highest_peak(saddle.a);
+        PeakIndex const b = highest_peak(saddle.b);
+        if (a == b) {
+            return;
+        }
+        PeakIndex const lower = is_higher(dem_, cell_[a], cell_[b]) ? b : a;
+        prominence_[lower] = static_cast<double>(dem_[cell_[lower]]) - static_cast<double>(saddle.z);
+        highest_[lower] = lower == a ? b : a;
+    }
+    /// The highest peak of what is joined so far; the way to it is halved for the next who asks.
+    PeakIndex highest_peak(PeakIndex peak) {
+        while (highest_[peak] != peak) {
+            highest_[peak] = highest_[highest_[peak]];
+            peak = highest_[peak];
+        }
+        return peak;
+    }
+    double& prominence(PeakIndex peak) { return prominence_[peak]; }
+
+private:
+    Raster<float> const& dem_;
+    Indexed<PeakIndex, std::int64_t> const& cell_;
+    Indexed<PeakIndex, PeakIndex> highest_;
+    Indexed<PeakIndex, double> prominence_;
+};
+
+/// The highest peak of each connected land stands above its lowest cell.
+void finish(Raster<float> const& dem, Summits const& summits, Joining& joining) {
+    Indexed<PeakIndex, float> lowest(summits.cell.count(), std::numeric_limits<float>::infinity());
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        if (summits.of[i] != no_peak) {
+            float& least = lowest[joining.highest_peak(summits.of[i])];
+            least = std::min(least, dem[i]);
+        }
+    }
+    for (PeakIndex p = 0; p < summits.cell.count(); ++p) {
+        if (joining.highest_peak(p) == p) {
+            joining.prominence(p) = static_cast<double>(dem[summits.cell[p]]) - static_cast<double>(lowest[p]);
+        }
+    }
+}
+
+bool has_all_neighbours(Raster<float> const& dem, std::int64_t cell) {
+    Cell const at = dem.grid().at(cell);
+    return std::all_of(d8_steps.begin(), d8_steps.end(), [&](Cell step) {
+        Cell const there{at.col + step.col, at.row + step.row};
+        return dem.grid().contains(there) && !std::isnan(dem[there]);
+    });
+}
+
+} // namespace
+
+std::vector<Peak> prominent_peaks(Raster<float> const& dem, double least_m, Run const& run) {
+    require_in("measure.prominent_peaks", "least_m", least_m, Range::at_least(0.0));
+    Summits const summits = climb(dem, run);
+    Joining joining(dem, summits.cell);
+    for (Saddle const& saddle : saddles(dem, summits, run)) {
+        joining.join(saddle);
+    }
+    finish(dem, summits, joining);
+    std::vector<Peak> found;
+    for (PeakIndex p = 0; p < summits.cell.count(); ++p) {
+        std::int64_t const cell = summits.cell[p];
+        if (joining.prominence(p) >= least_m && has_all_neighbours(dem, cell)) {
+            found.push_back({cell, static_cast<double>(dem[cell]), joining.prominence(p)});
+        }
+    }
+    std::sort(found.begin(), found.end(), [](Peak const& a, Peak const& b) { return a.cell < b.cell; });
+    return found;
+}
+
+namespace {
+
+constexpr std::int64_t none_yet = std::numeric_limits<std::int64_t>::max();
+
+/// The least square of a distance to a higher cell among those of the ring, in cells.
+std::int64_t nearest_of_ring(Raster<float> const& dem, Cell at, std::int64_t ring) {
+    std::int64_t nearest = none_yet;
+    auto const look = [&](Cell there) {
+        if (dem.grid().contains(there) && dem[there] > dem[at]) {
+            nearest = std::min(nearest, squared_cells(at, there));
+        }
+    };
+    for (std::int64_t k = -ring; k <= ring; ++k) {
+        look({at.col + k, at.row - ring});
+        look({at.col + k, at.row + ring});
+        look({at.col - ring, at.row + k});
+        look({at.col + ring, at.row + k});
+    }
+    return nearest;
+}
+
+} // namespace
+
+double isolation(Raster<float> const& dem, std::int64_t cell) {
+    if (cell < 0 || cell >= dem.cells()) {
+        throw BadInput(fmt::format("measure.isolation: cell {} is not one of the DEM's {}", cell, dem.cells()));
+    }
+    Cell const at = dem.grid().at(cell);
+    std::int64_t const last = std::max({at.col, at.row, dem.width() - 1 - at.col, dem.height() - 1 - at.row});
+    std::int64_t nearest = none_yet;
+    for (std::int64_t ring = 1; ring <= last && (nearest == none_yet || ring * ring < nearest); ++ring) {
+        nearest = std::min(nearest, nearest_of_ring(dem, at, ring));
+    }
+    return nearest == none_yet ? std::numeric_limits<double>::quiet_NaN()
+                               : std::sqrt(static_cast<double>(nearest)) * dem.grid().cell_m;
+}
 
 namespace {
 

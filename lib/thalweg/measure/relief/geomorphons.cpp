@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/measure/relief/geomorphons.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -12,12 +13,12 @@
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/run/range.hpp>
 
 namespace thalweg::measure {
-
 namespace {
 
 constexpr std::int64_t rows_a_range = 16;
@@ -136,6 +137,15 @@ void check(GeomorphonParams const& params, Grid const& grid) {
     }
 }
 
+struct RowOfExtremes : LocalExtremes {
+    RowOfExtremes& operator+=(RowOfExtremes const& more) {
+        pits += more.pits;
+        peaks += more.peaks;
+        cells += more.cells;
+        return *this;
+    }
+};
+
 } // namespace
 
 Geomorphons geomorphons(Raster<float> const& dem, GeomorphonParams const& params, Run const& run) {
@@ -164,6 +174,32 @@ Geomorphons geomorphons(Raster<float> const& dem, GeomorphonParams const& params
         found.shares[f] = static_cast<double>(found.cells[f]) / static_cast<double>(formed);
     }
     return found;
+}
+
+LocalExtremes local_extremes(Raster<float> const& dem, Run const& run) {
+    auto const offsets = d8_offsets(dem.grid());
+    return sum_rows(run, std::max<std::int64_t>(dem.height() - 2, 0), [&](std::int64_t r) {
+        run.check();
+        RowOfExtremes row;
+        std::int64_t const first = (r + 1) * dem.width();
+        for (std::int64_t i = first + 1; i < first + dem.width() - 1; ++i) {
+            int higher = 0;
+            int lower = 0;
+            bool whole = !std::isnan(dem[i]);
+            for (std::int64_t const step : offsets) {
+                float const z = dem[i + step];
+                higher += z > dem[i] ? 1 : 0;
+                lower += z < dem[i] ? 1 : 0;
+                whole = whole && !std::isnan(z);
+            }
+            if (whole) {
+                ++row.cells;
+                row.pits += higher == 8 ? 1 : 0;
+                row.peaks += lower == 8 ? 1 : 0;
+            }
+        }
+        return row;
+    });
 }
 
 } // namespace thalweg::measure

@@ -33,14 +33,24 @@ struct Geomorphons {
 /// steepest upward slope exceeds both its steepest downward slope and flat_deg, and falls in the opposite case;
 /// otherwise, and where its first cell has no data, it is level. Distances are true: diagonals reach fewer cells.
 /// \param dem [m] by cell; NaN: no data
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return as GRASS's r.geomorphon (skip=0, no flat distance, default comparison), but for rounding; cells closer to
 /// the border than the search distance are not classified. The same bytes for any number of threads.
 /// \throws BadParameter when a parameter is outside its range
-/// \throws Cancelled
 ///
 /// Source: \cite jasiewicz2013, table of forms, figure 3.
 Geomorphons geomorphons(Raster<float> const& dem, GeomorphonParams const& params = {}, Run const& run = {});
+
+/// What local_extremes() returns.
+struct LocalExtremes {
+    std::int64_t pits = 0;  ///< cells lower than all eight neighbours
+    std::int64_t peaks = 0; ///< cells higher than all eight neighbours
+    std::int64_t cells = 0; ///< with data and eight neighbours with data
+};
+
+/// Counts single-cell pits and peaks. Fluvial terrain has fewer pits than peaks, because water fills pits; noise has as
+/// many of each.
+/// \param dem [m] by cell; NaN: no data
+/// \return the same for any number of threads
+LocalExtremes local_extremes(Raster<float> const& dem, Run const& run = {});
 
 } // namespace thalweg::measure

@@ -24,11 +24,9 @@ struct Hypsometry {
 /// Computes the hypsometric curve and integral of a DEM. Heights are counted by radix, not sorted: memory beside the
 /// DEM is a few megabytes.
 /// \param dem [m] by cell; NaN: no data, left out
-/// \param run progress, log, stop token and number of threads
 /// \return heights of cells, not interpolated: of n heights in descending order that at index floor(share (n - 1)). A
 /// level DEM has the integral 0.5. The same bits for any number of threads.
 /// \throws BadInput when no cell has data or a height is infinite
-/// \throws Cancelled
 ///
 /// Source: \cite strahler1952; the integral by \cite pike1971.
 Hypsometry hypsometry(Raster<float> const& dem, Run const& run = {});

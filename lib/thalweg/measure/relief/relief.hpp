@@ -3,24 +3,22 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
+#include <string_view>
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/flow_field.hpp>
 #include <thalweg/measure/peaks/orometry.hpp>
-#include <thalweg/measure/relief/chi.hpp>
 #include <thalweg/measure/relief/geomorphons.hpp>
-#include <thalweg/measure/relief/level_patch.hpp>
-#include <thalweg/measure/relief/local_extremes.hpp>
 #include <thalweg/measure/relief/slope_area.hpp>
-#include <thalweg/measure/relief/slope_area_ratio.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/measure/texture/gradient_texture.hpp>
-#include <thalweg/measure/texture/straight_channels.hpp>
+#include <thalweg/measure/texture/texture.hpp>
 
 namespace thalweg::measure {
 
@@ -66,12 +64,9 @@ struct ReliefParams {
 /// \param dem [m] by cell; NaN: no data
 /// \param drainage flow field of the DEM
 /// \param statistics of the DEM, by statistics()
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return the same values as the functions for each index; the same bits for any number of threads
 /// \throws BadParameter when support_cells is below 1
 /// \throws BadInput when the three belong to different DEMs
-/// \throws Cancelled
 Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
               ReliefParams const& params = {}, Run const& run = {});
 
@@ -79,5 +74,75 @@ Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statist
 /// \param a,b [0, 1] shares by form
 /// \return [0, 1] half the sum of absolute differences; 0: equal
 double total_variation(std::array<double, form_count> const& a, std::array<double, form_count> const& b);
+
+/// Whether a metric distinguishes terrain from noise in any region.
+enum class Judges : std::uint8_t { yes, large_values, no };
+
+/// One index of Relief.
+struct ReliefMetric {
+    std::string_view key; ///< in report.json
+    std::string_view name;
+    std::string_view unit;
+    Judges judges = Judges::yes;           ///< no: it depends on the extent or on the survey of heights
+    double (*of)(Relief const&) = nullptr; ///< NaN: unknown
+    double tolerance = 1.25;               ///< [1, ...] margin around the reference DEMs: two are not all terrain
+};
+
+inline constexpr std::size_t relief_metric_count = 30;
+
+/// The metrics compared with reference DEMs.
+/// \return in a fixed order
+std::array<ReliefMetric, relief_metric_count> const& relief_metrics();
+
+inline constexpr std::size_t slope_share_count = 45;
+
+/// The metrics that relief() computes for a reference DEM.
+struct ReferenceDem {
+    std::string_view name;
+    std::string_view file; ///< in samples/, with its source in PROVENANCE.md
+    std::string_view source;
+    double cell_m = 0.0;
+    std::array<double, relief_metric_count> figures{}; ///< in the order of relief_metrics
+    std::array<double, slope_share_count> slopes{};    ///< [0, 1] shares of classes of 2 degrees
+    std::array<double, form_count> forms{};            ///< [0, 1] shares of geomorphons
+    std::span<AreaBin const> slope_area;
+};
+
+/// The reference DEMs: a steep, dissected range, and a plateau with dendritic and trellis valleys.
+/// \return two entries
+std::span<ReferenceDem const> reference_dems();
+
+/// Averages the shares of geomorphons over the reference DEMs.
+/// \return by form
+std::array<double, form_count> mean_forms();
+
+/// The plausible range of a metric, around the reference DEMs.
+struct ReliefRange {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+/// Computes the plausible range of a metric.
+/// \param figure index in relief_metrics()
+/// \return from the smaller reference value / tolerance to the larger * tolerance; from 0 where large values alone
+/// judge
+ReliefRange relief_range(std::size_t figure);
+
+/// The published natural range of a law's metric.
+struct NaturalRange {
+    std::string_view law; ///< its key in report.json
+    double low = 0.0;
+    double high = 0.0;
+    std::string_view source; ///< author, year, what was measured
+};
+
+/// The natural ranges of all laws for which one is published.
+/// \return one entry per law
+std::span<NaturalRange const> natural_ranges();
+
+/// Finds the natural range of a law.
+/// \param law its key in report.json
+/// \return null: none is published
+NaturalRange const* natural_range(std::string_view law);
 
 } // namespace thalweg::measure

@@ -2,22 +2,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/measure/relief/slope_area.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/measure/laws/line_fit.hpp>
+#include <thalweg/measure/laws/fits.hpp>
+#include <thalweg/measure/relief/internal/horn.hpp>
 
 namespace thalweg::measure {
-
 namespace {
 
 struct Reach {
@@ -83,6 +86,178 @@ std::optional<PowerLaw> slope_area(Raster<float> const& dem, flow::FlowField con
         law.places += reach.cells;
     }
     return with_line(std::move(law), fit_line(line, weights), params.least_bins);
+}
+
+namespace {
+
+void check(ChiParams const& params, Raster<float> const& dem, flow::FlowField const& drainage) {
+    constexpr char const* self = "measure.chi";
+    require_in(self, "theta", params.theta, Range::between(0.0, 2.0));
+    require_in(self, "support_cells", params.support_cells, Range::at_least(1));
+    require_in(self, "least_cells", params.least_cells, Range::at_least(3));
+    require_in(self, "most_stems", params.most_stems, Range::at_least(1));
+    if (!(dem.grid() == drainage.direction.grid())) {
+        throw BadInput("measure.chi: the DEM and its drainage have different grids; drain this DEM");
+    }
+}
+
+/// Cells where rivers leave the DEM, those that drain most first.
+std::vector<std::int64_t> mouths(flow::FlowField const& drainage, ChiParams const& params) {
+    std::vector<std::int64_t> all;
+    for (std::int64_t i = 0; i < drainage.direction.cells(); ++i) {
+        if (drainage.direction[i] == flow::Direction::leaves && drainage.area_cells[i] >= params.support_cells) {
+            all.push_back(i);
+        }
+    }
+    std::sort(all.begin(), all.end(), [&](std::int64_t a, std::int64_t b) {
+        return drainage.area_cells[a] != drainage.area_cells[b] ? drainage.area_cells[a] > drainage.area_cells[b]
+                                                                : a < b;
+    });
+    return all;
+}
+
+/// The neighbour that brings most water to a cell, as a direction from there; -1 where none does.
+int main_donor(flow::FlowField const& drainage, Cell cell) {
+    int best = -1;
+    std::int64_t most = 0;
+    for (std::size_t k = 0; k < d8_steps.size(); ++k) {
+        Cell const from{cell.col + d8_steps[k].col, cell.row + d8_steps[k].row};
+        if (!drainage.direction.grid().contains(from) || drainage.direction[from] != opposite(flow::direction_of(k))) {
+            continue;
+        }
+        if (drainage.area_cells[from] > most) {
+            most = drainage.area_cells[from];
+            best = static_cast<int>(k);
+        }
+    }
+    return best;
+}
+
+/// Chi and height along the stem above a mouth.
+std::vector<Vec2> stem_above(Raster<float> const& dem, flow::FlowField const& drainage, std::int64_t mouth,
+                             ChiParams const& params) {
+    Grid const& grid = dem.grid();
+    std::vector<Vec2> stem{{0.0, static_cast<double>(dem[mouth])}};
+    Cell at = grid.at(mouth);
+    for (int k = main_donor(drainage, at); k >= 0; k = main_donor(drainage, at)) {
+        auto const way = static_cast<std::size_t>(k);
+        at = {at.col + d8_steps[way].col, at.row + d8_steps[way].row};
+        if (drainage.area_cells[at] < params.support_cells) {
+            break;
+        }
+        double const area_m2 = static_cast<double>(drainage.area_cells[at]) * grid.cell_m * grid.cell_m;
+        double const step = grid.cell_m / d8_per_length[way] * portable::pow(area_m2, -params.theta);
+        stem.push_back({stem.back().x + step, static_cast<double>(dem[at])});
+    }
+    return stem;
+}
+
+/// Squares of the heights' distances from their mean.
+double spread(std::vector<Vec2> const& stem) {
+    CompensatedSum sum;
+    for (Vec2 const p : stem) {
+        sum.add(p.y);
+    }
+    double const mean = sum.value() / static_cast<double>(stem.size());
+    CompensatedSum squares;
+    for (Vec2 const p : stem) {
+        squares.add((p.y - mean) * (p.y - mean));
+    }
+    return squares.value();
+}
+
+} // namespace
+
+std::optional<Chi> chi(Raster<float> const& dem, flow::FlowField const& drainage, ChiParams const& params,
+                       Run const& run) {
+    check(params, dem, drainage);
+    Chi found;
+    found.theta = params.theta;
+    CompensatedSum explained;
+    CompensatedSum all;
+    for (std::int64_t const mouth : mouths(drainage, params)) {
+        run.check();
+        if (found.stems == params.most_stems) {
+            break;
+        }
+        std::vector<Vec2> const stem = stem_above(dem, drainage, mouth, params);
+        auto const cells = static_cast<std::int64_t>(stem.size());
+        auto const fit = fit_line(stem);
+        double const squares = spread(stem);
+        if (cells < params.least_cells || !fit || !(squares > 0.0)) {
+            continue;
+        }
+        if (found.stems == 0) {
+            found.main_r2 = fit->r2;
+            found.main_steepness = fit->slope;
+        }
+        explained.add(fit->r2 * squares);
+        all.add(squares);
+        ++found.stems;
+        found.cells += cells;
+    }
+    if (found.stems == 0) {
+        return std::nullopt;
+    }
+    found.r2 = explained.value() / all.value();
+    return found;
+}
+
+namespace {
+
+struct Tangents {
+    CompensatedSum sum;
+    std::int64_t cells = 0;
+
+    void add(double tangent) {
+        sum.add(tangent);
+        ++cells;
+    }
+    double mean() const {
+        return cells > 0 ? sum.value() / static_cast<double>(cells) : std::numeric_limits<double>::quiet_NaN();
+    }
+};
+
+void check(SlopeAreaRatioParams const& params, Raster<float> const& dem, flow::FlowField const& drainage) {
+    constexpr char const* self = "measure.slope_area_ratio";
+    require_in(self, "hillslope_from", params.hillslope_from, Range::at_least(1));
+    require_in(self, "hillslope_to", params.hillslope_to, Range::above(static_cast<double>(params.hillslope_from)));
+    require_in(self, "channel_from", params.channel_from, Range::at_least(1));
+    require_in(self, "channel_to", params.channel_to, Range::above(static_cast<double>(params.channel_from)));
+    if (!(dem.grid() == drainage.direction.grid())) {
+        throw BadInput("measure.slope_area_ratio: the DEM and its drainage have different grids; drain this DEM");
+    }
+}
+
+} // namespace
+
+double slope_area_ratio(Raster<float> const& dem, flow::FlowField const& drainage, SlopeAreaRatioParams const& params,
+                        Run const& run) {
+    check(params, dem, drainage);
+    auto const offsets = d8_offsets(dem.grid());
+    Tangents hillslopes;
+    Tangents channels;
+    for (RowIndex r = 1; r + 1 < dem.height(); ++r) {
+        run.check();
+        for (ColumnIndex c = 1; c + 1 < dem.width(); ++c) {
+            std::int64_t const i = dem.grid().index({c, r});
+            std::int64_t const area = drainage.area_cells[i];
+            bool const hillslope = area >= params.hillslope_from && area < params.hillslope_to;
+            bool const channel = area >= params.channel_from && area < params.channel_to;
+            if (!hillslope && !channel) {
+                continue;
+            }
+            double const tangent = std::sqrt(horn_squared(dem, i, offsets));
+            if (hillslope && !std::isnan(tangent)) {
+                hillslopes.add(tangent);
+            }
+            if (channel && !std::isnan(tangent)) {
+                channels.add(tangent);
+            }
+        }
+    }
+    double const hillslope = hillslopes.mean();
+    return hillslope > 0.0 ? channels.mean() / hillslope : std::numeric_limits<double>::quiet_NaN();
 }
 
 } // namespace thalweg::measure

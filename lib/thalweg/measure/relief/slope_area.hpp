@@ -8,7 +8,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/flow_field.hpp>
-#include <thalweg/measure/laws/power_law.hpp>
+#include <thalweg/measure/laws/fits.hpp>
 
 namespace thalweg::measure {
 
@@ -26,15 +26,63 @@ struct SlopeAreaParams {
 /// fall, and steps off the DEM, are left out.
 /// \param dem [m] by cell; NaN: no data
 /// \param drainage flow field of the DEM
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return the exponent is -theta; nothing with fewer than least_bins bins
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput when DEM and flow field differ in grid
-/// \throws Cancelled
 ///
 /// Source: \cite flint1974; \cite wobus2006 (slope over elevation drops, log bins).
 std::optional<PowerLaw> slope_area(Raster<float> const& dem, flow::FlowField const& drainage,
                                    SlopeAreaParams const& params = {}, Run const& run = {});
+
+/// Options of chi().
+struct ChiParams {
+    double theta = 0.45;              ///< [0, 2] concavity index
+    std::int64_t support_cells = 200; ///< [1, ...] contributing area at which streams begin
+    std::int64_t least_cells = 50;    ///< [3, ...] minimum length of a stem
+    std::int64_t most_stems = 20;     ///< [1, ...] of the largest basins
+};
+
+/// How straight longitudinal profiles are in chi.
+struct Chi {
+    double theta = 0.0;          ///< as it was taken
+    double r2 = 0.0;             ///< of height against chi, over all stems, each with its own line
+    double main_r2 = 0.0;        ///< of the largest basin's stem
+    double main_steepness = 0.0; ///< [m^(2 theta)] its slope, with chi for an area of 1 m2
+    std::int64_t stems = 0;
+    std::int64_t cells = 0; ///< of all stems
+};
+
+/// Fits heights along main stems against chi, the integral of (1 m2 / A)^theta along the river from its outlet. A river
+/// in equilibrium with uniform uplift is a straight line: r2 = 1.
+/// \param dem [m] by cell; NaN: no data
+/// \param drainage flow field of the DEM
+/// \return over the stems of the largest basins: from the outlet up along the largest area (ties: lowest direction) to
+/// the support. Nothing if no stem has least_cells cells and falls.
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput when DEM and flow field differ in grid
+///
+/// Source: \cite perron2013.
+std::optional<Chi> chi(Raster<float> const& dem, flow::FlowField const& drainage, ChiParams const& params = {},
+                       Run const& run = {});
+
+/// Options of slope_area_ratio(): contributing areas [cells], each >= 1, from the first to below the second.
+struct SlopeAreaRatioParams {
+    std::int64_t hillslope_from = 3;
+    std::int64_t hillslope_to = 10;
+    std::int64_t channel_from = 3000;
+    std::int64_t channel_to = 10000;
+};
+
+/// Computes the slope of channels over that of hillslopes: mean tangents by Horn's formula, without borders and cells
+/// beside holes.
+/// \param dem [m] by cell; NaN: no data
+/// \param drainage flow field of the DEM
+/// \return [-] NaN where the DEM has no cells of either, or no slope
+/// \throws BadParameter when an area is below 1, or a range is empty
+/// \throws BadInput when DEM and flow field differ in grid
+///
+/// Source: \cite horn1981.
+double slope_area_ratio(Raster<float> const& dem, flow::FlowField const& drainage,
+                        SlopeAreaRatioParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::measure

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
@@ -33,12 +34,39 @@ struct Slopes {
 /// sloping cells that face within 11.25 or 2.5 degrees of one of the grid's eight directions, over that share for
 /// uniform aspects (1/2 or 1/9).
 /// \param dem [m] by cell; NaN: no data
-/// \param run progress, log, stop token and number of threads
 /// \return slopes as gdaldem's; the same bits for any number of threads
 /// \throws BadInput when the cell size is not positive
-/// \throws Cancelled
 ///
 /// Source: \cite horn1981.
 Slopes slopes(Raster<float> const& dem, Run const& run = {});
+
+/// Options of level_patch().
+struct LevelPatchParams {
+    double below_deg = 3.0; ///< [degrees] (0, 90) slope by Horn's formula
+};
+
+/// The largest 8-connected patch of gentle slopes.
+struct LevelPatch {
+    std::int64_t cells = 0; ///< of the patch
+    std::int64_t land = 0;  ///< with data and eight neighbours with data, lakes left out
+};
+
+/// Finds the largest 8-connected patch of cells with a slope below below_deg. A cell as high as all its neighbours
+/// is a lake's surface and counts nowhere.
+/// \param dem [m] by cell; NaN: no data
+/// \return cells; the same for any number of threads
+/// \throws BadParameter when below_deg is outside its range
+/// \throws BadInput when the cell size is not positive
+LevelPatch level_patch(Raster<float> const& dem, LevelPatchParams const& params = {}, Run const& run = {});
+
+/// Finds river cells perched above their surroundings, such as walls and tips beside deeper valleys.
+/// \param dem [m] by cell; NaN: no data
+/// \param cells indices of river cells
+/// \param rise_m [m] >= 0, mean slope (tangent) times cell size
+/// \return in order: the cells more than rise_m above the lowest of the sixteen cells two columns or rows away, as far
+/// as these are in the DEM; cells without data are not perched
+/// \throws BadParameter when rise_m is not a number >= 0
+/// \throws BadInput when a cell is outside the DEM
+std::vector<std::int64_t> perched(Raster<float> const& dem, std::span<std::int64_t const> cells, double rise_m);
 
 } // namespace thalweg::measure

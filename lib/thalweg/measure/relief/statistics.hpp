@@ -42,10 +42,8 @@ struct Statistics {
 /// differences, one-sided at the border and beside holes; an axis without neighbours counts as level. A correlation
 /// length is where the correlation falls to 1/e within half the extent, else from a fit (extrapolated).
 /// \param dem [m] by cell; NaN: no data, left out with their pairs
-/// \param run progress, log, stop token and number of threads
 /// \return the same bits for any number of threads; memory beside the DEM is a few rows
 /// \throws BadInput when no cell has data, a height is infinite or the cell size is not positive
-/// \throws Cancelled
 ///
 /// Source: \cite zhang, table 4 (slope in radians on unit cells; population deviation; roughness is not defined there)
 /// and sections 2 and 3.4.

@@ -13,7 +13,6 @@
 #include <thalweg/measure/topology/internal/topology_steps.hpp>
 
 namespace thalweg::measure {
-
 namespace {
 
 using namespace topology_steps;
@@ -114,6 +113,43 @@ TopologyReport check_topology(NetworkFile const& file, TopologyParams const& par
         report.checks.push_back({std::string(kind), static_cast<double>(found), 0.0, found == 0});
     }
     return report;
+}
+
+NetworkFile as_file(ElevatedNetwork const& network, NetworkOrders const& orders) {
+    std::size_t const nodes = network.plan.node_count();
+    std::size_t const arcs = network.plan.arc_count();
+    if (network.node_z.size() != nodes || network.arc_z.size() != arcs || orders.strahler.size() != arcs ||
+        orders.shreve.size() != arcs || orders.arc_basin.size() != arcs) {
+        throw BadInput(fmt::format("measure.as_file: heights or orders are not those of this network of {} arcs and {} "
+                                   "nodes",
+                                   arcs, nodes));
+    }
+    NetworkFile file;
+    for (NodeId n = 0; n < nodes; ++n) {
+        Vec2 const at = network.plan.node(n).at;
+        file.nodes.push_back({static_cast<std::int64_t>(n) + 1, {at.x, at.y, network.node_z[n]}});
+    }
+    for (std::size_t a = 0; a < arcs; ++a) {
+        auto const& line = network.plan.arc(a).line;
+        auto const& z = network.arc_z[a];
+        if (z.size() != line.size()) {
+            throw BadInput(
+                fmt::format("measure.as_file: arc {} has {} vertices but {} heights", a + 1, line.size(), z.size()));
+        }
+        NetworkFile::FileArc arc;
+        arc.id = static_cast<std::int64_t>(a) + 1;
+        arc.from_node = static_cast<std::int64_t>(network.plan.from(a)) + 1;
+        arc.to_node = static_cast<std::int64_t>(network.plan.to(a)) + 1;
+        arc.ds_arc = static_cast<std::int64_t>(network.plan.out(network.plan.to(a)) + 1); // 0 for none
+        arc.strahler = orders.strahler[a];
+        arc.shreve = orders.shreve[a];
+        arc.basin = orders.arc_basin[a];
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            arc.line.push_back({line[i].x, line[i].y, z[i]});
+        }
+        file.arcs.push_back(std::move(arc));
+    }
+    return file;
 }
 
 } // namespace thalweg::measure

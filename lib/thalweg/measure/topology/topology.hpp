@@ -46,12 +46,9 @@ struct TopologyReport {
 /// node in its place, a dangling end to what it nearly meets. Orders and basins are not checked below a cycle or a
 /// bifurcation.
 /// \param file as read, with any content
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return no finding exactly when the file satisfies every law of the network schema, for what it contains
 /// (NetworkFile::says); bad content is a finding, never an error
 /// \throws BadParameter when near_m is outside its range
-/// \throws Cancelled
 TopologyReport check_topology(NetworkFile const& file, TopologyParams const& params = {}, Run const& run = {});
 
 /// The kinds of finding.

@@ -2,18 +2,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <bit>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/connected_components.hpp>
+#include <boost/graph/strong_components.hpp>
 #include <fmt/format.h>
 
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/geometry/nearby.hpp>
+#include <thalweg/geometry/triangles.hpp>
 #include <thalweg/measure/topology/internal/topology_steps.hpp>
 
-// Arcs and their nodes: what the file says, what the places say, and which way the water runs.
 namespace thalweg::measure::topology_steps {
-
 namespace {
+
+// Arcs and their nodes: what the file says, what the places say, and which way the water runs.
 
 Junctions junctions_of(NetworkFile const& file) {
     Junctions j;
@@ -253,6 +259,270 @@ void check_heights(NetworkFile const& file, Plans const& plans, std::vector<char
                                             number_of(file, file.arcs[a]), greatest_rise, rises_at, at.x, at.y)});
         }
     }
+}
+
+namespace {
+
+// Ends that nearly meet something.
+
+/// A source or outlet, and the arc that ends there.
+struct LooseEnd {
+    std::size_t junction;
+    std::size_t arc;
+    std::size_t end;
+};
+
+/// Sources and outlets whose arcs' ends have no fault yet.
+std::vector<LooseEnd> loose_ends(Joints const& joints, Plans const& plans, Graph const& graph) {
+    std::vector<LooseEnd> loose;
+    for (std::size_t j = 0; j < joints.junctions.ids.size(); ++j) {
+        auto const in = graph.in.at(j);
+        auto const out = graph.out.at(j);
+        if (in.empty() == out.empty()) {
+            continue;
+        }
+        LooseEnd const end{j, in.empty() ? out[0] : in[0], in.empty() ? 0U : 1U};
+        if (!plans[end.arc].empty() && joints.faulty[end.arc][end.end] == 0) {
+            loose.push_back(end);
+        }
+    }
+    return loose;
+}
+
+/// What a loose end nearly meets.
+struct Near {
+    double apart = 0.0;
+    std::size_t arc = none;      ///< the nearest
+    std::size_t junction = none; ///< the nearest in which an arc ends, with its arc and distance
+    std::size_t ending = none;
+    double from_junction = 0.0;
+    bool touches = false; ///< lies on a segment, or on a vertex
+};
+
+Near nearest(LooseEnd const& end, std::vector<geometry::NearSegment> const& segments, Joints const& joints,
+             Plans const& plans, double near_m) {
+    Vec2 const p = joints.place(end.arc, end.end, plans);
+    std::size_t const far_end = joints.meant[end.arc][1 - end.end];
+    Near near;
+    for (auto const& s : segments) {
+        Ends const ends = joints.meant[s.line];
+        bool const next_to_it =
+            std::any_of(ends.begin(), ends.end(), [&](std::size_t j) { return j == end.junction || j == far_end; });
+        if (s.line == end.arc || next_to_it) {
+            continue;
+        }
+        Vec2 const a = plans[s.line][s.segment];
+        Vec2 const b = plans[s.line][s.segment + 1];
+        double const apart = distance(p, geometry::foot_on(a, b, p).at);
+        bool const on_it = geometry::side_of_line(a, b, p) == 0 && std::min(a.x, b.x) <= p.x &&
+                           p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
+        near.touches = near.touches || on_it;
+        if (near.arc == none || apart < near.apart) {
+            near.arc = s.line;
+            near.apart = apart;
+        }
+        for (std::size_t const e : {0U, 1U}) {
+            Vec2 const place = joints.place(s.line, e, plans);
+            double const away = distance(p, place);
+            bool const is_here = place == a || place == b;
+            if (is_here && away <= near_m && (near.junction == none || away < near.from_junction)) {
+                near.junction = ends[e];
+                near.ending = s.line;
+                near.from_junction = away;
+            }
+        }
+    }
+    return near;
+}
+
+} // namespace
+
+void check_near_ends(NetworkFile const& file, Plans const& plans, std::vector<char> const& left_out, double near_m,
+                     Joints& joints, Findings& findings, Run const& run) {
+    std::size_t const junctions = joints.junctions.ids.size();
+    auto const loose = loose_ends(joints, plans, Graph(joints.meant, left_out, junctions));
+    std::vector<Vec2> places;
+    places.reserve(loose.size());
+    for (LooseEnd const& end : loose) {
+        places.push_back(joints.place(end.arc, end.end, plans));
+    }
+    auto const segments = geometry::segments_near(places, plans, near_m, run);
+    std::vector<std::size_t> same_as(junctions); // a forest: an end and what it nearly meets are one junction
+    std::iota(same_as.begin(), same_as.end(), std::size_t{0});
+    auto const root = [&](std::size_t j) {
+        while (same_as[j] != j) {
+            j = same_as[j] = same_as[same_as[j]];
+        }
+        return j;
+    };
+    for (std::size_t i = 0; i < loose.size(); ++i) {
+        if (segments[i].size() < 2) {
+            continue; // its own
+        }
+        LooseEnd const& end = loose[i];
+        Near const near = nearest(end, segments[i], joints, plans, near_m);
+        if (near.arc == none) {
+            continue;
+        }
+        FileArc const& arc = file.arcs[end.arc];
+        Vec2 const at = places[i];
+        if (near.junction != none && near.from_junction == 0.0) {
+            FileArc const& other = file.arcs[near.ending];
+            findings.push_back({"touches", number_of(file, arc), at, static_cast<double>(number_of(file, other)),
+                                fmt::format("arc {}: ends at ({}, {}), where arc {} does, but they have no common node",
+                                            number_of(file, arc), at.x, at.y, number_of(file, other))});
+        } else if (!near.touches) {
+            std::size_t const towards = near.junction != none ? near.ending : near.arc;
+            double const apart = near.junction != none ? near.from_junction : near.apart;
+            findings.push_back(
+                {"dangling_end", number_of(file, arc), at, apart,
+                 fmt::format("arc {}: its end at ({}, {}) lies {} m from arc {} without meeting it",
+                             number_of(file, arc), at.x, at.y, apart, number_of(file, file.arcs[towards]))});
+        }
+        joints.faulty[end.arc][end.end] = 1;
+        if (near.junction != none) {
+            auto const [least, other] = std::minmax({root(end.junction), root(near.junction)});
+            same_as[other] = least;
+        }
+    }
+    for (Ends& ends : joints.meant) {
+        ends = {root(ends[0]), root(ends[1])};
+    }
+}
+
+namespace {
+
+// Whether the network is a forest.
+
+/// One finding for each group of arcs: its first arc, and how many it has. part: by arc, the group or none.
+void find_groups(NetworkFile const& file, std::vector<std::size_t> const& part, std::size_t parts, char const* kind,
+                 char const* what, Findings& findings) {
+    std::vector<std::int64_t> size(parts, 0);
+    for (std::size_t const p : part) {
+        if (p != none) {
+            ++size[p];
+        }
+    }
+    for (std::size_t a = 0; a < part.size(); ++a) {
+        if (part[a] != none && size[part[a]] > 0) {
+            FileArc const& arc = file.arcs[a];
+            Vec2 const at = start_of(arc);
+            findings.push_back({kind, number_of(file, arc), at, static_cast<double>(size[part[a]]),
+                                fmt::format("arc {}: {} ({} arcs, one at ({}, {}))", number_of(file, arc), what,
+                                            size[part[a]], at.x, at.y)});
+            size[part[a]] = 0;
+        }
+    }
+}
+
+/// Whether arcs remain when again and again the sources are taken away.
+bool has_cycle(Graph const& graph, std::size_t junctions) {
+    std::vector<std::size_t> awaited(junctions);
+    std::vector<std::size_t> ready;
+    for (std::size_t j = 0; j < junctions; ++j) {
+        awaited[j] = graph.in.at(j).size();
+        if (awaited[j] == 0) {
+            ready.push_back(j);
+        }
+    }
+    for (std::size_t i = 0; i < ready.size(); ++i) {
+        for (std::size_t const a : graph.out.at(ready[i])) {
+            if (--awaited[graph.ends[a][1]] == 0) {
+                ready.push_back(graph.ends[a][1]);
+            }
+        }
+    }
+    return ready.size() < junctions;
+}
+
+void check_cycles(NetworkFile const& file, Graph const& graph, std::size_t junctions, Findings& findings) {
+    if (!has_cycle(graph, junctions)) {
+        return; // and every way down ends in an outlet
+    }
+    boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> directed(junctions);
+    boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS> undirected(junctions);
+    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
+        if (graph.left_out[a] == 0) {
+            boost::add_edge(graph.ends[a][0], graph.ends[a][1], directed);
+            boost::add_edge(graph.ends[a][0], graph.ends[a][1], undirected);
+        }
+    }
+    std::vector<std::size_t> part(junctions);
+    auto const part_map = boost::make_iterator_property_map(part.begin(), boost::get(boost::vertex_index, directed));
+    std::vector<std::size_t> arc_part(file.arcs.size(), none);
+
+    // Every arc inside a strong component lies on a cycle.
+    std::size_t const strong = boost::strong_components(directed, part_map);
+    for (std::size_t a = 0; a < arc_part.size(); ++a) {
+        auto const [from, to] = graph.ends[a];
+        arc_part[a] = graph.left_out[a] == 0 && part[from] == part[to] ? part[from] : none;
+    }
+    find_groups(file, arc_part, strong, "cycle", "runs in a circle", findings);
+
+    std::size_t const weak = boost::connected_components(undirected, part_map);
+    std::vector<char> drained(weak, 0);
+    for (std::size_t j = 0; j < junctions; ++j) {
+        if (graph.out.at(j).empty()) {
+            drained[part[j]] = 1;
+        }
+    }
+    for (std::size_t a = 0; a < arc_part.size(); ++a) {
+        std::size_t const p = part[graph.ends[a][0]];
+        arc_part[a] = graph.left_out[a] == 0 && drained[p] == 0 ? p : none;
+    }
+    find_groups(file, arc_part, weak, "no_outlet", "belongs to a part of the network that has no outlet", findings);
+}
+
+} // namespace
+
+Incidence::Incidence(std::vector<Ends> const& ends, std::size_t end, std::vector<char> const& left_out,
+                     std::size_t junctions)
+    : first_(junctions + 1, 0) {
+    for (std::size_t a = 0; a < ends.size(); ++a) {
+        if (left_out[a] == 0) {
+            ++first_[ends[a][end] + 1];
+        }
+    }
+    for (std::size_t j = 0; j < junctions; ++j) {
+        first_[j + 1] += first_[j];
+    }
+    arcs_.resize(first_.back());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for (std::size_t a = 0; a < ends.size(); ++a) {
+        if (left_out[a] == 0) {
+            arcs_[next[ends[a][end]]++] = a;
+        }
+    }
+}
+
+void check_trees(NetworkFile const& file, Joints const& joints, Graph const& said, Findings& findings) {
+    std::size_t const junctions = joints.junctions.ids.size();
+    std::vector<char> has_arc(junctions, 0);
+    for (auto const* ends : {&joints.said, &joints.meant}) {
+        for (auto const [from, to] : *ends) {
+            has_arc[from] = has_arc[to] = 1;
+        }
+    }
+    for (std::size_t j = 0; j < junctions; ++j) {
+        std::int64_t const id = joints.junctions.ids[j];
+        std::size_t const n = joints.junctions.node[j];
+        auto const out = said.out.at(j);
+        Vec3 const node = n == none ? Vec3{} : file.nodes[n].at;
+        Vec2 const at = n != none && is_number(node.x) && is_number(node.y) ? plan_of(node)
+                        : out.empty()                                       ? Vec2{}
+                                                                            : start_of(file.arcs[out.front()]);
+        if (out.size() > 1) {
+            findings.push_back(
+                {"several_outflows", id, at, static_cast<double>(out.size()),
+                 fmt::format("node {}: {} arcs leave it at ({}, {}), among them {} and {}", id, out.size(), at.x, at.y,
+                             number_of(file, file.arcs[out[0]]), number_of(file, file.arcs[out[1]]))});
+        }
+        if (has_arc[j] == 0) {
+            findings.push_back({"isolated_node", id, at, 0.0,
+                                fmt::format("node {}: no arc begins or ends in it, at ({}, {})", id, at.x, at.y)});
+        }
+    }
+    check_cycles(file, said, junctions, findings);
 }
 
 } // namespace thalweg::measure::topology_steps

@@ -11,7 +11,6 @@
 #include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/catchments/catchments.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
-#include <thalweg/measure/drainage/extract_ridges.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/make/given.hpp>

@@ -6,7 +6,7 @@
 #include <thalweg/flow/catchments/reaches.hpp>
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/frame/ground_cell.hpp>
-#include <thalweg/measure/relief/perched.hpp>
+#include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 
 #include <fmt/format.h>

@@ -11,7 +11,6 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/flow_field.hpp>
-#include <thalweg/measure/relief/reference_dems.hpp>
 #include <thalweg/measure/relief/relief.hpp>
 
 namespace thalweg::pipeline {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <thalweg/measure/laws/network_laws.hpp>
-#include <thalweg/measure/relief/natural_ranges.hpp>
+#include <thalweg/measure/relief/relief.hpp>
 
 namespace thalweg::pipeline {
 

@@ -10,7 +10,6 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
 
-/// Private to this module.
 namespace thalweg::measure {
 
 /// How far cells found agree with a river's; both lists without repeats.

@@ -15,7 +15,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
-/// The steps of check_topology, in their order. Private to this module.
+/// The steps of check_topology, in their order.
 namespace thalweg::measure::topology_steps {
 
 using FileArc = NetworkFile::FileArc;

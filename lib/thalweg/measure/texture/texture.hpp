@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/flow/flow_field.hpp>
 
 namespace thalweg::measure {
 
@@ -29,16 +31,35 @@ struct GradientTextureParams {
 /// |l1 - l2| / (l1 + l2) of the structure tensor's eigenvalues, where the window lies on the DEM. The tensor is
 /// averaged over blocks of an eighth of the window first.
 /// \param dem [m] by cell; NaN: no data
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return NaN where a lag or the window is shorter than a cell, or longer than the DEM; the same bits for any number
 /// of threads
 /// \throws BadParameter when window_m is not positive
 /// \throws BadInput when the cell size is not positive
-/// \throws Cancelled
 ///
 /// Source: \cite bigun1987 (structure tensor).
 GradientTexture gradient_texture(Raster<float> const& dem, GradientTextureParams const& params = {},
                                  Run const& run = {});
+
+/// How straight the channels of a DEM run.
+struct StraightChannels {
+    std::int64_t longest_run = 0; ///< [steps] in one D8 direction
+    std::int64_t reaches = 0;     ///< of reach_steps, one from each channel cell whose water goes on so far
+    /// [0, 1] of the reaches stay within tolerance_cells of their chord; NaN: no reach
+    double straight_share = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Options of straight_channels().
+struct StraightChannelsParams {
+    std::int64_t support_cells = 2000; ///< [1, ...] contributing area at which channels begin
+    std::int64_t reach_steps = 60;     ///< [2, ...]
+    double tolerance_cells = 1.5;      ///< [cells] >= 0
+};
+
+/// Measures how far channels run straight: valleys that follow the grid do so for hundreds of cells.
+/// \param drainage flow field of the DEM
+/// \return lengths in cells of the flow field
+/// \throws BadParameter when a parameter is outside its range
+StraightChannels straight_channels(flow::FlowField const& drainage, StraightChannelsParams const& params = {},
+                                   Run const& run = {});
 
 } // namespace thalweg::measure

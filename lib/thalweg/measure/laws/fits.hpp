@@ -3,12 +3,29 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
-#include <thalweg/measure/laws/line_fit.hpp>
+#include <thalweg/core/vec.hpp>
 
 namespace thalweg::measure {
+
+/// A least-squares line.
+struct LineFit {
+    double slope = 0.0;
+    double intercept = 0.0; ///< y at x = 0
+    /// share of y's variance explained; NaN: two points, or y is constant
+    double r2 = std::numeric_limits<double>::quiet_NaN();
+    double slope_error = std::numeric_limits<double>::quiet_NaN(); ///< standard error; NaN: two points
+    std::int64_t points = 0;
+};
+
+/// Fits a line by least squares.
+/// \param points x and y
+/// \param weights > 0, one per point; empty: equal
+/// \return nothing for fewer than two different x
+std::optional<LineFit> fit_line(std::vector<Vec2> const& points, std::vector<double> const& weights = {});
 
 /// A value at a place, and the area that drains to it.
 struct AtArea {
@@ -51,7 +68,6 @@ struct PowerLawParams {
 /// Fits a power law of area by least squares through the mean logarithms of bins of equal logarithmic width, all with
 /// equal weight: small areas, the most frequent, do not dominate.
 /// \param places areas and values; those not above 0 are counted as left out
-/// \param params options, each with its default, unit and range
 /// \return recovers an exact power law up to rounding; nothing with fewer than least_bins bins
 /// \throws BadParameter when a parameter is outside its range
 ///
