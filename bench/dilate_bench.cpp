@@ -4,7 +4,7 @@
 // BM_dilate_closed and BM_dilate_frontier: the whole stage, with the memory it allocates, first touch included.
 // BM_dilate_closed_reused: the same sweeps into a DEM that has been touched before; the levels are still allocated.
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/surface/dilation/dilate.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
 
 #include <benchmark/benchmark.h>

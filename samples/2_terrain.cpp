@@ -11,7 +11,7 @@
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
-#include <thalweg/surface/dilation/dilate.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
 
 #include <cmath>
 #include <cstdio>

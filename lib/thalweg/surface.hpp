@@ -3,10 +3,8 @@
 #pragma once
 
 /// All public headers of the module.
-#include <thalweg/surface/diffusion/diffuse.hpp>
-#include <thalweg/surface/diffusion/harmonic.hpp>
-#include <thalweg/surface/dilation/dilate.hpp>
-#include <thalweg/surface/dilation/dilate_over.hpp>
+#include <thalweg/surface/diffusion/diffusion.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/dilation/increment.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>

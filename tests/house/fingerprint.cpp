@@ -71,10 +71,9 @@
 #include <thalweg/solver/grid/internal/conjugate_gradients.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
 #include <thalweg/solver/statistics/expected_slope.hpp>
-#include <thalweg/surface/diffusion/diffuse.hpp>
-#include <thalweg/surface/diffusion/harmonic.hpp>
-#include <thalweg/surface/diffusion/internal/problem_through.hpp>
-#include <thalweg/surface/dilation/dilate.hpp>
+#include <thalweg/surface/diffusion/diffusion.hpp>
+#include <thalweg/surface/diffusion/internal/diffusion.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>

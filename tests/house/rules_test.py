@@ -23,7 +23,7 @@ PLANTED = [
     ("tools/commands/make.cpp", "#include <thalweg/network/order/internal/require_trees.hpp>", "is for the .cpp files of network alone"),
     ("lib/thalweg/network/order/order.hpp", "#include <thalweg/network/order/internal/require_trees.hpp>", "of network alone"),
     (NETWORK, "#include <CGAL/Arrangement_2.h>", "does not belong to network"),
-    (NETWORK, "#include <thalweg/surface/dilation/dilate.hpp>", "stage modules meet in pipeline only"),
+    (NETWORK, "#include <thalweg/surface/dilation/dilation.hpp>", "stage modules meet in pipeline only"),
     (NETWORK, "  #  include <thalweg/measure/drainage/certificate.hpp>", "stage modules meet in pipeline only"),
     ("lib/thalweg/fractal/match_statistics.cpp", "#include <Eigen/Dense>", "does not belong to fractal"),
     (NETWORK, "#include <strange/library.hpp>", "foreign <strange/library.hpp>"),
@@ -76,7 +76,7 @@ INNOCENT = [
     ("tests/core/b_test.cpp", '    ASSERT_TRUE(rc::check("a law", [] {'),
     ("lib/thalweg/geometry/crossings.cpp", "#include <CGAL/Arrangement_2.h>"),
     ("lib/thalweg/solver/spectral/fft.cpp", "#include <unsupported/Eigen/FFT>"),
-    ("lib/thalweg/pipeline/make/terrain.cpp", "#include <thalweg/surface/dilation/dilate.hpp>\n#include <thalweg/network/vectorise/thin.hpp>"),
+    ("lib/thalweg/pipeline/make/terrain.cpp", "#include <thalweg/surface/dilation/dilation.hpp>\n#include <thalweg/network/vectorise/thin.hpp>"),
     ("lib/thalweg/pipeline/report/report.cpp", "#include <thalweg/pipeline/recipe/recipe.hpp>\n"
      "#include <thalweg/pipeline/make/internal/user_data.hpp>\n#include <thalweg/pipeline/report/pictures.hpp>"),
     ("lib/thalweg/pipeline/make/rivers.cpp", "Terrain f(Terrain terrain, Recipe const& recipe, Plan&& plan);"),

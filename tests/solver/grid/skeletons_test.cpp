@@ -12,7 +12,7 @@
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/ridges.hpp>
-#include <thalweg/surface/diffusion/internal/problem_through.hpp>
+#include <thalweg/surface/diffusion/internal/diffusion.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/surface/diffusion/diffuse.hpp>
+#include <thalweg/surface/diffusion/diffusion.hpp>
 
 #include <support.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/value_noise.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/surface/diffusion/internal/smooth_free.hpp>
+#include <thalweg/surface/diffusion/internal/diffusion.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/surface/diffusion/harmonic.hpp>
+#include <thalweg/surface/diffusion/diffusion.hpp>
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
@@ -12,7 +12,7 @@
 #include <thalweg/network/vectorise/thin.hpp>
 #include <thalweg/network/vectorise/trace.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/surface/dilation/dilate.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "valleys.hpp"
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/surface/dilation/dilate_over.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/surface/dilation/dilate.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
 
 #include <support.hpp>

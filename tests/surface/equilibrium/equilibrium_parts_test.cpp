@@ -2,14 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <support.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/surface/equilibrium/internal/area_power.hpp>
-#include <thalweg/surface/equilibrium/internal/edge_heights.hpp>
-#include <thalweg/surface/equilibrium/internal/nearest_river.hpp>
-#include <thalweg/surface/equilibrium/internal/order_cells.hpp>
-#include <thalweg/surface/equilibrium/internal/perched_rivers.hpp>
-#include <thalweg/surface/equilibrium/internal/river_cells.hpp>
-#include <thalweg/surface/equilibrium/internal/slide_land.hpp>
-#include <thalweg/surface/equilibrium/internal/widen.hpp>
+#include <thalweg/surface/equilibrium/internal/level.hpp>
+#include <thalweg/surface/equilibrium/internal/steps.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/surface/equilibrium/internal/flood_land.hpp>
+#include <thalweg/surface/equilibrium/internal/steps.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/surface/equilibrium/internal/region.hpp>
+#include <thalweg/surface/equilibrium/internal/steps.hpp>
 
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
-#include <thalweg/surface/equilibrium/internal/order_cells.hpp>
-#include <thalweg/surface/equilibrium/internal/region_frame.hpp>
 
 #include <algorithm>
 #include <cmath>

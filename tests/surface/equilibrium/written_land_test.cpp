@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/surface/equilibrium/internal/written_land.hpp>
+#include <thalweg/surface/equilibrium/internal/steps.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,6 @@
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/flow/direction.hpp>
-#include <thalweg/surface/equilibrium/internal/flood_land.hpp>
-#include <thalweg/surface/equilibrium/internal/order_cells.hpp>
 
 namespace written_land_test {
 

@@ -18,9 +18,8 @@
 #include <thalweg/skeleton/midpoint_inverse.hpp>
 #include <thalweg/skeleton/ridges.hpp>
 #include <thalweg/skeleton/scatter.hpp>
-#include <thalweg/surface/diffusion/diffuse.hpp>
-#include <thalweg/surface/diffusion/harmonic.hpp>
-#include <thalweg/surface/dilation/dilate_over.hpp>
+#include <thalweg/surface/diffusion/diffusion.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 
 #include <fmt/format.h>

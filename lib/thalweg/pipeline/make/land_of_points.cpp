@@ -6,7 +6,7 @@
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/regress.hpp>
-#include <thalweg/surface/diffusion/diffuse.hpp>
+#include <thalweg/surface/diffusion/diffusion.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 
 #include <fmt/format.h>

@@ -23,7 +23,7 @@
 #include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/pipeline/plan/timings.hpp>
-#include <thalweg/surface/dilation/dilate.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 namespace thalweg::pipeline {

@@ -19,7 +19,6 @@ struct IncrementParams {
 
 /// Evaluates the increments dh(x) of the dilations x = 1 ... levels.
 /// \param levels [0, ...] number of dilations
-/// \param params options, each with its default, unit and range
 /// \return by x - 1, in the units of \cite cao2009 (Table 1 for its three names); an expression or function is rounded
 /// to 2^-32 (from 16 up, to 36 significant bits), the same on every machine
 /// \throws BadParameter for an unknown name that is not an expression, or a value that is not finite; what the function
@@ -37,7 +36,6 @@ struct IncrementJump {
 
 /// Finds the jumps of dh(x) between 1 and levels: slopes break there on every hillside at once.
 /// \param levels [0, ...] number of dilations
-/// \param params options, each with its default, unit and range
 /// \return ascending; jumps of more than a hundredth of the largest increment that bisection of x does not reduce; none
 /// for the names of Table 1
 /// \throws Error as increments()

@@ -56,7 +56,6 @@ inline bool fits16(Grid const& grid) {
 /// \param valley [m] at least one river cell
 /// \param base any content, the valley's grid; receives the heights that levels are counted from
 /// \param lanes instruction set; the bytes are the same for each
-/// \param run progress, log, stop token and number of threads
 /// \return the levels after this sweep
 template <class Level> Swept<Level> sweep_down(Valley const& valley, Raster<float>& base, Lanes lanes, Run const& run);
 
@@ -65,7 +64,6 @@ template <class Level> Swept<Level> sweep_down(Valley const& valley, Raster<floa
 /// \param base [m] as sweep_down left it; finished in place
 /// \param level receives the number of dilations
 /// \param lanes instruction set; the bytes are the same for each
-/// \param run progress, log, stop token and number of threads
 template <class Level>
 void sweep_up(Swept<Level> const& swept, Raster<float>& base, Raster<std::int32_t>& level, Lanes lanes, Run const& run);
 
@@ -75,7 +73,6 @@ void sweep_up(Swept<Level> const& swept, Raster<float>& base, Raster<std::int32_
 /// \param base [m] as sweep_down left it; receives the heights
 /// \param above_valley [m] by number of dilations
 /// \param lanes instruction set; the bytes are the same for each
-/// \param run progress, log, stop token and number of threads
 template <class Level>
 void sweep_up(Swept<Level> const& swept, Raster<float>& base, std::vector<double> above_valley, Lanes lanes,
               Run const& run);

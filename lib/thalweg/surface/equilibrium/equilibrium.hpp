@@ -95,8 +95,6 @@ struct EquilibriumTerrain {
 /// \pre Water leaves at the border, the coast or in a sink.
 /// \param rivers at least one
 /// \param fields sea, uplift and erodibility
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return as float32, river cells drain to their receivers by steepest descent and lie below the terrain beside them;
 /// every land cell has a strictly lower neighbour, so the only depressions are sinks; lakes are level. Prescribed
 /// heights may prevent the target slope or relief: then the nearest found. The lowest river end is at 0 unless
@@ -104,7 +102,6 @@ struct EquilibriumTerrain {
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput for channels that break their law, fields on another grid, not above 0 or with holes on land, no
 /// land, a river at sea, or prescribed heights that rise
-/// \throws Cancelled
 ///
 /// Source: \cite perron2009 (hillslope length); \cite braun2013 (order); \cite barnes2014 (flood); \cite stock2003
 /// (debris flows).

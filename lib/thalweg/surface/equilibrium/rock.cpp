@@ -1,16 +1,141 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/surface/equilibrium/internal/rock.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
 
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/parallel.hpp>
-
-#include <algorithm>
-#include <cmath>
+#include <thalweg/surface/equilibrium/internal/level.hpp>
+#include <thalweg/surface/equilibrium/internal/steps.hpp>
 
 namespace thalweg::surface {
-
 namespace {
+
+constexpr std::uint64_t rock_stage = 0x726f636b; // "rock"
+constexpr double shortest_wave = 2.0;
+// Eased between four uniform numbers, the variance is about that of one, a twelfth, times a half.
+constexpr double to_unit_variance = 5.0;
+constexpr double stronger = 1.1; // from octave to octave: gullies want more than the long waves leave them
+constexpr int counted_octaves = 8;
+
+/// One octave: its lattice turned and moved against the grid, and the numbers at the nodes that the grid needs.
+class Octave {
+public:
+    Octave(LandLevel const& level, RockNoise const& params, std::uint64_t number, double wave, Run const& run)
+        : Octave(params.strike + turn(number, params.stretch), std::sqrt(params.stretch), level.side / wave) {
+        double const col = static_cast<double>(level.corner.col) / level.side - 0.5; // centre of the frame's corner
+        double const row = static_cast<double>(level.corner.row) / level.side - 0.5;
+        x0_ = x_per_col_ * col - x_per_row_ * row + 17.3 * static_cast<double>(number);
+        y0_ = y_per_col_ * col + y_per_row_ * row + 91.7 * static_cast<double>(number);
+        auto const across = static_cast<double>(level.width);
+        auto const down = static_cast<double>(level.height);
+        double const left = std::floor(x0_ + std::min(0.0, x_per_col_ * across) + std::min(0.0, -x_per_row_ * down));
+        double const top = std::floor(y0_ + std::min(0.0, y_per_col_ * across) + std::min(0.0, y_per_row_ * down));
+        double const reach_x = std::fabs(x_per_col_) * across + std::fabs(x_per_row_) * down;
+        double const reach_y = std::fabs(y_per_col_) * across + std::fabs(y_per_row_) * down;
+        width_ = static_cast<std::int64_t>(reach_x) + 4;
+        auto const rows = static_cast<std::int64_t>(reach_y) + 4;
+        nodes_.resize(static_cast<std::size_t>(width_ * rows));
+        draw(params.seed, number, static_cast<std::int64_t>(left), static_cast<std::int64_t>(top), rows, run);
+        x0_ -= left;
+        y0_ -= top;
+    }
+
+    void add_to_row(std::int64_t row, double weight, float* out, std::int64_t count) const {
+        double const x = x0_ - x_per_row_ * static_cast<double>(row);
+        double const y = y0_ + y_per_row_ * static_cast<double>(row);
+        auto const w = static_cast<float>(weight);
+        for (std::int64_t col = 0; col < count; ++col) {
+            double const at_x = x + x_per_col_ * static_cast<double>(col);
+            double const at_y = y + y_per_col_ * static_cast<double>(col);
+            auto const ix = static_cast<std::int32_t>(at_x);
+            auto const iy = static_cast<std::int32_t>(at_y);
+            float const u = eased(static_cast<float>(at_x - ix));
+            float const v = eased(static_cast<float>(at_y - iy));
+            float const* const n = &nodes_[static_cast<std::size_t>(iy * width_ + ix)];
+            float const upper = n[0] + (n[1] - n[0]) * u;
+            float const lower = n[width_] + (n[width_ + 1] - n[width_]) * u;
+            out[col] += w * (upper + (lower - upper) * v);
+        }
+    }
+
+private:
+    /// lattice: cells of the level in a cell's width
+    Octave(double angle, double stretch, double per_cell)
+        : x_per_col_(portable::cos(angle) * per_cell / stretch), x_per_row_(portable::sin(angle) * per_cell / stretch),
+          y_per_col_(portable::sin(angle) * per_cell * stretch), y_per_row_(portable::cos(angle) * per_cell * stretch) {
+    }
+
+    /// All ways where rock has no grain; else up to 17 degrees to either side of the strike.
+    static double turn(std::uint64_t number, double stretch) {
+        return stretch > 1.0 ? 0.15 * (static_cast<double>(number * 7919 % 5) - 2.0)
+                             : 0.7 * static_cast<double>(number);
+    }
+    static float eased(float t) { return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F); }
+
+    void draw(std::uint64_t seed, std::uint64_t number, std::int64_t left, std::int64_t top, std::int64_t rows,
+              Run const& run) {
+        constexpr std::int64_t a_block = 8;
+        parallel_ranges(run, rows, 16, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t row = begin; row < end; ++row) {
+                std::array<std::uint64_t, 4> words{};
+                std::int64_t held = -1;
+                for (std::int64_t col = 0; col < width_; ++col) {
+                    // Counted from far to the left, so that blocks lie where they lie for any grid.
+                    std::int64_t const at = left + col + (std::int64_t{1} << 40);
+                    if (at / a_block != held) {
+                        held = at / a_block;
+                        words = random_block(seed, rock_stage, number, static_cast<std::uint64_t>(top + row),
+                                             static_cast<std::uint64_t>(held));
+                    }
+                    auto const k = static_cast<std::uint64_t>(at % a_block);
+                    auto const half = static_cast<std::uint32_t>(words[k / 2] >> (32 * (k % 2)));
+                    nodes_[static_cast<std::size_t>(row * width_ + col)] =
+                        static_cast<float>(static_cast<double>(half) * 0x1p-32 - 0.5);
+                }
+            }
+        });
+    }
+
+    double x_per_col_; ///< along the strike, in widths of the lattice
+    double x_per_row_;
+    double y_per_col_; ///< across
+    double y_per_row_;
+    double x0_ = 0.0;
+    double y0_ = 0.0;
+    std::int64_t width_ = 0;
+    Cells<float> nodes_;
+};
+
+// Smooth noise of mean 0: value noise on lattices from the longest wave down to two cells, each half as wide as the one
+// before, a little stronger and turned against it, all stretched along the strike; without the waves that a level's
+// cells cannot show. The variance of the first eight lattices is about 1. Gives: a number a cell, by place and seed
+// alone.
+Cells<float> rock_noise(LandLevel const& level, RockNoise const& params, Run const& run) {
+    Cells<float> noise(static_cast<std::size_t>(level.cells()));
+    double variance = 0.0;
+    double part = 1.0;
+    for (int octave = 0; octave < counted_octaves; ++octave, part *= stronger * stronger) {
+        variance += part;
+    }
+    double weight = to_unit_variance / std::sqrt(variance);
+    double wave = params.longest_wave;
+    double const shortest = std::max(shortest_wave, 1.5 * static_cast<double>(level.side));
+    for (std::uint64_t number = 0; wave >= shortest; ++number, wave /= 2.0, weight *= stronger) {
+        Octave const octave(level, params, number, wave, run);
+        parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t row = begin; row < end; ++row) {
+                octave.add_to_row(row, weight, &noise[static_cast<std::size_t>(row * level.width)], level.width);
+            }
+        });
+    }
+    return noise;
+}
 
 /// Mean of a field over some finest cells, without those that have none.
 float mean_over(Raster<float> const& field, Cell from, std::int64_t side) {
@@ -62,6 +187,151 @@ void set_rock(LandLevel& level, RockFields const& fields, RockParams const& para
             level.erodibility[i] = static_cast<float>(fourth * fifth_root);
             level.cap[i] = static_cast<float>(static_cast<double>(steepest_tangent) / fourth);
         }
+    });
+}
+
+namespace {
+
+constexpr float tolerated = 0.2F;     // [cells of the level] that the land beside a river may lack
+constexpr float rate = 0.5F;          // most that one call adds
+constexpr float firmest = 2.0F;       // [log]
+constexpr float of_cap = 0.4F;        // as much firmer, slopes stand up: steeper than rock of the fields, but no walls
+constexpr float reach_cells = 4.0F;   // [finest cells] beside a flow path
+constexpr std::size_t longest = 4096; // [cells] of a flow path
+
+/// The lowest cell of land in the second ring of a river cell, banks aside.
+std::optional<std::size_t> lowest_beside(LandLevel const& level, std::uint32_t cell) {
+    std::optional<std::size_t> lowest;
+    each_of_second_ring(level, cell, [&](std::size_t n) {
+        bool const dry = level.cover[n] == Cover::land || level.cover[n] == Cover::rim;
+        if (dry && (!lowest || level.z[n] < level.z[*lowest])) {
+            lowest = n;
+        }
+    });
+    return lowest;
+}
+
+bool lies_on_way_down(RiverCells const& rivers, std::size_t n, std::size_t cell) {
+    constexpr int steps = 12;
+    for (int step = 0; step <= steps; ++step) {
+        if (rivers.cell[n] == cell) {
+            return true;
+        }
+        if (rivers.receiver[n] < 0) {
+            return false;
+        }
+        n = static_cast<std::size_t>(rivers.receiver[n]);
+    }
+    return false;
+}
+
+/// The height that a river cell has by its grade or its file, whatever the land allows.
+float wanted_height(LandLevel const& level, EquilibriumLaw const& law, std::size_t n) {
+    RiverCells const& rivers = level.rivers;
+    if (!rivers.asked.empty() && !std::isnan(rivers.asked[n])) {
+        return rivers.asked[n];
+    }
+    float const below = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]];
+    float const length = level.side * step_lengths[static_cast<std::size_t>(rivers.way[n])];
+    return below + graded_tangent(level, law, rivers.cell[n]) * length;
+}
+
+/// Marks the flow path from beside a river cell by as much as the land there lacks.
+void mark_lack(LandLevel const& level, EquilibriumLaw const& law, std::size_t n, Cells<float>& marks) {
+    RiverCells const& rivers = level.rivers;
+    auto const lowest = lowest_beside(level, rivers.cell[n]);
+    float const wanted = lowest ? wanted_height(level, law, n) : 0.0F;
+    if (!lowest || level.z[*lowest] + tolerated * level.side >= wanted) {
+        return;
+    }
+    auto const offsets = level.offsets();
+    std::vector<std::size_t> path;
+    std::size_t at = *lowest;
+    while (is_land(level.cover[at]) && level.way[at] >= 0 && path.size() < longest) {
+        path.push_back(at);
+        at = moved(at, offsets[static_cast<std::size_t>(level.way[at])]);
+    }
+    if (lies_on_way_down(rivers, n, at)) { // which falls as its own river does
+        return;
+    }
+    constexpr float least = 1e-3F; // [cells of the level]
+    float const base = std::isinf(level.z[at]) ? 0.0F : level.z[at];
+    float const has = std::max(level.z[*lowest] - base, least * level.side);
+    auto const lack = static_cast<float>(portable::log(static_cast<double>(std::max((wanted - base) / has, 1.0F))));
+    for (std::size_t const i : path) {
+        marks[i] = std::max(marks[i], rate * std::min(1.0F, lack));
+    }
+}
+
+/// Sums over 2 reach + 1 neighbours along one axis.
+Cells<float> sums_along(Cells<float> const& values, std::int64_t lines, std::int64_t line_step, std::int64_t length,
+                        std::int64_t step, std::int64_t reach) {
+    Cells<float> sums(values.size());
+    for (std::int64_t line = 0; line < lines; ++line) {
+        for (std::int64_t k = 0; k < length; ++k) {
+            float sum = 0.0F;
+            for (std::int64_t n = std::max<std::int64_t>(0, k - reach); n <= std::min(length - 1, k + reach); ++n) {
+                sum += values[static_cast<std::size_t>(line * line_step + n * step)];
+            }
+            sums[static_cast<std::size_t>(line * line_step + k * step)] = sum;
+        }
+    }
+    return sums;
+}
+
+/// By cell the mean of the marks in a square around it, 0 where there are none.
+Cells<float> spread(Cells<float> const& marks, LandLevel const& level, std::int64_t reach) {
+    Cells<float> counts(marks.size());
+    std::transform(marks.begin(), marks.end(), counts.begin(), [](float mark) { return mark > 0.0F ? 1.0F : 0.0F; });
+    auto const sums = [&](Cells<float> const& of) {
+        return sums_along(sums_along(of, level.height, level.width, level.width, 1, reach), level.width, 1,
+                          level.height, level.width, reach);
+    };
+    Cells<float> means = sums(marks);
+    counts = sums(counts);
+    for (std::size_t i = 0; i < means.size(); ++i) {
+        means[i] = counts[i] > 0.0F ? means[i] / counts[i] : 0.0F;
+    }
+    return means;
+}
+
+void add_firmness(LandLevel& level, std::size_t i, float more) {
+    if (!(more > 0.0F) || level.cover[i] == Cover::river) {
+        return;
+    }
+    level.firmness[i] += more;
+    level.erodibility[i] *= static_cast<float>(portable::exp(static_cast<double>(-more)));
+    level.cap[i] *= static_cast<float>(portable::exp(static_cast<double>(of_cap * more)));
+}
+
+} // namespace
+
+void firm_rock(LandLevel& level, EquilibriumLaw const& law) {
+    RiverCells const& rivers = level.rivers;
+    Cells<float> marks(static_cast<std::size_t>(level.cells()), 0.0F);
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        if (rivers.number[n] >= 0 && !leaves_grid(rivers, n) && rivers.level[n] == 0) {
+            mark_lack(level, law, n, marks);
+        }
+    }
+    if (std::all_of(marks.begin(), marks.end(), [](float mark) { return mark == 0.0F; })) {
+        return;
+    }
+    level.firmness.resize(marks.size(), 0.0F);
+    marks = spread(marks, level, std::max<std::int64_t>(1, static_cast<std::int64_t>(reach_cells / level.side)));
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+        add_firmness(level, i, std::min(marks[i], firmest - level.firmness[i]));
+    }
+}
+
+void take_firmness(LandLevel& level, LandLevel const& coarser) {
+    if (coarser.firmness.empty()) {
+        return;
+    }
+    level.firmness.assign(static_cast<std::size_t>(level.cells()), 0.0F);
+    each_inner(level, [&](std::size_t i) {
+        Cell const c = level.at(i);
+        add_firmness(level, i, value_at(coarser, coarser.firmness, place_in(coarser, level, c.col, c.row)));
     });
 }
 

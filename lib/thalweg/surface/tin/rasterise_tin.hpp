@@ -21,12 +21,9 @@ struct RasteriseTinParams {
 /// edge, its north), decided exactly: no cell is left out or drawn twice.
 /// \param tin may be empty
 /// \param grid of the result
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return [m] by cell: inside the TIN or on its edge computed in double, within the range of the triangle's corners
 /// \throws BadInput naming a vertex that is not finite, or a triangle that is not counterclockwise or has an unknown
 /// vertex
-/// \throws Cancelled
 ///
 /// Source: scanlines with exact orientation tests where rounding could decide.
 Raster<float> rasterise_tin(Tin const& tin, Grid const& grid, RasteriseTinParams const& params = {},

@@ -33,12 +33,9 @@ double random_strike_deg(std::uint64_t seed);
 
 /// Draws uplift that varies over long distances.
 /// \param grid cells
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return [1 / sqrt(contrast), sqrt(contrast)] by cell, relative to the common uplift. The same bytes for any number
 /// of threads; by place in metres from the grid's centre.
 /// \throws BadParameter when a parameter is outside its range
-/// \throws Cancelled
 Raster<float> uplift_pattern(Grid const& grid, UpliftPatternParams const& params, Run const& run = {});
 
 } // namespace thalweg::surface

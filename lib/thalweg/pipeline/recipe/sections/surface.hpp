@@ -9,8 +9,8 @@
 #include <thalweg/flow/conditioning/condition.hpp>
 #include <thalweg/pipeline/recipe/sections/equilibrium.hpp>
 #include <thalweg/skeleton/regress.hpp>
-#include <thalweg/surface/diffusion/diffuse.hpp>
-#include <thalweg/surface/dilation/dilate.hpp>
+#include <thalweg/surface/diffusion/diffusion.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
 
 namespace thalweg::pipeline {
 

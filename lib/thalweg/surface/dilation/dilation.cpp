@@ -1,22 +1,99 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/surface/dilation/dilate.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
 
-#include <thalweg/core/cells/nearest_cells.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
-#include <thalweg/surface/dilation/internal/check_valley.hpp>
-#include <thalweg/surface/dilation/internal/flat_share.hpp>
-#include <thalweg/surface/dilation/separable.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <thalweg/core/cells/nearest_cells.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/valley.hpp>
+#include <thalweg/surface/dilation/separable.hpp>
 
 namespace thalweg::surface {
 namespace {
+
+// Throws: BadInput: a grid without cells, or with cells whose side is not above 0.
+void check_frame(Grid const& grid) {
+    if (grid.cells() <= 0) {
+        throw BadInput("surface.dilate: the valley's grid has no cells; make it at least 1 x 1");
+    }
+    if (!(grid.cell_m > 0.0 && std::isfinite(grid.cell_m))) {
+        throw BadInput(fmt::format("surface.dilate: the valley's cell size is {} m; give one above 0", grid.cell_m));
+    }
+}
+
+// Throws: BadInput: a valley in which no cell has a height, or one has an infinite height.
+void check_heights(Raster<float> const& valley) {
+    Grid const& grid = valley.grid();
+    bool wet = false;
+    for (std::int64_t i = 0; i < valley.cells(); ++i) {
+        if (std::isinf(valley[i])) {
+            Cell const cell = grid.at(i);
+            throw BadInput(fmt::format("surface.dilate: infinite height in the valley at column {}, row {}; "
+                                       "every river needs finite heights",
+                                       cell.col, cell.row));
+        }
+        wet = wet || !std::isnan(valley[i]);
+    }
+    if (!wet) {
+        throw BadInput(
+            fmt::format("surface.dilate: no cell of the valley has a height on the grid of {} x {} cells (inside "
+                        "the mask, where there is one); let a river run there",
+                        grid.width, grid.height));
+    }
+}
+
+// Throws: BadInput: the mask has another frame than the valley.
+void check_mask(Grid const& valley, Grid const& mask) {
+    if (valley != mask) {
+        throw BadInput(fmt::format("surface.dilate: the mask ({} x {} cells of {} m) has another frame than the valley "
+                                   "({} x {} cells of {} m); make both on one grid",
+                                   mask.width, mask.height, mask.cell_m, valley.width, valley.height, valley.cell_m));
+    }
+}
+
+// Share [0,1] of the cells of a DEM off the valley that have no lower 4-neighbour; 0 where there are none.
+double flat_share(Valley const& valley, Raster<float> const& dem, Run const& run) {
+    std::int64_t const width = dem.width();
+    std::int64_t const height = dem.height();
+    std::atomic<std::int64_t> dry = 0;
+    std::atomic<std::int64_t> flat = 0;
+    parallel_ranges(run, height, 64, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t row = first; row < last; ++row) {
+            run.check();
+            float const* const here = dem.row(row).data();
+            float const* const north = dem.row(std::max<std::int64_t>(row - 1, 0)).data();
+            float const* const south = dem.row(std::min(row + 1, height - 1)).data();
+            float const* const river = valley.z.row(row).data();
+            std::int64_t dry_here = 0;
+            std::int64_t flat_here = 0;
+            for (std::int64_t col = 0; col < width; ++col) {
+                float const z = here[col];
+                float const west = here[std::max<std::int64_t>(col - 1, 0)];
+                float const east = here[std::min(col + 1, width - 1)];
+                int const off = static_cast<int>(std::isnan(river[col])) & static_cast<int>(!std::isnan(z));
+                int const drained = static_cast<int>(west < z) | static_cast<int>(east < z) |
+                                    static_cast<int>(north[col] < z) | static_cast<int>(south[col] < z);
+                dry_here += off;
+                flat_here += off & (drained ^ 1);
+            }
+            dry += dry_here;
+            flat += flat_here;
+        }
+    });
+    return dry == 0 ? 0.0 : static_cast<double>(flat) / static_cast<double>(dry);
+}
 
 constexpr float nan_height = std::numeric_limits<float>::quiet_NaN();
 
@@ -201,6 +278,17 @@ Dilated dilate_euclid(Valley valley, Mask const& inside, DilateParams const& par
     return dilated;
 }
 
+template <class Level> Expansion expand_as(Valley const& valley, Run const& run) {
+    Lanes const lanes = widest_lanes();
+    Expansion expansion{Raster<std::int32_t>(valley.z.grid()), Raster<float>(valley.z.grid())};
+    auto const swept = separable::sweep_down<Level>(valley, expansion.base, lanes, run);
+    if (!separable::usable(swept)) {
+        check_heights(valley.z);
+    }
+    separable::sweep_up(swept, expansion.base, expansion.level, lanes, run);
+    return expansion;
+}
+
 } // namespace
 
 Dilated dilate(Valley const& valley, DilateParams const& params, Run const& run) {
@@ -225,6 +313,96 @@ Dilated dilate(Valley const& valley, Mask const& inside, DilateParams const& par
     }
     bool const open = std::none_of(inside.values().begin(), inside.values().end(), [](auto cell) { return cell == 0; });
     return open ? dilate(valley, params, run) : dilate_masked(valley, inside, params, run);
+}
+
+Expansion expand_frontier(Valley const& valley, Mask const& inside, Run const& run) {
+    Grid const& grid = valley.z.grid();
+    check_frame(grid);
+    check_mask(grid, inside.grid());
+    Expansion expansion{Raster<std::int32_t>(grid, -1), valley.z};
+    Raster<std::int32_t>& level = expansion.level;
+    Raster<float>& base = expansion.base;
+    std::vector<std::int64_t> frontier;
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (inside[i] == 0 || std::isnan(base[i])) {
+            base[i] = std::numeric_limits<float>::quiet_NaN();
+        } else {
+            level[i] = 0;
+            frontier.push_back(i);
+        }
+    }
+    check_heights(base);
+    std::vector<std::int64_t> next;
+    for (std::int32_t x = 1; !frontier.empty(); ++x) {
+        run.check();
+        next.clear();
+        for (std::int64_t const from : frontier) {
+            auto const spread = [&](std::int64_t to) {
+                if (level[to] < 0 && inside[to] != 0) {
+                    level[to] = x;
+                    base[to] = base[from];
+                    next.push_back(to);
+                } else if (level[to] == x && separable::ordered(base[from]) < separable::ordered(base[to])) {
+                    base[to] = base[from];
+                }
+            };
+            std::int64_t const col = from % grid.width;
+            if (col > 0) {
+                spread(from - 1);
+            }
+            if (col + 1 < grid.width) {
+                spread(from + 1);
+            }
+            if (from >= grid.width) {
+                spread(from - grid.width);
+            }
+            if (from + grid.width < grid.cells()) {
+                spread(from + grid.width);
+            }
+        }
+        frontier.swap(next);
+    }
+    return expansion;
+}
+
+Expansion expand(Valley const& valley, Run const& run) {
+    check_frame(valley.z.grid());
+    return separable::fits16(valley.z.grid()) ? expand_as<std::uint16_t>(valley, run)
+                                              : expand_as<std::int32_t>(valley, run);
+}
+
+namespace {
+
+/// The same valley at height 0: what is dilated from it is H(d) alone.
+Valley levelled(Valley const& valley, Raster<float> const& base) {
+    if (base.grid() != valley.z.grid()) {
+        throw BadInput("surface.dilate_over: the base has another frame than the valley; lay it on the valley's grid");
+    }
+    Valley level = valley;
+    for (float& z : level.z.values()) {
+        z = std::isnan(z) ? z : 0.0F;
+    }
+    return level;
+}
+
+Dilated on_base(Dilated rise, Valley const& valley, Raster<float> const& base, Run const& run) {
+    for (std::int64_t i = 0; i < base.cells(); ++i) {
+        float const river = valley.z[i];
+        rise.dem[i] = std::isnan(river) || std::isnan(rise.dem[i]) ? base[i] + rise.dem[i] : river;
+    }
+    rise.flat_share = flat_share(valley, rise.dem, run);
+    return rise;
+}
+
+} // namespace
+
+Dilated dilate_over(Valley const& valley, Raster<float> const& base, DilateParams const& params, Run const& run) {
+    return on_base(dilate(levelled(valley, base), params, run), valley, base, run);
+}
+
+Dilated dilate_over(Valley const& valley, Raster<float> const& base, Mask const& inside, DilateParams const& params,
+                    Run const& run) {
+    return on_base(dilate(levelled(valley, base), inside, params, run), valley, base, run);
 }
 
 } // namespace thalweg::surface

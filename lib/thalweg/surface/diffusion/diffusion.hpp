@@ -7,6 +7,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/skeleton.hpp>
+#include <thalweg/core/valley.hpp>
 
 namespace thalweg::surface {
 
@@ -47,17 +48,34 @@ struct Diffused {
 /// d: distance to the skeleton [cells]. With `inside`, a mask in the skeleton's frame, no heat flows across cells of 0,
 /// and skeleton cells there do not count.
 /// \param skeleton [m] heights of rivers, ridges and points
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return skeleton cells bit for bit; before noise all heights between its lowest and highest; NaN outside and in
 /// parts without skeleton cells
 /// \throws BadInput for no skeleton cell (inside), an infinite height, or a mask in another frame
 /// \throws BadParameter when a parameter is outside its range; above alpha = 1/4 the sweeps are unstable
 /// \throws NotConverged when the solver does not reach the tolerance
-/// \throws Cancelled
 ///
 /// Source: \cite nenu2015, equations 12 and 13, the latter with its sign corrected; specification 3.7.
 Diffused diffuse(Skeleton const& skeleton, DiffuseParams const& params = {}, Run const& run = {});
 Diffused diffuse(Skeleton const& skeleton, Mask const& inside, DiffuseParams const& params = {}, Run const& run = {});
+
+/// Options of harmonic().
+struct HarmonicParams {
+    double tolerance = 1e-8; ///< (0, 1) as in solver::PoissonParams
+};
+
+/// Interpolates a valley's heights by Laplace's equation (five-point stencil, no flux across the border): a base for
+/// dilate_over, so that E = base + H(d) is smooth where the heights of rivers differ. With `inside`, a mask in the
+/// valley's frame, nothing flows across cells of 0, and valley cells there do not count.
+/// \param valley [m] heights of river cells
+/// \return valley cells bit for bit; others between their lowest and highest, to within the tolerance times the largest
+/// |height| before rounding to float; NaN outside and in parts without valley cells
+/// \throws BadInput for no valley cell (inside), an infinite height, or a mask in another frame
+/// \throws BadParameter when the tolerance is outside its range
+/// \throws NotConverged when the solver does not reach the tolerance
+///
+/// Source: specification 0.4.
+Raster<float> harmonic(Valley const& valley, Run const& run = {});
+Raster<float> harmonic(Valley const& valley, Mask const& inside, Run const& run = {});
+Raster<float> harmonic(Valley const& valley, Mask const& inside, HarmonicParams const& params, Run const& run = {});
 
 } // namespace thalweg::surface

@@ -34,7 +34,6 @@ struct Expansion {
 /// Computes the successive dilation of Cao, Long and Lü, level by level from a frontier of (level, base).
 /// \param valley [m] heights of river cells
 /// \param inside in the valley's frame: 0: barrier; valley cells there do not count
-/// \param run progress, log, stop token and number of threads
 /// \return base: the lowest base of the 4-neighbours of the previous level (-0 below +0); cells not reached have level
 /// -1 and base NaN
 /// \throws BadInput for no valley cell inside, an infinite height, or a mask in another frame
@@ -45,7 +44,6 @@ Expansion expand_frontier(Valley const& valley, Mask const& inside, Run const& r
 /// Computes expand_frontier without barriers in closed form: level = d(c), base = min{e_v : |c - v| = d(c)},
 /// city-block.
 /// \param valley [m] heights of river cells
-/// \param run progress, log, stop token and number of threads
 /// \return the same bytes as expand_frontier
 /// \throws BadInput for no valley cell or an infinite height
 ///
@@ -64,8 +62,6 @@ struct Dilated {
 /// Builds the surface E = e_v + H(d) from a valley by successive dilation. With `inside`, a mask in the valley's frame,
 /// cells of 0 are barriers without heights, and valley cells there do not count.
 /// \param valley [m] heights of river cells
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return valley cells bit for bit; cityblock: every other cell is its lowest 4-neighbour of the previous level plus
 /// dh, added in double and rounded once
 /// \throws BadInput for no valley cell (inside), an infinite height, a mask in another frame, or a cell size not above
@@ -76,5 +72,20 @@ struct Dilated {
 /// Source: \cite cao2009, equations 3 and 4, Table 1; specification 0.4.
 Dilated dilate(Valley const& valley, DilateParams const& params = {}, Run const& run = {});
 Dilated dilate(Valley const& valley, Mask const& inside, DilateParams const& params = {}, Run const& run = {});
+
+/// Builds the surface E = base + H(d), whose slopes rise from a base surface instead of from valley cells. With
+/// `inside` as dilate.
+/// \param valley [m] heights of river cells
+/// \param base [m] by cell, in the valley's frame, e.g. harmonic(valley); not read in valley cells
+/// \return valley cells bit for bit; NaN where base is NaN or no dilation reaches. A smooth base leaves no step between
+/// the slopes of two valleys.
+/// \throws Error as dilate
+/// \throws BadInput when the base has another frame
+///
+/// Source: specification 0.4, base = harmonic.
+Dilated dilate_over(Valley const& valley, Raster<float> const& base, DilateParams const& params = {},
+                    Run const& run = {});
+Dilated dilate_over(Valley const& valley, Raster<float> const& base, Mask const& inside,
+                    DilateParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::surface

@@ -1,0 +1,607 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/surface/equilibrium/internal/level.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/surface/equilibrium/internal/steps.hpp>
+
+namespace thalweg::surface {
+namespace {
+
+std::vector<std::int32_t> steps_to_end(RiverCells const& rivers) {
+    std::vector<std::int32_t> steps(rivers.cell.size());
+    for (std::size_t n = 0; n < steps.size(); ++n) {
+        std::int32_t const r = rivers.receiver[n];
+        steps[n] = r < 0 ? 0 : steps[static_cast<std::size_t>(r)] + 1;
+    }
+    return steps;
+}
+
+} // namespace
+
+RiverCells coarsened(RiverCells const& fine, std::int64_t fine_width, std::int64_t coarse_width,
+                     std::int64_t coarse_height) {
+    auto const above = [&](std::uint32_t cell) {
+        std::int64_t const row = (cell / fine_width - 1) / 2 + 1;
+        std::int64_t const col = (cell % fine_width - 1) / 2 + 1;
+        return static_cast<std::size_t>(row * coarse_width + col);
+    };
+    std::vector<std::int32_t> const steps = steps_to_end(fine);
+    std::vector<std::int32_t> chosen(static_cast<std::size_t>(coarse_width * coarse_height), -1);
+    for (std::size_t n = 0; n < steps.size(); ++n) {
+        std::int32_t& best = chosen[above(fine.cell[n])];
+        if (best < 0 || steps[n] < steps[static_cast<std::size_t>(best)]) {
+            best = static_cast<std::int32_t>(n);
+        }
+    }
+    std::vector<std::int32_t> kept;
+    std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(kept), [](std::int32_t n) { return n >= 0; });
+    std::sort(kept.begin(), kept.end(), [&](std::int32_t a, std::int32_t b) {
+        auto const rank = [&](std::int32_t n) { return std::pair{steps[static_cast<std::size_t>(n)], n}; };
+        return rank(a) < rank(b);
+    });
+    for (std::size_t n = 0; n < kept.size(); ++n) {
+        chosen[above(fine.cell[static_cast<std::size_t>(kept[n])])] = static_cast<std::int32_t>(n);
+    }
+    RiverCells coarse;
+    for (std::int32_t const from : kept) {
+        auto const n = static_cast<std::size_t>(from);
+        std::size_t const here = above(fine.cell[n]);
+        coarse.cell.push_back(static_cast<std::uint32_t>(here));
+        coarse.level.push_back(fine.level[n]);
+        coarse.number.push_back(fine.number[n]);
+        if (!fine.asked.empty()) {
+            coarse.asked.push_back(fine.asked[n]);
+        }
+        if (fine.receiver[n] < 0) {
+            coarse.receiver.push_back(-1);
+            coarse.way.push_back(-1);
+            continue;
+        }
+        std::size_t const there = above(fine.cell[static_cast<std::size_t>(fine.receiver[n])]);
+        coarse.receiver.push_back(chosen[there]);
+        coarse.way.push_back(way_between(here, there, coarse_width));
+    }
+    return coarse;
+}
+
+namespace {
+
+// A straight rim of an open land reaches about so far; a whole number of cells of every level that has it.
+constexpr std::int64_t open_margin = 32;
+
+Grid grown(Grid grid, std::int64_t margin) {
+    grid.width += 2 * margin;
+    grid.height += 2 * margin;
+    grid.west -= static_cast<double>(margin) * grid.cell_m;
+    grid.north += static_cast<double>(margin) * grid.cell_m;
+    return grid;
+}
+
+/// A raster that goes on beyond its border as it is there.
+template <class T> Raster<T> grown(Raster<T> const& inner, std::int64_t margin) {
+    if (inner.cells() == 0) {
+        return {};
+    }
+    Raster<T> outer(grown(inner.grid(), margin));
+    for (std::int64_t row = 0; row < outer.height(); ++row) {
+        for (std::int64_t col = 0; col < outer.width(); ++col) {
+            outer[Cell{col, row}] = inner[Cell{std::clamp<std::int64_t>(col - margin, 0, inner.width() - 1),
+                                               std::clamp<std::int64_t>(row - margin, 0, inner.height() - 1)}];
+        }
+    }
+    return outer;
+}
+
+/// The field over its mean on land, within what the solver can hold; NaN at sea.
+Raster<float> relative(Raster<float> field, Mask const& land) {
+    constexpr double most = 1e3;
+    double sum = 0.0;
+    double count = 0.0;
+    auto const dry = [&](std::int64_t i) { return land.cells() == 0 || land[i] != 0; };
+    for (std::int64_t i = 0; i < field.cells(); ++i) {
+        if (dry(i)) {
+            sum += static_cast<double>(field[i]);
+            count += 1.0;
+        }
+    }
+    for (std::int64_t i = 0; i < field.cells(); ++i) {
+        field[i] = dry(i)
+                       ? static_cast<float>(std::clamp(static_cast<double>(field[i]) / (sum / count), 1.0 / most, most))
+                       : std::nanf("");
+    }
+    return field;
+}
+
+/// The step by which a border cell leaves the grid: to the north or south where it can.
+Cell way_out(Grid const& grid, Cell c) {
+    if (c.row == 0) {
+        return {0, -1};
+    }
+    if (c.row == grid.height - 1) {
+        return {0, 1};
+    }
+    return {c.col == 0 ? -1 : 1, 0};
+}
+
+class Carried {
+public:
+    Carried(Channels const& given, std::int64_t margin)
+        : given_(given), margin_(margin), width_(given.grid.width + 2 * margin + 2) {}
+
+    RiverCells all() {
+        std::vector<std::int32_t> outside(given_.cell.size(), -1);
+        for (std::size_t n = 0; n < given_.cell.size(); ++n) {
+            Cell const c = given_.grid.at(given_.cell[n]);
+            if (margin_ > 0 && given_.receiver[n] < 0 && given_.grid.on_border(c)) {
+                outside[n] = lead_out(c);
+            }
+        }
+        auto const first = static_cast<std::int64_t>(out_.cell.size());
+        for (std::size_t n = 0; n < given_.cell.size(); ++n) {
+            std::int64_t const r = given_.receiver[n];
+            put(given_.grid.at(given_.cell[n]), r < 0 ? outside[n] : static_cast<std::int32_t>(r + first));
+            out_.number.back() = static_cast<std::int64_t>(n);
+            if (!given_.level.empty() && r >= 0) {
+                out_.level.back() = given_.level[n];
+            }
+            if (!given_.z.empty()) {
+                out_.asked.resize(out_.cell.size(), std::nanf(""));
+                out_.asked.back() = given_.z[n];
+            }
+        }
+        return std::move(out_);
+    }
+
+private:
+    void put(Cell c, std::int32_t receiver) {
+        auto const i = static_cast<std::size_t>((c.row + margin_ + 1) * width_ + c.col + margin_ + 1);
+        out_.cell.push_back(static_cast<std::uint32_t>(i));
+        out_.receiver.push_back(receiver);
+        out_.way.push_back(receiver < 0 ? std::int8_t{-1}
+                                        : way_between(i, out_.cell[static_cast<std::size_t>(receiver)], width_));
+        out_.level.push_back(0);
+        out_.number.push_back(-1);
+    }
+
+    /// Gives: the number of the cell just outside the border.
+    std::int32_t lead_out(Cell c) {
+        Cell const step = way_out(given_.grid, c);
+        std::int32_t last = -1;
+        for (std::int64_t far = margin_; far > 0; --far) {
+            put({c.col + far * step.col, c.row + far * step.row}, last);
+            last = static_cast<std::int32_t>(out_.cell.size()) - 1;
+        }
+        return last;
+    }
+
+    Channels const& given_;
+    std::int64_t margin_;
+    std::int64_t width_;
+    RiverCells out_;
+};
+
+/// Steps to the neighbours that a pass in row order has met before.
+constexpr std::array<std::size_t, 4> before = {4, 5, 6, 7};
+
+void take_nearer(NearestRiver& near, std::size_t i, std::size_t from, float length) {
+    if (near.distance[from] + length < near.distance[i]) {
+        near.distance[i] = near.distance[from] + length;
+        near.number[i] = near.number[from];
+    }
+}
+
+} // namespace
+
+WidenedLand widened(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params) {
+    std::int64_t const margin = goes_on(params.edge) ? open_margin : 0;
+    return {grown(rivers.grid, margin),
+            margin,
+            Carried(rivers, margin).all(),
+            grown(fields.land, margin),
+            {relative(fields.uplift, fields.land), relative(fields.erodibility, fields.land)}};
+}
+
+NearestRiver nearest_river(LandLevel const& level, std::vector<float> const& head_start, Cells<std::uint32_t> memory) {
+    auto const cells = static_cast<std::size_t>(level.cells());
+    NearestRiver near{Cells<float>(cells, std::numeric_limits<float>::infinity()), std::move(memory)};
+    near.number.assign(cells, NearestRiver::none);
+    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+        near.distance[level.rivers.cell[n]] = head_start.empty() ? 0.0F : -head_start[n];
+        near.number[level.rivers.cell[n]] = static_cast<std::uint32_t>(n);
+    }
+    auto const offsets = level.offsets();
+    auto const width = static_cast<std::size_t>(level.width);
+    auto const height = static_cast<std::size_t>(level.height);
+    for (std::size_t row = 1; row + 1 < height; ++row) {
+        for (std::size_t i = row * width + 1; i + 1 < (row + 1) * width; ++i) {
+            for (std::size_t const k : before) {
+                take_nearer(near, i, moved(i, offsets[k]), step_lengths[k]);
+            }
+        }
+    }
+    for (std::size_t row = height - 2; row > 0; --row) {
+        for (std::size_t i = (row + 1) * width - 2; i > row * width; --i) {
+            for (std::size_t const k : before) {
+                take_nearer(near, i, moved(i, -offsets[k]), step_lengths[k]);
+            }
+        }
+    }
+    return near;
+}
+
+namespace {
+
+bool beside(LandLevel const& level, std::size_t i, Cover what) {
+    auto const offsets = level.offsets();
+    return std::any_of(offsets.begin(), offsets.end(),
+                       [&](std::int64_t offset) { return level.cover[moved(i, offset)] == what; });
+}
+
+void cover_banks(LandLevel& level) {
+    for (std::uint32_t const river : level.rivers.cell) {
+        for (std::int64_t const offset : level.offsets()) {
+            Cover& near = level.cover[moved(river, offset)];
+            near = near == Cover::land ? Cover::bank : near == Cover::rim ? Cover::rim_bank : near;
+        }
+    }
+}
+
+} // namespace
+
+Mask coarsened(Mask const& land) {
+    Grid grid = land.grid();
+    grid.width = (land.width() + 1) / 2;
+    grid.height = (land.height() + 1) / 2;
+    Mask coarse(grid);
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        for (std::int64_t col = 0; col < grid.width; ++col) {
+            int all = 0;
+            int dry = 0;
+            for (std::int64_t r = 2 * row; r < std::min(2 * row + 2, land.height()); ++r) {
+                for (std::int64_t c = 2 * col; c < std::min(2 * col + 2, land.width()); ++c) {
+                    ++all;
+                    dry += land[Cell{c, r}] != 0 ? 1 : 0;
+                }
+            }
+            coarse[Cell{col, row}] = 2 * dry >= all ? 1 : 0;
+        }
+    }
+    return coarse;
+}
+
+void cover_cells(LandLevel& level, Mask const& land, Edge edge, RiverBanks banks) {
+    bool const has_sea = edge == Edge::coast || edge == Edge::mainland;
+    Cover const rest = has_sea ? Cover::sea : Cover::outside;
+    Cover const frame = edge == Edge::open || edge == Edge::mainland ? Cover::edge : rest;
+    Cover const frame_at_rest = edge == Edge::mainland ? Cover::sea : frame;
+    level.cover.resize(static_cast<std::size_t>(level.cells()));
+    for (std::int64_t row = 0; row < level.height; ++row) {
+        for (std::int64_t col = 0; col < level.width; ++col) {
+            Cell const inner{std::clamp<std::int64_t>(col, 1, level.width - 2) - 1,
+                             std::clamp<std::int64_t>(row, 1, level.height - 2) - 1};
+            bool const on_frame = inner.col + 1 != col || inner.row + 1 != row;
+            bool const dry = land.cells() == 0 || land[inner] != 0;
+            level.cover[static_cast<std::size_t>(row * level.width + col)] =
+                on_frame ? (dry ? frame : frame_at_rest) : (dry ? Cover::land : rest);
+        }
+    }
+    for (std::uint32_t const river : level.rivers.cell) {
+        level.cover[river] = Cover::river;
+    }
+    if (!has_sea) {
+        each_inner(level, [&](std::size_t i) {
+            if (level.cover[i] == Cover::land && beside(level, i, Cover::outside)) {
+                level.cover[i] = edge == Edge::open ? Cover::edge : Cover::rim;
+            }
+        });
+    }
+    if (banks == RiverBanks::kept) {
+        cover_banks(level);
+    }
+}
+
+namespace {
+
+// Calls visit(column, byte) with a byte at random for each of `count` columns of a row of a level: thirty-two of them
+// cost one block of chance.
+template <class Visit>
+void random_bytes(std::uint64_t seed, std::uint64_t stage, std::int64_t row, float side, std::int64_t count,
+                  Visit visit) {
+    for (std::int64_t first = 0; first < count; first += 32) {
+        auto const words = random_block(seed, stage, static_cast<std::uint64_t>(row), static_cast<std::uint64_t>(first),
+                                        static_cast<std::uint64_t>(side));
+        for (std::int64_t col = first; col < std::min(first + 32, count); ++col) {
+            auto const k = static_cast<std::size_t>(col - first);
+            visit(col, static_cast<std::uint8_t>(words[k / 8] >> (8 * (k % 8))));
+        }
+    }
+}
+
+constexpr std::uint64_t jitter_stage = 0x6a6974746572; // "jitter"
+constexpr double reach = 0.35;                         // [cells]
+
+} // namespace
+
+JitteredPerLength jittered_per_length() {
+    JitteredPerLength out{};
+    constexpr double step = 2.0 * reach / (jitter_places - 1);
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        for (int east = 1 - jitter_places; east < jitter_places; ++east) {
+            for (int south = 1 - jitter_places; south < jitter_places; ++south) {
+                double const x = static_cast<double>(d8_steps[k].col) + step * east;
+                double const y = static_cast<double>(d8_steps[k].row) + step * south;
+                out[k][static_cast<std::size_t>(east * jitter_stride + south + jitter_codes)] =
+                    static_cast<float>(1.0 / std::sqrt(x * x + y * y));
+            }
+        }
+    }
+    return out;
+}
+
+void jitter(LandLevel& level, std::uint64_t seed, Run const& run) {
+    level.shift.resize(static_cast<std::size_t>(level.cells()));
+    parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            std::uint8_t* const codes = &level.shift[static_cast<std::size_t>(row * level.width)];
+            random_bytes(seed, jitter_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
+                codes[col] = static_cast<std::uint8_t>((byte & 7U) * jitter_stride + ((byte >> 3U) & 7U));
+            });
+        }
+    });
+}
+
+namespace {
+
+constexpr std::uint64_t start_stage = 0x7374617274; // "start"
+constexpr float first_tangent = 0.05F;
+
+template <class Height>
+void set_heights(LandLevel& level, std::uint64_t seed, float rough, Run const& run, Height height) {
+    level.z.resize(static_cast<std::size_t>(level.cells()));
+    parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            random_bytes(seed, start_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
+                level.z[static_cast<std::size_t>(row * level.width + col)] =
+                    height(col, row) + rough * level.side * static_cast<float>(byte) * 0x1p-8F;
+            });
+        }
+    });
+}
+
+/// How far coarse land is moved where a finer level begins with it: valleys of coarse cells, which run straight along
+/// the grid, are bent before water has settled in them.
+class Bends {
+public:
+    Bends(LandLevel const& level, std::uint64_t seed) : across_(level.width / spacing + 2) {
+        std::int64_t const down = level.height / spacing + 2;
+        east_.resize(static_cast<std::size_t>(across_ * down));
+        south_.resize(east_.size());
+        for (std::int64_t row = 0; row < down; ++row) {
+            draw(seed, 2 * row, level.side, &east_[static_cast<std::size_t>(row * across_)]);
+            draw(seed, 2 * row + 1, level.side, &south_[static_cast<std::size_t>(row * across_)]);
+        }
+    }
+
+    struct Shift {
+        float east;  ///< [coarse cells]
+        float south; ///< likewise
+    };
+    Shift at(std::int64_t col, std::int64_t row) const {
+        auto const i = static_cast<std::size_t>(row / spacing * across_ + col / spacing);
+        float const u = static_cast<float>(col % spacing) * (1.0F / spacing);
+        float const v = static_cast<float>(row % spacing) * (1.0F / spacing);
+        return {between(&east_[i], u, v), between(&south_[i], u, v)};
+    }
+
+private:
+    static constexpr std::int64_t spacing = 6; // [cells of the level]
+    static constexpr float reach = 1.0F;       // [coarse cells]
+
+    void draw(std::uint64_t seed, std::int64_t row, float side, float* out) const {
+        constexpr std::uint64_t bends = 0x62656e64; // "bend"
+        random_bytes(seed, bends, row, side, across_, [&](std::int64_t col, std::uint8_t byte) {
+            out[col] = reach * (static_cast<float>(byte) * 0x1p-7F - 1.0F);
+        });
+    }
+
+    float between(float const* n, float u, float v) const {
+        float const upper = n[0] + (n[1] - n[0]) * u;
+        float const lower = n[across_] + (n[across_ + 1] - n[across_]) * u;
+        return upper + (lower - upper) * v;
+    }
+
+    std::int64_t across_; ///< nodes in a row
+    std::vector<float> east_;
+    std::vector<float> south_;
+};
+
+} // namespace
+
+void start_from_nothing(LandLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run) {
+    set_heights(level, seed, 0.3F, run, [&](std::int64_t col, std::int64_t row) {
+        float const far = near.distance[static_cast<std::size_t>(row * level.width + col)];
+        auto const rim = static_cast<float>(std::min({col, row, level.width - 1 - col, level.height - 1 - row}));
+        return first_tangent * level.side * std::min(far, rim);
+    });
+}
+
+void start_from(LandLevel& level, LandLevel const& coarse, std::uint64_t seed, Run const& run) {
+    // A frame of infinite heights must not be mixed in: the outermost inner cells stand for it.
+    auto const held = [](std::int64_t at, std::int64_t size) { return std::clamp<std::int64_t>(at, 1, size - 2); };
+    auto const height_at = [&](std::int64_t col, std::int64_t row) {
+        float const z =
+            coarse.z[static_cast<std::size_t>(held(row, coarse.height) * coarse.width + held(col, coarse.width))];
+        return std::isinf(z) ? 0.0F : z;
+    };
+    Bends const bends(level, seed);
+    // Columns 1 and 2 (the frame is column 0) are the halves of coarse column 1 where both begin at one place.
+    float const first_x = 0.25F + static_cast<float>(level.corner.col - coarse.corner.col) / coarse.side;
+    float const first_y = 0.25F + static_cast<float>(level.corner.row - coarse.corner.row) / coarse.side;
+    set_heights(level, seed, 0.15F, run, [&](std::int64_t col, std::int64_t row) {
+        auto const [east, south] = bends.at(col, row);
+        float const x = 0.5F * static_cast<float>(col) + first_x + east;
+        float const y = 0.5F * static_cast<float>(row) + first_y + south;
+        float const left = std::floor(x);
+        float const top = std::floor(y);
+        auto const c = static_cast<std::int64_t>(left);
+        auto const r = static_cast<std::int64_t>(top);
+        float const upper = height_at(c, r) + (height_at(c + 1, r) - height_at(c, r)) * (x - left);
+        float const lower = height_at(c, r + 1) + (height_at(c + 1, r + 1) - height_at(c, r + 1)) * (x - left);
+        return upper + (lower - upper) * (y - top);
+    });
+}
+
+void start_rivers(LandLevel& level, std::vector<float> const& end_z) {
+    for (std::size_t i = 0; i < level.cover.size(); ++i) {
+        if (level.cover[i] == Cover::sea) {
+            level.z[i] = 0.0F;
+        } else if (level.cover[i] == Cover::outside) {
+            level.z[i] = std::numeric_limits<float>::infinity();
+        }
+    }
+    RiverCells const& rivers = level.rivers;
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        float& z = level.z[rivers.cell[n]];
+        float const asked = rivers.asked.empty() ? std::nanf("") : rivers.asked[n];
+        if (rivers.receiver[n] < 0) {
+            z = !std::isnan(asked) ? asked : end_z.empty() ? 0.0F : end_z[n];
+            continue;
+        }
+        float const below = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]];
+        z = std::isnan(asked) ? std::min(z, below + first_tangent * level.side) : asked;
+        z = std::max(z, below + least_tangent * level.side);
+    }
+}
+
+namespace {
+
+constexpr double half_stretch = 24.0;   // [finest cells]
+constexpr float fall_of_heads = 0.05F;  // a sixth of the steepest tangent
+constexpr float fall_of_large = 0.005F; // as rivers fall where the whole grid drains
+
+/// Means over 2 reach + 1 neighbours on a ring.
+std::vector<double> ring_means(std::vector<double> const& values, std::int64_t reach) {
+    auto const n = static_cast<std::int64_t>(values.size());
+    auto const at = [&](std::int64_t k) { return values[static_cast<std::size_t>(((k % n) + n) % n)]; };
+    double sum = 0.0;
+    for (std::int64_t k = -reach; k <= reach; ++k) {
+        sum += at(k);
+    }
+    std::vector<double> means(values.size());
+    for (std::int64_t k = 0; k < n; ++k) {
+        means[static_cast<std::size_t>(k)] = sum / static_cast<double>(2 * reach + 1);
+        sum += at(k + reach + 1) - at(k - reach);
+    }
+    return means;
+}
+
+float above_rivers(LandLevel const& level, std::size_t i, float z) {
+    for (std::int64_t const offset : level.offsets()) {
+        std::int64_t const n = static_cast<std::int64_t>(i) + offset;
+        if (n >= 0 && n < level.cells() && level.cover[static_cast<std::size_t>(n)] == Cover::river) {
+            z = std::max(z, level.z[static_cast<std::size_t>(n)] + bank_step * level.side);
+        }
+    }
+    return z;
+}
+
+/// By inner cell how low a valley may lie there: a large river falls from it to one of the level.
+Cells<float> lowest_valleys(LandLevel const& level) {
+    float const each = fall_of_large * level.side;
+    std::vector<float> head_start(level.rivers.cell.size());
+    std::transform(level.rivers.cell.begin(), level.rivers.cell.end(), head_start.begin(),
+                   [&](std::uint32_t cell) { return -level.z[cell] / each; });
+    Cells<float> lowest = nearest_river(level, head_start).distance;
+    std::transform(lowest.begin(), lowest.end(), lowest.begin(), [&](float far) { return far * each; });
+    return lowest;
+}
+
+std::vector<double> heights_of(LandLevel const& level, EdgeCells::Part const& part, Cells<float> const& lowest) {
+    std::vector<double> heights(part.cell.size());
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        float z = level.z[part.river[k]];
+        if (!lowest.empty() && level.cover[part.cell[k]] != Cover::sea) {
+            z = std::min(z, std::max(z - fall_of_heads * part.far[k], lowest[part.inner[k]]));
+        }
+        heights[k] = static_cast<double>(z);
+    }
+    return heights;
+}
+
+} // namespace
+
+EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near, Beyond beyond) {
+    EdgeCells edge;
+    edge.beyond = beyond;
+    std::int64_t const w = level.width;
+    std::int64_t const h = level.height;
+    auto const add = [&](EdgeCells::Part& part, std::size_t i, std::size_t inner) {
+        part.cell.push_back(static_cast<std::uint32_t>(i));
+        part.inner.push_back(static_cast<std::uint32_t>(inner));
+        bool const at_sea = level.cover[i] == Cover::sea; // whose height is 0
+        part.river.push_back(at_sea ? static_cast<std::uint32_t>(i) : level.rivers.cell[near.number[inner]]);
+        part.far.push_back(at_sea ? 0.0F : near.distance[inner] * level.side);
+    };
+    auto const put = [&](std::int64_t col, std::int64_t row) {
+        auto const i = static_cast<std::size_t>(row * w + col);
+        if (level.cover[i] == Cover::sea || level.cover[i] == Cover::edge) {
+            add(edge.ring, i,
+                static_cast<std::size_t>(std::clamp<std::int64_t>(row, 1, h - 2) * w +
+                                         std::clamp<std::int64_t>(col, 1, w - 2)));
+        }
+    };
+    for (std::int64_t col = 0; col < w - 1; ++col) {
+        put(col, 0);
+    }
+    for (std::int64_t row = 0; row < h - 1; ++row) {
+        put(w - 1, row);
+    }
+    for (std::int64_t col = w - 1; col > 0; --col) {
+        put(col, h - 1);
+    }
+    for (std::int64_t row = h - 1; row > 0; --row) {
+        put(0, row);
+    }
+    each_inner(level, [&](std::size_t i) {
+        if (level.cover[i] == Cover::edge) {
+            add(edge.inside, i, i);
+        }
+    });
+    return edge;
+}
+
+void set_edge_heights(LandLevel& level, EdgeCells const& edge) {
+    bool const valleys = edge.beyond == Beyond::valleys && !(edge.ring.cell.empty() && edge.inside.cell.empty());
+    Cells<float> const lowest = valleys ? lowest_valleys(level) : Cells<float>{};
+    std::vector<double> heights = heights_of(level, edge.inside, lowest);
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        std::uint32_t const i = edge.inside.cell[k];
+        level.z[i] = above_rivers(level, i, static_cast<float>(heights[k]));
+    }
+    if (edge.ring.cell.empty()) {
+        return;
+    }
+    auto const reach = std::max<std::int64_t>(2, static_cast<std::int64_t>(half_stretch / level.side));
+    heights = ring_means(ring_means(heights_of(level, edge.ring, lowest), reach), reach);
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        std::uint32_t const i = edge.ring.cell[k];
+        if (level.cover[i] != Cover::sea) {
+            level.z[i] = above_rivers(level, i, static_cast<float>(heights[k]));
+        }
+    }
+}
+
+} // namespace thalweg::surface

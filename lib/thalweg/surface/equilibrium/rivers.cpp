@@ -1,0 +1,571 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/surface/equilibrium/internal/level.hpp>
+#include <thalweg/surface/equilibrium/internal/steps.hpp>
+
+namespace thalweg::surface {
+namespace {
+
+constexpr float creep_brings = 1.15F; // what rivers carry besides what is lifted under them, as other valleys do
+// Of the cap: two steps by corners must rise by less than land of the mean slope does in one by a side.
+constexpr float share_of_cap = 0.3F;
+constexpr float above_land = 0.02F;  // [cells of the level] that a river may stand above the land two cells away
+constexpr float above_river = 0.25F; // [cells of the level] and above another river there
+constexpr float kept_share = 0.3F;   // of its fall, which a reach keeps when it is lowered for what lies upstream
+constexpr std::uint32_t great = 16;  // times the area of a brook: no river is lowered for it
+
+/// The greatest height of a river cell that does not leave it perched: by the second ring of cells around it.
+float height_by_ring(LandLevel const& level, std::uint32_t cell) {
+    float most = std::numeric_limits<float>::infinity();
+    each_of_second_ring(level, cell, [&](std::size_t n) {
+        bool const land = level.cover[n] == Cover::land || level.cover[n] == Cover::rim;
+        most = std::min(most, level.z[n] + (land ? above_land : above_river) * level.side);
+    });
+    return most;
+}
+
+// The greatest heights of river cells, by number, that leave neither them nor, within one reach, what lies upstream
+// perched above the land beside them.
+std::vector<float> greatest_heights(LandLevel const& level, EquilibriumLaw const& law) {
+    RiverCells const& rivers = level.rivers;
+    std::vector<float> most(rivers.cell.size());
+    std::transform(rivers.cell.begin(), rivers.cell.end(), most.begin(),
+                   [&](std::uint32_t i) { return height_by_ring(level, i); });
+    std::vector<std::uint32_t> area(most.size()); // of the cell for which one is lowered
+    std::transform(rivers.cell.begin(), rivers.cell.end(), area.begin(),
+                   [&](std::uint32_t i) { return level.area[i]; });
+    for (std::size_t n = most.size(); n-- > 0;) {
+        if (rivers.receiver[n] < 0) {
+            continue;
+        }
+        auto const r = static_cast<std::size_t>(rivers.receiver[n]);
+        float const fall = graded_tangent(level, law, rivers.cell[n]) * level.side *
+                           step_lengths[static_cast<std::size_t>(rivers.way[n])];
+        float const below = most[n] - kept_share * fall;
+        if (below < most[r] && level.area[rivers.cell[r]] / great <= area[n]) {
+            most[r] = below;
+            area[r] = area[n];
+        }
+    }
+    return most;
+}
+
+} // namespace
+
+float graded_tangent(LandLevel const& level, EquilibriumLaw const& law, std::uint32_t i) {
+    float const area = static_cast<float>(level.area[i]) * level.side * level.side + law.source_area;
+    float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
+    float const graded = creep_brings * uplift / (level.erodibility[i] * law.power(area));
+    return std::min(graded, share_of_cap * std::min(level.cap[i], steepest_tangent));
+}
+
+void relax_rivers(LandLevel& level, EquilibriumLaw const& law) {
+    RiverCells const& rivers = level.rivers;
+    std::vector<float> const most = greatest_heights(level, law);
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        if (rivers.receiver[n] < 0) {
+            continue; // an end keeps its height
+        }
+        std::uint32_t const i = rivers.cell[n];
+        float const below = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]];
+        if (rivers.level[n] != 0) {
+            level.z[i] = below;
+            continue;
+        }
+        float const length = level.side * step_lengths[static_cast<std::size_t>(rivers.way[n])];
+        float const z = std::min(below + graded_tangent(level, law, i) * length, most[n]);
+        level.z[i] = std::max(z, below + least_tangent * length);
+    }
+}
+
+namespace {
+
+/// Long profiles of rivers through the heights that are asked.
+class Profiles {
+public:
+    Profiles(LandLevel const& level, EquilibriumLaw const& law) : level_(level), rivers_(level.rivers) {
+        std::size_t const count = rivers_.cell.size();
+        graded_.resize(count);
+        anchor_.resize(count);
+        for (std::size_t n = 0; n < count; ++n) {
+            if (is_end(n)) {
+                anchor_[n] = n;
+                continue;
+            }
+            std::size_t const r = receiver(n);
+            bool const lake = rivers_.level[n] != 0;
+            graded_[n] = graded_[r] + (lake ? 0.0F : graded_tangent(level, law, rivers_.cell[n]) * length(n));
+            anchor_[n] = is_asked(r) ? r : anchor_[r];
+        }
+        aim();
+    }
+
+    std::vector<float> heights() const {
+        std::vector<float> z(graded_.size());
+        for (std::size_t n = 0; n < z.size(); ++n) {
+            z[n] = is_asked(n) ? rivers_.asked[n] : is_end(n) ? end_height(n) : height_above(n, z[receiver(n)]);
+        }
+        return z;
+    }
+
+    bool is_end(std::size_t n) const { return rivers_.receiver[n] < 0; }
+    std::size_t receiver(std::size_t n) const { return static_cast<std::size_t>(rivers_.receiver[n]); }
+    float length(std::size_t n) const { return level_.side * step_lengths[static_cast<std::size_t>(rivers_.way[n])]; }
+
+private:
+    static constexpr std::int32_t nothing = -1;
+
+    /// A lake has its outlet's height, whatever is asked.
+    bool is_asked(std::size_t n) const { return !std::isnan(rivers_.asked[n]) && (is_end(n) || rivers_.level[n] == 0); }
+
+    /// How little a river may rise on its way from the anchor below to what is asked above.
+    float steepness(std::size_t asked) const {
+        std::size_t const below = anchor_[asked];
+        if (!is_asked(below)) {
+            return rivers_.asked[asked] - graded_[asked];
+        }
+        constexpr float least = 1e-6F;
+        return (rivers_.asked[asked] - rivers_.asked[below]) / std::max(graded_[asked] - graded_[below], least);
+    }
+
+    /// Finds for each cell the height asked upstream that lets it rise the least.
+    void aim() {
+        aim_.assign(graded_.size(), nothing);
+        for (std::size_t n = graded_.size(); n-- > 0;) {
+            if (is_asked(n)) {
+                aim_[n] = static_cast<std::int32_t>(n);
+            }
+            if (is_end(n) || aim_[n] == nothing || is_asked(receiver(n))) {
+                continue;
+            }
+            std::int32_t& aim = aim_[receiver(n)];
+            if (aim == nothing ||
+                steepness(static_cast<std::size_t>(aim_[n])) < steepness(static_cast<std::size_t>(aim))) {
+                aim = aim_[n];
+            }
+        }
+    }
+
+    float end_height(std::size_t n) const {
+        if (aim_[n] == nothing) {
+            return 0.0F;
+        }
+        auto const above = static_cast<std::size_t>(aim_[n]);
+        return rivers_.asked[above] - graded_[above];
+    }
+
+    float height_above(std::size_t n, float below) const {
+        float const fall = graded_[n] - graded_[receiver(n)];
+        if (aim_[n] == nothing || !(fall > 0.0F)) {
+            return below + fall;
+        }
+        auto const above = static_cast<std::size_t>(aim_[n]);
+        return below + (rivers_.asked[above] - below) * (fall / (graded_[above] - graded_[receiver(n)]));
+    }
+
+    LandLevel const& level_;
+    RiverCells const& rivers_;
+    std::vector<float> graded_;       ///< heights of graded rivers above their ends
+    std::vector<std::size_t> anchor_; ///< number of the next cell downstream whose height is asked, or of the end
+    std::vector<std::int32_t> aim_;   ///< number of the cell upstream, itself included, towards which a cell rises
+};
+
+} // namespace
+
+void relax_given_rivers(LandLevel& level, EquilibriumLaw const& law, RiverHeights heights) {
+    Profiles const profiles(level, law);
+    RiverCells const& rivers = level.rivers;
+    std::vector<float> z = profiles.heights();
+    bool const soft = heights == RiverHeights::soft;
+    if (soft) {
+        for (std::size_t n = z.size(); n-- > 0;) {
+            if (!profiles.is_end(n)) {
+                float& below = z[profiles.receiver(n)];
+                float const rise = rivers.level[n] != 0 ? 0.0F : least_tangent * profiles.length(n);
+                below = std::min(below, z[n] - rise);
+            }
+        }
+    }
+    std::vector<float> const most = soft ? greatest_heights(level, law) : std::vector<float>{};
+    for (std::size_t n = 0; n < z.size(); ++n) {
+        if (!profiles.is_end(n)) {
+            float const below = z[profiles.receiver(n)];
+            if (rivers.level[n] != 0) {
+                z[n] = below;
+            } else if (soft) {
+                z[n] = std::max(std::min(z[n], most[n]), below + least_tangent * profiles.length(n));
+            } else {
+                z[n] = std::max(z[n], std::nextafter(below, std::numeric_limits<float>::infinity()));
+            }
+        }
+        level.z[rivers.cell[n]] = z[n];
+    }
+}
+
+namespace {
+
+/// Above it a river cell stands perched.
+float highest_lawful(LandLevel const& level, std::uint32_t cell, float tangent) {
+    float low = std::numeric_limits<float>::infinity();
+    each_of_second_ring(level, cell, [&](std::size_t n) { low = std::min(low, level.z[n]); });
+    return low + tangent * level.side;
+}
+
+/// Lowers a river cell to a height, and what lies downstream of it as far as needed; not at all where that would go on
+/// for long, or into a lake or an end.
+void dig(LandLevel& level, std::size_t from, float z, float step) {
+    constexpr int longest = 256; // [cells] on a floor that hardly falls
+    RiverCells const& rivers = level.rivers;
+    std::size_t n = from;
+    float wanted = z;
+    for (int k = 0; level.z[rivers.cell[n]] > wanted; ++k, wanted -= step) {
+        if (k == longest || leaves_grid(rivers, n) || rivers.level[n] != 0) {
+            return;
+        }
+        n = static_cast<std::size_t>(rivers.receiver[n]);
+    }
+    for (std::size_t dug = from; dug != n; dug = static_cast<std::size_t>(rivers.receiver[dug]), z -= step) {
+        level.z[rivers.cell[dug]] = z;
+    }
+}
+
+// Whether a river cell stands above the lowest cell of its second ring by more than a tangent times a cell.
+bool is_perched(LandLevel const& level, std::uint32_t cell, float tangent) {
+    return level.z[cell] > highest_lawful(level, cell, tangent);
+}
+
+/// Whether a river runs through a cell within a few steps.
+bool runs_soon(RiverCells const& rivers, std::size_t n, std::size_t cell) {
+    constexpr int steps = 4; // as far as the second ring, with a bend
+    for (int step = 0; step < steps && rivers.receiver[n] >= 0; ++step) {
+        n = static_cast<std::size_t>(rivers.receiver[n]);
+        if (rivers.cell[n] == cell) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+bool leaves_grid(RiverCells const& rivers, std::size_t n) {
+    std::int32_t const r = rivers.receiver[n];
+    return r < 0 || rivers.number[static_cast<std::size_t>(r)] < 0;
+}
+
+std::vector<std::int64_t> walled_cells(LandLevel const& level, float tangent) {
+    RiverCells const& rivers = level.rivers;
+    std::vector<std::int64_t> numbers;
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        if (rivers.number[n] < 0 || !is_perched(level, rivers.cell[n], tangent)) {
+            continue;
+        }
+        bool walled = false;
+        each_of_second_ring(level, rivers.cell[n], [&](std::size_t i) {
+            bool const lower = level.z[rivers.cell[n]] > level.z[i] + tangent * level.side;
+            walled = walled || (lower && !runs_soon(rivers, n, i));
+        });
+        if (walled) {
+            numbers.push_back(rivers.number[n]);
+        }
+    }
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
+void lower_perched(LandLevel& level, float tangent, float step) {
+    constexpr std::size_t passes = 2; // what is dug lowers the surroundings of others
+    RiverCells const& rivers = level.rivers;
+    std::size_t const count = rivers.cell.size();
+    for (std::size_t k = 0; k < passes * count; ++k) {
+        std::size_t const n = k % count;
+        if (!leaves_grid(rivers, n) && rivers.level[n] == 0) {
+            float& z = level.z[rivers.cell[n]];
+            float const least = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]] + step;
+            float const lawful = highest_lawful(level, rivers.cell[n], tangent);
+            z = std::max(std::min(z, lawful), std::min(z, least));
+            if (z > lawful) {
+                dig(level, n, lawful, step);
+            }
+        }
+    }
+}
+
+void raise_below_perched(LandLevel& level, float tangent) {
+    constexpr std::int64_t reach = 4; // [cells]
+    Grid frame;
+    frame.width = level.width;
+    frame.height = level.height;
+    RiverCells const& rivers = level.rivers;
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        if (rivers.number[n] < 0 || !is_perched(level, rivers.cell[n], tangent)) {
+            continue;
+        }
+        Cell const at{rivers.cell[n] % level.width, rivers.cell[n] / level.width};
+        float const z = level.z[rivers.cell[n]];
+        cells_around(frame, at, reach, [&](Cell c) {
+            std::int64_t const far = std::max(std::abs(c.col - at.col), std::abs(c.row - at.row));
+            auto const i = static_cast<std::size_t>(c.row * level.width + c.col);
+            if (far > 1 && is_land(level.cover[i])) {
+                level.z[i] = std::max(level.z[i], z - tangent * level.side * static_cast<float>(far - 1));
+            }
+        });
+    }
+}
+
+namespace {
+
+constexpr std::int32_t longest_tip = 200;     // [cells]: more is no tip
+constexpr std::int32_t longest_touching = 32; // likewise, for what lies beside another river
+
+/// By river cell how many drain through it, itself included.
+std::vector<std::int32_t> upstream_of(RiverCells const& rivers) {
+    std::vector<std::int32_t> upstream(rivers.cell.size(), 1);
+    for (std::size_t n = upstream.size(); n-- > 0;) {
+        if (rivers.receiver[n] >= 0) {
+            upstream[static_cast<std::size_t>(rivers.receiver[n])] += upstream[n];
+        }
+    }
+    return upstream;
+}
+
+/// Marks river cells of which something is true, with little upstream of them, and all that lies upstream.
+template <class Is>
+std::vector<std::uint8_t> marked_tips(RiverCells const& rivers, std::vector<std::int32_t> const& upstream,
+                                      std::int32_t longest, Is is) {
+    std::vector<std::uint8_t> marked(upstream.size());
+    for (std::size_t n = 0; n < marked.size(); ++n) {
+        if (leaves_grid(rivers, n)) {
+            continue;
+        }
+        bool const below = marked[static_cast<std::size_t>(rivers.receiver[n])] != 0;
+        bool const tip = rivers.level[n] == 0 && upstream[n] <= longest;
+        marked[n] = below || (tip && is(n)) ? 1 : 0;
+    }
+    return marked;
+}
+
+/// Whether two river cells come to one place within so many steps that their heights are alike.
+bool meet_soon(RiverCells const& rivers, std::int32_t a, std::int32_t b) {
+    constexpr int most = 400;
+    for (int step = 0; a != b; ++step) { // receivers have lower numbers
+        std::int32_t& upper = a > b ? a : b;
+        upper = rivers.receiver[static_cast<std::size_t>(upper)];
+        if (upper < 0 || step == most) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Marks the cells near heads that lie beside another river, which has more upstream, and all that lies upstream.
+std::vector<std::uint8_t> touching_heads(LandLevel const& level) {
+    RiverCells const& rivers = level.rivers;
+    constexpr std::int32_t nothing = -1;
+    std::vector<std::int32_t> number_at(static_cast<std::size_t>(level.cells()), nothing);
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        number_at[rivers.cell[n]] = static_cast<std::int32_t>(n);
+    }
+    auto const offsets = level.offsets();
+    std::vector<std::int32_t> const upstream = upstream_of(rivers);
+    return marked_tips(rivers, upstream, longest_touching, [&](std::size_t n) {
+        return std::any_of(offsets.begin(), offsets.end(), [&](std::int64_t offset) {
+            std::int32_t const other = number_at[moved(rivers.cell[n], offset)];
+            auto const i = static_cast<std::int32_t>(n);
+            return other != nothing &&
+                   std::pair(upstream[n], -i) < std::pair(upstream[static_cast<std::size_t>(other)], -other) &&
+                   !meet_soon(rivers, i, other);
+        });
+    });
+}
+
+bool is_rim(LandLevel const& level, std::size_t i) {
+    auto const offsets = level.offsets();
+    return std::any_of(offsets.begin(), offsets.end(),
+                       [&](std::int64_t offset) { return level.cover[moved(i, offset)] == Cover::outside; });
+}
+
+void cover_again(LandLevel& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+    bool const beside = highest_river(level, i, offsets) > -std::numeric_limits<float>::infinity();
+    level.cover[i] = is_rim(level, i) ? (beside ? Cover::rim_bank : Cover::rim) : (beside ? Cover::bank : Cover::land);
+}
+
+/// Leaves out the marked ones; receivers of the others are never among them.
+void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
+    std::vector<std::int32_t> place(gone.size(), -1);
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < gone.size(); ++n) {
+        if (gone[n] != 0) {
+            continue;
+        }
+        rivers.cell[kept] = rivers.cell[n];
+        rivers.receiver[kept] = rivers.receiver[n] < 0 ? -1 : place[static_cast<std::size_t>(rivers.receiver[n])];
+        rivers.way[kept] = rivers.way[n];
+        rivers.level[kept] = rivers.level[n];
+        rivers.number[kept] = rivers.number[n];
+        if (!rivers.asked.empty()) {
+            rivers.asked[kept] = rivers.asked[n];
+        }
+        place[n] = static_cast<std::int32_t>(kept++);
+    }
+    rivers.cell.resize(kept);
+    rivers.receiver.resize(kept);
+    rivers.way.resize(kept);
+    rivers.level.resize(kept);
+    rivers.number.resize(kept);
+    rivers.asked.resize(rivers.asked.empty() ? 0 : kept);
+}
+
+std::vector<std::int64_t> give_up(LandLevel& level, std::vector<std::uint8_t> const& marked, TipBanks banks) {
+    RiverCells& rivers = level.rivers;
+    std::vector<std::uint8_t> gone(marked.size());
+    std::vector<std::uint8_t> holds(marked.size()); // something that stays lies upstream
+    std::vector<std::int64_t> numbers;
+    auto const offsets = level.offsets();
+    for (std::size_t n = marked.size(); n-- > 0;) {
+        std::size_t const i = rivers.cell[n];
+        if (marked[n] != 0 && holds[n] == 0) {
+            gone[n] = banks == TipBanks::rise || highest_river(level, i, offsets) < level.z[i]
+                          ? 1
+                          : 0; // what it drained is gone already
+        }
+        if (gone[n] == 0) {
+            if (rivers.receiver[n] >= 0) {
+                holds[static_cast<std::size_t>(rivers.receiver[n])] = 1;
+            }
+            continue;
+        }
+        numbers.push_back(rivers.number[n]);
+        cover_again(level, i, offsets);
+        for (std::int64_t const offset : offsets) {
+            if (std::size_t const near = moved(i, offset); is_land(level.cover[near])) {
+                cover_again(level, near, offsets);
+            }
+        }
+    }
+    compact(rivers, gone);
+    return numbers;
+}
+
+} // namespace
+
+std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent, TipBanks banks) {
+    auto const perched = [&](std::size_t n) { return is_perched(level, level.rivers.cell[n], tangent); };
+    return give_up(level, marked_tips(level.rivers, upstream_of(level.rivers), longest_tip, perched), banks);
+}
+
+std::vector<std::int64_t> give_up_touching_tips(LandLevel& level) {
+    return give_up(level, touching_heads(level), TipBanks::rise);
+}
+
+namespace {
+
+constexpr int passes = 4;
+constexpr float margin = 0.02F; // of a fall, above what floats may lose
+
+class Keeper {
+public:
+    Keeper(LandLevel& level, float least)
+        : level_(level), rivers_(level.rivers), offsets_(level.offsets()), least_(least) {
+        for (std::size_t n = 0; n < rivers_.cell.size(); ++n) {
+            if (rivers_.number[n] < 0) {
+                beyond_.push_back(rivers_.cell[n]);
+            }
+        }
+        std::sort(beyond_.begin(), beyond_.end());
+    }
+
+    void pass() {
+        for (std::size_t n = 0; n < rivers_.cell.size(); ++n) {
+            if (rivers_.number[n] < 0) {
+                continue;
+            }
+            keep_above(n);
+            bool const leaves = rivers_.receiver[n] < 0 || number(receiver(n)) < 0;
+            for (std::size_t k = 0; k < offsets_.size(); ++k) {
+                std::size_t const q = moved(rivers_.cell[n], offsets_[k]);
+                if (level_.cover[q] != Cover::river || std::binary_search(beyond_.begin(), beyond_.end(), q)) {
+                    continue;
+                }
+                if (leaves) {
+                    level_.z[q] = std::max(level_.z[q], level_.z[rivers_.cell[n]]);
+                } else if (rivers_.level[n] == 0 && static_cast<std::int8_t>(k) != rivers_.way[n]) {
+                    keep_off(n, q, step_lengths[k]);
+                }
+            }
+        }
+    }
+
+    /// Above what may have been raised below it.
+    void keep_above(std::size_t n) {
+        if (rivers_.receiver[n] < 0) {
+            return;
+        }
+        float& z = level_.z[rivers_.cell[n]];
+        float const below = level_.z[rivers_.cell[receiver(n)]];
+        float const length = level_.side * step_lengths[static_cast<std::size_t>(rivers_.way[n])];
+        z = rivers_.level[n] != 0 ? below : std::max(z, below + least_ * length);
+    }
+
+private:
+    std::size_t receiver(std::size_t n) const { return static_cast<std::size_t>(rivers_.receiver[n]); }
+    std::int64_t number(std::size_t n) const { return rivers_.number[n]; }
+
+    bool lies_downstream(std::size_t n, std::size_t cell) const {
+        constexpr int steps = 8;
+        for (int step = 0; step < steps && rivers_.receiver[n] >= 0; ++step) {
+            n = receiver(n);
+            if (rivers_.cell[n] == cell) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// Water of cell number n shall not go to q beside it.
+    void keep_off(std::size_t n, std::size_t q, float length) {
+        float& z = level_.z[rivers_.cell[n]];
+        float const below = level_.z[rivers_.cell[receiver(n)]];
+        float const own = step_lengths[static_cast<std::size_t>(rivers_.way[n])];
+        float const ratio = length / own;
+        float const least = z - ratio * (z - below) * (1.0F - margin);
+        if (level_.z[q] >= least || lies_downstream(n, q)) {
+            return;
+        }
+        float const most = below + (1.0F - margin) * (level_.z[q] - below) / (1.0F - ratio);
+        if (ratio < 1.0F && most >= below + least_ * level_.side * own) {
+            z = most;
+        } else {
+            level_.z[q] = least;
+        }
+    }
+
+    LandLevel& level_;
+    RiverCells const& rivers_;
+    std::array<std::int64_t, 8> offsets_;
+    float least_;                     ///< tangent towards a receiver
+    std::vector<std::size_t> beyond_; ///< river cells outside the caller's grid
+};
+
+} // namespace
+
+void keep_to_receivers(LandLevel& level, float least) {
+    Keeper keeper(level, least);
+    for (int pass = 0; pass < passes; ++pass) {
+        keeper.pass();
+    }
+    // The last word has the law: above the receiver, lakes level with it.
+    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+        keeper.keep_above(n);
+    }
+}
+
+} // namespace thalweg::surface
