@@ -4,7 +4,6 @@
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/solver/grid/poisson.hpp>
-#include <thalweg/solver/grid/relax_explicit.hpp>
 #include <thalweg/solver/opencl/devices.hpp>
 
 // Paper 003's diffusion and the equation that it tends to, on the OpenCL device beside the processor; items = cells,

@@ -14,7 +14,7 @@
 #include <thalweg/fractal/internal/limiter.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/skeleton/random_fields.hpp>
-#include <thalweg/solver/statistics/expected_slope.hpp>
+#include <thalweg/solver/statistics/field_statistics.hpp>
 
 namespace match_statistics_test {
 

@@ -68,9 +68,9 @@
 #include <thalweg/skeleton/regress.hpp>
 #include <thalweg/skeleton/ridges.hpp>
 #include <thalweg/skeleton/scatter.hpp>
-#include <thalweg/solver/grid/internal/conjugate_gradients.hpp>
+#include <thalweg/solver/grid/internal/poisson.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
-#include <thalweg/solver/statistics/expected_slope.hpp>
+#include <thalweg/solver/statistics/field_statistics.hpp>
 #include <thalweg/surface/diffusion/diffusion.hpp>
 #include <thalweg/surface/diffusion/internal/diffusion.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>

@@ -13,7 +13,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/solver/linear/sparse.hpp>
+#include <thalweg/solver/linear/linear.hpp>
 
 namespace thalweg::blend {
 namespace {

@@ -26,7 +26,7 @@
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/fractal/internal/limiter.hpp>
-#include <thalweg/solver/linear/cholesky.hpp>
+#include <thalweg/solver/linear/linear.hpp>
 #include <thalweg/solver/spectral/circulant.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
 #include <thalweg/solver/statistics/field_statistics.hpp>

@@ -22,8 +22,8 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/fractal/estimate_fractal.hpp>
 #include <thalweg/fractal/internal/refine.hpp>
-#include <thalweg/solver/linear/cholesky.hpp>
-#include <thalweg/solver/spectral/fractional_surface.hpp>
+#include <thalweg/solver/linear/linear.hpp>
+#include <thalweg/solver/spectral/circulant.hpp>
 
 namespace thalweg::fractal {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/solver/spectral/stable_covariance.hpp>
+#include <thalweg/solver/spectral/circulant.hpp>
 
 namespace thalweg::skeleton {
 

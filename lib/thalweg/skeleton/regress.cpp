@@ -6,7 +6,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/run/range.hpp>
-#include <thalweg/solver/linear/least_squares.hpp>
+#include <thalweg/solver/linear/linear.hpp>
 
 #include <fmt/format.h>
 

@@ -5,9 +5,7 @@
 #include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/solver/grid/internal/conjugate_gradients.hpp>
-#include <thalweg/solver/grid/internal/v_cycle.hpp>
-#include <thalweg/solver/grid/unreached.hpp>
+#include <thalweg/solver/grid/internal/poisson.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/solver/grid/relax_explicit.hpp>
+#include <thalweg/solver/grid/poisson.hpp>
 
 #include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>

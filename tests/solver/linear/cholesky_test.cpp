@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/solver/linear/cholesky.hpp>
+#include <thalweg/solver/linear/linear.hpp>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/solver/linear/least_squares.hpp>
+#include <thalweg/solver/linear/linear.hpp>
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid/poisson.hpp>
-#include <thalweg/solver/grid/relax_explicit.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -19,9 +18,8 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/solver/opencl/devices.hpp>
-#include <thalweg/solver/opencl/internal/device_queue.hpp>
-#include <thalweg/solver/opencl/internal/opencl_device.hpp>
-#include <thalweg/solver/opencl/internal/relax_opencl.hpp>
+#include <thalweg/solver/opencl/internal/device.hpp>
+#include <thalweg/solver/opencl/internal/opencl.hpp>
 
 namespace opencl_test {
 

@@ -11,7 +11,7 @@
 #include <thalweg/core/numbers/normal.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/solver/statistics/expected_slope.hpp>
+#include <thalweg/solver/statistics/field_statistics.hpp>
 
 namespace circulant_test {
 

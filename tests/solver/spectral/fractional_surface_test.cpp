@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/solver/spectral/fractional_surface.hpp>
+#include <thalweg/solver/spectral/circulant.hpp>
 
 #include <algorithm>
 #include <cmath>

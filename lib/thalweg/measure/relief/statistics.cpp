@@ -14,8 +14,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
-#include <thalweg/solver/statistics/central_difference.hpp>
-#include <thalweg/solver/statistics/fractal_dimension.hpp>
+#include <thalweg/solver/statistics/field_statistics.hpp>
 
 namespace thalweg::measure {
 

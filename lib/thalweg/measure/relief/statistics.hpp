@@ -6,7 +6,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/solver/statistics/correlation_length.hpp>
+#include <thalweg/solver/statistics/field_statistics.hpp>
 
 namespace thalweg::measure {
 

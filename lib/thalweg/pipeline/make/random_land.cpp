@@ -4,7 +4,7 @@
 
 #include <thalweg/skeleton/random_fields.hpp>
 #include <thalweg/skeleton/scatter.hpp>
-#include <thalweg/solver/statistics/expected_slope.hpp>
+#include <thalweg/solver/statistics/field_statistics.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/fractal/estimate_fractal.hpp>
 #include <thalweg/fractal/midpoint.hpp>
-#include <thalweg/solver/spectral/fractional_surface.hpp>
+#include <thalweg/solver/spectral/circulant.hpp>
 
 #include <fmt/format.h>
 

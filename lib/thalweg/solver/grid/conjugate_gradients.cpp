@@ -1,21 +1,324 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/solver/grid/internal/conjugate_gradients.hpp>
-
-#include <thalweg/core/indexed.hpp>
-#include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
-#include <thalweg/solver/grid/internal/v_cycle.hpp>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/solver/grid/internal/poisson.hpp>
+#include <thalweg/solver/grid/poisson.hpp>
+
 namespace thalweg::solver {
 namespace {
+
+/// Numbers row by row, with zeros to an even width and height and one more row and column.
+template <class T> class Padded {
+public:
+    explicit Padded(Board const& board)
+        : stride_((board.width + 1) / 2 * 2 + 1),
+          values_(static_cast<std::size_t>(stride_ * ((board.height + 1) / 2 * 2 + 1))) {}
+    T* row(std::int64_t y) { return values_.data() + y * stride_; }
+    T const* row(std::int64_t y) const { return values_.data() + y * stride_; }
+
+private:
+    std::int64_t stride_;
+    std::vector<T, LargePages<T>> values_;
+};
+
+/// The equations of a level, row by row: edges to the east and south, and the diagonal.
+struct Equations {
+    explicit Equations(Board const& level) : board(level), east(level), south(level), diagonal(level) {}
+    Board board;
+    Padded<float> east, south, diagonal;
+};
+
+Padded<std::uint8_t> degrees(Raster<std::uint8_t> const& kind, Board const& board, Run const& run) {
+    Padded<std::uint8_t> degree(board);
+    parallel_ranges(run, board.height, 64, [&](std::int64_t begin, std::int64_t end) {
+        // No row beyond the border: all of it is outside.
+        Indexed<ColumnIndex, std::uint8_t> const nothing(board.width, outside_cell);
+        for (std::int64_t y = begin; y < end; ++y) {
+            std::uint8_t const* const here = kind.row(y).data();
+            std::uint8_t const* const above = y > 0 ? kind.row(y - 1).data() : nothing.data();
+            std::uint8_t const* const below = y + 1 < board.height ? kind.row(y + 1).data() : nothing.data();
+            std::uint8_t* __restrict const to = degree.row(y);
+            auto const count = [&](std::int64_t x, bool left, bool right) {
+                int const sides =
+                    (left && here[x - 1] != outside_cell ? 1 : 0) + (right && here[x + 1] != outside_cell ? 1 : 0);
+                int const all = sides + (above[x] != outside_cell ? 1 : 0) + (below[x] != outside_cell ? 1 : 0);
+                to[x] = here[x] == free_cell ? static_cast<std::uint8_t>(all) : std::uint8_t{0};
+            };
+            count(0, false, board.width > 1);
+            for (std::int64_t x = 1; x + 1 < board.width; ++x) {
+                count(x, true, true);
+            }
+            if (board.width > 1) {
+                count(board.width - 1, true, false);
+            }
+        }
+    });
+    return degree;
+}
+
+/// Spreads a row over the colours.
+template <class T> void split(T const* from, std::int64_t y, Board const& board, TwoColours<T>& to) {
+    T* const even = to.of[Board::first(y, 0)].row(y);
+    T* const odd = to.of[1 - Board::first(y, 0)].row(y);
+    for (std::int64_t k = 0; k < board.half(); ++k) {
+        even[k] = from[2 * k];
+        odd[k] = from[2 * k + 1];
+    }
+}
+
+/// What is left of an edge between cells of 2 x 2: numbers that are alike two by two make differences look steeper than
+/// they are. With a half, the Laplacian is that of the coarser grid; edges to fixed cells stay whole. A power of two,
+/// so that nothing is rounded off, and the diagonal less all edges is exactly that to fixed cells.
+constexpr float share_of_edges = 0.5F;
+
+/// A coarse cell's equation from those of the 2 x 2 cells it stands for.
+/// east(x, y), south(x, y), diagonal(x, y): of the finer level.
+template <class Edge, class South, class Diagonal>
+Equations sums(Board const& fine, Run const& run, Edge const& east, South const& south, Diagonal const& diagonal) {
+    Equations coarse(fine.coarser());
+    parallel_ranges(run, coarse.board.height, 64, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            float* __restrict const to_east = coarse.east.row(row);
+            float* __restrict const to_south = coarse.south.row(row);
+            float* __restrict const to_diagonal = coarse.diagonal.row(row);
+            std::int64_t const y = 2 * row;
+            for (std::int64_t col = 0; col < coarse.board.width; ++col) {
+                std::int64_t const x = 2 * col;
+                float const inner = (east(x, y) + east(x, y + 1)) + (south(x, y) + south(x + 1, y));
+                float const all = (diagonal(x, y) + diagonal(x + 1, y)) + (diagonal(x, y + 1) + diagonal(x + 1, y + 1));
+                float const to_west = x > 0 ? east(x - 1, y) + east(x - 1, y + 1) : 0.0F;
+                float const to_north = y > 0 ? south(x, y - 1) + south(x + 1, y - 1) : 0.0F;
+                to_east[col] = share_of_edges * (east(x + 1, y) + east(x + 1, y + 1));
+                to_south[col] = share_of_edges * (south(x, y + 1) + south(x + 1, y + 1));
+                to_diagonal[col] =
+                    (all - 2.0F * inner) - share_of_edges * (to_west + to_north) - (to_east[col] + to_south[col]);
+            }
+        }
+    });
+    return coarse;
+}
+
+CoarseLevel level_of(Equations const& from, Run const& run) {
+    Board const& board = from.board;
+    CoarseLevel level{board,
+                      TwoColours<float>(board),
+                      TwoColours<float>(board),
+                      TwoColours<float>(board),
+                      Plane<float>(board),
+                      Plane<float>(board),
+                      Plane<float>(board),
+                      Plane<float>(board)};
+    parallel_ranges(run, board.height, 64, [&](std::int64_t begin, std::int64_t end) {
+        Indexed<ColumnIndex, float> inverse(2 * board.half());
+        for (std::int64_t y = begin; y < end; ++y) {
+            float const* const diagonal = from.diagonal.row(y);
+            for (std::int64_t x = 0; x < board.width; ++x) {
+                inverse[x] = diagonal[x] > 0.0F ? 1.0F / diagonal[x] : 0.0F;
+            }
+            split(inverse.data(), y, board, level.inverse);
+            for (std::int64_t x = Board::first(y, 0); x < board.width; x += 2) {
+                std::int64_t const k = x / 2;
+                level.above.row(y)[k] = y > 0 ? from.south.row(y - 1)[x] : 0.0F;
+                level.left.row(y)[k] = x > 0 ? from.east.row(y)[x - 1] : 0.0F;
+                level.right.row(y)[k] = from.east.row(y)[x];
+                level.below.row(y)[k] = from.south.row(y)[x];
+            }
+        }
+    });
+    return level;
+}
+
+} // namespace
+
+TopLevel top_level(Raster<std::uint8_t> const& kind, Run const& run) {
+    TopLevel top;
+    top.board = {kind.width(), kind.height()};
+    top.degree = TwoColours<std::uint8_t>(top.board);
+    Padded<std::uint8_t> const degree = degrees(kind, top.board, run);
+    parallel_ranges(run, top.board.height, 64, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t y = begin; y < end; ++y) {
+            split(degree.row(y), y, top.board, top.degree);
+        }
+    });
+    return top;
+}
+
+std::vector<CoarseLevel> coarse_levels(Raster<std::uint8_t> const& kind, Run const& run) {
+    Board const top{kind.width(), kind.height()};
+    std::vector<CoarseLevel> levels;
+    Equations equations = [&] {
+        Padded<std::uint8_t> const degree = degrees(kind, top, run);
+        auto const both = [](std::uint8_t a, std::uint8_t b) { return a > 0 && b > 0 ? 1.0F : 0.0F; };
+        return sums(
+            top, run, [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y)[x + 1]); },
+            [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y + 1)[x]); },
+            [&](std::int64_t x, std::int64_t y) { return static_cast<float>(degree.row(y)[x]); });
+    }();
+    levels.push_back(level_of(equations, run));
+    while (equations.board.width > 1 || equations.board.height > 1) {
+        Equations const& fine = equations;
+        equations = sums(
+            fine.board, run, [&](std::int64_t x, std::int64_t y) { return fine.east.row(y)[x]; },
+            [&](std::int64_t x, std::int64_t y) { return fine.south.row(y)[x]; },
+            [&](std::int64_t x, std::int64_t y) { return fine.diagonal.row(y)[x]; });
+        levels.push_back(level_of(equations, run));
+    }
+    return levels;
+}
+
+namespace {
+
+constexpr float over_correction = 1.0F; // none: the coarser levels' edges are halved instead
+constexpr int red = 0;
+constexpr int black = 1;
+
+TopRow equations(TopLevel const& level, std::int64_t y, int colour) {
+    return {level.degree.of[colour].row(y)};
+}
+
+CoarseRow equations(CoarseLevel const& level, std::int64_t y, int colour) {
+    float const* const inverse = level.inverse.of[colour].row(y);
+    if (colour == red) {
+        return {inverse, {level.above.row(y), level.left.row(y), level.right.row(y), level.below.row(y)}};
+    }
+    // The edges of a black cell are those of the red ones around it.
+    std::int64_t const shift = Board::first(y, black);
+    return {
+        inverse,
+        {level.below.row(y - 1), level.right.row(y) + shift - 1, level.left.row(y) + shift, level.above.row(y + 1)}};
+}
+
+SmoothingRows<TopRow> const& loops(GridRows const& rows, TopLevel const&) {
+    return rows.top;
+}
+SmoothingRows<CoarseRow> const& loops(GridRows const& rows, CoarseLevel const&) {
+    return rows.coarse;
+}
+
+/// The last four rows of one colour, each in its own place or where it is lent one.
+class Window {
+public:
+    explicit Window(Board const& board) : stride_(board.stride()), values_(static_cast<std::size_t>(4 * stride_ + 16)) {
+        for (std::int64_t y = 0; y < 4; ++y) {
+            keep(y);
+        }
+    }
+    float* row(std::int64_t y) { return rows_[y & 3]; }
+    void keep(std::int64_t y) { lend(y, values_.data() + 8 + (y & 3) * stride_); }
+    void lend(std::int64_t y, float* place) { rows_[y & 3] = place; }
+    Around<float> around(std::int64_t y, int colour) {
+        std::int64_t const shift = Board::first(y, colour);
+        return {row(y - 1), row(y) + shift - 1, row(y) + shift, row(y + 1)};
+    }
+
+private:
+    std::int64_t stride_;
+    std::vector<float> values_;
+    std::array<float*, 4> rows_{};
+};
+
+/// Sweeps red, then black, from zero, and hands what is left of r to the coarser level. After the sweep nothing is left
+/// in black cells, and in red ones what the black ones' change has brought: the sum of the neighbours.
+template <class Level>
+void down(Level const& level, TwoColours<float> const& r, CoarseLevel& coarse, GridRows const& rows, Run const& run) {
+    SmoothingRows<std::remove_cvref_t<decltype(equations(level, 0, red))>> const& loop = loops(rows, level);
+    std::int64_t const n = level.board.half();
+    parallel_ranges(run, coarse.board.height, rows_a_range(coarse.board), [&](std::int64_t begin, std::int64_t end) {
+        Window e_red(level.board);
+        Window e_black(level.board);
+        std::array<Indexed<ColumnIndex, float>, 2> rest;
+        rest.fill(Indexed<ColumnIndex, float>(level.board.stride()));
+        for (std::int64_t y = 2 * begin - 2; y < 2 * end + 2; ++y) {
+            loop.first(e_red.row(y), r.of[red].row(y), equations(level, y, red), n);
+            if (std::int64_t const b = y - 1; b >= 2 * begin - 1) {
+                loop.relax(e_black.row(b), r.of[black].row(b), equations(level, b, black), e_red.around(b, black), n);
+            }
+            if (std::int64_t const q = y - 2; q >= 2 * begin) {
+                loop.rest(rest[q & 1].data(), equations(level, q, red), e_black.around(q, red), n);
+                if ((q & 1) != 0) {
+                    std::int64_t const row = q / 2;
+                    std::int64_t const even = Board::first(row, red);
+                    rows.split_sum(coarse.r.of[even].row(row), coarse.r.of[1 - even].row(row), rest[0].data(),
+                                   rest[1].data(), coarse.board.half());
+                }
+            }
+        }
+    });
+}
+
+/// Adds the coarser level's correction and sweeps black, then red. Gives the sum of r e.
+template <class Level>
+double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, CoarseLevel const& coarse,
+          GridRows const& rows, Run const& run) {
+    SmoothingRows<std::remove_cvref_t<decltype(equations(level, 0, red))>> const& loop = loops(rows, level);
+    std::int64_t const n = level.board.half();
+    Indexed<RowIndex, double> sums(coarse.board.height);
+    parallel_ranges(run, coarse.board.height, rows_a_range(coarse.board), [&](std::int64_t begin, std::int64_t end) {
+        Window e_red(level.board);
+        Window e_black(level.board);
+        Indexed<ColumnIndex, float> correction(level.board.stride());
+        for (std::int64_t y = 2 * begin - 2; y < 2 * end + 2; ++y) {
+            if ((y & 1) == 0) {
+                std::int64_t const row = y / 2;
+                std::int64_t const even = Board::first(row, red);
+                rows.merge(correction.data(), coarse.e.of[even].row(row), coarse.e.of[1 - even].row(row),
+                           over_correction, coarse.board.half());
+            }
+            loop.corrected(e_red.row(y), r.of[red].row(y), equations(level, y, red), correction.data(), n);
+            if (std::int64_t const b = y - 1; b >= 2 * begin - 1) {
+                // Rows of the next range are made here too, but only it may write them.
+                b >= 2 * begin&& b < 2 * end ? e_black.lend(b, e.of[black].row(b)) : e_black.keep(b);
+                loop.relax(e_black.row(b), r.of[black].row(b), equations(level, b, black), e_red.around(b, black), n);
+            }
+            if (std::int64_t const q = y - 2; q >= 2 * begin) {
+                loop.relax(e.of[red].row(q), r.of[red].row(q), equations(level, q, red), e_black.around(q, red), n);
+                sums[q / 2] += rows.dot(r.of[red].row(q), e.of[red].row(q), n) +
+                               rows.dot(r.of[black].row(q), e.of[black].row(q), n);
+            }
+        }
+    });
+    double sum = 0.0;
+    for (double const part : sums) {
+        sum += part;
+    }
+    return sum;
+}
+
+/// Solves the level's equations for its own right-hand side, nearly.
+void solve(std::vector<CoarseLevel>& levels, std::size_t index, GridRows const& rows, Run const& run) {
+    CoarseLevel& level = levels[index];
+    if (index + 1 == levels.size()) { // one red cell
+        level.e.of[red].row(0)[0] = level.inverse.of[red].row(0)[0] * level.r.of[red].row(0)[0];
+        return;
+    }
+    CoarseLevel& coarser = levels[index + 1];
+    down(level, level.r, coarser, rows, run);
+    solve(levels, index + 1, rows, run);
+    up(level, level.r, level.e, coarser, rows, run);
+}
+
+// z = M r with M one V(1,1) cycle: symmetric and positive definite, near the inverse of the problem's matrix. On every
+// level one red-black Gauss-Seidel sweep from zero, the correction of the coarser level, and the sweep backwards; the
+// coarser levels' edges are halved for what constant pieces lack. Legs run down and up the rows once, so that of the
+// sweeps only z is ever stored. Gives: the sum of r z. The same bytes for any number of threads: a range of rows makes
+// the rows around it anew. Source: Braess 1995, Towards algebraic multigrid for elliptic problems of second order
+// (aggregation).
+double v_cycle(TopLevel const& top, std::vector<CoarseLevel>& coarse, TwoColours<float> const& r, TwoColours<float>& z,
+               GridRows const& rows, Run const& run) {
+    down(top, r, coarse.front(), rows, run);
+    solve(coarse, 0, rows, run);
+    return up(top, r, z, coarse.front(), rows, run);
+}
 
 /// Greatest absolute value of all cells.
 template <class T> double greatest(TwoColours<T> const& of, Board const& board, Run const& run) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/solver/grid/internal/grid_rows.hpp>
+#include <thalweg/solver/grid/internal/poisson.hpp>
 
 #include <bit>
 #include <cstring>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -47,8 +48,6 @@ struct GridSolution {
 /// gradients with a multigrid preconditioner: 15 to 30 iterations for 1e-6 on a grid of any size. Memory beside the
 /// problem: 32 bytes a cell, 2 more during preparation.
 /// \param problem each connected part with free cells has a fixed one
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return fixed cells bit for bit; for Laplace's equation values between the lowest and highest fixed one; the same
 /// bytes for any number of threads. A tolerance of 1e-12 can be reached on any grid, 1e-14 where no cell is far from a
 /// fixed one.
@@ -56,9 +55,38 @@ struct GridSolution {
 /// the frames differ
 /// \throws BadParameter when a parameter is outside its range
 /// \throws NotConverged after most_iterations, or at the limit of double precision
-/// \throws Cancelled
 ///
 /// Source: \cite nenu2015, equations 12 and 16; \cite hestenes1952; \cite braess1995 (aggregation).
 GridSolution solve_poisson(GridProblem problem, PoissonParams const& params = {}, Run const& run = {});
+
+/// Consecutive cells of one row.
+struct CellSpan {
+    std::int64_t row = 0;
+    std::int64_t begin = 0; ///< first column
+    std::int64_t end = 0;   ///< one past the last column
+};
+
+/// Finds the free cells not connected (by 4-neighbours that are not outside) to a fixed cell: Laplace's equation has no
+/// unique solution there.
+/// \param kind CellKind by cell
+/// \return each such cell in one span; spans in row order
+std::vector<CellSpan> unreached(Raster<std::uint8_t> const& kind, Run const& run = {});
+
+/// Options of relax_explicit().
+struct ExplicitParams {
+    double alpha = 0.25; ///< (0, 1/4] time step times diffusivity / area of a cell
+    int sweeps = 5500;   ///< [0, ...]
+};
+
+/// Diffuses the values of free cells by explicit sweeps: U += alpha (sum over the 4-neighbours n that are not outside
+/// of (U_n - U_c)), all cells at once.
+/// \param problem without a source; finite initial values
+/// \return fixed cells bit for bit; values between the lowest and highest fixed one; residual as in solve_poisson; the
+/// same bytes for any number of threads
+/// \throws BadParameter for alpha above 1/4, where the sweeps are unstable
+/// \throws BadInput as solve_poisson, for a source, or for an initial value that is not finite
+///
+/// Source: \cite nenu2015, equation 13 with its sign corrected.
+GridSolution relax_explicit(GridProblem problem, ExplicitParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::solver

@@ -47,10 +47,8 @@ private:
 /// Computes the discrete Fourier transform of a field along both axes.
 /// \param values of any size
 /// \param direction sign of the exponent
-/// \param run progress, log, stop token and number of threads
 /// \return in column u, row v: the sum over x, y of values(x, y) exp(-+2 pi i (u x / width + v y / height)); the same
 /// bits for any number of threads
-/// \throws Cancelled
 ///
 /// Source: kissfft (Borgerding 2003) as packaged with Eigen.
 Raster<Complex> fft(Raster<Complex> values, Direction direction, Run const& run = {});

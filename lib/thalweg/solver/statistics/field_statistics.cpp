@@ -14,9 +14,112 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sum_rows.hpp>
 #include <thalweg/core/run/parallel.hpp>
-#include <thalweg/solver/statistics/central_difference.hpp>
 
 namespace thalweg::solver {
+namespace {
+
+struct PairSums {
+    double squares_along_row = 0.0;
+    double squares_along_column = 0.0;
+    std::int64_t pairs_along_row = 0;
+    std::int64_t pairs_along_column = 0;
+    PairSums& operator+=(PairSums const& other) {
+        squares_along_row += other.squares_along_row;
+        squares_along_column += other.squares_along_column;
+        pairs_along_row += other.pairs_along_row;
+        pairs_along_column += other.pairs_along_column;
+        return *this;
+    }
+};
+
+void add(float a, float b, double& squares, std::int64_t& pairs) {
+    double const d = static_cast<double>(b) - a;
+    if (!std::isnan(d)) {
+        squares += d * d;
+        ++pairs;
+    }
+}
+
+/// What the square of each lag weighs in H: the least-squares slope is the sum of weight times ln(square)/2.
+std::vector<double> weights(std::vector<Difference> const& differences) {
+    std::vector<double> x;
+    double mean = 0.0;
+    for (Difference const& d : differences) {
+        x.push_back(portable::log(static_cast<double>(d.lag)));
+        mean += x.back() / static_cast<double>(differences.size());
+    }
+    double spread = 0.0;
+    for (double& value : x) {
+        value -= mean;
+        spread += value * value;
+    }
+    for (double& value : x) {
+        value /= spread;
+    }
+    return x;
+}
+
+} // namespace
+
+std::vector<Difference> differences(Raster<float> const& dem, std::span<std::int64_t const> lags, Run const& run) {
+    std::vector<Difference> result;
+    for (std::int64_t const lag : lags) {
+        PairSums const sums = sum_rows(run, dem.height(), [&](std::int64_t r) {
+            run.check();
+            PairSums part;
+            auto const row = dem.row(r);
+            auto const apart = static_cast<std::size_t>(lag);
+            for (std::size_t c = apart; c < row.size(); ++c) {
+                add(row[c - apart], row[c], part.squares_along_row, part.pairs_along_row);
+            }
+            if (r >= lag) {
+                auto const north = dem.row(r - lag);
+                for (std::size_t c = 0; c < row.size(); ++c) {
+                    add(north[c], row[c], part.squares_along_column, part.pairs_along_column);
+                }
+            }
+            return part;
+        });
+        Difference d{lag, 0.0, static_cast<double>(sums.pairs_along_row), static_cast<double>(sums.pairs_along_column)};
+        double axes = 0.0;
+        if (sums.pairs_along_row > 0) {
+            d.square += sums.squares_along_row / d.pairs_along_row;
+            axes += 1.0;
+        }
+        if (sums.pairs_along_column > 0) {
+            d.square += sums.squares_along_column / d.pairs_along_column;
+            axes += 1.0;
+        }
+        if (axes > 0.0) {
+            d.square /= axes;
+            result.push_back(d);
+        }
+    }
+    return result;
+}
+
+double fractal_dimension(std::vector<Difference> const& differences) {
+    if (differences.size() < 2) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    std::vector<double> const weight = weights(differences);
+    double h = 0.0;
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+        if (!(differences[i].square > 0.0)) {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+        h += weight[i] * 0.5 * portable::log(differences[i].square);
+    }
+    return 3.0 - h;
+}
+
+std::vector<double> fractal_dimension_slopes(std::vector<Difference> const& differences) {
+    std::vector<double> slopes = weights(differences);
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        slopes[i] *= -0.5 / differences[i].square;
+    }
+    return slopes;
+}
 
 namespace {
 
@@ -220,6 +323,61 @@ Raster<double> derivative(Raster<float> const& dem, FieldStatistics const& is, Q
         }
     });
     return result;
+}
+
+namespace {
+
+constexpr double longest_fine_cells = 12.0;
+constexpr double most_fine_share = 0.5;
+
+/// A share of fine forms with the coarse ones lengthened so that the sum is 1/e at the same distances.
+StableCovariance shared(StableCovariance const& plain, double fine_share) {
+    StableCovariance mixed = plain;
+    double const length = std::sqrt(plain.lx_cells * plain.ly_cells);
+    double const exponent = 3.0 - plain.dimension;
+    mixed.fine_share = fine_share;
+    mixed.fine_cells = std::min(longest_fine_cells, length / 4.0);
+    double const fine = fine_share * portable::exp(-portable::pow(length / mixed.fine_cells, 2.0 * exponent));
+    double const coarse = (portable::exp(-1.0) - fine) / (1.0 - fine_share);
+    double const longer = portable::pow(-portable::log(coarse), -0.5 / exponent);
+    mixed.lx_cells *= longer;
+    mixed.ly_cells *= longer;
+    return mixed;
+}
+
+} // namespace
+
+double expected_slope(StableCovariance const& covariance, double std) {
+    constexpr int angles = 32;
+    constexpr int radii = 64;
+    // The central difference of heights two cells apart: half of theirs.
+    double const x = 0.5 * std * std * (1.0 - covariance(2.0, 0.0));
+    double const y = 0.5 * std * std * (1.0 - covariance(0.0, 2.0));
+    double sum = 0.0;
+    for (int i = 0; i < angles; ++i) {
+        double const angle = 0.5 * portable::pi * (i + 0.5) / angles;
+        double const c = portable::cos(angle);
+        double const s = portable::sin(angle);
+        double const scale = std::sqrt(x * c * c + y * s * s);
+        for (int j = 0; j < radii; ++j) {
+            double const radius = std::sqrt(-2.0 * portable::log((j + 0.5) / radii));
+            sum += portable::atan2(scale * radius, 1.0);
+        }
+    }
+    return sum / (angles * radii);
+}
+
+StableCovariance with_slope(StableCovariance covariance, double std, double slope_rad) {
+    if (expected_slope(covariance, std) >= slope_rad) {
+        return covariance;
+    }
+    double too_little = 0.0;
+    double enough = most_fine_share;
+    for (int halving = 0; halving < 30; ++halving) {
+        double const share = 0.5 * (too_little + enough);
+        (expected_slope(shared(covariance, share), std) < slope_rad ? too_little : enough) = share;
+    }
+    return shared(covariance, enough);
 }
 
 } // namespace thalweg::solver

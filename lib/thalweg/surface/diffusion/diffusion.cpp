@@ -20,8 +20,6 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/valley.hpp>
 #include <thalweg/solver/grid/poisson.hpp>
-#include <thalweg/solver/grid/relax_explicit.hpp>
-#include <thalweg/solver/grid/unreached.hpp>
 #include <thalweg/surface/diffusion/internal/diffusion.hpp>
 
 namespace thalweg::surface {

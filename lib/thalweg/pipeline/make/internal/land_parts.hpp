@@ -13,7 +13,7 @@
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/skeleton/scatter.hpp>
-#include <thalweg/solver/spectral/stable_covariance.hpp>
+#include <thalweg/solver/spectral/circulant.hpp>
 
 /// The steps of land without rivers. Private to this module.
 namespace thalweg::pipeline {

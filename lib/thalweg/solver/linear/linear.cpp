@@ -1,19 +1,23 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/solver/linear/least_squares.hpp>
+#include <thalweg/solver/linear/linear.hpp>
 
-#include <thalweg/core/run/error.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <Eigen/SparseCholesky>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parallel.hpp>
 
 namespace thalweg::solver {
-
 namespace {
 
 using Eigen::Index;
@@ -166,6 +170,111 @@ Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, 
         }
     }
     return finished(all, right, x, Eigen::ColPivHouseholderQR<MatrixXd>(all).rank());
+}
+
+// Not Eigen's: its products cut matrices by the size of the processor's caches, and so sum in another order elsewhere.
+Cholesky factor(std::vector<double> matrix, std::size_t size, double ridge, Run const& run) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < size; ++i) {
+        largest = std::max(largest, matrix[i * size + i]);
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+        matrix[i * size + i] += ridge * largest;
+    }
+    std::vector<double> column(size);
+    for (std::size_t k = 0; k < size; ++k) {
+        run.check();
+        double const pivot = matrix[k * size + k];
+        if (!(pivot > 0.0)) {
+            throw NotConverged(
+                fmt::format("solver.factor: the matrix of {0} x {0} numbers is not positive definite: pivot {1} "
+                            "is {2}; are two of its rows alike?",
+                            size, k, pivot));
+        }
+        double const root = std::sqrt(pivot);
+        matrix[k * size + k] = root;
+        for (std::size_t i = k + 1; i < size; ++i) {
+            matrix[i * size + k] /= root;
+            column[i] = matrix[i * size + k];
+        }
+        // Each number is reduced by one product at a time, in the order of k, whatever thread it falls to.
+        parallel_ranges(run, static_cast<std::int64_t>(size - k - 1), 128, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t r = begin; r < end; ++r) {
+                std::size_t const i = k + 1 + static_cast<std::size_t>(r);
+                double* const row = &matrix[i * size];
+                double const times = column[i];
+                for (std::size_t j = k + 1; j <= i; ++j) {
+                    row[j] -= times * column[j];
+                }
+            }
+        });
+    }
+    return {size, std::move(matrix)};
+}
+
+std::vector<double> solve(Cholesky const& matrix, std::vector<double> b) {
+    std::size_t const n = matrix.size;
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            b[i] -= matrix.lower[i * n + j] * b[j];
+        }
+        b[i] /= matrix.lower[i * n + i];
+    }
+    for (std::size_t i = n; i-- > 0;) {
+        b[i] /= matrix.lower[i * n + i];
+        for (std::size_t j = 0; j < i; ++j) {
+            b[j] -= matrix.lower[i * n + j] * b[i];
+        }
+    }
+    return b;
+}
+
+struct SparseFactor::Factor {
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt;
+    Eigen::Index size = 0;
+};
+
+SparseFactor::SparseFactor(std::size_t size, std::vector<SparseEntry> const& entries)
+    : factor_(std::make_unique<Factor>()) {
+    if (std::cmp_greater(size, std::numeric_limits<int>::max())) {
+        throw BadInput(fmt::format("solver.sparse: a matrix of {} rows; at most 2^31 - 1", size));
+    }
+    std::vector<Eigen::Triplet<double>> triplets;
+    triplets.reserve(entries.size());
+    for (SparseEntry const& e : entries) {
+        if (e.column > e.row || e.row >= size || !std::isfinite(e.value)) {
+            throw BadInput(fmt::format("solver.sparse: row {}, column {} of a matrix of {} rows holds {}: numbers are "
+                                       "finite and not above the diagonal",
+                                       e.row, e.column, size, e.value));
+        }
+        triplets.emplace_back(static_cast<int>(e.row), static_cast<int>(e.column), e.value);
+    }
+    factor_->size = static_cast<Eigen::Index>(size);
+    if (size == 0) {
+        return;
+    }
+    Eigen::SparseMatrix<double> matrix(factor_->size, factor_->size);
+    matrix.setFromTriplets(triplets.begin(), triplets.end());
+    factor_->ldlt.compute(matrix);
+    if (factor_->ldlt.info() != Eigen::Success || !(factor_->ldlt.vectorD().minCoeff() > 0.0)) {
+        throw NotConverged(fmt::format("solver.sparse: the matrix of {} rows is not positive definite", size));
+    }
+}
+
+SparseFactor::SparseFactor(SparseFactor&& other) noexcept = default;
+SparseFactor& SparseFactor::operator=(SparseFactor&& other) noexcept = default;
+SparseFactor::~SparseFactor() = default;
+
+std::vector<double> SparseFactor::solve(std::vector<double> const& b) const {
+    if (static_cast<Eigen::Index>(b.size()) != factor_->size) {
+        throw BadInput(fmt::format("solver.sparse: a right-hand side of {} numbers for a matrix of {} rows", b.size(),
+                                   factor_->size));
+    }
+    if (b.empty()) {
+        return {};
+    }
+    Eigen::VectorXd const x = factor_->ldlt.solve(Eigen::Map<Eigen::VectorXd const>(b.data(), factor_->size));
+    return {x.data(), x.data() + x.size()};
 }
 
 } // namespace thalweg::solver
