@@ -122,7 +122,17 @@ struct View {
     double tilt = 0.5;    // what depth adds to y
     double upright = 1.0; // what height adds to y
 
-    View(double azimuth_deg, double elevation_deg, double exaggeration);
+    View(double azimuth_deg, double elevation_deg, double exaggeration) {
+        double bearing = azimuth_deg - 90.0 * std::floor(azimuth_deg / 90.0);
+        // Seen end on a line would be a point: a twentieth of a degree shows no difference but to the arithmetic.
+        double const turned = std::clamp(bearing, 0.05, 89.95) - bearing;
+        bearing = (azimuth_deg + turned) * degree;
+        sine = std::sin(bearing);
+        cosine = std::cos(bearing);
+        tilt = std::sin(elevation_deg * degree);
+        upright = exaggeration * std::cos(elevation_deg * degree);
+    }
+
     Vec2 at(Vec2 ground, double z) const {
         return {ground.x * cosine - ground.y * sine, (ground.x * sine + ground.y * cosine) * tilt + z * upright};
     }
@@ -277,17 +287,6 @@ Box box_around(std::vector<Vec2> const& places) {
         }
     }
     return {least.x, least.y, most.x - least.x, most.y - least.y};
-}
-
-View::View(double azimuth_deg, double elevation_deg, double exaggeration) {
-    double bearing = azimuth_deg - 90.0 * std::floor(azimuth_deg / 90.0);
-    // Seen end on a line would be a point: a twentieth of a degree shows no difference but to the arithmetic.
-    double const turned = std::clamp(bearing, 0.05, 89.95) - bearing;
-    bearing = (azimuth_deg + turned) * degree;
-    sine = std::sin(bearing);
-    cosine = std::cos(bearing);
-    tilt = std::sin(elevation_deg * degree);
-    upright = exaggeration * std::cos(elevation_deg * degree);
 }
 
 // The net, its skirt and their box, with the exaggeration of the params or one that reads well.

@@ -22,7 +22,17 @@ namespace {
 // Weights and deviations of one level, as its points want them.
 class LevelWeights {
 public:
-    LevelWeights(Refinement const& refinement, int level);
+    LevelWeights(Refinement const& refinement, int level) : refinement_(refinement), side_(std::ldexp(1.0, -level)) {
+        if (!refinement.character.varies()) {
+            simple_ = at_hurst(refinement.character.hurst);
+            return;
+        }
+        for (int step = 0; step <= static_cast<int>(Character::steps_of_hurst); ++step) {
+            // No estimate comes near 0 or 1, where there is nothing to solve.
+            bool const useful = step > 0 && step < static_cast<int>(Character::steps_of_hurst);
+            by_step_.push_back(useful ? at_hurst(step / Character::steps_of_hurst) : Simple{});
+        }
+    }
 
     // For points with all their neighbours.
     struct Simple {
@@ -36,40 +46,21 @@ public:
     Simple const& simple(float step) const { return by_step_[static_cast<std::size_t>(step)]; }
 
     // sigma r^H per sigma; r: distance of the nearest neighbours in coarse cells.
-    double reach(double hurst, bool edge) const;
+    double reach(double hurst, bool edge) const { return portable::pow(edge ? side_ : side_ * std::sqrt(2.0), hurst); }
 
 private:
-    Simple at_hurst(double hurst) const;
+    Simple at_hurst(double hurst) const {
+        StencilWeights const full = stencil_weights(refinement_.stencil, used_neighbours(refinement_.stencil), hurst);
+        return {static_cast<float>(full.weight[4]),
+                static_cast<float>(full.weight[12]),
+                {full.deviation * reach(hurst, false), full.deviation * reach(hurst, true)}};
+    }
 
     Refinement const& refinement_;
     double side_; // [coarse cells] of the finer lattice
     Simple simple_;
     std::vector<Simple> by_step_;
 };
-
-LevelWeights::LevelWeights(Refinement const& refinement, int level)
-    : refinement_(refinement), side_(std::ldexp(1.0, -level)) {
-    if (!refinement.character.varies()) {
-        simple_ = at_hurst(refinement.character.hurst);
-        return;
-    }
-    for (int step = 0; step <= static_cast<int>(Character::steps_of_hurst); ++step) {
-        // No estimate comes near 0 or 1, where there is nothing to solve.
-        bool const useful = step > 0 && step < static_cast<int>(Character::steps_of_hurst);
-        by_step_.push_back(useful ? at_hurst(step / Character::steps_of_hurst) : Simple{});
-    }
-}
-
-double LevelWeights::reach(double hurst, bool edge) const {
-    return portable::pow(edge ? side_ : side_ * std::sqrt(2.0), hurst);
-}
-
-LevelWeights::Simple LevelWeights::at_hurst(double hurst) const {
-    StencilWeights const full = stencil_weights(refinement_.stencil, used_neighbours(refinement_.stencil), hurst);
-    return {static_cast<float>(full.weight[4]),
-            static_cast<float>(full.weight[12]),
-            {full.deviation * reach(hurst, false), full.deviation * reach(hurst, true)}};
-}
 
 struct LocalCharacter {
     float step;  // H in steps of Character::steps_of_hurst

@@ -46,59 +46,55 @@ public:
                                  corners(col - 1, row - 1) >= 3);
     }
     // Whether the outline runs from a centre to its neighbour: the land lies on one side of the step, not on both.
-    bool outline(std::int64_t col, std::int64_t row, int dx, int dy) const;
+    bool outline(std::int64_t col, std::int64_t row, int dx, int dy) const {
+        if (dx < 0 || (dx == 0 && dy < 0)) {
+            return outline(col + dx, row + dy, -dx, -dy);
+        }
+        if (!has(col, row) || !has(col + dx, row + dy)) {
+            return false;
+        }
+        if (dx == 0) {
+            return (corners(col, row) >= 3) != (corners(col - 1, row) >= 3);
+        }
+        if (dy == 0) {
+            return (corners(col, row) >= 3) != (corners(col, row - 1) >= 3);
+        }
+        return corners(col, dy > 0 ? row : row - 1) == 3;
+    }
+
     // Steps of the outline at a centre.
-    int degree(std::int64_t col, std::int64_t row) const;
+    int degree(std::int64_t col, std::int64_t row) const {
+        int count = 0;
+        for (int dy = -1; dy <= 1; ++dy) {
+            for (int dx = -1; dx <= 1; ++dx) {
+                count += (dx != 0 || dy != 0) && outline(col, row, dx, dy) ? 1 : 0;
+            }
+        }
+        return count;
+    }
+
     // Whether a triangle whose sides do not cross the outline lies on land: asked at its middle, given thrice.
-    bool is_inside(std::int64_t col3, std::int64_t row3) const;
+    bool is_inside(std::int64_t col3, std::int64_t row3) const {
+        std::int64_t const col = col3 / 3;
+        std::int64_t const row = row3 / 3;
+        int const data = corners(col, row);
+        if (data != 3) {
+            return data == 4;
+        }
+        std::int64_t const x = col3 - 3 * col;
+        std::int64_t const y = row3 - 3 * row;
+        if (!has(col, row)) {
+            return x + y > 3;
+        }
+        if (!has(col + 1, row + 1)) {
+            return x + y < 3;
+        }
+        return has(col + 1, row) ? x > y : x < y;
+    }
 
 private:
     Raster<float> const& dem_;
 };
-
-bool DemLand::outline(std::int64_t col, std::int64_t row, int dx, int dy) const {
-    if (dx < 0 || (dx == 0 && dy < 0)) {
-        return outline(col + dx, row + dy, -dx, -dy);
-    }
-    if (!has(col, row) || !has(col + dx, row + dy)) {
-        return false;
-    }
-    if (dx == 0) {
-        return (corners(col, row) >= 3) != (corners(col - 1, row) >= 3);
-    }
-    if (dy == 0) {
-        return (corners(col, row) >= 3) != (corners(col, row - 1) >= 3);
-    }
-    return corners(col, dy > 0 ? row : row - 1) == 3;
-}
-
-int DemLand::degree(std::int64_t col, std::int64_t row) const {
-    int count = 0;
-    for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-            count += (dx != 0 || dy != 0) && outline(col, row, dx, dy) ? 1 : 0;
-        }
-    }
-    return count;
-}
-
-bool DemLand::is_inside(std::int64_t col3, std::int64_t row3) const {
-    std::int64_t const col = col3 / 3;
-    std::int64_t const row = row3 / 3;
-    int const data = corners(col, row);
-    if (data != 3) {
-        return data == 4;
-    }
-    std::int64_t const x = col3 - 3 * col;
-    std::int64_t const y = row3 - 3 * row;
-    if (!has(col, row)) {
-        return x + y > 3;
-    }
-    if (!has(col + 1, row + 1)) {
-        return x + y < 3;
-    }
-    return has(col + 1, row) ? x > y : x < y;
-}
 
 // The outline as straight lines between its corners; heights go with them. x: column, y: minus the row.
 std::vector<std::vector<Vec3>> outlines_of(Raster<float> const& dem, DemLand const& land, Run const& run) {

@@ -287,10 +287,23 @@ std::string_view poisson_kernels() {
     return source_of_poisson;
 }
 
+std::int64_t even(std::int64_t n) {
+    return n + n % 2;
+}
+
+/// Cells that one work item of a sum takes; with a group's size a constant of the kernels.
+constexpr std::int64_t each = 16;
+
+constexpr auto group = static_cast<std::int64_t>(DeviceQueue::group);
+
 // Where a level's cells stand in its arrays: row behind row of an even length, an even number of rows, zeros before and
 // after that are never written.
 struct DeviceLayout {
-    DeviceLayout(std::int64_t level_width, std::int64_t level_height);
+    // Sums take whole groups, and neighbours of the last cell they take.
+    DeviceLayout(std::int64_t level_width, std::int64_t level_height)
+        : width(level_width), height(level_height), stride(even(width)), rows(even(height)),
+          margin(stride + each * group), count(stride * rows + 2 * margin) {}
+
     DeviceLayout coarser() const { return {stride / 2, rows / 2}; }
     bool is_one_cell() const { return width == 1 && height == 1; }
 
@@ -361,16 +374,9 @@ private:
     double rz_ = 0.0;
 };
 
-constexpr auto group = static_cast<std::int64_t>(DeviceQueue::group);
-/// Cells that one work item of a sum takes; with a group's size a constant of the kernels.
-constexpr std::int64_t each = 16;
 /// How much of Galerkin's ties between cells a coarser level keeps: what is right for the Laplacian where no cell is
 /// fixed. With all of them a cycle's corrections are half as long as they should be.
 constexpr float share_of_ties = 0.5F;
-
-std::int64_t even(std::int64_t n) {
-    return n + n % 2;
-}
 
 std::int64_t groups_of(DeviceLayout const& finest) {
     return (finest.stride * finest.rows + each * group - 1) / (each * group);
@@ -388,18 +394,9 @@ DeviceQueue queue_for(GridProblem const& problem, DeviceLayout const& finest, ch
     return queue;
 }
 
-// Sums take whole groups, and neighbours of the last cell they take.
-DeviceLayout::DeviceLayout(std::int64_t level_width, std::int64_t level_height)
-    : width(level_width), height(level_height), stride(even(width)), rows(even(height)), margin(stride + each * group),
-      count(stride * rows + 2 * margin) {}
-
-} // namespace
-
 DeviceEquations::Level::Level(DeviceLayout const& of, DeviceQueue& queue)
     : at(of), inverse(queue.zeros<float>(at.count)), east(queue.zeros<float>(at.count)),
       south(queue.zeros<float>(at.count)), right(queue.zeros<float>(at.count)), x(queue.zeros<float>(at.count)) {}
-
-namespace {
 
 DeviceEquations::DeviceEquations(GridProblem const& problem, Start const& start, char const* stage)
     : width_(problem.kind.width()), height_(problem.kind.height()), finest_(width_, height_),

@@ -331,13 +331,13 @@ void random_bytes(std::uint64_t seed, std::uint64_t stage, std::int64_t row, flo
 }
 
 constexpr std::uint64_t jitter_stage = 0x6a6974746572; // "jitter"
-constexpr double reach = 0.35;                         // [cells]
+constexpr double jitter_reach = 0.35;                  // [cells]
 
 } // namespace
 
 JitteredPerLength jittered_per_length() {
     JitteredPerLength out{};
-    constexpr double step = 2.0 * reach / (jitter_places - 1);
+    constexpr double step = 2.0 * jitter_reach / (jitter_places - 1);
     for (std::size_t k = 0; k < out.size(); ++k) {
         for (int east = 1 - jitter_places; east < jitter_places; ++east) {
             for (int south = 1 - jitter_places; south < jitter_places; ++south) {
